@@ -1,0 +1,23 @@
+//! Everything a model is made of: plain structures, no behaviour beyond assembling a view of themselves.
+//!
+//! Big arrays are `Arc<[T]>`, so that an editor can share what it did not change and threads can read them without a copy.
+
+mod bone;
+mod channel;
+mod geometry;
+mod material;
+mod model;
+mod take;
+mod transform;
+
+pub use bone::{Bone, BoneIndex, Skeleton, Skin};
+pub use channel::{Channel, Interpolation};
+pub use geometry::{
+    Influence, MAX_INFLUENCES, Mesh, MeshInstance, MorphTarget, Primitive, Vertex, Vertices,
+};
+pub use material::{
+    AlphaMode, Filter, Image, Material, Metallic, Phong, TextureRef, TextureTransform, Wrap,
+};
+pub use model::{AnimationData, ModelData};
+pub use take::{Keyframe, MorphTrack, Take, Track};
+pub use transform::Transform;

@@ -1,0 +1,98 @@
+//! Takes: named pieces of animation, a track a bone.
+
+use super::{BoneIndex, Channel, Transform};
+use glam::{Quat, Vec3};
+
+/// The pose of one bone at one time, assembled from a track's columns (thesis §3.1.2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Keyframe {
+    /// Seconds.
+    pub time: f32,
+    /// Relative to the parent bone; for a root: the offset of the whole model.
+    pub pose: Transform,
+}
+
+/// All keys of one bone in one take.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Track {
+    /// Which bone it moves.
+    pub bone: BoneIndex,
+    /// Metres, parent space.
+    pub translation: Channel<Vec3>,
+    /// Unit quaternions, parent space; neighbours lie in one hemisphere.
+    pub rotation: Channel<Quat>,
+    /// Factors per axis.
+    pub scale: Channel<Vec3>,
+}
+
+impl Track {
+    /// Does it animate nothing?
+    pub fn is_empty(&self) -> bool {
+        self.translation.is_empty() && self.rotation.is_empty() && self.scale.is_empty()
+    }
+
+    /// Key times summed over channels.
+    pub fn keys(&self) -> usize {
+        self.translation.len() + self.rotation.len() + self.scale.len()
+    }
+
+    /// Every time at which any channel has a key, ascending, each once.
+    pub fn key_times(&self) -> Vec<f32> {
+        let mut times: Vec<f32> = [&self.translation.times, &self.rotation.times, &self.scale.times]
+            .into_iter()
+            .flat_map(|times| times.iter().copied())
+            .collect();
+        times.sort_by(f32::total_cmp);
+        times.dedup();
+        times
+    }
+}
+
+/// Weights of a mesh's morph targets over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MorphTrack {
+    /// Position in [`super::ModelData::instances`].
+    pub instance: u32,
+    /// Number of targets; `weights` holds this many values a key (three times as many for a cubic spline:
+    /// all in-tangents, all values, all out-tangents).
+    pub targets: u32,
+    /// Seconds, strictly ascending.
+    pub times: std::sync::Arc<[f32]>,
+    /// Target weights, usually 0..1.
+    pub weights: std::sync::Arc<[f32]>,
+    /// How to find what lies between.
+    pub interpolation: super::Interpolation,
+}
+
+/// A take (clip, glTF animation): one track a bone, a start and a length (thesis §3.1.2).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Take {
+    /// As in the file; may be empty.
+    pub name: String,
+    /// Seconds: the first key of any channel.
+    pub start: f32,
+    /// Seconds from the first to the last key of any channel; zero for a single pose.
+    pub length: f32,
+    /// One a bone, in bone order; a bone that does not move has an empty track.
+    pub tracks: Vec<Track>,
+    /// Morph weights, only for meshes that change.
+    pub morphs: Vec<MorphTrack>,
+}
+
+impl Take {
+    /// Seconds: the last key of any channel.
+    pub fn end(&self) -> f32 {
+        self.start + self.length
+    }
+
+    /// Key times summed over all channels.
+    pub fn keys(&self) -> usize {
+        self.tracks.iter().map(Track::keys).sum::<usize>()
+            + self.morphs.iter().map(|morph| morph.times.len()).sum::<usize>()
+    }
+
+    /// Tracks that animate something, morph weights included.
+    pub fn moving_tracks(&self) -> usize {
+        self.tracks.iter().filter(|track| !track.is_empty()).count() + self.morphs.len()
+    }
+}

@@ -1,0 +1,27 @@
+//! Skeletal animation as plain data and functions, with nothing hidden.
+//!
+//! A *model* is geometry with skinning information, a skeleton, and several *takes* (clips, animations).
+//! Each frame, for one take and one time:
+//!
+//! 1. [`sample`] finds the keys around the time and mixes them: one [`data::Transform`] a bone, in its parent's space;
+//! 2. [`animation::Animation`] chains them from the root to the children (`to_root`) and puts the skin's offset in
+//!    front (`final_pose = to_root × offset`);
+//! 3. [`skin`] moves every vertex by the final poses of the bones that influence it. A shader does the same.
+//!
+//! Matrices are glam's: column vectors, so a product reads right to left. The thesis this library grew from writes
+//! row vectors, so its `Final = Offset · ToRoot` is our `to_root * offset`; the numbers are the same.
+//!
+//! Field synonyms, once: take = clip = glTF animation; bone = joint; to-root = model space = global.
+//!
+//! The library starts no thread, opens no file and no window: importers take bytes and ask a door
+//! ([`format::AssetFs`]) for anything else.
+
+#![forbid(unsafe_code)]
+
+pub mod animation;
+pub mod bounds;
+pub mod data;
+pub mod format;
+pub mod limits;
+pub mod sample;
+pub mod skin;

@@ -1,0 +1,140 @@
+//! What other threads may tell the graphics thread, and what it answers.
+
+use crate::camera::Camera;
+use crate::document::LoadedModel;
+use crate::playback::Playback;
+use dragonfly_anim::data::BoneIndex;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// How bones are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum BoneLook {
+    /// Slim octahedra from joint to joint.
+    #[default]
+    Octahedra,
+    /// Thin sticks with a ball at the joint.
+    Sticks,
+    /// One-pixel lines.
+    Lines,
+}
+
+/// How surfaces are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Shading {
+    /// As the materials say.
+    #[default]
+    Material,
+    /// Grey clay, to judge the form.
+    Clay,
+    /// Base colour without light.
+    Unlit,
+}
+
+/// Everything about the viewport that is neither the camera nor the time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// Where the scene goes, in physical pixels of the window: x, y, width, height.
+    pub viewport: [u32; 4],
+    /// Linear RGB, top and bottom of the background.
+    pub background: [[f32; 3]; 2],
+    /// Ground grid.
+    pub grid: bool,
+    /// Linear RGB of the grid's lines.
+    pub grid_color: [f32; 3],
+    /// Skeleton over the model.
+    pub skeleton: bool,
+    /// How bones are drawn.
+    pub bone_look: BoneLook,
+    /// Are bones visible through the surface?
+    pub bones_in_front: bool,
+    /// Drawn in the accent colour.
+    pub selected: Vec<BoneIndex>,
+    /// Drawn brighter: the bone under the pointer, in the viewport or the tree.
+    pub hovered: Option<BoneIndex>,
+    /// How surfaces are drawn.
+    pub shading: Shading,
+    /// Is the surface drawn at all?
+    pub surface: bool,
+}
+
+/// One drawing of the panels.
+pub struct PanelsFrame {
+    /// Physical size of the window for which this was laid out.
+    pub size: [u32; 2],
+    /// Physical pixels a point.
+    pub pixels_per_point: f32,
+    /// Triangles, ready to draw.
+    pub jobs: Vec<egui::ClippedPrimitive>,
+    /// Textures that changed since the last frame; must not be dropped unapplied.
+    pub textures: egui::TexturesDelta,
+}
+
+/// Messages of the graphics thread.
+pub enum GraphicsMessage {
+    /// Shows this model instead of what is shown.
+    ShowModel(Arc<LoadedModel>),
+    /// Which time of which take.
+    Play(Playback),
+    /// From where.
+    Camera(Camera),
+    /// How.
+    Look(Box<Look>),
+    /// The panels over it.
+    Panels(Box<PanelsFrame>),
+    /// The window has this many physical pixels; zero when minimised.
+    Resized([u32; 2]),
+    /// Which bone lies under this physical pixel of the window?
+    Pick {
+        /// Physical pixels from the window's top left.
+        position: [f32; 2],
+        /// Comes back in the answer, so that the asker knows which question it belongs to.
+        ticket: u64,
+    },
+    /// Loses the device on purpose, to show that nothing is lost with it.
+    LoseDevice,
+    /// Writes the next whole frame as a PNG, then answers [`GraphicsReply::Captured`].
+    Capture(PathBuf),
+}
+
+/// What the graphics thread tells the main thread.
+#[derive(Debug)]
+pub enum GraphicsReply {
+    /// The device works.
+    Ready {
+        /// Name of the adapter, its backend and driver.
+        adapter: String,
+        /// Longest side of a texture.
+        max_texture_side: u32,
+    },
+    /// Answer to a pick.
+    Picked {
+        /// The bone, or nothing.
+        bone: Option<BoneIndex>,
+        /// As asked.
+        ticket: u64,
+    },
+    /// Frames drawn so far, and how long the last one took in milliseconds; at most a few times a second.
+    Statistics {
+        /// Since the start.
+        frames: u64,
+        /// Of the last frame.
+        milliseconds: f32,
+    },
+    /// The device was lost and made anew; everything is shown again.
+    Recovered {
+        /// What the driver said.
+        reason: String,
+        /// Losses since the start.
+        losses: u32,
+    },
+    /// Lost too often: the viewport stands still until asked to try again; everything else works.
+    Paused {
+        /// What the driver said.
+        reason: String,
+    },
+    /// A frame was written, or why not.
+    Captured(Result<PathBuf, String>),
+    /// There is no way to draw; said once.
+    Fatal(String),
+}

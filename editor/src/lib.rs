@@ -1,0 +1,12 @@
+//! Dragonfly, the editor: everything but the few lines of `main.rs`, so that tests and benches can reach it.
+
+#![forbid(unsafe_code)]
+
+pub mod app;
+pub mod camera;
+pub mod command;
+pub mod control;
+pub mod document;
+pub mod graphics;
+pub mod panels;
+pub mod playback;
