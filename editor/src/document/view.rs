@@ -27,7 +27,8 @@ pub struct LoadedModel {
     /// The data.
     pub model: ModelData,
     /// One an image of the model; `None` where it could not be decoded (a warning says why).
-    pub images: Vec<Option<DecodedImage>>,
+    /// Shared, because several images of a file may name the same source.
+    pub images: Vec<Option<Arc<DecodedImage>>>,
     /// What is not shown or was mended, one sentence each.
     pub warnings: Vec<String>,
 }
