@@ -5,6 +5,7 @@
 //! never waited for, a device never read, a link out of the tree never followed, not even when it is put there
 //! while we look.
 
+use dragonfly_anim::format::{AssetError, AssetFs};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -73,6 +74,23 @@ impl Folder {
         let resolved = self.root.join(relative).canonicalize()?;
         let inside = resolved.strip_prefix(&self.root).map_err(|_| DoorError::Outside)?;
         read_regular(system::open_below(&self.root, inside)?, limit)
+    }
+}
+
+impl AssetFs for Folder {
+    fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
+        Self::read(self, path, limit).map_err(AssetError::from)
+    }
+}
+
+impl From<DoorError> for AssetError {
+    fn from(error: DoorError) -> Self {
+        match error {
+            DoorError::Io(error) if error.kind() == io::ErrorKind::NotFound => Self::Missing,
+            DoorError::Io(error) => Self::Failed(error.to_string()),
+            DoorError::TooLarge { size, limit } => Self::TooLarge { size, limit },
+            other => Self::Refused(other.to_string()),
+        }
     }
 }
 
@@ -181,8 +199,7 @@ mod system {
     use std::path::{Component, Path};
 
     /// Not blocking, so that a pipe opens at once and can be refused; never the controlling terminal.
-    const READ: OFlags =
-        OFlags::RDONLY.union(OFlags::NONBLOCK).union(OFlags::NOCTTY).union(OFlags::CLOEXEC);
+    const READ: OFlags = OFlags::RDONLY.union(OFlags::NONBLOCK).union(OFlags::NOCTTY).union(OFlags::CLOEXEC);
 
     /// Opens a path that a person named.
     pub(super) fn open(path: &Path) -> Result<File, DoorError> {
