@@ -71,11 +71,7 @@ pub(crate) struct Mailbox {
 impl Mailbox {
     /// `wake` must end the owner's sleep; it is called from sending threads.
     pub(crate) fn new(wake: Box<dyn Fn() + Send + Sync>) -> Self {
-        Self {
-            queue: Queue::new(),
-            state: AtomicU8::new(AWAKE),
-            wake,
-        }
+        Self { queue: Queue::new(), state: AtomicU8::new(AWAKE), wake }
     }
 
     /// Stores `envelope`, or gives it back when the mailbox is closed.
@@ -100,9 +96,7 @@ impl Mailbox {
 
     /// Wakes the owner if it said it would sleep; of many senders only the first pays for it.
     fn wake_if_asleep(&self) {
-        let first = self
-            .state
-            .compare_exchange(ASLEEP, AWAKE, Ordering::SeqCst, Ordering::SeqCst);
+        let first = self.state.compare_exchange(ASLEEP, AWAKE, Ordering::SeqCst, Ordering::SeqCst);
         if first.is_ok() {
             (self.wake)();
         }

@@ -17,7 +17,7 @@ pub(super) struct Model {
     pub(super) bones: Vec<Bone>,
     /// One mesh to a material: body, eyes, wings.
     pub(super) meshes: [Mesh; 3],
-    pub(super) pictures: [Picture; 6],
+    pub(super) pictures: [Picture; 7],
     pub(super) takes: Vec<Take>,
 }
 
@@ -207,11 +207,11 @@ fn materials() -> Value {
         },
         {
             "name": "eyes",
-            "normalTexture": {"index": 4, "scale": 0.5},
+            "normalTexture": {"index": 4, "scale": 0.4},
+            "occlusionTexture": {"index": 5},
             "pbrMetallicRoughness": {
                 "baseColorTexture": {"index": 3},
-                "metallicFactor": 0.0,
-                "roughnessFactor": 0.25,
+                "metallicRoughnessTexture": {"index": 5},
             },
         },
         {
@@ -219,7 +219,7 @@ fn materials() -> Value {
             "doubleSided": true,
             "name": "wings",
             "pbrMetallicRoughness": {
-                "baseColorTexture": {"index": 5},
+                "baseColorTexture": {"index": 6},
                 "metallicFactor": 0.0,
                 "roughnessFactor": 0.35,
             },

@@ -67,10 +67,13 @@ impl Ink {
     }
 }
 
+/// A texel with nothing on it.
+const CLEAR: [u8; 4] = [24, 24, 24, 0];
+
 /// Paints both wings; four bytes a texel, colour then coverage.
 pub(super) fn paint(width: usize, height: usize) -> Vec<u8> {
     // Clear texels keep the veins' colour, or filtering would bring a pale fringe.
-    let mut bytes: Vec<u8> = [22, 20, 14, 0].repeat(width * height);
+    let mut bytes: Vec<u8> = CLEAR.repeat(width * height);
     for (pair, plan) in PLANS.iter().enumerate() {
         let mut ink = Ink { width, height, vein: vec![0.0; width * height] };
         draw_veins(plan, pair as u32, &mut ink);
@@ -188,22 +191,23 @@ fn texel(plan: &Plan, seed: u32, span: f32, chord: f32, mut vein: f32) -> [u8; 4
         0.0
     };
     // The membrane: warm at the root and along the front, elsewhere a breath of green and rose.
-    let warm = (1.0 - smooth(0.0, 0.22, s)) * 0.9 + 0.5 * (1.0 - smooth(0.05, 0.2, f));
-    let film = sheen(1.6 * s + 0.9 * f + 0.5 * fractal(s * 5.0, f * 3.0, seed + 60));
-    let cool = Vec3::new(0.62, 0.86, 0.84).lerp(film, 0.35);
-    let mut colour = cool.lerp(Vec3::new(0.86, 0.62, 0.20), warm.min(1.0));
-    let mut alpha = 0.13 + 0.14 * warm.min(1.0);
-    colour = colour.lerp(Vec3::new(0.62, 0.30, 0.07), amber);
-    alpha = mix(alpha, 0.93, amber);
-    let dark = Vec3::new(0.085, 0.08, 0.055).lerp(Vec3::new(0.30, 0.19, 0.06), 0.6 * warm.min(1.0));
-    colour = colour.lerp(dark, vein);
-    alpha = mix(alpha, 0.97, vein);
+    let warm = (0.9 * (1.0 - smooth(0.0, 0.20, s)) + 0.4 * (1.0 - smooth(0.04, 0.2, f))).min(1.0);
+    let film = sheen(1.5 * s + 0.8 * f + 0.4 * fractal(s * 5.0, f * 3.0, seed + 60));
+    let cool = Vec3::new(0.70, 0.88, 0.86).lerp(film, 0.22);
+    let clear = cool.lerp(Vec3::new(0.88, 0.62, 0.18), warm);
+    let clear = clear.lerp(Vec3::new(0.48, 0.22, 0.05), amber);
+    let thin = mix(0.075 + 0.13 * warm, 0.95, amber);
+    let dark = Vec3::new(0.07, 0.065, 0.045).lerp(Vec3::new(0.26, 0.16, 0.05), 0.6 * warm);
+    // Vein over membrane: the thin film hardly tells where a vein covers any of the texel.
+    let cover = vein * 0.97 + thin * (1.0 - vein * 0.97);
+    let colour = clear.lerp(dark, vein * 0.97 / cover);
     if inside <= 0.0 && vein <= 0.0 {
-        return [22, 20, 14, 0];
+        return CLEAR;
     }
-    let cover = alpha * inside.max(if s <= 1.0 { vein } else { 0.0 });
-    // Few levels are enough and pack far better.
+    let cover = cover * inside.max(if s <= 1.0 { vein } else { 0.0 });
+    // Few levels are enough and pack far better; the colour of a faint film needs the fewest.
     let level =
         |x: f32, step: f32| (((x.clamp(0.0, 1.0) * 255.0) / step + 0.5).floor() * step).min(255.0) as u8;
-    [level(colour.x, 6.0), level(colour.y, 6.0), level(colour.z, 6.0), level(cover, 5.0)]
+    let step = if vein > 0.0 { 24.0 } else { 12.0 };
+    [level(colour.x, step), level(colour.y, step), level(colour.z, step), level(cover, 8.0)]
 }
