@@ -10,9 +10,3 @@ pub mod document;
 pub mod graphics;
 pub mod panels;
 pub mod playback;
-
-/// Stand-in until the module lands.
-pub mod demo {
-    /// The built-in model.
-    pub const DRAGONFLY_GLB: &[u8] = include_bytes!("../assets/dragonfly.glb");
-}

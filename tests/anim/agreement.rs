@@ -24,7 +24,8 @@ struct Comparison {
 
 impl Comparison {
     fn compare(&mut self, got: &[f32], expected: &Value, place: impl Fn() -> String) {
-        let expected: Vec<f64> = expected.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect();
+        let expected: Vec<f64> =
+            expected.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect();
         assert_eq!(got.len(), expected.len(), "{}", place());
         for (&got, expected) in got.iter().zip(expected) {
             self.numbers += 1;
@@ -58,7 +59,8 @@ fn compare_pose(evaluator: &Evaluator, expected: &Value, place: &str, comparison
         let expected_world = &expected["world"][node.to_string()];
         comparison.compare(&world.to_cols_array(), expected_world, || format!("{place} mesh node {node}"));
         if let Some(weights) = expected["weights"].get(node.to_string()) {
-            comparison.compare(evaluator.morph_weights(index), weights, || format!("{place} weights of {node}"));
+            comparison
+                .compare(evaluator.morph_weights(index), weights, || format!("{place} weights of {node}"));
         }
     }
     for (skin, joints) in expected["skin"].as_array().into_iter().flatten().enumerate() {
@@ -102,12 +104,16 @@ fn compare_file(model: &Path, expected: &Path) -> Comparison {
 
 /// Compares every `gltf__*.json` in `expected`, or its `.unitquat.json` where there is one; tells how many.
 fn compare_folder(assets: &Path, expected: &Path) -> usize {
-    let mut names: Vec<String> =
-        std::fs::read_dir(expected).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let mut names: Vec<String> = std::fs::read_dir(expected)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
     names.sort();
     let (mut files, mut numbers, mut failures) = (0, 0, Vec::new());
     for name in &names {
-        let Some(file) = name.strip_prefix("gltf__").and_then(|name| name.strip_suffix(".json")) else { continue };
+        let Some(file) = name.strip_prefix("gltf__").and_then(|name| name.strip_suffix(".json")) else {
+            continue;
+        };
         // Files whose rotation keys are not unit have a second answer, for those who make them so.
         if names.contains(&format!("gltf__{file}.unitquat.json")) {
             continue;

@@ -5,8 +5,12 @@ use crate::format::{ImportError, Place, guard::Guard};
 use gltf::json;
 
 /// Extensions that are read in full.
-pub const SUPPORTED: &[&str] =
-    &["KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"];
+pub const SUPPORTED: &[&str] = &[
+    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
 
 /// Refuses what the file needs and is not read; warns of what it uses.
 pub(super) fn check(root: &json::Root, guard: &Guard<'_>) -> Result<(), ImportError> {

@@ -43,7 +43,8 @@ pub const GLB: Format =
     Format { name: "glb", extensions: &["glb"], detect: |bytes| bytes.starts_with(b"glTF"), read: read_glb };
 
 /// JSON text.
-pub const GLTF: Format = Format { name: "gltf", extensions: &["gltf"], detect: looks_like_json, read: read_gltf };
+pub const GLTF: Format =
+    Format { name: "gltf", extensions: &["gltf"], detect: looks_like_json, read: read_gltf };
 
 fn looks_like_json(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);

@@ -104,7 +104,8 @@ pub(super) fn stage(
         check_references(document, index)?;
         let Some(mesh) = node.mesh else { continue };
         let path = format!("/nodes/{index}");
-        let read = meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
+        let read =
+            meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
         let skin = skin_of(document, index, read)?;
         if !is_shown[index] {
             let text = "the mesh stands outside the scene that is shown";
@@ -114,7 +115,8 @@ pub(super) fn stage(
         let place = Place::Pointer(format!("{path}/weights"));
         let defaults = &read.mesh.morph_weights;
         let weights = node.weights.as_deref();
-        let morph_weights = fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
+        let morph_weights =
+            fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
         let (bone, to_bone) = carrier(index, graph, locals, &bones);
         document.guard.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
         let (mesh, node) = (mesh.value() as u32, Some(index as u32));
@@ -128,7 +130,8 @@ pub(super) fn stage(
 fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
     let Some(skin) = document.root.nodes[index].skin else { return Ok(None) };
     let path = format!("/nodes/{index}/skin");
-    let joints = document.root.skins.get(skin.value()).ok_or_else(|| unresolved(&path, skin.value()))?.joints.len();
+    let joints =
+        document.root.skins.get(skin.value()).ok_or_else(|| unresolved(&path, skin.value()))?.joints.len();
     match read.largest_joint {
         None => {
             let text = "the mesh has no joints; the skin is left out";
@@ -144,7 +147,12 @@ fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Opt
 }
 
 /// The bone that carries a node, and the way there: from the node up to the first bone, or to the scene.
-fn carrier(node: usize, graph: &Graph, locals: &[Local], bones: &[Option<BoneIndex>]) -> (Option<BoneIndex>, Mat4) {
+fn carrier(
+    node: usize,
+    graph: &Graph,
+    locals: &[Local],
+    bones: &[Option<BoneIndex>],
+) -> (Option<BoneIndex>, Mat4) {
     let mut to_bone = Mat4::IDENTITY;
     let mut at = Some(node as u32);
     while let Some(node) = at {
