@@ -1,6 +1,7 @@
 //! Promises of the crate, one module each.
 
 mod agreement;
+mod bad_files;
 mod bounds;
 mod degenerate;
 mod determinism;
@@ -9,6 +10,7 @@ mod hostile;
 mod poses;
 mod sampling;
 mod skinning;
+mod soundness;
 mod support;
 
 /// Counts what each thread allocates, for the promises that playing allocates nothing.

@@ -252,9 +252,9 @@ mod models {
         for stage in 0..stages {
             let thread = Thread::start(&format!("stage {stage}")).unwrap();
             let to = next.clone();
-            next = thread.handle().register_receiver(move |_| {
-                Tap(Box::new(move |message| to.send(message).unwrap()))
-            });
+            next = thread
+                .handle()
+                .register_receiver(move |_| Tap(Box::new(move |message| to.send(message).unwrap())));
             threads.push(thread);
         }
         for message in 0..messages {

@@ -93,7 +93,7 @@ fn read_document(
     let stage = scene::stage(&document, &graph, &locals, skeleton, bones, &meshes)?;
     let takes = animation::takes(&document, &stage)?;
 
-    let scene = root.scenes.get(root.scene.map_or(0, |scene| scene.value()));
+    let scene = root.scene.and_then(|scene| root.scenes.get(scene.value())).or(root.scenes.first());
     Ok(ModelData {
         name: scene.and_then(|scene| scene.name.clone()).unwrap_or_default(),
         meshes: meshes.into_iter().map(|read| read.mesh).collect(),
