@@ -6,6 +6,7 @@ mod bounds;
 mod degenerate;
 mod determinism;
 mod doors;
+mod fixture;
 mod hostile;
 mod poses;
 mod sampling;

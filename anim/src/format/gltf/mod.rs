@@ -22,6 +22,7 @@ mod material;
 mod mesh;
 mod morph;
 mod node;
+mod references;
 mod scene;
 mod skin;
 mod survey;
@@ -70,6 +71,7 @@ fn read_document(
 ) -> Result<ModelData, ImportError> {
     let root = document::parse(json, json_at, guard)?;
     extension::check(&root, guard)?;
+    references::check(&root, guard)?;
     let graph = graph::graph(&root, guard)?;
     let store = Store::new(door, guard);
     let buffers = buffer::load(&root, bin, &store, guard)?;
