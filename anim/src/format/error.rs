@@ -67,6 +67,8 @@ pub enum ImportError {
     External {
         /// Where it is named.
         place: Place,
+        /// As in [`Self::Invalid`].
+        code: &'static str,
         /// As written in the file, shortened when very long.
         uri: String,
         /// Why not.
@@ -98,10 +100,9 @@ impl ImportError {
     /// Name of the broken rule.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Invalid { code, .. } => code,
+            Self::Invalid { code, .. } | Self::External { code, .. } => code,
             Self::Unsupported { .. } => "UNSUPPORTED_EXTENSION",
             Self::TooLarge { .. } => "LIMIT",
-            Self::External { .. } => "EXTERNAL",
             Self::UnknownFormat { .. } => "UNKNOWN_FORMAT",
             Self::Cancelled => "CANCELLED",
         }
@@ -136,8 +137,7 @@ pub(crate) fn one_line(text: &str) -> String {
 
 /// The character itself, or its escape when it would not show on one line.
 fn escape(character: char) -> impl Iterator<Item = char> {
-    let hidden =
-        character.is_control() || matches!(character, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}');
+    let hidden = character.is_control() || matches!(character, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}');
     let (shown, escaped) =
         if hidden { (None, Some(character.escape_unicode())) } else { (Some(character), None) };
     shown.into_iter().chain(escaped.into_iter().flatten())

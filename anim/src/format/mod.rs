@@ -31,8 +31,7 @@ pub struct Format {
     /// Do these bytes begin like such a file? Looks at the first few only.
     pub detect: fn(bytes: &[u8]) -> bool,
     /// Reads the whole file.
-    pub(crate) read:
-        fn(bytes: &[u8], door: &dyn AssetFs, guard: &Guard<'_>) -> Result<ModelData, ImportError>,
+    pub(crate) read: fn(bytes: &[u8], door: &dyn AssetFs, guard: &Guard<'_>) -> Result<ModelData, ImportError>,
 }
 
 /// Every format that can be read.
@@ -80,8 +79,7 @@ pub fn read(
         let size = bytes.len() as u64;
         return Err(ImportError::TooLarge { place: Place::File, what: "bytes", size, limit: FILE_BYTES });
     }
-    let format =
-        format_of(name, bytes).ok_or_else(|| ImportError::UnknownFormat { name: name.to_owned() })?;
+    let format = format_of(name, bytes).ok_or_else(|| ImportError::UnknownFormat { name: name.to_owned() })?;
     options.budget.input(bytes.len());
     let guard = Guard::new(options);
     guard.progress(0.0)?;

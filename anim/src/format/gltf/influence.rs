@@ -79,10 +79,7 @@ pub(super) fn influences(
     if per_vertex < MAX_INFLUENCES {
         guard.work(vertices)?;
         for vertex in 1..vertices {
-            list.copy_within(
-                vertex * MAX_INFLUENCES..vertex * MAX_INFLUENCES + per_vertex,
-                vertex * per_vertex,
-            );
+            list.copy_within(vertex * MAX_INFLUENCES..vertex * MAX_INFLUENCES + per_vertex, vertex * per_vertex);
         }
         list.truncate(vertices * per_vertex);
         list.shrink_to_fit();
@@ -182,16 +179,8 @@ fn report(mended: &Mended, place: &Place, document: &Document<'_>) {
             document.guard.warn(place.clone(), code, format!("{count} vertices {what}"));
         }
     };
-    warn(
-        mended.negative,
-        code::ACCESSOR_WEIGHTS_NEGATIVE,
-        "had weights below zero or no numbers; those are left out",
-    );
+    warn(mended.negative, code::ACCESSOR_WEIGHTS_NEGATIVE, "had weights below zero or no numbers; those are left out");
     warn(mended.twice, code::ACCESSOR_JOINTS_INDEX_DUPLICATE, "named a joint twice; its weights were added");
-    warn(
-        mended.sum,
-        code::ACCESSOR_WEIGHTS_NON_NORMALIZED,
-        "had weights that do not add up to one; now they do",
-    );
+    warn(mended.sum, code::ACCESSOR_WEIGHTS_NON_NORMALIZED, "had weights that do not add up to one; now they do");
     warn(mended.zero, code::ACCESSOR_WEIGHTS_ZERO, "had no weight; they follow joint 0");
 }

@@ -27,21 +27,12 @@ pub(super) struct Keys {
 
 impl Keys {
     /// Reads and sorts; of keys at the same time the last one counts.
-    pub(super) fn read(
-        document: &Document<'_>,
-        input: json::Index<Accessor>,
-        path: &str,
-    ) -> Result<Self, ImportError> {
+    pub(super) fn read(document: &Document<'_>, input: json::Index<Accessor>, path: &str) -> Result<Self, ImportError> {
         let guard = document.guard;
         let from = format!("{path}/input");
         let wrong = code::ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT;
         let source = document.source(input, &from, TIME, wrong)?;
-        let too_large = |what, size: u64, limit: u64| ImportError::TooLarge {
-            place: source.place.clone(),
-            what,
-            size,
-            limit,
-        };
+        let too_large = |what, size: u64, limit: u64| ImportError::TooLarge { place: source.place.clone(), what, size, limit };
         if source.count > KEYS_PER_CHANNEL {
             return Err(too_large("keys", source.count as u64, KEYS_PER_CHANNEL as u64));
         }
@@ -133,8 +124,7 @@ impl<const N: usize> Column<N> {
         guard.work(self.values.len())?;
         guard.charge(&Place::File, (self.values.len() * size_of::<[f32; N]>()) as u64)?;
         let old = std::mem::take(&mut self.values);
-        self.values =
-            order.iter().flat_map(|&key| &old[key as usize * per_key..][..per_key]).copied().collect();
+        self.values = order.iter().flat_map(|&key| &old[key as usize * per_key..][..per_key]).copied().collect();
         Ok(())
     }
 }
@@ -180,11 +170,7 @@ pub(super) fn make_unit(column: &mut Column<4>, place: &str, guard: &Guard<'_>) 
 }
 
 /// How to mix; linear where the file says something unknown.
-pub(super) fn interpolation(
-    sampler: &json::animation::Sampler,
-    path: &str,
-    guard: &Guard<'_>,
-) -> Interpolation {
+pub(super) fn interpolation(sampler: &json::animation::Sampler, path: &str, guard: &Guard<'_>) -> Interpolation {
     match sampler.interpolation {
         Checked::Valid(json::animation::Interpolation::Step) => Interpolation::Step,
         Checked::Valid(json::animation::Interpolation::CubicSpline) => Interpolation::CubicSpline,

@@ -38,33 +38,13 @@ use ComponentType::{F32, I8, I16, U8, U16};
 /// Every integer format of KHR_mesh_quantization, allowed whether or not a file asks for the extension.
 pub(super) const ANY_VEC3: &[ElementFormat] = &formats(
     Type::Vec3,
-    [
-        (F32, false),
-        (I8, false),
-        (I8, true),
-        (U8, false),
-        (U8, true),
-        (I16, false),
-        (I16, true),
-        (U16, false),
-        (U16, true),
-    ],
+    [(F32, false), (I8, false), (I8, true), (U8, false), (U8, true), (I16, false), (I16, true), (U16, false), (U16, true)],
 );
 pub(super) const UNIT_VEC3: &[ElementFormat] = &formats(Type::Vec3, [(F32, false), (I8, true), (I16, true)]);
 const TANGENT: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (I8, true), (I16, true)]);
 const COORDINATES: &[ElementFormat] = &formats(
     Type::Vec2,
-    [
-        (F32, false),
-        (I8, false),
-        (I8, true),
-        (U8, false),
-        (U8, true),
-        (I16, false),
-        (I16, true),
-        (U16, false),
-        (U16, true),
-    ],
+    [(F32, false), (I8, false), (I8, true), (U8, false), (U8, true), (I16, false), (I16, true), (U16, false), (U16, true)],
 );
 const COLOR_3: &[ElementFormat] = &formats(Type::Vec3, [(F32, false), (U8, true), (U16, true)]);
 const COLOR_4: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (U8, true), (U16, true)]);
@@ -117,7 +97,12 @@ fn read_primitive(
     if let Some(index) = material.filter(|&index| index as usize >= document.root.materials.len()) {
         return Err(super::accessor::unresolved(&format!("{path}/material"), index as usize));
     }
-    let mut vertices = Vertices { positions: positions(document, primitive, path)?, ..Vertices::default() };
+    let Some(positions) = positions(document, primitive, path)? else {
+        let text = "the primitive has no positions and stays empty";
+        document.guard.warn(Place::Pointer(path.to_owned()), code::MESH_PRIMITIVE_NO_POSITION, text);
+        return Ok(Primitive { material, ..Primitive::default() });
+    };
+    let mut vertices = Vertices { positions, ..Vertices::default() };
     let count = vertices.len();
     *total = total.saturating_add(count);
     if *total > VERTICES {
@@ -132,8 +117,7 @@ fn read_primitive(
     }
     for set in 0..2_u32 {
         let read = column(document, primitive, Semantic::TexCoords(set), COORDINATES, count, path)?;
-        vertices.texture_coordinates[set as usize] =
-            read.unwrap_or_default().into_iter().map(Vec2::from).collect();
+        vertices.texture_coordinates[set as usize] = read.unwrap_or_default().into_iter().map(Vec2::from).collect();
     }
     vertices.colors = colors(document, primitive, count, path)?;
     vertices.normals = all_normals(document, primitive, &vertices.positions, &indices, path)?;
@@ -147,10 +131,7 @@ fn read_primitive(
 }
 
 /// The accessor of an attribute.
-pub(super) fn attribute(
-    primitive: &json::mesh::Primitive,
-    semantic: Semantic,
-) -> Option<json::Index<Accessor>> {
+pub(super) fn attribute(primitive: &json::mesh::Primitive, semantic: Semantic) -> Option<json::Index<Accessor>> {
     primitive.attributes.get(&Checked::Valid(semantic)).copied()
 }
 
@@ -183,13 +164,9 @@ fn positions(
     document: &Document<'_>,
     primitive: &json::mesh::Primitive,
     path: &str,
-) -> Result<Vec<Vec3>, ImportError> {
+) -> Result<Option<Vec<Vec3>>, ImportError> {
     let from = format!("{path}/attributes/POSITION");
-    let Some(accessor) = attribute(primitive, Semantic::Positions) else {
-        let text = "the primitive has no positions and stays empty";
-        document.guard.warn(Place::Pointer(path.to_owned()), code::MESH_PRIMITIVE_NO_POSITION, text);
-        return Ok(Vec::new());
-    };
+    let Some(accessor) = attribute(primitive, Semantic::Positions) else { return Ok(None) };
     let positions = document.source(accessor, &from, ANY_VEC3, WRONG)?.finite::<3>()?;
     document.guard.work(positions.len())?;
     let positions: Vec<Vec3> = positions.into_iter().map(Vec3::from).collect();
@@ -197,7 +174,7 @@ fn positions(
         let text = "a vertex is too far away for single precision";
         document.guard.warn(Place::Pointer(from), code::HUGE_TRANSLATION, text);
     }
-    Ok(positions)
+    Ok(Some(positions))
 }
 
 /// The file's normals made unit; those it lacks, and those without a length, from the triangles.
@@ -210,8 +187,7 @@ fn all_normals(
 ) -> Result<Vec<Vec3>, ImportError> {
     let place = Place::Pointer(format!("{path}/attributes/NORMAL"));
     let guard = document.guard;
-    let Some(read) = column::<3>(document, primitive, Semantic::Normals, UNIT_VEC3, positions.len(), path)?
-    else {
+    let Some(read) = column::<3>(document, primitive, Semantic::Normals, UNIT_VEC3, positions.len(), path)? else {
         return normals(positions, indices, &place, guard);
     };
     guard.work(read.len())?;
@@ -222,11 +198,7 @@ fn all_normals(
         direction(normal)
     }));
     if odd > 0 {
-        guard.warn(
-            place.clone(),
-            code::ACCESSOR_VECTOR3_NON_UNIT,
-            format!("{odd} normals are not of unit length"),
-        );
+        guard.warn(place.clone(), code::ACCESSOR_VECTOR3_NON_UNIT, format!("{odd} normals are not of unit length"));
     }
     let made = if unit.contains(&None) { normals(positions, indices, &place, guard)? } else { Vec::new() };
     Ok(unit.into_iter().enumerate().map(|(vertex, normal)| normal.unwrap_or_else(|| made[vertex])).collect())
@@ -238,11 +210,7 @@ const UNIT_TOLERANCE: f32 = 0.00674 + 1.0 / 127.0;
 fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -> Vec<Vec4> {
     let place = Place::Pointer(format!("{path}/attributes/TANGENT"));
     if tangents.iter().any(|tangent| tangent[3].abs() != 1.0) {
-        document.guard.warn(
-            place.clone(),
-            code::ACCESSOR_INVALID_SIGN,
-            "w should be 1 or -1; its sign is taken",
-        );
+        document.guard.warn(place.clone(), code::ACCESSOR_INVALID_SIGN, "w should be 1 or -1; its sign is taken");
     }
     if tangents.iter().any(|t| !((Vec3::new(t[0], t[1], t[2]).length() - 1.0).abs() <= UNIT_TOLERANCE)) {
         let text = "tangents are not of unit length";
@@ -272,11 +240,7 @@ fn colors(
     document.guard.charge(&source.place, colors.len() as u64 * size_of::<Vec4>() as u64)?;
     let clamped = |color: &Vec4| color.clamp(Vec4::ZERO, Vec4::ONE);
     if colors.iter().any(|color| clamped(color) != *color) {
-        document.guard.warn(
-            Place::Pointer(from),
-            code::ACCESSOR_NON_CLAMPED,
-            "colours outside 0..1 were clamped",
-        );
+        document.guard.warn(Place::Pointer(from), code::ACCESSOR_NON_CLAMPED, "colours outside 0..1 were clamped");
     }
     Ok(colors.iter().map(clamped).collect())
 }
@@ -286,9 +250,7 @@ fn warn_unknown(document: &Document<'_>, primitive: &json::mesh::Primitive, path
     for semantic in primitive.attributes.keys() {
         let name = match semantic {
             Checked::Invalid => "an attribute of unknown name".to_owned(),
-            Checked::Valid(semantic @ (Semantic::Colors(1..) | Semantic::TexCoords(2..))) => {
-                semantic.to_string()
-            }
+            Checked::Valid(semantic @ (Semantic::Colors(1..) | Semantic::TexCoords(2..))) => semantic.to_string(),
             Checked::Valid(_) => continue,
         };
         let place = Place::Pointer(format!("{path}/attributes"));

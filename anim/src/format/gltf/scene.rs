@@ -104,8 +104,7 @@ pub(super) fn stage(
         check_references(document, index)?;
         let Some(mesh) = node.mesh else { continue };
         let path = format!("/nodes/{index}");
-        let read =
-            meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
+        let read = meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
         let skin = skin_of(document, index, read)?;
         if !is_shown[index] {
             let text = "the mesh stands outside the scene that is shown";
@@ -115,8 +114,7 @@ pub(super) fn stage(
         let place = Place::Pointer(format!("{path}/weights"));
         let defaults = &read.mesh.morph_weights;
         let weights = node.weights.as_deref();
-        let morph_weights =
-            fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
+        let morph_weights = fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
         let (bone, to_bone) = carrier(index, graph, locals, &bones);
         document.guard.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
         let (mesh, node) = (mesh.value() as u32, Some(index as u32));
@@ -130,8 +128,7 @@ pub(super) fn stage(
 fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
     let Some(skin) = document.root.nodes[index].skin else { return Ok(None) };
     let path = format!("/nodes/{index}/skin");
-    let joints =
-        document.root.skins.get(skin.value()).ok_or_else(|| unresolved(&path, skin.value()))?.joints.len();
+    let joints = document.root.skins.get(skin.value()).ok_or_else(|| unresolved(&path, skin.value()))?.joints.len();
     match read.largest_joint {
         None => {
             let text = "the mesh has no joints; the skin is left out";
@@ -147,12 +144,7 @@ fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Opt
 }
 
 /// The bone that carries a node, and the way there: from the node up to the first bone, or to the scene.
-fn carrier(
-    node: usize,
-    graph: &Graph,
-    locals: &[Local],
-    bones: &[Option<BoneIndex>],
-) -> (Option<BoneIndex>, Mat4) {
+fn carrier(node: usize, graph: &Graph, locals: &[Local], bones: &[Option<BoneIndex>]) -> (Option<BoneIndex>, Mat4) {
     let mut to_bone = Mat4::IDENTITY;
     let mut at = Some(node as u32);
     while let Some(node) = at {
@@ -171,7 +163,11 @@ fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportErro
     let place = Place::Pointer("/scenes".to_owned());
     let index = match root.scene {
         Some(scene) if scene.value() < root.scenes.len() => scene.value(),
-        Some(scene) => return Err(unresolved("/scene", scene.value())),
+        Some(scene) => {
+            let text = format!("there is no number {}; the first scene is shown", scene.value());
+            document.guard.warn(Place::Pointer("/scene".to_owned()), code::UNRESOLVED_REFERENCE, text);
+            0
+        }
         None => 0,
     };
     for (number, scene) in root.scenes.iter().enumerate() {
