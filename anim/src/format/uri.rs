@@ -1,0 +1,1 @@
+//! What a file may call its neighbours: which URIs are followed, and to where.
