@@ -34,8 +34,8 @@ impl Evaluator {
         evaluator
     }
 
-    /// Puts the model in the pose of take number `take` at `time` seconds, clamped to the keys; `None`, or a number past
-    /// the end, is the rest pose. Allocates nothing.
+    /// Puts the model in the pose of take number `take` at `time` seconds, clamped to the keys; `None`, or a number
+    /// past the end, is the rest pose. Allocates nothing.
     pub fn pose(&mut self, take: Option<usize>, time: f32) {
         self.animation.to_root_bone_poses(take, time);
         for (skin, finals) in self.model.skins.iter().zip(&mut self.finals) {

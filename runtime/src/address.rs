@@ -1,6 +1,6 @@
 //! Where to send a message: typed, cheap to clone, never waiting.
 
-use crate::mailbox::{Content, Envelope, Latest};
+use crate::mailbox::{Content, Latest};
 use crate::object::short_type_name;
 use crate::shared::Shared;
 use crate::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -37,11 +37,7 @@ enum Flavour<M> {
 
 impl<M: Send + 'static> Address<M> {
     pub(crate) fn new(thread: Arc<Shared>, receiver: u32) -> Self {
-        Self {
-            thread,
-            receiver,
-            flavour: Flavour::Plain,
-        }
+        Self { thread, receiver, flavour: Flavour::Plain }
     }
 
     /// Stores `message` for the receiver's next iteration and goes on at once.
@@ -91,11 +87,7 @@ impl<M: Send + 'static> Address<M> {
     #[must_use]
     pub fn bounded_by(&self, limit: usize, weight: fn(&M) -> usize) -> Self {
         let waiting = Arc::new(AtomicUsize::new(0));
-        self.with(Flavour::Bounded(Arc::new(Bound {
-            limit,
-            weight,
-            waiting,
-        })))
+        self.with(Flavour::Bounded(Arc::new(Bound { limit, weight, waiting })))
     }
 
     /// How much waits at this address: messages, or their weight. 0 for a plain one, which does
@@ -119,11 +111,7 @@ impl<M: Send + 'static> Address<M> {
     }
 
     fn with(&self, flavour: Flavour<M>) -> Self {
-        Self {
-            thread: Arc::clone(&self.thread),
-            receiver: self.receiver,
-            flavour,
-        }
+        Self { thread: Arc::clone(&self.thread), receiver: self.receiver, flavour }
     }
 
     fn post(&self, message: M, permit: Option<Permit>) -> Result<(), SendError<M>> {
@@ -150,16 +138,11 @@ impl<M: Send + 'static> Address<M> {
         if slot.announced.swap(true, Ordering::SeqCst) {
             return Ok(()); // A place in the queue is held already; the newest will be taken there.
         }
-        let place = Content::Latest {
-            to: self.receiver,
-            slot: Arc::clone(slot) as Arc<dyn Latest>,
-        };
+        let place = Content::Latest { to: self.receiver, slot: Arc::clone(slot) as Arc<dyn Latest> };
         match self.thread.send(place) {
             Ok(()) => Ok(()),
             // When it is not there, a newer one replaced it, and that one's sender will be told.
-            Err(_) => slot
-                .take_newest()
-                .map_or(Ok(()), |newest| Err(SendError::Stopped(newest))),
+            Err(_) => slot.take_newest().map_or(Ok(()), |newest| Err(SendError::Stopped(newest))),
         }
     }
 }
@@ -260,8 +243,7 @@ impl<M: Send> Slot<M> {
 
 impl<M: Send + 'static> Latest for Slot<M> {
     fn take(&self) -> Option<Box<dyn Any + Send>> {
-        self.take_newest()
-            .map(|message| Box::new(message) as Box<dyn Any + Send>)
+        self.take_newest().map(|message| Box::new(message) as Box<dyn Any + Send>)
     }
 
     fn type_name(&self) -> &'static str {
@@ -282,9 +264,7 @@ impl<M> Bound<M> {
             let after = waiting.checked_add(weight)?;
             (after <= self.limit).then_some(after)
         };
-        self.waiting
-            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits)
-            .ok()?;
+        self.waiting.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).ok()?;
         let waiting = Arc::clone(&self.waiting);
         Some(Permit { waiting, weight })
     }

@@ -20,18 +20,13 @@ pub(crate) struct Manual {
 
 impl Clock {
     pub(crate) fn manual() -> Self {
-        Self::Manual(Arc::new(Manual {
-            start: Instant::now(),
-            nanos: AtomicU64::new(0),
-        }))
+        Self::Manual(Arc::new(Manual { start: Instant::now(), nanos: AtomicU64::new(0) }))
     }
 
     pub(crate) fn now(&self) -> Instant {
         match self {
             Self::Real => Instant::now(),
-            Self::Manual(manual) => {
-                manual.start + Duration::from_nanos(manual.nanos.load(Ordering::Acquire))
-            }
+            Self::Manual(manual) => manual.start + Duration::from_nanos(manual.nanos.load(Ordering::Acquire)),
         }
     }
 

@@ -5,7 +5,6 @@ use crate::mailbox::Envelope;
 use crate::object::AnyReceiver;
 use crate::register::{Factory, Kind, LAST, Register, Slot, WorkerId};
 use crate::shared::Shared;
-use crate::sync::atomic::Ordering;
 use crate::trace::{Record, Trace};
 use crate::watchdog::Watched;
 use crate::{Address, Fault, Receiver, Timer, Worker};
@@ -34,10 +33,13 @@ pub struct Context {
     /// One for each object at most. Few, so a list is quicker than a map, and keeps its memory.
     pub(crate) alarms: Vec<(u32, Instant)>,
     pub(crate) calls: u32,
-    pub(crate) observer: Option<Box<dyn FnMut(&Fault)>>,
+    pub(crate) observer: Option<Observer>,
     pub(crate) trace: Option<Trace>,
     pub(crate) watchers: Vec<Address<Watched>>,
 }
+
+/// Who is told of panics.
+type Observer = Box<dyn FnMut(&Fault)>;
 
 impl Context {
     pub(crate) fn new(shared: Arc<Shared>) -> Self {
@@ -93,12 +95,21 @@ impl Context {
     /// at most [`RESTARTS`](crate::RESTARTS) times in [`RESTART_WINDOW`](crate::RESTART_WINDOW).
     pub fn register_restartable_worker<W: Worker>(
         &mut self,
-        mut make: impl FnMut(&mut Context) -> W + 'static,
+        make: impl FnMut(&mut Context) -> W + 'static,
     ) -> WorkerId {
         let id = self.shared().new_id();
-        let first = Box::new(make(self));
-        self.insert::<dyn Worker>(id, first, Some(Box::new(move |thread| Box::new(make(thread)))));
+        self.insert_restartable_worker(id, make);
         WorkerId(id)
+    }
+
+    pub(crate) fn insert_restartable_worker<W: Worker>(
+        &mut self,
+        id: u32,
+        mut make: impl FnMut(&mut Context) -> W + 'static,
+    ) {
+        let first = Box::new(make(self));
+        let factory: Factory<dyn Worker> = Box::new(move |thread| Box::new(make(thread)));
+        self.insert::<dyn Worker>(id, first, Some(factory));
     }
 
     /// Adds `receiver`.
@@ -113,11 +124,7 @@ impl Context {
     ///
     /// # Panics
     /// When the address belongs to another thread.
-    pub fn register_receiver_at<R: Receiver>(
-        &mut self,
-        address: &Address<R::Message>,
-        receiver: R,
-    ) {
+    pub fn register_receiver_at<R: Receiver>(&mut self, address: &Address<R::Message>, receiver: R) {
         self.check_own(&address.thread);
         self.insert::<dyn AnyReceiver>(address.receiver, Box::new(receiver), None);
     }
@@ -166,15 +173,14 @@ impl Context {
         self.stopped = true;
     }
 
-    /// Lets the thread sleep from when the running call returns: the rest of the iteration is done
-    /// afterwards. Messages are stored meanwhile and do not wake it; a
+    /// Lets the thread sleep from when the running call returns, which ends the iteration; messages
+    /// it has not delivered come first in the next one. Messages do not wake it, they are stored; a
     /// [`remote_stop`](ThreadHandle::remote_stop) does.
     pub fn sleep(&mut self, duration: Duration) {
         self.sleep_until = self.now().checked_add(duration);
     }
 
-    /// Lets the thread rest from when the running call returns until somebody calls
-    /// [`resume`](ThreadHandle::resume).
+    /// Like [`sleep`](Self::sleep), until somebody calls [`resume`](ThreadHandle::resume).
     pub fn pause(&mut self) {
         self.handle.pause();
     }
@@ -216,33 +222,33 @@ impl Context {
     }
 
     /// Puts an object in its place in the register; one that was there is dropped.
-    pub(crate) fn insert<T: Kind + ?Sized>(
-        &mut self,
-        id: u32,
-        object: Box<T>,
-        factory: Option<Factory<T>>,
-    ) {
+    pub(crate) fn insert<T: Kind + ?Sized>(&mut self, id: u32, object: Box<T>, factory: Option<Factory<T>>) {
         let name: Arc<str> = object.object_name().into();
         for watcher in &self.watchers {
             // A watcher that has stopped watches nobody.
-            let _ = watcher.send(Watched::object(&self.handle, id, &name));
+            let _ = watcher.send(Watched::new(&self.handle, id, &name, object.call_name()));
         }
-        let slot = Slot {
-            name,
-            object: Some(object),
-            factory,
-            failures: Default::default(),
-        };
+        let slot = Slot { name, object: Some(object), factory, failures: Default::default() };
         let old = T::register(self).insert(id, slot);
         self.drop_slot(old);
     }
 
     fn remove<T: Kind + ?Sized>(&mut self, id: u32) -> bool {
         let slot = T::register(self).remove(&id);
-        self.alarms.retain(|(owner, _)| *owner != id);
         let there = slot.is_some();
+        if there {
+            self.forget(id);
+        }
         self.drop_slot(slot);
         there
+    }
+
+    /// What is kept of an object beside its slot.
+    pub(crate) fn forget(&mut self, id: u32) {
+        self.alarms.retain(|(owner, _)| *owner != id);
+        for watcher in &self.watchers {
+            let _ = watcher.send(Watched::removed(&self.handle, id));
+        }
     }
 
     fn check_own(&self, thread: &Arc<Shared>) {
@@ -252,10 +258,5 @@ impl Context {
             thread.name,
             self.shared().name,
         );
-    }
-
-    /// Is a pause wanted, and does no stop overrule it?
-    pub(crate) fn is_paused(&self) -> bool {
-        self.shared().paused.load(Ordering::SeqCst)
     }
 }

@@ -47,8 +47,7 @@ pub(crate) struct Failures(VecDeque<Instant>);
 impl Failures {
     /// Counts a panic at `now`: may the object be made anew?
     pub(crate) fn allow_restart(&mut self, now: Instant) -> bool {
-        self.0
-            .retain(|then| now.saturating_duration_since(*then) < RESTART_WINDOW);
+        self.0.retain(|then| now.saturating_duration_since(*then) < RESTART_WINDOW);
         self.0.push_back(now);
         self.0.len() <= RESTARTS
     }

@@ -6,7 +6,7 @@
 use crate::fault::{Fault, Outcome, reason};
 use crate::mailbox::{Content, Envelope};
 use crate::object::AnyReceiver;
-use crate::register::{Kind, LAST, Slot};
+use crate::register::{Kind, LAST, RUN, Slot};
 use crate::sync::atomic::Ordering;
 use crate::sync::planted;
 use crate::trace::{End, Event, Sending, Stamp};
@@ -58,9 +58,7 @@ impl Context {
     /// Delivers every message stored since the last iteration. What the deliveries themselves send
     /// to this thread is for the next one.
     fn dispatch_messages(&mut self) {
-        let mut batch = std::mem::take(&mut self.batch);
-        self.shared().mailbox.drain(&mut batch);
-        self.batch = batch;
+        self.fetch_messages();
         while !self.halted() {
             let Some(envelope) = self.batch.pop_front() else {
                 break;
@@ -73,14 +71,14 @@ impl Context {
         }
     }
 
-    fn resolve_message(&mut self, envelope: Envelope) {
+    /// Takes over what is stored, behind what an earlier iteration left undelivered.
+    pub(crate) fn fetch_messages(&mut self) {
+        self.handle.shared().mailbox.drain(&mut self.batch);
+    }
+
+    pub(crate) fn resolve_message(&mut self, envelope: Envelope) {
         match envelope.content {
-            Content::Message {
-                to,
-                type_name,
-                data,
-                permit,
-            } => {
+            Content::Message { to, type_name, data, permit } => {
                 drop(permit);
                 self.deliver(to, type_name, data, envelope.stamp);
             }
@@ -91,9 +89,11 @@ impl Context {
             }
             Content::Run(job) => {
                 let _sending = Sending::enter(&self.shared().name, "run");
+                self.show_running(RUN);
                 if let Err(payload) = self.guarded(|thread| job(thread)) {
                     self.report("run", "run", &*payload, Outcome::Removed);
                 }
+                self.show_running(0);
             }
             Content::Sleep(duration) => self.sleep(duration),
             Content::Stop => self.stop(),
@@ -132,7 +132,7 @@ impl Context {
 
     /// Calls the workers in order. Those registered meanwhile wait for the next iteration.
     fn update_workers(&mut self) {
-        let newcomers = self.shared().new_id();
+        let newcomers = self.shared().next_id();
         let mut from = 0;
         while !self.halted() {
             let mut ahead = self.workers.range(from..).map(|(id, _)| *id);
@@ -149,8 +149,7 @@ impl Context {
     fn update_worker(&mut self, id: u32) -> bool {
         let name = self.traced_name::<dyn Worker>(id);
         let begin = self.trace.is_some().then(|| self.now());
-        let answer =
-            self.call::<dyn Worker, _>(id, "update", |worker, thread| worker.update(thread));
+        let answer = self.call::<dyn Worker, _>(id, "update", |worker, thread| worker.update(thread));
         let end = end(&answer);
         self.record(begin, |_| Event::Worker { name, end });
         // What a panicking worker should have done is not done: as if it had said so.
@@ -168,9 +167,8 @@ impl Context {
         let mut object = slot.object.take().ok_or(NoAnswer::Gone)?;
         let name = Arc::clone(&slot.name);
         let sending = Sending::enter(&self.shared().name, &name);
-        self.calls = self.calls.wrapping_add(1);
         self.running = id;
-        self.show_running(u64::from(self.calls) << 32 | u64::from(id));
+        self.show_running(id);
         let answer = self.guarded(|thread| call(&mut object, thread));
         self.show_running(0);
         self.running = 0;
@@ -202,7 +200,7 @@ impl Context {
         let allowed = slot.failures.allow_restart(now);
         let Some(mut factory) = slot.factory.take() else {
             T::register(self).remove(&id);
-            self.alarms.retain(|(owner, _)| *owner != id);
+            self.forget(id);
             return Outcome::Removed;
         };
         if allowed {
@@ -215,29 +213,17 @@ impl Context {
             }
         }
         T::register(self).remove(&id);
-        self.alarms.retain(|(owner, _)| *owner != id);
+        self.forget(id);
         Outcome::GivenUp
     }
 
-    fn report(
-        &mut self,
-        object: &str,
-        call: &'static str,
-        payload: &(dyn Any + Send),
-        outcome: Outcome,
-    ) {
+    fn report(&mut self, object: &str, call: &'static str, payload: &(dyn Any + Send), outcome: Outcome) {
         self.shared().tallies.panics.add(1);
         let thread = Arc::clone(&self.shared().name);
         let object = object.into();
         let reason = reason(payload);
         tracing::error!(%thread, %object, call, reason, ?outcome, "panic");
-        let fault = Fault {
-            thread,
-            object,
-            call,
-            reason,
-            outcome,
-        };
+        let fault = Fault { thread, object, call, reason, outcome };
         if let Some(mut observer) = self.observer.take() {
             // One that panics itself is not asked again.
             if catch_unwind(AssertUnwindSafe(|| observer(&fault))).is_ok() {
@@ -283,11 +269,11 @@ impl Context {
 
     /// Told to sleep or to pause, and until when. A stop in the queue overrules both.
     fn suspended(&mut self) -> Option<Next> {
-        if self.shared().stopping.load(Ordering::SeqCst) {
+        if self.shared().stopping.load(Ordering::SeqCst) && !planted("stuck_in_pause") {
             self.sleep_until = None;
             return None;
         }
-        if self.is_paused() {
+        if self.shared().paused.load(Ordering::SeqCst) {
             return Some(Next::OnMessage);
         }
         let until = self.sleep_until?;
@@ -298,7 +284,7 @@ impl Context {
         None
     }
 
-    fn halted(&mut self) -> bool {
+    pub(crate) fn halted(&mut self) -> bool {
         self.stopped || self.suspended().is_some()
     }
 
@@ -334,9 +320,12 @@ impl Context {
         self.shared().finish();
     }
 
-    fn show_running(&self, what: u64) {
+    /// Lets the watchdog see which object is running, and that it is another call than before.
+    fn show_running(&mut self, id: u32) {
+        self.calls = self.calls.wrapping_add(1);
+        let call = u64::from(self.calls) << 32 | u64::from(id);
         let running = &self.shared().running;
-        running.store(what, std::sync::atomic::Ordering::Relaxed);
+        running.store(call, std::sync::atomic::Ordering::Relaxed);
     }
 
     fn traced_name<T: Kind + ?Sized>(&mut self, id: u32) -> Arc<str> {

@@ -69,18 +69,22 @@ impl<R: Receiver> Receiver for Rc<RefCell<R>> {
 pub(crate) trait AnyReceiver {
     fn receive_any(&mut self, data: Box<dyn Any + Send>, thread: &mut Context);
     fn name(&self) -> &str;
+    fn message_name(&self) -> &'static str;
 }
 
 impl<R: Receiver> AnyReceiver for R {
     fn receive_any(&mut self, data: Box<dyn Any + Send>, thread: &mut Context) {
-        let message = data
-            .downcast()
-            .expect("an address is only made for a receiver of its own message type");
+        let message =
+            data.downcast().expect("an address is only made for a receiver of its own message type");
         self.receive(*message, thread);
     }
 
     fn name(&self) -> &str {
         Receiver::name(self)
+    }
+
+    fn message_name(&self) -> &'static str {
+        short_type_name::<R::Message>()
     }
 }
 

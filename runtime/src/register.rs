@@ -14,6 +14,9 @@ pub struct WorkerId(pub(crate) u32);
 /// later.
 pub(crate) const LAST: u32 = 1 << 31;
 
+/// Stands for a closure that was sent to the thread, where the running object's number is shown.
+pub(crate) const RUN: u32 = u32::MAX;
+
 /// Objects by number. Numbers ascend, so the order of numbers is the order of registration.
 pub(crate) type Register<T> = BTreeMap<u32, Slot<T>>;
 
@@ -33,6 +36,8 @@ pub(crate) type Factory<T> = Box<dyn FnMut(&mut Context) -> Box<T>>;
 pub(crate) trait Kind {
     fn register(thread: &mut Context) -> &mut Register<Self>;
     fn object_name(&self) -> &str;
+    /// What its calls are called in reports: the message type, or `"update"`.
+    fn call_name(&self) -> &'static str;
 }
 
 impl Kind for dyn Worker {
@@ -43,6 +48,10 @@ impl Kind for dyn Worker {
     fn object_name(&self) -> &str {
         self.name()
     }
+
+    fn call_name(&self) -> &'static str {
+        "update"
+    }
 }
 
 impl Kind for dyn AnyReceiver {
@@ -52,5 +61,8 @@ impl Kind for dyn AnyReceiver {
 
     fn object_name(&self) -> &str {
         self.name()
+    }
+    fn call_name(&self) -> &'static str {
+        self.message_name()
     }
 }

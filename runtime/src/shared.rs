@@ -51,6 +51,11 @@ impl Shared {
         self.next_id.fetch_add(1, std_atomic::Ordering::Relaxed)
     }
 
+    /// The number that comes next: those registered from now on have it or a higher one.
+    pub(crate) fn next_id(&self) -> u32 {
+        self.next_id.load(std_atomic::Ordering::Relaxed)
+    }
+
     /// Stores `content` for the next iteration; gives it back when the thread has stopped.
     pub(crate) fn send(&self, content: Content) -> Result<(), Content> {
         let traced = self.traced.load(std_atomic::Ordering::Relaxed);
@@ -66,14 +71,8 @@ impl Shared {
 
     /// Says that the loop has ended and all objects are dropped, and wakes who waits for it.
     pub(crate) fn finish(&self) {
-        self.finished.store(
-            true,
-            if planted("relaxed_finish") {
-                Ordering::Relaxed
-            } else {
-                Ordering::SeqCst
-            },
-        );
+        self.finished
+            .store(true, if planted("relaxed_finish") { Ordering::Relaxed } else { Ordering::SeqCst });
         let mut waiters = std::collections::VecDeque::new();
         self.waiters.drain(&mut waiters);
         for waiter in waiters {

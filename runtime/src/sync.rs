@@ -11,12 +11,18 @@
 //! further atomic multiplies what a checker has to try.
 
 #[cfg(loom)]
-pub(crate) use loom::{sync::atomic, thread};
+pub(crate) use loom::sync::atomic;
+#[cfg(loom)]
+#[path = "sync/loom_thread.rs"]
+pub mod thread;
 #[cfg(shuttle)]
-pub(crate) use shuttle::{sync::atomic, thread};
+pub(crate) use shuttle::sync::atomic;
+#[cfg(shuttle)]
+pub use shuttle::thread;
 #[cfg(not(any(loom, shuttle)))]
 pub(crate) use std::{sync::atomic, thread};
 
+#[cfg(not(any(loom, shuttle)))]
 use std::collections::VecDeque;
 use std::time::Instant;
 
@@ -35,9 +41,7 @@ impl<T> Queue<T> {
     }
 
     pub(crate) fn push(&self, item: T) {
-        self.enter
-            .send(item)
-            .expect("both ends of the channel live in this struct");
+        self.enter.send(item).expect("both ends of the channel live in this struct");
     }
 
     /// Moves everything that is there now to the end of `into`, oldest first, under one lock.

@@ -85,33 +85,20 @@ static TRACED_THREADS: AtomicUsize = AtomicUsize::new(0);
 impl Trace {
     pub(crate) fn new(capacity: usize) -> Self {
         TRACED_THREADS.fetch_add(1, Ordering::Relaxed);
-        Self {
-            iteration: 0,
-            capacity,
-            records: VecDeque::with_capacity(capacity),
-        }
+        Self { iteration: 0, capacity, records: VecDeque::with_capacity(capacity) }
     }
 
     pub(crate) fn add(&mut self, at: Instant, took: Duration, event: Event) {
         match &event {
-            Event::Message {
-                from,
-                to,
-                message,
-                waited,
-                end,
-            } => tracing::trace!(%from, %to, message, ?waited, ?took, ?end, "message"),
+            Event::Message { from, to, message, waited, end } => {
+                tracing::trace!(%from, %to, message, ?waited, ?took, ?end, "message")
+            }
             Event::Worker { name, end } => tracing::trace!(worker = %name, ?took, ?end, "worker"),
         }
         if self.records.len() == self.capacity {
             self.records.pop_front();
         }
-        self.records.push_back(Record {
-            iteration: self.iteration,
-            at,
-            took,
-            event,
-        });
+        self.records.push_back(Record { iteration: self.iteration, at, took, event });
     }
 
     pub(crate) fn records(&self) -> Vec<Record> {

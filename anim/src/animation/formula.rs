@@ -46,8 +46,8 @@ pub fn to_root(skeleton: &Skeleton, poses: &[Transform], out: &mut [Mat4]) {
 
 /// `final_pose` of every joint of `skin`, in the skin's order: bind space → scene space.
 ///
-/// `to_root` is what [`to_root()`] computed for the skeleton. A missing offset is the identity; where the product is not
-/// finite, `to_root` alone; a joint that names no bone gives the identity. Allocates nothing.
+/// `to_root` is what [`to_root()`] computed for the skeleton. A missing offset is the identity; where the product is
+/// not finite, `to_root` alone; a joint that names no bone gives the identity. Allocates nothing.
 pub fn final_poses(skin: &Skin, to_root: &[Mat4], out: &mut [Mat4]) {
     for (joint, (&bone, out)) in skin.bones.iter().zip(out).enumerate() {
         let to_root = to_root.get(bone as usize).copied().unwrap_or(Mat4::IDENTITY);

@@ -56,8 +56,8 @@ impl Animation {
         animation
     }
 
-    /// Fills the output with the binding pose of each bone, its offset: bind space → bone space (the identity where it is
-    /// not finite).
+    /// Fills the output with the binding pose of each bone, its offset: bind space → bone space (the identity where it
+    /// is not finite).
     pub fn bind_bone_poses(&mut self) -> &[Mat4] {
         self.output.clear();
         self.output.extend(

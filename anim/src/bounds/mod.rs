@@ -1,8 +1,8 @@
 //! How much room a model takes in a pose: a box along the axes and a sphere (thesis §3.1.3, `GetBoundingSphere`).
 //!
 //! Both are measured on the vertices as they are skinned in that pose, so they hold every vertex and nothing is
-//! guessed. A model without vertices is measured on the origins of its bones; a model with neither has the box and sphere
-//! of no size in the origin.
+//! guessed. A model without vertices is measured on the origins of its bones; a model with neither has the box and
+//! sphere of no size in the origin.
 
 mod sphere;
 

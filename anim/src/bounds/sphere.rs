@@ -14,9 +14,9 @@ pub struct Sphere {
 impl Sphere {
     /// Around the finite ones of `points`, whose smallest and largest coordinates are `min` and `max`.
     ///
-    /// The smaller of two: one about the middle of the box, and Ritter's (start with the two points furthest apart along
-    /// an axis, then grow just enough for each point outside). At most about a fifth wider than the smallest there is. All in f64, so
-    /// that neither squares nor rounding lose a point.
+    /// The smaller of two: one about the middle of the box, and Ritter's (start with the two points furthest apart
+    /// along an axis, then grow just enough for each point outside). Usually within a fifth of the smallest sphere
+    /// there is. All in f64, so that neither squares nor rounding lose a point.
     pub(super) fn of_points(points: &[Vec3], min: Vec3, max: Vec3) -> Self {
         let middle = min * 0.5 + max * 0.5;
         let around_box = Self::about(middle, points);

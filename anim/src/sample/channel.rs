@@ -21,18 +21,19 @@ pub fn sample_channel<T: Value>(channel: &Channel<T>, rest: T, time: f32) -> T {
     if keys.mix == 0.0 {
         return before;
     }
-    match channel.interpolation {
+    let mixed = match channel.interpolation {
         Interpolation::Step => before,
         Interpolation::Closest if keys.mix < 0.5 => before,
         Interpolation::Closest => value(keys.after),
-        Interpolation::Linear => T::linear(before, value(keys.after), keys.mix).settled(before),
+        Interpolation::Linear => T::linear(before, value(keys.after), keys.mix),
         Interpolation::CubicSpline => {
             let span = channel.times[keys.after] - channel.times[keys.before];
             let out_tangent = tangent(channel, keys.before * 3 + 2);
             let in_tangent = tangent(channel, keys.after * 3);
-            T::cubic(before, out_tangent, in_tangent, value(keys.after), span, keys.mix).settled(before)
+            T::cubic(before, out_tangent, in_tangent, value(keys.after), span, keys.mix)
         }
-    }
+    };
+    if mixed.is_finite() { mixed } else { before }
 }
 
 /// The tangent stored at `position`; zero where it is missing or not finite.

@@ -52,8 +52,8 @@ pub fn nlerp(a: Quat, b: Quat, mix: f32) -> Quat {
 /// (-2 m³ + 3 m²    ) * b  +  span * (m³ -   m²    ) * in_tangent
 /// ```
 ///
-/// `out_tangent` leaves `a`, `in_tangent` arrives at `b`, both in units a second; `span` is the seconds between the keys.
-/// A rotation has to be normalised afterwards.
+/// `out_tangent` leaves `a`, `in_tangent` arrives at `b`, both in units a second; `span` is the seconds between
+/// the keys. A rotation has to be normalised afterwards.
 pub fn hermite<T>(a: T, out_tangent: T, in_tangent: T, b: T, span: f32, mix: f32) -> T
 where
     T: Copy + Add<Output = T> + Mul<f32, Output = T>,

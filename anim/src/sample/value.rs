@@ -11,7 +11,8 @@ pub trait Value: Copy {
     /// Between two keys, 0 ≤ `mix` ≤ 1.
     fn linear(a: Self, b: Self, mix: f32) -> Self;
 
-    /// On the Hermite spline between two keys `span` seconds apart; not yet normalised.
+    /// On the Hermite spline between two keys `span` seconds apart; a rotation is normalised, and is `a` where the
+    /// spline passes through zero.
     fn cubic(a: Self, out_tangent: Self, in_tangent: Self, b: Self, span: f32, mix: f32) -> Self;
 
     /// Is every component finite?
@@ -19,9 +20,6 @@ pub trait Value: Copy {
 
     /// Itself bit for bit where it is a usable value, else the nearest usable one, else `fallback`.
     fn healed(self, fallback: Self) -> Self;
-
-    /// The same for a value that was mixed: what has lost its meaning becomes `before`, the key before.
-    fn settled(self, before: Self) -> Self;
 }
 
 impl Value for Vec3 {
@@ -43,10 +41,6 @@ impl Value for Vec3 {
     fn healed(self, fallback: Self) -> Self {
         if self.is_finite() { self } else { fallback }
     }
-
-    fn settled(self, before: Self) -> Self {
-        self.healed(before)
-    }
 }
 
 /// A squared length this near 1 is a unit quaternion with rounding; it is left alone.
@@ -60,7 +54,7 @@ impl Value for Quat {
     }
 
     fn cubic(a: Self, out_tangent: Self, in_tangent: Self, b: Self, span: f32, mix: f32) -> Self {
-        mix::hermite(a, out_tangent, in_tangent, b, span, mix)
+        unit(mix::hermite(a, out_tangent, in_tangent, b, span, mix)).unwrap_or(a)
     }
 
     fn is_finite(self) -> bool {
@@ -77,11 +71,6 @@ impl Value for Quat {
             return self;
         }
         unit(self).unwrap_or(Quat::IDENTITY)
-    }
-
-    /// Always normalised; without length, or not finite: `before`.
-    fn settled(self, before: Self) -> Self {
-        unit(self).unwrap_or(before)
     }
 }
 
@@ -118,7 +107,7 @@ mod tests {
         assert_eq!(Quat::ZERO.healed(fallback), Quat::IDENTITY);
         assert_eq!(Quat::from_xyzw(0.0, f32::NAN, 0.0, 1.0).healed(fallback), fallback);
         assert_eq!(Quat::from_xyzw(f32::INFINITY, 0.0, 0.0, 1.0).healed(fallback), fallback);
-        assert_eq!(Quat::ZERO.settled(fallback), fallback);
+        assert_eq!(Quat::cubic(fallback, Quat::ZERO, Quat::ZERO, -fallback, 1.0, 0.5), fallback);
         assert!(Quat::from_xyzw(1e-45, 0.0, 0.0, 0.0).healed(fallback).is_normalized());
     }
 }

@@ -1,8 +1,8 @@
 //! Normals and tangents: directions that a matrix with unequal scales would tilt.
 //!
-//! A normal is not moved by the matrix `M` of its vertex but by the transposed inverse of its linear part, so that it stays
-//! at right angles to the surface. That is taken as the cofactor matrix, which needs no division and therefore exists
-//! where a scale is zero:
+//! A normal is not moved by the matrix `M` of its vertex but by the transposed inverse of its linear part, so that it
+//! stays at right angles to the surface. That is taken as the cofactor matrix, which needs no division and therefore
+//! exists where a scale is zero:
 //!
 //! ```text
 //! M = [x y z]      cofactors = [y×z  z×x  x×y]      inverse transpose = cofactors / determinant

@@ -6,8 +6,8 @@
 //! rigid    = to_root[bone] * to_bone * morphed                      a mesh without skin
 //! ```
 //!
-//! Joints are positions in the skin's list, so `final` is that of the skin ([`crate::animation::final_poses`]), not of the
-//! skeleton. The weights of a vertex sum to 1; they are used as stored.
+//! Joints are positions in the skin's list, so `final` is that of the skin ([`crate::animation::final_poses`]), not
+//! of the skeleton. The weights of a vertex sum to 1; they are used as stored.
 //!
 //! No result is NaN or infinite: a position that cannot be computed stays where the file has it, without that in the
 //! origin; a direction that cannot be computed keeps the one before, and +Y after all.

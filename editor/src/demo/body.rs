@@ -38,15 +38,15 @@ const BOTTOM: [(f32, f32); 8] = [
     (1.0, 0.152),
 ];
 const WIDTH: [(f32, f32); 10] = [
-    (0.0, 0.014),
-    (0.08, 0.018),
-    (0.14, 0.031),
-    (0.20, 0.034),
-    (0.32, 0.050),
-    (0.46, 0.060),
-    (0.62, 0.062),
-    (0.78, 0.054),
-    (0.90, 0.039),
+    (0.0, 0.013),
+    (0.08, 0.016),
+    (0.14, 0.027),
+    (0.20, 0.030),
+    (0.32, 0.046),
+    (0.46, 0.055),
+    (0.62, 0.057),
+    (0.78, 0.050),
+    (0.90, 0.037),
     (1.0, 0.027),
 ];
 
@@ -54,7 +54,7 @@ fn thorax(u: f32, v: f32) -> Vec3 {
     let (top, bottom) = (curve(&TOP, u), curve(&BOTTOM, u));
     let (s, c) = (sin(v * PI), cos(v * PI));
     // A little squarer than an ellipse: flanks are flat, the back is a ridge between the wings.
-    let square = 1.0 + 0.16 * s.abs() * c.abs();
+    let square = 1.0 + 0.34 * s.abs() * c.abs();
     let (mid, half) = ((top + bottom) * 0.5, (top - bottom) * 0.5);
     let ridge = 0.006 * bump(0.0, 0.22, v) * bump(0.45, 0.35, u);
     // The whole thorax leans back: the legs are bunched forward, the wings sit behind.
@@ -119,7 +119,7 @@ pub(super) fn add(mesh: &mut Mesh) {
         )
     };
     let chart = texture::THORAX;
-    let patch = Patch { surface: &thorax, us: &even(29), vs: &even(15), chart, flip: true };
+    let patch = Patch { surface: &thorax, us: &even(25), vs: &even(13), chart, flip: true };
     mesh.grid(&patch, &thorax_bind);
 
     let mut rows = Vec::new();
@@ -142,14 +142,14 @@ pub(super) fn add(mesh: &mut Mesh) {
         }));
         Bind::chain(&chain, u * ABDOMEN_LENGTH)
     };
-    let patch = Patch { surface: &abdomen, us: &rows, vs: &even(11), chart: texture::ABDOMEN, flip: true };
+    let patch = Patch { surface: &abdomen, us: &rows, vs: &even(10), chart: texture::ABDOMEN, flip: true };
     mesh.grid(&patch, &abdomen_bind);
 
     for (pair, hinge) in HINGES.into_iter().enumerate() {
         let socket = Limb {
-            from: hinge + Vec3::new(-0.016, -0.006, -0.001),
-            to: hinge + Vec3::new(0.019, 0.001, if pair == 0 { 0.001 } else { -0.004 }),
-            radius: &[(0.0, 0.011), (0.5, 0.0105), (1.0, 0.0055)],
+            from: hinge + Vec3::new(-0.016, -0.004, 0.0),
+            to: hinge + Vec3::new(0.016, 0.0005, if pair == 0 { 0.0 } else { -0.004 }),
+            radius: &[(0.0, 0.0105), (0.5, 0.0085), (1.0, 0.0040)],
             flat: 0.62,
             cap: 0.35,
             bow: Vec3::ZERO,

@@ -11,25 +11,25 @@ use std::f32::consts::FRAC_PI_2;
 /// The middle of the capsule.
 const CENTRE: Vec3 = Vec3::new(0.0, 0.174, 0.350);
 /// Half the width of the capsule between the eyes.
-const HALF_WIDTH: f32 = 0.052;
+const HALF_WIDTH: f32 = 0.043;
 
 /// Height and depth of the face's outline on the middle line: from the back of the skull over
 /// the top, down the face, and back under the chin.
 const OUTLINE: [(f32, f32, f32); 14] = [
-    (0.00, 0.174, 0.320),
-    (0.08, 0.196, 0.326),
-    (0.17, 0.211, 0.350),
-    (0.25, 0.212, 0.375),
-    (0.32, 0.211, 0.394),
-    (0.38, 0.203, 0.409),
-    (0.45, 0.190, 0.413),
-    (0.51, 0.181, 0.409),
-    (0.58, 0.170, 0.413),
-    (0.66, 0.154, 0.411),
-    (0.73, 0.140, 0.401),
-    (0.82, 0.132, 0.382),
-    (0.91, 0.146, 0.345),
-    (1.00, 0.174, 0.320),
+    (0.00, 0.176, 0.320),
+    (0.08, 0.196, 0.328),
+    (0.17, 0.210, 0.352),
+    (0.25, 0.212, 0.374),
+    (0.32, 0.211, 0.391),
+    (0.38, 0.204, 0.404),
+    (0.45, 0.193, 0.408),
+    (0.51, 0.185, 0.4045),
+    (0.58, 0.176, 0.4065),
+    (0.66, 0.163, 0.404),
+    (0.73, 0.150, 0.396),
+    (0.82, 0.1385, 0.377),
+    (0.91, 0.1395, 0.342),
+    (1.00, 0.176, 0.320),
 ];
 
 fn capsule(u: f32, v: f32) -> Vec3 {
@@ -45,7 +45,7 @@ fn capsule(u: f32, v: f32) -> Vec3 {
 pub(super) fn add(mesh: &mut Mesh) {
     let patch = Patch {
         surface: &capsule,
-        us: &even(31),
+        us: &even(29),
         vs: &[0.0, 0.09, 0.2, 0.32, 0.45, 0.6, 0.78, 0.98],
         chart: texture::HEAD,
         flip: false,
@@ -55,7 +55,7 @@ pub(super) fn add(mesh: &mut Mesh) {
     let feeler = Limb {
         from,
         to,
-        radius: &[(0.0, 0.0034), (0.2, 0.0030), (0.26, 0.0014), (1.0, 0.0005)],
+        radius: &[(0.0, 0.0028), (0.2, 0.0024), (0.26, 0.0011), (1.0, 0.0004)],
         flat: 1.0,
         cap: 0.06,
         bow: Vec3::new(0.0, 0.004, 0.002),
@@ -67,7 +67,7 @@ pub(super) fn add(mesh: &mut Mesh) {
 }
 
 /// How far from its middle the eye's chart reaches, in radians.
-const REACH: f32 = 1.75;
+const REACH: f32 = 1.95;
 
 /// The direction from the eye's centre that the point (`u`, `v`) of its chart shows. The chart
 /// is centred on the way the eye looks, and keeps distances from there true, so that the facets
@@ -84,16 +84,22 @@ pub(super) fn eye_direction(u: f32, v: f32) -> Vec3 {
 
 /// Adds the left eye.
 pub(super) fn add_eye(mesh: &mut Mesh) {
-    const MIDDLE: Vec3 = Vec3::new(0.0365, 0.192, 0.350);
-    const RADII: Vec3 = Vec3::new(0.0400, 0.0455, 0.0475);
+    const MIDDLE: Vec3 = Vec3::new(0.0285, 0.1935, 0.3455);
+    const RADII: Vec3 = Vec3::new(0.0465, 0.0485, 0.0510);
     let surface = |u: f32, v: f32| {
-        let mut at = MIDDLE + eye_direction(u, v) * RADII;
+        let d = eye_direction(u, v);
+        let mut at = MIDDLE + d * RADII;
+        // Below, it draws in towards the jaw and back, as a helmet's cheek does.
+        let low = (-d.y).max(0.0);
+        at.x -= 0.012 * low * low * d.x.max(0.0);
+        at.z -= 0.008 * low * low;
+        at.y += 0.005 * low * low;
         // The two eyes meet in a flat seam on top of the head and never cross it.
-        let k = 0.005;
-        at.x = 0.5 * (at.x + (at.x * at.x + k * k).sqrt()) - 0.0004;
+        let k = 0.0035;
+        at.x = 0.5 * (at.x + (at.x * at.x + k * k).sqrt());
         at
     };
-    let (us, vs) = (even(21), even(21));
+    let (us, vs) = (even(19), even(19));
     let patch = Patch { surface: &surface, us: &us, vs: &vs, chart: texture::EYE, flip: false };
     mesh.grid(&patch, &|_, _| Bind::to(HEAD));
 }

@@ -48,7 +48,7 @@ pub(super) fn add_limb(mesh: &mut Mesh, limb: &Limb, bind: &dyn Fn(f32, Vec3) ->
     mesh.grid(&patch, bind);
 }
 
-const COXA: &[(f32, f32)] = &[(0.0, 0.013), (0.5, 0.0125), (1.0, 0.0085)];
+const COXA: &[(f32, f32)] = &[(0.0, 0.0115), (0.5, 0.0105), (1.0, 0.0072)];
 const FEMUR: &[(f32, f32)] =
     &[(0.0, 0.0062), (0.15, 0.0072), (0.45, 0.0066), (0.85, 0.0046), (0.95, 0.0056), (1.0, 0.0056)];
 const TIBIA: &[(f32, f32)] = &[(0.0, 0.0050), (0.06, 0.0046), (0.15, 0.0036), (0.8, 0.0032), (1.0, 0.0036)];
@@ -62,10 +62,10 @@ pub(super) fn add(mesh: &mut Mesh) {
             let (from, to) = (joints[part], joints[part + 1]);
             let along = (to - from).normalize();
             let (radius, chart, rows, sides) = match part {
-                0 => (COXA, texture::COXA, 7, 8),
-                1 => (FEMUR, texture::FEMUR, 10, 8),
-                2 => (TIBIA, texture::TIBIA, 9, 6),
-                _ => (TARSUS, texture::TARSUS, 9, 6),
+                0 => (COXA, texture::COXA, 6, 7),
+                1 => (FEMUR, texture::FEMUR, 9, 7),
+                2 => (TIBIA, texture::TIBIA, 8, 6),
+                _ => (TARSUS, texture::TARSUS, 8, 5),
             };
             // Pieces overlap as balls in sockets, so a joint may fold without a gap.
             let overlap = [0.010, 0.005, 0.004, 0.0025][part];
@@ -106,7 +106,7 @@ fn spines(mesh: &mut Mesh, pair: usize, part: usize) {
     // Inside of the fold: where femur and tibia close on each other.
     let inner = if part == 1 { -along.cross(bend) } else { along.cross(bend) };
     let inner = if part == 1 { -inner } else { inner };
-    let count = if part == 1 { 5 } else { 6 };
+    let count = if part == 1 { 4 } else { 6 };
     let radius = if part == 1 { 0.0055 } else { 0.0030 };
     let bow = if part == 1 { 0.006 } else { 0.0 };
     for k in 0..count {
@@ -126,7 +126,7 @@ fn spines(mesh: &mut Mesh, pair: usize, part: usize) {
 fn claws(mesh: &mut Mesh, toe: Vec3, along: Vec3, bind: Bind) {
     let side = along.cross(Vec3::Y).normalize();
     for row in [-1.0, 1.0_f32] {
-        let tip = toe + along * 0.007 + side * row * 0.005 - Vec3::Y * 0.002;
+        let tip = toe + along * 0.007 + side * row * 0.005 - Vec3::Y * 0.001;
         mesh.spine(toe - along * 0.002, tip, 0.0014, texture::DARK.uv(0.5, 0.5), bind);
     }
 }

@@ -10,17 +10,19 @@ use super::texture::{Paint, sheen};
 use glam::Vec3;
 
 const fn rgb(hex: u32) -> Vec3 {
-    let part = |shift: u32| ((hex >> shift) & 255) as f32 / 255.0;
-    Vec3::new(part(16), part(8), part(0))
+    const fn part(byte: u32) -> f32 {
+        (byte & 255) as f32 / 255.0
+    }
+    Vec3::new(part(hex >> 16), part(hex >> 8), part(hex))
 }
 
-const INK: Vec3 = rgb(0x0C_16_14);
-const BRONZE: Vec3 = rgb(0x1B_32_26);
-const EMERALD: Vec3 = rgb(0x12_8A_55);
-const LEAF: Vec3 = rgb(0x4F_BE_4A);
-const LIME: Vec3 = rgb(0xC4_E0_50);
-const TURQUOISE: Vec3 = rgb(0x1E_C8_B4);
-const AZURE: Vec3 = rgb(0x26_8E_E0);
+const INK: Vec3 = rgb(0x14_1F_1C);
+const BRONZE: Vec3 = rgb(0x2A_40_2E);
+const EMERALD: Vec3 = rgb(0x1A_7E_58);
+const LEAF: Vec3 = rgb(0x4E_AE_58);
+const LIME: Vec3 = rgb(0xB8_CE_58);
+const TURQUOISE: Vec3 = rgb(0x2A_B8_B0);
+const AZURE: Vec3 = rgb(0x2C_86_D8);
 
 fn plain(colour: Vec3) -> Paint {
     Paint { colour, height: 0.0, roughness: 0.42, metallic: 0.0, openness: 1.0 }
@@ -63,11 +65,11 @@ pub(super) fn abdomen(a: f32, b: f32) -> Paint {
         1 => LEAF.lerp(TURQUOISE, 0.55),
         7 | 8 => AZURE.lerp(TURQUOISE, 0.25),
         9 => INK.lerp(AZURE, 0.25),
-        _ => TURQUOISE.lerp(EMERALD, 0.18 * (ring as f32 - 2.0)),
+        _ => EMERALD.lerp(TURQUOISE, 0.72).lerp(AZURE, 0.13 * (ring as f32 - 2.0)),
     };
     // Deeper towards the belly, with a drift of hue as from thin layers.
     let film = sheen(0.22 + 0.35 * b + 0.25 * cloud + 0.02 * grain);
-    let bright = tone.lerp(tone * film * 1.25, 0.45) * mix(1.0, 0.72, smooth(0.3, 0.62, b));
+    let bright = tone.lerp(tone * film * 1.35, 0.32) * mix(1.0, 0.72, smooth(0.3, 0.62, b));
     colour = colour.lerp(bright, saddle);
     // The dark parts are not black: they shimmer bronze to violet.
     let shimmer = sheen(0.3 + 0.8 * a + 0.5 * cloud) * 0.16;
@@ -79,14 +81,14 @@ pub(super) fn abdomen(a: f32, b: f32) -> Paint {
     }
     let under = smooth(0.72, 0.9, b);
     colour = colour.lerp(rgb(0x3A_4A_3C), 0.6 * under);
-    colour *= 0.88 + 0.24 * grain;
+    colour *= 0.90 + 0.20 * grain;
 
     let fold = bump(0.0, 0.035, part) + bump(1.0, 0.02, part);
     let fold = if last && part > 0.5 { bump(0.0, 0.035, part) } else { fold.min(1.0) };
     colour *= 1.0 - 0.6 * fold;
     // Fine cross ridges, a keel along the back, and the pits that short hairs stand in.
     let pit = smooth(0.80, 0.95, noise(a * 310.0, b * 52.0, 41));
-    let height = 1.2 * (grain - 0.5) - 2.4 * fold + 0.9 * bump(0.0, 0.07, b) - 1.1 * pit
+    let height = 0.45 * (grain - 0.5) - 2.4 * fold + 0.9 * bump(0.0, 0.07, b) - 0.45 * pit
         + 0.5 * bump(0.30, 0.03, part)
         + 0.8 * bump(0.90, 0.08, part)
         - 0.9 * bump(0.68, 0.025, b);
@@ -120,7 +122,7 @@ pub(super) fn thorax(a: f32, b: f32) -> Paint {
     let shoulder = bump(0.135 + 0.18 * (a - 0.2), 0.055, b) * reach;
 
     let film = sheen(0.30 + 0.30 * b + 0.30 * cloud);
-    let mut colour = EMERALD.lerp(EMERALD * film * 1.8, 0.55) * mix(0.75, 1.1, cloud);
+    let mut colour = EMERALD.lerp(EMERALD * film * 1.7, 0.35) * mix(0.72, 1.05, cloud);
     colour = colour.lerp(INK, 0.88 * first_rim.max(second_rim));
     let bright = LIME.lerp(LEAF, smooth(0.3, 0.85, b) * 0.65);
     colour = colour.lerp(bright, first.max(second));
@@ -128,14 +130,19 @@ pub(super) fn thorax(a: f32, b: f32) -> Paint {
     // Black keel down the front, pale soft skin between the wings, dark belly and neck.
     colour =
         colour.lerp(INK, 0.85 * bump(0.0, 0.035, b) * smooth(0.1, 0.2, a) * (1.0 - smooth(0.36, 0.42, a)));
-    let saddle = smooth(0.42, 0.50, a) * (1.0 - smooth(0.86, 0.93, a)) * (1.0 - smooth(0.11, 0.17, b));
-    let plates = bump(0.53, 0.06, a) + bump(0.70, 0.07, a) + bump(0.83, 0.04, a);
-    colour = colour.lerp(rgb(0x2A_3A_30), saddle);
-    colour = colour.lerp(TURQUOISE * 0.85, saddle * (plates * smooth(0.1, 0.02, b)).min(1.0) * 0.8);
+    let saddle = smooth(0.44, 0.48, a) * (1.0 - smooth(0.86, 0.91, a)) * (1.0 - smooth(0.10, 0.135, b));
+    let spot = |centre: f32, half: f32| {
+        let (x, y) = ((a - centre) / half, b / 0.085);
+        1.0 - smooth(0.55, 1.1, x * x + y * y)
+    };
+    let plates = (spot(0.535, 0.040) + spot(0.68, 0.050) + spot(0.80, 0.032)).min(1.0);
+    colour = colour.lerp(rgb(0x1C_30_2A), saddle);
+    colour = colour.lerp(TURQUOISE * 0.9, 0.85 * saddle * plates);
     let belly = smooth(0.84, 0.94, b);
     colour = colour.lerp(rgb(0x33_3C_2C), 0.8 * belly);
     colour = colour.lerp(INK, 0.8 * (1.0 - smooth(0.08, 0.14, a)));
-    colour = colour.lerp(rgb(0x9A_B8_50), 0.6 * bump(0.15, 0.035, a));
+    colour = colour.lerp(rgb(0x9A_B8_50), 0.5 * bump(0.155, 0.02, a) * smooth(0.1, 0.3, b));
+    colour *= 1.0 - 0.4 * bump(0.16, 0.07, a);
     colour *= 0.90 + 0.2 * grain;
 
     let suture =
@@ -144,9 +151,9 @@ pub(super) fn thorax(a: f32, b: f32) -> Paint {
     let collar = bump(0.195, 0.03, a) + bump(0.10, 0.03, a);
     let fuzz = hash((a * 332.0) as i32, (b * 332.0) as i32, 7) - 0.5;
     colour *= 1.0 - 0.55 * seams - 0.3 * collar.min(1.0);
-    let height = 1.6 * (grain - 0.5) + 0.35 * fuzz - 3.0 * seams - 2.2 * collar
+    let height = 0.5 * (grain - 0.5) + 0.12 * fuzz - 3.0 * seams - 2.2 * collar
         + 2.5 * bump(0.0, 0.04, b) * (1.0 - smooth(0.36, 0.44, a))
-        + 3.0 * saddle * plates.min(1.0)
+        + 2.0 * saddle * plates
         + 0.8 * first.max(second);
     Paint {
         colour,
@@ -161,15 +168,18 @@ pub(super) fn thorax(a: f32, b: f32) -> Paint {
 pub(super) fn head(a: f32, b: f32) -> Paint {
     let grain = fractal(a * 50.0, b * 40.0, 71);
     let mut colour = INK.lerp(BRONZE, grain);
-    let mut height = 1.2 * (grain - 0.5);
+    let mut height = 0.45 * (grain - 0.5);
     // Forehead, clypeus and lip, each a swelling with a groove below it.
     let face = smooth(0.335, 0.355, a) * (1.0 - smooth(0.755, 0.775, a));
-    let forehead = rgb(0x9C_D6_4A).lerp(TURQUOISE, 0.35 + 0.3 * grain);
-    let clypeus = LIME.lerp(rgb(0xE8_F0_A0), 0.35);
-    let lip = LIME.lerp(rgb(0xE0_B8_40), 0.35);
+    let forehead = rgb(0x86_B8_4E).lerp(TURQUOISE, 0.30 + 0.3 * grain);
+    let clypeus = LIME.lerp(rgb(0xD8_DC_90), 0.30) * 0.95;
+    let lip = LIME.lerp(rgb(0x8A_8A_3A), 0.45);
     let mut tone = forehead.lerp(clypeus, smooth(0.50, 0.52, a));
     tone = tone.lerp(lip, smooth(0.615, 0.635, a));
     colour = colour.lerp(tone * mix(1.05, 0.8, b), face);
+    // Below the dark mouth line, the lower lip is dull horn.
+    let chin = smooth(0.785, 0.80, a) * (1.0 - smooth(0.88, 0.92, a));
+    colour = colour.lerp(rgb(0x6A_70_3A), 0.8 * chin);
     // The black T on the forehead.
     let t = bump(0.365, 0.035, a) * (1.0 - smooth(0.45, 0.55, b))
         + bump(0.40, 0.06, a) * (1.0 - smooth(0.05, 0.09, b));
@@ -183,7 +193,7 @@ pub(super) fn head(a: f32, b: f32) -> Paint {
     colour = colour.lerp(rgb(0xE6_A8_3C), (1.6 * ocellus).min(1.0));
     height += 4.0 * ocellus;
     let pit = smooth(0.80, 0.95, noise(a * 70.0, b * 50.0, 73));
-    height -= 0.8 * pit;
+    height -= 0.4 * pit;
     colour *= 0.92 + 0.16 * grain;
     Paint {
         colour,
@@ -198,9 +208,10 @@ pub(super) fn head(a: f32, b: f32) -> Paint {
 pub(super) fn femur(a: f32, b: f32) -> Paint {
     let grain = fractal(a * 40.0, b * 8.0, 81);
     let pale = rgb(0xA8_8A_3A).lerp(LEAF, 0.45);
-    let mut paint = plain(pale.lerp(INK, smooth(0.36, 0.62, a + 0.12 * (grain - 0.5))));
+    let mut paint =
+        plain(pale.lerp(INK.lerp(rgb(0x3A_2E_1C), 0.5), smooth(0.36, 0.62, a + 0.12 * (grain - 0.5))));
     paint.colour *= 0.8 + 0.4 * grain;
-    paint.height = 1.2 * (grain - 0.5) + 0.8 * bump(0.5, 0.06, b);
+    paint.height = 0.45 * (grain - 0.5) + 0.8 * bump(0.5, 0.06, b);
     paint
 }
 
@@ -208,7 +219,7 @@ pub(super) fn femur(a: f32, b: f32) -> Paint {
 pub(super) fn tibia(a: f32, b: f32) -> Paint {
     let grain = fractal(a * 46.0, b * 8.0, 91);
     let line = bump(0.5, 0.12, b) * smooth(0.03, 0.1, a) * (1.0 - smooth(0.7, 0.95, a));
-    let mut paint = plain(INK.lerp(rgb(0x9A_7A_34), 0.75 * line));
+    let mut paint = plain(INK.lerp(rgb(0x3A_2E_1C), 0.7).lerp(rgb(0xA8_84_3A), 0.8 * line));
     paint.colour *= 0.85 + 0.4 * grain;
     paint.height = 1.0 * (grain - 0.5);
     paint
@@ -225,17 +236,18 @@ pub(super) fn tarsus(a: f32, b: f32) -> Paint {
 pub(super) fn coxa(a: f32, b: f32) -> Paint {
     let grain = fractal(a * 20.0, b * 12.0, 101);
     let mut paint = plain(EMERALD.lerp(LEAF, 0.4 * grain).lerp(INK, smooth(0.6, 0.95, a)));
-    paint.colour *= mix(0.6, 0.9, grain);
-    paint.height = 1.2 * (grain - 0.5);
+    paint.colour *= mix(0.4, 0.65, grain);
+    paint.height = 0.45 * (grain - 0.5);
     paint
 }
 
-/// The socket of a wing: dark horn with an amber edge.
+/// The socket of a wing: dark green horn with an amber edge.
 pub(super) fn socket(a: f32, b: f32) -> Paint {
     let grain = fractal(a * 20.0, b * 14.0, 111);
-    let mut paint = plain(rgb(0x2A_2C_1E).lerp(rgb(0x9A_7A_34), smooth(0.45, 0.9, a) * 0.7));
-    paint.colour *= 0.8 + 0.4 * grain;
-    paint.height = 2.0 * (grain - 0.5);
+    let rim = smooth(0.55, 0.95, a);
+    let mut paint = plain((EMERALD * 0.45).lerp(rgb(0x8A_6C_30), rim * 0.8));
+    paint.colour *= 0.9 + 0.2 * grain;
+    paint.height = 0.6 * (grain - 0.5);
     paint
 }
 
@@ -249,7 +261,7 @@ pub(super) fn dark(a: f32, b: f32) -> Paint {
 
 /// Width and half the double row of the facets, in texels: whole numbers, so that the relief
 /// repeats exactly and packs to almost nothing.
-const FACET: (f32, f32) = (10.0, 9.0);
+const FACET: (f32, f32) = (8.0, 7.0);
 
 /// The compound eye: blue above, through green to gold below, under a net of facets.
 pub(super) fn eye(a: f32, b: f32) -> Paint {
@@ -269,28 +281,33 @@ pub(super) fn eye(a: f32, b: f32) -> Paint {
             }
         }
     }
-    let rim = 1.0 - smooth(0.0, 2.2, near[1] - near[0]);
-    let dome = 1.0 - near[0] * near[0] / 36.0;
+    let rim = 1.0 - smooth(0.0, 1.8, near[1] - near[0]);
+    let dome = 1.0 - near[0] * near[0] / 22.0;
 
     let d = eye_direction(a, b);
     let cloud = fractal(a * 6.0, b * 6.0, 131);
     let level = d.y + 0.06 * (cloud - 0.5);
-    let crown = rgb(0x12_5C_9A);
-    let teal = rgb(0x14_A0_9A);
-    let green = rgb(0x3C_B4_5A);
+    let crown = rgb(0x17_52_88);
+    let teal = rgb(0x18_92_92);
+    let green = rgb(0x44_A4_58);
     let gold = rgb(0xB4_BC_4A);
     let mut colour = gold.lerp(green, smooth(-0.65, -0.2, level));
     colour = colour.lerp(teal, smooth(-0.15, 0.35, level));
     colour = colour.lerp(crown, smooth(0.40, 0.85, level));
     // Faint level bands, and the dark false pupils that seem to look back.
     let band = bump(0.12, 0.06, level) + 0.6 * bump(-0.12, 0.05, level) + 0.5 * bump(-0.34, 0.05, level);
-    colour *= 1.0 - 0.30 * band;
+    colour *= 1.0 - 0.15 * band;
     let look = |p: Vec3, size: f32| smooth(1.0 - size, 1.0 - size * 0.3, d.dot(p.normalize()));
-    let pupil = look(Vec3::new(0.62, -0.05, 0.78), 0.030)
-        + 0.6 * look(Vec3::new(0.45, -0.28, 0.85), 0.012)
-        + 0.6 * look(Vec3::new(0.86, -0.10, 0.48), 0.012);
-    colour = colour.lerp(rgb(0x06_1E_26), (0.75 * pupil).min(0.9));
+    let pupil = look(Vec3::new(0.62, -0.02, 0.78), 0.022)
+        + 0.45 * look(Vec3::new(0.48, -0.27, 0.85), 0.010)
+        + 0.45 * look(Vec3::new(0.84, -0.10, 0.50), 0.010);
+    colour = colour.lerp(rgb(0x06_1E_26), (0.62 * pupil).min(0.8));
     colour *= 0.92 + 0.16 * cloud;
-    colour *= 1.0 - 0.28 * rim;
-    Paint { colour, height: 2.4 * dome, roughness: 0.22, metallic: 0.0, openness: 1.0 }
+    Paint {
+        colour,
+        height: 1.9 * dome,
+        roughness: mix(0.20, 0.60, rim),
+        metallic: 0.0,
+        openness: 1.0 - 0.6 * rim,
+    }
 }

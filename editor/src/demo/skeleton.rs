@@ -111,7 +111,7 @@ pub(super) const LEG_JOINTS: [[Vec3; 5]; 3] = [
 ];
 
 /// The left antenna: its foot and its tip.
-pub(super) const ANTENNA_ENDS: [Vec3; 2] = [Vec3::new(0.011, 0.207, 0.392), Vec3::new(0.034, 0.236, 0.432)];
+pub(super) const ANTENNA_ENDS: [Vec3; 2] = [Vec3::new(0.010, 0.208, 0.389), Vec3::new(0.028, 0.232, 0.424)];
 
 /// Reflects a point of the left side to `side`.
 pub(super) fn on_side(side: usize, p: Vec3) -> Vec3 {

@@ -22,9 +22,9 @@ impl Trunk {
 
 /// The directions of femur, tibia and tarsus of a folded left leg, in the thorax's own axes.
 const FOLDED: [[Vec3; 3]; 3] = [
-    [Vec3::new(0.42, -0.30, 0.86), Vec3::new(-0.30, 0.05, -0.95), Vec3::new(-0.05, -0.25, -0.97)],
-    [Vec3::new(0.50, -0.36, -0.79), Vec3::new(-0.42, -0.05, 0.91), Vec3::new(-0.20, -0.30, 0.93)],
-    [Vec3::new(0.36, -0.26, -0.90), Vec3::new(-0.30, 0.16, -0.94), Vec3::new(-0.10, 0.05, -0.99)],
+    [Vec3::new(0.50, 0.12, 0.86), Vec3::new(-0.38, -0.10, -0.92), Vec3::new(-0.10, 0.05, -0.98)],
+    [Vec3::new(0.36, 0.16, -0.92), Vec3::new(-0.22, -0.18, 0.96), Vec3::new(-0.20, 0.10, 0.95)],
+    [Vec3::new(0.25, 0.20, -0.95), Vec3::new(-0.30, 0.11, -0.95), Vec3::new(-0.04, 0.04, -0.99)],
 ];
 
 /// A rotation that carries the rest directions of two joined pieces onto new ones, so that the

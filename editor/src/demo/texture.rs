@@ -53,17 +53,18 @@ pub(super) struct Picture {
 }
 
 /// Every picture of the model: skin colour, normals and surface, eye colour and normals, wings.
-pub(super) fn pictures() -> [Picture; 6] {
+pub(super) fn pictures() -> [Picture; 7] {
     let skin = skin();
     let eyes = eyes();
     let (w, h) = (WINGS.0 as u32, WINGS.1 as u32);
     let wings = veins::paint(w as usize, h as usize);
     [
-        jpeg("body_colour", &colours(&skin), SKIN, 88),
-        jpeg("body_normal", &normals(&skin, SKIN), SKIN, 88),
-        jpeg("body_surface", &surface(&skin, SKIN), (SKIN.0 / 2.0, SKIN.1 / 2.0), 82),
-        jpeg("eye_colour", &colours(&eyes), EYES, 86),
+        jpeg("body_colour", &colours(&skin), SKIN, 84),
+        jpeg("body_normal", &normals(&skin, SKIN), SKIN, 76),
+        jpeg("body_surface", &halved(&skin, SKIN, gloss), half(SKIN), 82),
+        jpeg("eye_colour", &halved(&eyes, EYES, |p| p.colour), half(EYES), 90),
         png("eye_normal", &normals(&eyes, EYES), EYES, ExtendedColorType::Rgb8),
+        png("eye_surface", &glosses(&eyes), EYES, ExtendedColorType::Rgb8),
         png("wing_colour", &wings, WINGS, ExtendedColorType::Rgba8),
     ]
 }
@@ -131,17 +132,28 @@ fn normals(image: &[Paint], size: (f32, f32)) -> Vec<u8> {
     bytes
 }
 
-/// Openness in red, roughness in green, metal in blue, at half the size.
-fn surface(image: &[Paint], size: (f32, f32)) -> Vec<u8> {
+/// Openness in red, roughness in green, metal in blue.
+fn gloss(p: &Paint) -> Vec3 {
+    Vec3::new(p.openness, p.roughness, p.metallic)
+}
+
+fn glosses(image: &[Paint]) -> Vec<u8> {
+    image.iter().flat_map(|p| gloss(p).to_array().map(byte)).collect()
+}
+
+fn half(size: (f32, f32)) -> (f32, f32) {
+    (size.0 / 2.0, size.1 / 2.0)
+}
+
+/// What `pick` takes from each texel, at half the size.
+fn halved(image: &[Paint], size: (f32, f32), pick: fn(&Paint) -> Vec3) -> Vec<u8> {
     let (w, h) = (size.0 as usize, size.1 as usize);
     let mut bytes = Vec::with_capacity(w * h * 3 / 4);
     for y in (0..h).step_by(2) {
         for x in (0..w).step_by(2) {
-            let mut sum = Vec3::ZERO;
-            for i in [y * w + x, y * w + x + 1, (y + 1) * w + x, (y + 1) * w + x + 1] {
-                let p = image[i];
-                sum += Vec3::new(p.openness, p.roughness, p.metallic);
-            }
+            let corner = y * w + x;
+            let sum: Vec3 =
+                [corner, corner + 1, corner + w, corner + w + 1].into_iter().map(|i| pick(&image[i])).sum();
             bytes.extend((sum * 0.25).to_array().map(byte));
         }
     }
@@ -158,9 +170,13 @@ fn jpeg(name: &'static str, rgb: &[u8], size: (f32, f32), quality: u8) -> Pictur
 
 fn png(name: &'static str, data: &[u8], size: (f32, f32), kind: ExtendedColorType) -> Picture {
     let mut bytes = Vec::new();
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive)
-        .write_image(data, size.0 as u32, size.1 as u32, kind)
-        .expect("the buffer is as long as its size says and memory takes every byte");
+    PngEncoder::new_with_quality(
+        &mut bytes,
+        CompressionType::Best,
+        if kind == ExtendedColorType::Rgba8 { FilterType::NoFilter } else { FilterType::Adaptive },
+    )
+    .write_image(data, size.0 as u32, size.1 as u32, kind)
+    .expect("the buffer is as long as its size says and memory takes every byte");
     Picture { name, mime: "image/png", bytes }
 }
 
