@@ -3,8 +3,10 @@
 use super::folder::{DoorError, read_file};
 use super::{Cancel, LoadedModel, Progress, Stage};
 use super::{images, import};
+use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::limits::FILE_BYTES;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// What to open.
@@ -85,7 +87,10 @@ pub fn load_model(
         Source::BuiltIn => None,
         Source::File(path) => Some(path.clone()),
     };
-    Ok(LoadedModel { title: source.title(), path, format, model, images: decoded.images, warnings })
+    let model = Arc::new(model);
+    let first = model.animation.takes.first().map(|take| take.start);
+    let bounds = bounds_of_pose(&model, first.map(|_| 0), first.unwrap_or(0.0));
+    Ok(LoadedModel { title: source.title(), path, format, model, bounds, images: decoded.images, warnings })
 }
 
 fn check(cancel: &Cancel) -> Result<(), LoadError> {
