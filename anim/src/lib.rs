@@ -21,6 +21,7 @@
 pub mod animation;
 pub mod bounds;
 pub mod data;
+pub mod evaluator;
 pub mod format;
 pub mod limits;
 pub mod sample;

@@ -1,0 +1,151 @@
+//! From a take and a time to matrices ready for the GPU (thesis §3.1.4).
+//!
+//! [`Animation`] remembers its results, so that playing allocates nothing; the formulas themselves are free functions
+//! ([`to_root`](to_root()), [`final_poses`]) for whoever keeps the poses elsewhere.
+
+mod formula;
+
+pub use formula::{final_pose, final_poses, to_parent, to_root};
+
+use crate::data::{AnimationData, ModelData, Skin, Take, Transform};
+use crate::sample::sample_take;
+use glam::Mat4;
+use std::sync::Arc;
+
+/// A skeleton, its takes, and the poses computed last.
+///
+/// ```
+/// use dragonfly_anim::animation::Animation;
+/// # let model = dragonfly_anim::data::ModelData::default();
+/// let mut animation = Animation::of(&model);
+/// animation.to_root_bone_poses(Some(0), 0.35);
+/// for skin in &model.skins {
+///     let ready_for_the_gpu: &[glam::Mat4] = animation.skin_poses(skin);
+/// }
+/// ```
+#[derive(Debug)]
+pub struct Animation {
+    data: AnimationData,
+    /// Relative to the parents.
+    poses: Vec<Transform>,
+    /// Bone space → scene space.
+    to_root: Vec<Mat4>,
+    /// What the last method computed.
+    output: Vec<Mat4>,
+}
+
+impl Animation {
+    /// An animation of `data`, in the rest pose.
+    pub fn new(data: AnimationData) -> Self {
+        let bones = data.skeleton.len();
+        let mut animation = Self {
+            data,
+            poses: vec![Transform::IDENTITY; bones],
+            to_root: vec![Mat4::IDENTITY; bones],
+            output: Vec::with_capacity(bones),
+        };
+        animation.to_root_bone_poses(None, 0.0);
+        animation
+    }
+
+    /// An animation of `model`, with room for the largest of its skins.
+    pub fn of(model: &ModelData) -> Self {
+        let mut animation = Self::new(model.animation.clone());
+        let largest = model.skins.iter().map(|skin| skin.bones.len()).max().unwrap_or(0);
+        animation.output.reserve(largest.saturating_sub(animation.output.len()));
+        animation
+    }
+
+    /// Fills the output with the binding pose of each bone, its offset: bind space → bone space (the identity where it
+    /// is not finite).
+    pub fn bind_bone_poses(&mut self) -> &[Mat4] {
+        self.output.clear();
+        self.output.extend(
+            self.data
+                .skeleton
+                .bones
+                .iter()
+                .map(|bone| if bone.offset.is_finite() { bone.offset } else { Mat4::IDENTITY }),
+        );
+        &self.output
+    }
+
+    /// Fills the output with the relative pose of each bone at `time` seconds: bone space → scene space.
+    ///
+    /// `take` is a position in [`AnimationData::takes`]; `None`, or one past the end, is the rest pose. The time is
+    /// clamped to the keys; see [`crate::sample::loop_time`] to repeat.
+    pub fn to_root_bone_poses(&mut self, take: Option<usize>, time: f32) -> &[Mat4] {
+        let take = take.and_then(|take| self.data.takes.get(take));
+        sample_take(take.map(Arc::as_ref), &self.data.skeleton, time, &mut self.poses);
+        self.chain()
+    }
+
+    /// The same for a take that is not among the animation's own, but has the same skeleton.
+    pub fn to_root_bone_poses_of(&mut self, take: &Take, time: f32) -> &[Mat4] {
+        sample_take(Some(take), &self.data.skeleton, time, &mut self.poses);
+        self.chain()
+    }
+
+    /// The same for poses relative to the parents that `change` alters, beginning with those computed last.
+    pub fn to_root_bone_poses_with(&mut self, change: impl FnOnce(&mut [Transform])) -> &[Mat4] {
+        change(&mut self.poses);
+        self.chain()
+    }
+
+    /// Fills the output with the final pose of each bone at `time` seconds: bind space → scene space, the complete
+    /// computation, with each bone's own offset.
+    ///
+    /// Right for a model with one skin; where skins give a bone different offsets: [`Self::skin_poses`].
+    pub fn final_bone_poses(&mut self, take: Option<usize>, time: f32) -> &[Mat4] {
+        self.to_root_bone_poses(take, time);
+        self.output.clear();
+        let bones = &self.data.skeleton.bones;
+        self.output
+            .extend(self.to_root.iter().zip(bones).map(|(&to_root, bone)| final_pose(to_root, bone.offset)));
+        &self.output
+    }
+
+    /// Fills the output with the final pose of each joint of `skin`, in the skin's order, from the relative poses
+    /// computed last.
+    pub fn skin_poses(&mut self, skin: &Skin) -> &[Mat4] {
+        self.output.clear();
+        self.output.resize(skin.bones.len(), Mat4::IDENTITY);
+        final_poses(skin, &self.to_root, &mut self.output);
+        &self.output
+    }
+
+    /// What the last method computed.
+    pub fn output(&self) -> &[Mat4] {
+        &self.output
+    }
+
+    /// The relative poses computed last: bone space → scene space, in bone order.
+    pub fn to_root(&self) -> &[Mat4] {
+        &self.to_root
+    }
+
+    /// The poses computed last, each relative to its parent.
+    pub fn poses(&self) -> &[Transform] {
+        &self.poses
+    }
+
+    /// The skeleton and the takes.
+    pub fn data(&self) -> &AnimationData {
+        &self.data
+    }
+
+    /// Puts `take` in the place of take number `index`, and returns the old one; `None` past the end.
+    ///
+    /// The poses computed last stay.
+    pub fn replace_take(&mut self, index: usize, take: Arc<Take>) -> Option<Arc<Take>> {
+        self.data.takes.get_mut(index).map(|old| std::mem::replace(old, take))
+    }
+
+    /// `to_root` from the poses, copied to the output.
+    fn chain(&mut self) -> &[Mat4] {
+        to_root(&self.data.skeleton, &self.poses, &mut self.to_root);
+        self.output.clear();
+        self.output.extend_from_slice(&self.to_root);
+        &self.output
+    }
+}

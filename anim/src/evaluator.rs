@@ -1,0 +1,132 @@
+//! A whole model at one time: bones, skins, morph weights, vertices, bounds.
+//!
+//! What the command line prints and a renderer without its own plan can use. Nothing here is more than the formulas of
+//! [`crate::sample`], [`crate::animation`] and [`crate::skin`], called in order.
+
+use crate::animation::{Animation, final_poses};
+use crate::bounds::{Bounds, bounds_of_bones};
+use crate::data::{MeshInstance, ModelData, Primitive};
+use crate::sample::sample_morph_weights;
+use crate::skin::{Movement, skin_normals, skin_positions};
+use glam::{Mat4, Vec3};
+use std::sync::Arc;
+
+/// A model and the pose it was put in last.
+#[derive(Debug)]
+pub struct Evaluator {
+    model: Arc<ModelData>,
+    animation: Animation,
+    /// One list a skin, one matrix a joint.
+    finals: Vec<Vec<Mat4>>,
+    /// One list an instance, one weight a morph target.
+    morph_weights: Vec<Vec<f32>>,
+}
+
+impl Evaluator {
+    /// `model` in its rest pose.
+    pub fn new(model: Arc<ModelData>) -> Self {
+        let finals = model.skins.iter().map(|skin| vec![Mat4::IDENTITY; skin.bones.len()]).collect();
+        let morph_weights =
+            model.instances.iter().map(|instance| vec![0.0; targets(&model, instance)]).collect();
+        let animation = Animation::of(&model);
+        let mut evaluator = Self { model, animation, finals, morph_weights };
+        evaluator.pose(None, 0.0);
+        evaluator
+    }
+
+    /// Puts the model in the pose of take number `take` at `time` seconds, clamped to the keys; `None`, or a number
+    /// past the end, is the rest pose. Allocates nothing.
+    pub fn pose(&mut self, take: Option<usize>, time: f32) {
+        self.animation.to_root_bone_poses(take, time);
+        for (skin, finals) in self.model.skins.iter().zip(&mut self.finals) {
+            final_poses(skin, self.animation.to_root(), finals);
+        }
+        let take = take.and_then(|take| self.animation.data().takes.get(take));
+        let instances = self.model.instances.iter().zip(&mut self.morph_weights);
+        for (index, (instance, weights)) in instances.enumerate() {
+            let take = take.map(Arc::as_ref);
+            sample_morph_weights(take, index as u32, &instance.morph_weights, time, weights);
+        }
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Arc<ModelData> {
+        &self.model
+    }
+
+    /// The animation; a take replaced in it is used by the next [`Self::pose`].
+    pub fn animation_mut(&mut self) -> &mut Animation {
+        &mut self.animation
+    }
+
+    /// Of every bone: bone space → scene space.
+    pub fn to_root(&self) -> &[Mat4] {
+        self.animation.to_root()
+    }
+
+    /// Of every joint of skin number `skin`: bind space → scene space. Empty when there is no such skin.
+    pub fn final_poses(&self, skin: usize) -> &[Mat4] {
+        self.finals.get(skin).map_or(&[], Vec::as_slice)
+    }
+
+    /// Of every morph target of instance number `instance`. Empty when it has none.
+    pub fn morph_weights(&self, instance: usize) -> &[f32] {
+        self.morph_weights.get(instance).map_or(&[], Vec::as_slice)
+    }
+
+    /// Primitives of instance number `instance`, in file order. Empty when there is no such instance or mesh.
+    pub fn primitives(&self, instance: usize) -> &[Primitive] {
+        let instance = self.model.instances.get(instance);
+        let mesh = instance.and_then(|instance| self.model.meshes.get(instance.mesh as usize));
+        mesh.map_or(&[], |mesh| &mesh.primitives)
+    }
+
+    /// What moves primitive number `primitive` of instance number `instance`; `None` when there is none.
+    pub fn movement(&self, instance: usize, primitive: usize) -> Option<Movement<'_>> {
+        let primitive = self.primitives(instance).get(primitive)?;
+        let instance = self.model.instances.get(instance)?;
+        let finals = instance.skin.map_or(&[][..], |skin| self.final_poses(skin as usize));
+        Some(Movement::of(instance, primitive, self.to_root(), finals))
+    }
+
+    /// The first positions of a primitive, as many as `out` has room for: scene space, morphed and skinned, in file
+    /// order. Returns how many were written. Allocates nothing.
+    pub fn positions(&self, instance: usize, primitive: usize, out: &mut [Vec3]) -> usize {
+        let Some(movement) = self.movement(instance, primitive) else { return 0 };
+        let weights = self.morph_weights(instance);
+        skin_positions(&self.primitives(instance)[primitive], movement, weights, out)
+    }
+
+    /// The first normals of a primitive, likewise: unit length.
+    pub fn normals(&self, instance: usize, primitive: usize, out: &mut [Vec3]) -> usize {
+        let Some(movement) = self.movement(instance, primitive) else { return 0 };
+        let weights = self.morph_weights(instance);
+        skin_normals(&self.primitives(instance)[primitive], movement, weights, out)
+    }
+
+    /// Positions of all vertices of all instances, in order: scene space.
+    pub fn all_positions(&self) -> Vec<Vec3> {
+        let mut all = Vec::new();
+        for instance in 0..self.model.instances.len() {
+            for (index, primitive) in self.primitives(instance).iter().enumerate() {
+                let start = all.len();
+                all.resize(start + primitive.vertices.len(), Vec3::ZERO);
+                self.positions(instance, index, &mut all[start..]);
+            }
+        }
+        all
+    }
+
+    /// Box and sphere around every vertex in this pose; around the origins of the bones when there is no vertex.
+    pub fn bounds(&self) -> Bounds {
+        let positions = self.all_positions();
+        if positions.is_empty() { bounds_of_bones(self.to_root()) } else { Bounds::of_points(&positions) }
+    }
+}
+
+/// Most morph targets that any primitive of the instance's mesh has.
+fn targets(model: &ModelData, instance: &MeshInstance) -> usize {
+    let mesh = model.meshes.get(instance.mesh as usize);
+    let primitives = mesh.map_or(&[][..], |mesh| &mesh.primitives);
+    primitives.iter().map(|primitive| primitive.morph_targets.len()).max().unwrap_or(0)
+}

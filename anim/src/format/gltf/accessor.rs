@@ -1,0 +1,324 @@
+//! The bounds layer: no byte of a buffer is looked at before its place has been checked here.
+
+use super::buffer::Buffer;
+use super::check as code;
+use crate::format::{ImportError, Place, guard::Guard};
+use crate::limits::{CANCEL_EVERY, VERTICES, ZERO_ELEMENTS};
+use gltf::json::accessor::{Accessor, ComponentType, Type};
+use gltf::json::validation::{Checked, USize64};
+use gltf::json::{Index, Root, buffer};
+
+/// A document with its buffers: what everything else is read from.
+pub(super) struct Document<'a> {
+    pub(super) root: &'a Root,
+    pub(super) buffers: Vec<Buffer<'a>>,
+    /// Bytes read in all.
+    pub(super) bytes: usize,
+    pub(super) guard: &'a Guard<'a>,
+}
+
+/// What one element of an accessor is: number type, shape, and whether integers stand for -1..1 or 0..1.
+pub(super) type ElementFormat = (ComponentType, Type, bool);
+
+/// Evenly spaced pieces of a buffer, all inside it.
+#[derive(Clone, Copy)]
+struct Strided<'a> {
+    bytes: &'a [u8],
+    stride: usize,
+    size: usize,
+}
+
+impl<'a> Strided<'a> {
+    fn get(&self, index: usize) -> &'a [u8] {
+        &self.bytes[index * self.stride..][..self.size]
+    }
+}
+
+struct Sparse<'a> {
+    count: usize,
+    indices: Strided<'a>,
+    index_type: ComponentType,
+    values: Strided<'a>,
+}
+
+/// An accessor whose every byte is known to be there.
+pub(super) struct Source<'a> {
+    /// `/accessors/3`
+    pub(super) place: Place,
+    pub(super) count: usize,
+    pub(super) format: ElementFormat,
+    base: Option<Strided<'a>>,
+    sparse: Option<Sparse<'a>>,
+    guard: &'a Guard<'a>,
+}
+
+impl<'a> Document<'a> {
+    /// Bytes of a buffer view and its stride. `from` is where the view is named.
+    pub(super) fn view(&self, index: Index<buffer::View>, from: &str) -> Result<(&[u8], Option<usize>), ImportError> {
+        let view = self.root.buffer_views.get(index.value()).ok_or_else(|| unresolved(from, index.value()))?;
+        let place = || format!("/bufferViews/{}", index.value());
+        let buffer = self
+            .buffers
+            .get(view.buffer.value())
+            .ok_or_else(|| unresolved(&format!("{}/buffer", place()), view.buffer.value()))?
+            .bytes();
+        let offset = view.byte_offset.unwrap_or_default().0;
+        let range = to_usize(offset).zip(offset.checked_add(view.byte_length.0).and_then(to_usize));
+        let bytes = range.and_then(|(from, to)| buffer.get(from..to)).ok_or_else(|| {
+            let reason =
+                format!("{} bytes from {offset} do not fit a buffer of {}", view.byte_length.0, buffer.len());
+            invalid(Place::Pointer(place()), code::BUFFER_VIEW_TOO_LONG, reason)
+        })?;
+        let stride = view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0);
+        if let Some(stride) = view.byte_stride
+            && (!(4..=252).contains(&stride.0) || stride.0 % 4 != 0)
+        {
+            let text = format!("the byte stride {} should be a multiple of 4, 4..252", stride.0);
+            self.guard.warn(Place::Pointer(place() + "/byteStride"), code::BUFFER_VIEW_INVALID_BYTE_STRIDE, text);
+        }
+        Ok((bytes, stride))
+    }
+
+    /// The accessor `index`, named at `from`, if it has one of the formats `allowed`; else an error called `wrong`.
+    pub(super) fn source(
+        &'a self,
+        index: Index<Accessor>,
+        from: &str,
+        allowed: &[ElementFormat],
+        wrong: &'static str,
+    ) -> Result<Source<'a>, ImportError> {
+        let number = index.value();
+        let accessor = self.root.accessors.get(number).ok_or_else(|| unresolved(from, number))?;
+        let path = format!("/accessors/{number}");
+        let format = self.format_of(accessor, &path)?;
+        if !allowed.contains(&format) {
+            let reason = format!("{} is {}, which is not allowed there", path, describe(format));
+            return Err(invalid(Place::Pointer(from.to_owned()), wrong, reason));
+        }
+        let size = format.0.size() * format.1.multiplicity();
+        let count = self.count_of(accessor, &path)?;
+        let base = match accessor.buffer_view {
+            Some(view) => {
+                let (bytes, stride) = self.view(view, &format!("{path}/bufferView"))?;
+                let offset = accessor.byte_offset.unwrap_or_default();
+                self.check_alignment(offset, format.0, &path);
+                Some(strided(bytes, offset, stride, size, count, &path)?)
+            }
+            None => None,
+        };
+        let sparse = match &accessor.sparse {
+            Some(_) => Some(self.sparse_of(accessor, count, size, &path)?),
+            None => None,
+        };
+        Ok(Source { place: Place::Pointer(path), count, format, base, sparse, guard: self.guard })
+    }
+
+    fn format_of(&self, accessor: &Accessor, path: &str) -> Result<ElementFormat, ImportError> {
+        let not_in_list = |member: &str| {
+            let reason = "none of the values allowed".to_owned();
+            invalid(Place::Pointer(format!("{path}/{member}")), code::VALUE_NOT_IN_LIST, reason)
+        };
+        let Checked::Valid(component) = &accessor.component_type else { return Err(not_in_list("componentType")) };
+        let Checked::Valid(shape) = accessor.type_ else { return Err(not_in_list("type")) };
+        let mut normalized = accessor.normalized;
+        if normalized && matches!(component.0, ComponentType::F32 | ComponentType::U32) {
+            let place = Place::Pointer(format!("{path}/normalized"));
+            self.guard.warn(place, code::ACCESSOR_NORMALIZED_INVALID, "floats and 32-bit integers stay as they are");
+            normalized = false;
+        }
+        Ok((component.0, shape, normalized))
+    }
+
+    /// How many elements; where no byte backs them, only as many as the input could be about.
+    fn count_of(&self, accessor: &Accessor, path: &str) -> Result<usize, ImportError> {
+        let limit = match accessor.buffer_view {
+            Some(_) => usize::MAX,
+            None => self.bytes.clamp(ZERO_ELEMENTS, VERTICES),
+        };
+        to_usize(accessor.count.0).filter(|&count| count <= limit).ok_or_else(|| ImportError::TooLarge {
+            place: Place::Pointer(format!("{path}/count")),
+            what: "elements without a buffer view",
+            size: accessor.count.0,
+            limit: limit as u64,
+        })
+    }
+
+    fn check_alignment(&self, offset: USize64, component: ComponentType, path: &str) {
+        if offset.0 % component.size() as u64 != 0 {
+            let text = format!("the offset {} is no multiple of {}", offset.0, component.size());
+            let place = Place::Pointer(format!("{path}/byteOffset"));
+            self.guard.warn(place, code::ACCESSOR_OFFSET_ALIGNMENT, text);
+        }
+    }
+
+    fn sparse_of(&self, accessor: &Accessor, total: usize, size: usize, path: &str) -> Result<Sparse<'_>, ImportError> {
+        let sparse = accessor.sparse.as_ref().expect("the caller has looked");
+        let path = format!("{path}/sparse");
+        let count = to_usize(sparse.count.0).filter(|&count| count <= total).ok_or_else(|| {
+            let reason = format!("{} of {total} elements are replaced", sparse.count.0);
+            invalid(Place::Pointer(format!("{path}/count")), code::ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE, reason)
+        })?;
+        let Checked::Valid(index_type) = &sparse.indices.component_type else {
+            let place = Place::Pointer(format!("{path}/indices/componentType"));
+            return Err(invalid(place, code::VALUE_NOT_IN_LIST, "none of the values allowed".to_owned()));
+        };
+        let part = |view, offset, size, name: &str| {
+            let path = format!("{path}/{name}");
+            let (bytes, _) = self.view(view, &format!("{path}/bufferView"))?;
+            strided(bytes, offset, None, size, count, &path)
+        };
+        let index_size = index_type.0.size();
+        Ok(Sparse {
+            count,
+            indices: part(sparse.indices.buffer_view, sparse.indices.byte_offset, index_size, "indices")?,
+            index_type: index_type.0,
+            values: part(sparse.values.buffer_view, sparse.values.byte_offset, size, "values")?,
+        })
+    }
+}
+
+/// `count` pieces of `size` bytes from `offset` on, all inside `bytes`.
+fn strided<'a>(
+    bytes: &'a [u8],
+    offset: USize64,
+    stride: Option<usize>,
+    size: usize,
+    count: usize,
+    path: &str,
+) -> Result<Strided<'a>, ImportError> {
+    let stride = stride.unwrap_or(size);
+    if stride < size {
+        let reason = format!("the stride {stride} is less than the element's {size} bytes");
+        return Err(invalid(Place::Pointer(path.to_owned()), code::ACCESSOR_SMALL_BYTESTRIDE, reason));
+    }
+    let length = match count {
+        0 => Some(0),
+        _ => (count - 1).checked_mul(stride).and_then(|length| length.checked_add(size)),
+    };
+    let range = to_usize(offset.0).zip(length).and_then(|(from, length)| Some(from..from.checked_add(length)?));
+    let bytes_of = range.and_then(|range| bytes.get(range)).ok_or_else(|| {
+        let reason = format!(
+            "{count} elements of {size} bytes, {stride} apart from byte {}, do not fit the {} bytes there",
+            offset.0,
+            bytes.len()
+        );
+        invalid(Place::Pointer(path.to_owned()), code::ACCESSOR_TOO_LONG, reason)
+    })?;
+    Ok(Strided { bytes: bytes_of, stride, size })
+}
+
+impl Source<'_> {
+    /// All elements as floats, integers normalised where the accessor says so. May hold NaN and infinity.
+    pub(super) fn floats<const N: usize>(&self) -> Result<Vec<[f32; N]>, ImportError> {
+        match (self.format.0, self.format.2) {
+            (ComponentType::F32, _) => self.gather(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])),
+            (ComponentType::U32, _) => self.gather(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as f32),
+            (ComponentType::I8, false) => self.gather(|b| f32::from(b[0].cast_signed())),
+            (ComponentType::U8, false) => self.gather(|b| f32::from(b[0])),
+            (ComponentType::I16, false) => self.gather(|b| f32::from(i16::from_le_bytes([b[0], b[1]]))),
+            (ComponentType::U16, false) => self.gather(|b| f32::from(u16::from_le_bytes([b[0], b[1]]))),
+            // glTF 2.0 §3.11, signed: max(c / 127, -1)
+            (ComponentType::I8, true) => self.gather(|b| (f32::from(b[0].cast_signed()) / 127.0).max(-1.0)),
+            (ComponentType::U8, true) => self.gather(|b| f32::from(b[0]) / 255.0),
+            (ComponentType::I16, true) => {
+                self.gather(|b| (f32::from(i16::from_le_bytes([b[0], b[1]])) / 32767.0).max(-1.0))
+            }
+            (ComponentType::U16, true) => self.gather(|b| f32::from(u16::from_le_bytes([b[0], b[1]])) / 65535.0),
+        }
+    }
+
+    /// [`Self::floats`], refused when one is not finite.
+    pub(super) fn finite<const N: usize>(&self) -> Result<Vec<[f32; N]>, ImportError> {
+        let values = self.floats::<N>()?;
+        let odd = values.iter().position(|value| !value.iter().all(|number| number.is_finite()));
+        match odd {
+            None => Ok(values),
+            Some(index) => {
+                let reason = format!("element {index} is not finite");
+                Err(invalid(self.place.clone(), code::ACCESSOR_INVALID_FLOAT, reason))
+            }
+        }
+    }
+
+    /// All elements as unsigned integers; the format must be one.
+    pub(super) fn integers<const N: usize>(&self) -> Result<Vec<[u32; N]>, ImportError> {
+        match self.format.0 {
+            ComponentType::U8 => self.gather(|b| u32::from(b[0])),
+            ComponentType::U16 => self.gather(|b| u32::from(u16::from_le_bytes([b[0], b[1]]))),
+            _ => self.gather(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])),
+        }
+    }
+
+    /// Decodes every element with `number`, which is given at least the bytes of one component.
+    fn gather<T: Copy + Default, const N: usize>(
+        &self,
+        number: impl Fn(&[u8]) -> T,
+    ) -> Result<Vec<[T; N]>, ImportError> {
+        debug_assert_eq!(self.format.1.multiplicity(), N);
+        let component = self.format.0.size();
+        let element = |bytes: &[u8]| std::array::from_fn::<T, N, _>(|i| number(&bytes[i * component..][..component]));
+        let Some(base) = self.base else {
+            let mut values = self.guard.filled(&self.place, self.count, [T::default(); N])?;
+            self.replace(&mut values, element)?;
+            return Ok(values);
+        };
+        let mut values = self.guard.vec(&self.place, self.count)?;
+        while values.len() < self.count {
+            let piece = CANCEL_EVERY.min(self.count - values.len());
+            self.guard.work(piece)?;
+            values.extend((values.len()..values.len() + piece).map(|index| element(base.get(index))));
+        }
+        self.replace(&mut values, element)?;
+        Ok(values)
+    }
+
+    /// Puts the sparse elements in.
+    fn replace<T>(&self, values: &mut [T], element: impl Fn(&[u8]) -> T) -> Result<(), ImportError> {
+        let Some(sparse) = &self.sparse else { return Ok(()) };
+        let mut last = None;
+        let mut rises = true;
+        for number in 0..sparse.count {
+            self.guard.work(1)?;
+            let index = little_endian(sparse.indices.get(number), sparse.index_type);
+            rises &= last.is_none_or(|last| last < index);
+            last = Some(index);
+            *values.get_mut(index).ok_or_else(|| {
+                let reason = format!("sparse index {number} is {index}, there are {} elements", self.count);
+                invalid(self.place.clone(), code::ACCESSOR_SPARSE_INDEX_OOB, reason)
+            })? = element(sparse.values.get(number));
+        }
+        if !rises {
+            let text = "the sparse indices do not rise; the last one counts";
+            self.guard.warn(self.place.clone(), code::ACCESSOR_SPARSE_INDICES_NON_INCREASING, text);
+        }
+        Ok(())
+    }
+}
+
+fn little_endian(bytes: &[u8], kind: ComponentType) -> usize {
+    match kind {
+        ComponentType::U8 => usize::from(bytes[0]),
+        ComponentType::U16 => usize::from(u16::from_le_bytes([bytes[0], bytes[1]])),
+        _ => u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize,
+    }
+}
+
+/// `VEC3 of normalised U8`
+fn describe((component, shape, normalized): ElementFormat) -> String {
+    let normalized = if normalized { "normalised " } else { "" };
+    format!("{shape:?} of {normalized}{component:?}").to_uppercase()
+}
+
+fn to_usize(number: u64) -> Option<usize> {
+    usize::try_from(number).ok()
+}
+
+pub(super) fn invalid(place: Place, code: &'static str, reason: String) -> ImportError {
+    ImportError::Invalid { place, code, reason }
+}
+
+/// The value at `from` is an index that names nothing.
+pub(super) fn unresolved(from: &str, index: usize) -> ImportError {
+    let reason = format!("there is no number {index}");
+    invalid(Place::Pointer(from.to_owned()), code::UNRESOLVED_REFERENCE, reason)
+}

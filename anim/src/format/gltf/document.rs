@@ -1,0 +1,128 @@
+//! From JSON text to the document model, with every error placed by a JSON pointer.
+
+use super::check as code;
+use super::survey::{Survey, survey};
+use super::walk::pointer_before;
+use crate::format::{ImportError, Place, guard::Guard};
+use gltf::json;
+use std::borrow::Cow;
+use std::io::{self, Read};
+
+/// Texts longer than this are parsed through a reader that looks at the cancel flag; it is slower.
+const PARSE_AT_ONCE: usize = 4 << 20;
+
+/// Stands for "no node" in the target of an animation.
+pub(super) const NO_NODE: usize = u32::MAX as usize;
+
+/// Parses the JSON text that begins at byte `at` of the file.
+pub(super) fn parse(bytes: &[u8], at: u64, guard: &Guard<'_>) -> Result<json::Root, ImportError> {
+    let text = text_of(bytes, at)?;
+    let survey = survey(text.as_bytes(), guard)?;
+    check_version(&survey)?;
+    let memory = survey.memory + survey.targets_without_node.len() as u64 * NODE.len() as u64;
+    guard.charge(&Place::Pointer(String::new()), memory)?;
+    let text = with_nodes(text, &survey, guard)?;
+    let parsed = if text.len() <= PARSE_AT_ONCE {
+        json::deserialize::from_str(&text)
+    } else {
+        let reader = Watched { text: text.as_bytes(), guard, cancelled: false };
+        json::deserialize::from_reader(io::BufReader::with_capacity(1 << 16, reader))
+    };
+    guard.progress(0.2)?;
+    parsed.map_err(|error| placed(&error, &text, at))
+}
+
+/// UTF-8 without a byte order mark and without padding.
+fn text_of(bytes: &[u8], at: u64) -> Result<&str, ImportError> {
+    let (bytes, at) = match bytes.strip_prefix(b"\xef\xbb\xbf") {
+        Some(rest) => (rest, at + 3),
+        None => (bytes, at),
+    };
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(text.trim_end_matches('\0')),
+        Err(error) => Err(ImportError::Invalid {
+            place: Place::Byte(at + error.valid_up_to() as u64),
+            code: code::INVALID_JSON,
+            reason: "the text is not UTF-8".to_owned(),
+        }),
+    }
+}
+
+/// Only 2.x is read, and only where 2.0 is enough.
+fn check_version(survey: &Survey) -> Result<(), ImportError> {
+    let unsupported = |member: &str, version: &str| {
+        let place = Place::Pointer(format!("/asset/{member}"));
+        Err(ImportError::Unsupported { place, feature: format!("glTF version {version}") })
+    };
+    match (&survey.version, &survey.min_version) {
+        (Some(version), _) if !version.starts_with("2.") => unsupported("version", version),
+        (_, Some(least)) if !least.starts_with("2.") => unsupported("minVersion", least),
+        _ => Ok(()),
+    }
+}
+
+const NODE: &str = "\"node\":4294967295,";
+
+/// The text with a node that does not exist in each animation target that names none.
+fn with_nodes<'a>(text: &'a str, survey: &Survey, guard: &Guard<'_>) -> Result<Cow<'a, str>, ImportError> {
+    if survey.targets_without_node.is_empty() {
+        return Ok(Cow::Borrowed(text));
+    }
+    let length = text.len() + survey.targets_without_node.len() * NODE.len();
+    let place = Place::Pointer("/animations".to_owned());
+    guard.charge(&place, length as u64)?;
+    let mut patched = String::with_capacity(length);
+    let mut from = 0;
+    for &at in &survey.targets_without_node {
+        patched.push_str(&text[from..at]);
+        patched.push_str(NODE);
+        from = at;
+    }
+    patched.push_str(&text[from..]);
+    Ok(Cow::Owned(patched))
+}
+
+/// The parser's error with a place instead of its line and column.
+fn placed(error: &json::Error, text: &str, at: u64) -> ImportError {
+    if error.is_io() {
+        return ImportError::Cancelled;
+    }
+    let message = error.to_string();
+    let reason = message.split(" at line ").next().unwrap_or(&message).to_owned();
+    let end = offset(text, error.line(), error.column());
+    if !error.is_data() {
+        let reason = if error.is_eof() { "the text ends too early".to_owned() } else { reason };
+        return ImportError::Invalid { place: Place::Byte(at + end as u64), code: code::INVALID_JSON, reason };
+    }
+    let code = if reason.starts_with("missing field") {
+        code::UNDEFINED_PROPERTY
+    } else if reason.starts_with("duplicate field") {
+        code::DUPLICATE_PROPERTY
+    } else {
+        code::TYPE_MISMATCH
+    };
+    ImportError::Invalid { place: Place::Pointer(pointer_before(text.as_bytes(), end)), code, reason }
+}
+
+/// Byte offset of a line and column, both from 1; never past the end.
+fn offset(text: &str, line: usize, column: usize) -> usize {
+    let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    (before + column).min(text.len())
+}
+
+/// Hands the text out in pieces and looks at the cancel flag between them.
+struct Watched<'a> {
+    text: &'a [u8],
+    guard: &'a Guard<'a>,
+    cancelled: bool,
+}
+
+impl Read for Watched<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.cancelled |= self.guard.work(buffer.len()).is_err();
+        if self.cancelled {
+            return Err(io::Error::other("cancelled"));
+        }
+        self.text.read(buffer)
+    }
+}

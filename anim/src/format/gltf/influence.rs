@@ -1,0 +1,186 @@
+//! Which joints move a vertex: any number of sets in, the strongest four or eight out.
+
+use super::accessor::Document;
+use super::check as code;
+use super::mesh::{attribute, unequal};
+use crate::data::{Influence, MAX_INFLUENCES};
+use crate::format::{ImportError, Place};
+use gltf::json::accessor::{ComponentType, Type};
+use gltf::json::mesh::{Primitive, Semantic};
+use gltf::json::validation::Checked;
+
+const JOINT_FORMATS: &[(ComponentType, Type, bool)] =
+    &[(ComponentType::U8, Type::Vec4, false), (ComponentType::U16, Type::Vec4, false)];
+
+const WEIGHT_FORMATS: &[(ComponentType, Type, bool)] = &[
+    (ComponentType::F32, Type::Vec4, false),
+    (ComponentType::U8, Type::Vec4, true),
+    (ComponentType::U16, Type::Vec4, true),
+];
+
+/// The influences of a primitive's vertices.
+#[derive(Debug, Default)]
+pub(super) struct Influences {
+    /// `per_vertex` a vertex, strongest first.
+    pub(super) list: Vec<Influence>,
+    /// 0, 4 or 8.
+    pub(super) per_vertex: usize,
+    /// The largest joint number that has a weight.
+    pub(super) largest_joint: u16,
+}
+
+/// One pair of attributes: four joints and four weights a vertex.
+struct Set {
+    joints: Vec<[u32; 4]>,
+    weights: Vec<[f32; 4]>,
+    /// Distance of two neighbouring weights: integers cannot add up to one exactly.
+    step: f32,
+}
+
+/// What was mended, counted over the vertices.
+#[derive(Default)]
+struct Mended {
+    negative: usize,
+    zero: usize,
+    twice: usize,
+    sum: usize,
+}
+
+/// Reads every pair JOINTS_n, WEIGHTS_n.
+pub(super) fn influences(
+    document: &Document<'_>,
+    primitive: &Primitive,
+    vertices: usize,
+    path: &str,
+) -> Result<Influences, ImportError> {
+    let sets = sets(document, primitive, vertices, path)?;
+    if sets.is_empty() {
+        return Ok(Influences::default());
+    }
+    let guard = document.guard;
+    let place = Place::Pointer(format!("{path}/attributes/WEIGHTS_0"));
+    let mut list = guard.filled(&place, vertices.saturating_mul(MAX_INFLUENCES), Influence::default())?;
+    let (mut mended, mut most, mut largest_joint) = (Mended::default(), 0, 0);
+    let mut found = Vec::with_capacity(sets.len() * 4);
+    let coarse = sets.iter().map(|set| set.step).fold(0.0, f32::max);
+    for vertex in 0..vertices {
+        guard.work(sets.len())?;
+        gather(&sets, vertex, &mut found, &mut mended, coarse);
+        found.truncate(MAX_INFLUENCES);
+        share_out(&mut found, &mut mended);
+        most = most.max(found.len());
+        for (slot, &influence) in list[vertex * MAX_INFLUENCES..].iter_mut().zip(&found) {
+            *slot = influence;
+            largest_joint = largest_joint.max(influence.joint);
+        }
+    }
+    report(&mended, &place, document);
+    let per_vertex = if most <= 4 { 4 } else { MAX_INFLUENCES };
+    if per_vertex < MAX_INFLUENCES {
+        guard.work(vertices)?;
+        for vertex in 1..vertices {
+            list.copy_within(vertex * MAX_INFLUENCES..vertex * MAX_INFLUENCES + per_vertex, vertex * per_vertex);
+        }
+        list.truncate(vertices * per_vertex);
+        list.shrink_to_fit();
+    }
+    Ok(Influences { list, per_vertex, largest_joint })
+}
+
+fn sets(
+    document: &Document<'_>,
+    primitive: &Primitive,
+    vertices: usize,
+    path: &str,
+) -> Result<Vec<Set>, ImportError> {
+    let mut sets = Vec::new();
+    for semantic in primitive.attributes.keys() {
+        let Checked::Valid(semantic) = semantic else { continue };
+        let (number, is_joints) = match semantic {
+            Semantic::Joints(number) => (*number, true),
+            Semantic::Weights(number) => (*number, false),
+            _ => continue,
+        };
+        let joints = attribute(primitive, Semantic::Joints(number));
+        let weights = attribute(primitive, Semantic::Weights(number));
+        match (joints, weights) {
+            (Some(joints), Some(weights)) if is_joints => {
+                let wrong = code::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT;
+                let from = format!("{path}/attributes/JOINTS_{number}");
+                let joints = document.source(joints, &from, JOINT_FORMATS, wrong)?;
+                unequal(joints.count, vertices, &from)?;
+                let from = format!("{path}/attributes/WEIGHTS_{number}");
+                let weights = document.source(weights, &from, WEIGHT_FORMATS, wrong)?;
+                unequal(weights.count, vertices, &from)?;
+                let step = match weights.format.0 {
+                    ComponentType::U8 => 1.0 / 255.0,
+                    ComponentType::U16 => 1.0 / 65535.0,
+                    _ => 0.0,
+                };
+                sets.push(Set { joints: joints.integers()?, weights: weights.floats()?, step });
+            }
+            (Some(_), Some(_)) => {}
+            _ => {
+                let name = if is_joints { "JOINTS" } else { "WEIGHTS" };
+                let place = Place::Pointer(format!("{path}/attributes/{name}_{number}"));
+                let text = "stands without its other half and is left out";
+                document.guard.warn(place, code::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, text);
+            }
+        }
+    }
+    Ok(sets)
+}
+
+/// The influences of one vertex that have a weight, strongest first, each joint once.
+fn gather(sets: &[Set], vertex: usize, found: &mut Vec<Influence>, mended: &mut Mended, coarse: f32) {
+    found.clear();
+    let (mut is_negative, mut is_twice, mut sum, mut count) = (false, false, 0.0_f32, 0);
+    for set in sets {
+        for (&joint, &weight) in set.joints[vertex].iter().zip(&set.weights[vertex]) {
+            if !(weight > 0.0) || !weight.is_finite() {
+                is_negative |= weight != 0.0;
+                continue;
+            }
+            sum += weight;
+            count += 1;
+            let joint = joint as u16;
+            match found.iter_mut().find(|influence| influence.joint == joint) {
+                Some(same) => {
+                    same.weight += weight;
+                    is_twice = true;
+                }
+                None => found.push(Influence { joint, weight }),
+            }
+        }
+    }
+    mended.negative += usize::from(is_negative);
+    mended.twice += usize::from(is_twice);
+    mended.sum += usize::from(count > 0 && !((sum - 1.0).abs() <= 2e-7 * count as f32 + coarse));
+    found.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+}
+
+/// Makes the weights add up to one; a vertex without any follows joint 0.
+fn share_out(found: &mut Vec<Influence>, mended: &mut Mended) {
+    let sum: f64 = found.iter().map(|influence| f64::from(influence.weight)).sum();
+    if found.is_empty() || !(sum > 0.0) || !sum.is_finite() {
+        mended.zero += 1;
+        found.clear();
+        found.push(Influence { joint: 0, weight: 1.0 });
+    } else if sum != 1.0 {
+        for influence in found.iter_mut() {
+            influence.weight = (f64::from(influence.weight) / sum) as f32;
+        }
+    }
+}
+
+fn report(mended: &Mended, place: &Place, document: &Document<'_>) {
+    let warn = |count: usize, code, what: &str| {
+        if count > 0 {
+            document.guard.warn(place.clone(), code, format!("{count} vertices {what}"));
+        }
+    };
+    warn(mended.negative, code::ACCESSOR_WEIGHTS_NEGATIVE, "had weights below zero or no numbers; those are left out");
+    warn(mended.twice, code::ACCESSOR_JOINTS_INDEX_DUPLICATE, "named a joint twice; its weights were added");
+    warn(mended.sum, code::ACCESSOR_WEIGHTS_NON_NORMALIZED, "had weights that do not add up to one; now they do");
+    warn(mended.zero, code::ACCESSOR_WEIGHTS_ZERO, "had no weight; they follow joint 0");
+}

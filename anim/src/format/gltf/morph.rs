@@ -1,0 +1,102 @@
+//! Morph targets and their weights.
+
+use super::accessor::{Document, invalid};
+use super::check as code;
+use super::mesh::{ANY_VEC3, UNIT_VEC3};
+use crate::data::{MorphTarget, Primitive};
+use crate::format::{ImportError, Place};
+use glam::Vec3;
+use gltf::json;
+use gltf::json::accessor::Accessor;
+
+/// The morph targets of a primitive; each column is empty or as long as the primitive.
+pub(super) fn morph_targets(
+    document: &Document<'_>,
+    primitive: &json::mesh::Primitive,
+    vertices: usize,
+    path: &str,
+) -> Result<Vec<MorphTarget>, ImportError> {
+    let targets = primitive.targets.as_deref().unwrap_or(&[]);
+    let mut read = document.guard.vec(&Place::Pointer(format!("{path}/targets")), targets.len())?;
+    for (number, target) in targets.iter().enumerate() {
+        let column = |accessor: Option<json::Index<Accessor>>, name: &str, allowed| {
+            let from = format!("{path}/targets/{number}/{name}");
+            let Some(accessor) = accessor else { return Ok(Vec::new()) };
+            let wrong = code::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT;
+            let source = document.source(accessor, &from, allowed, wrong)?;
+            if source.count != vertices {
+                let reason = format!("{} values for {vertices} vertices", source.count);
+                let code = code::MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT;
+                return Err(invalid(Place::Pointer(from), code, reason));
+            }
+            Ok(source.finite::<3>()?.into_iter().map(Vec3::from).collect())
+        };
+        read.push(MorphTarget {
+            name: String::new(),
+            positions: column(target.positions, "POSITION", ANY_VEC3)?,
+            normals: column(target.normals, "NORMAL", ANY_VEC3)?,
+            tangents: column(target.tangents, "TANGENT", UNIT_VEC3)?,
+        });
+    }
+    Ok(read)
+}
+
+/// The mesh's own weights, one a target; gives all primitives the same number of targets, and the targets names.
+pub(super) fn morph_weights(
+    document: &Document<'_>,
+    mesh: &json::Mesh,
+    primitives: &mut [Primitive],
+    path: &str,
+) -> Result<Vec<f32>, ImportError> {
+    let guard = document.guard;
+    let targets = primitives.iter().map(|primitive| primitive.morph_targets.len()).max().unwrap_or(0);
+    let names = target_names(mesh);
+    for (number, primitive) in primitives.iter_mut().enumerate() {
+        if primitive.morph_targets.len() != targets {
+            let place = Place::Pointer(format!("{path}/primitives/{number}/targets"));
+            let text = format!("{} morph targets, {targets} in the mesh", primitive.morph_targets.len());
+            guard.charge(&place, (targets * size_of::<MorphTarget>()) as u64)?;
+            guard.warn(place, code::MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT, text);
+            primitive.morph_targets.resize_with(targets, MorphTarget::default);
+        }
+        for (target, name) in primitive.morph_targets.iter_mut().zip(&names) {
+            guard.charge(&Place::Pointer(path.to_owned()), name.len() as u64)?;
+            target.name.clone_from(name);
+        }
+    }
+    let place = Place::Pointer(format!("{path}/weights"));
+    fitted(mesh.weights.as_deref(), targets, &[], place, code::MESH_INVALID_WEIGHTS_COUNT, document)
+}
+
+/// `weights` with one value a target, filled up from `default` and zeros.
+pub(super) fn fitted(
+    weights: Option<&[f32]>,
+    targets: usize,
+    default: &[f32],
+    place: Place,
+    code: &'static str,
+    document: &Document<'_>,
+) -> Result<Vec<f32>, ImportError> {
+    let given = weights.unwrap_or(default);
+    if given.iter().any(|weight| !weight.is_finite()) {
+        return Err(invalid(place, code::VALUE_NOT_IN_RANGE, "a weight is not finite".to_owned()));
+    }
+    let mut fitted = document.guard.vec(&place, targets)?;
+    fitted.extend(given.iter().copied().chain(std::iter::repeat(0.0)).take(targets));
+    if weights.is_some_and(|weights| weights.len() != targets) {
+        document.guard.warn(place, code, format!("{} weights for {targets} morph targets", given.len()));
+    }
+    Ok(fitted)
+}
+
+/// `extras.targetNames`: not in the specification, but what everybody writes.
+fn target_names(mesh: &json::Mesh) -> Vec<String> {
+    #[derive(Default)]
+    struct Names(Vec<String>);
+    let parse = |text: &str| -> Option<Names> {
+        let value: serde_json::Value = serde_json::from_str(text).ok()?;
+        let names = value.get("targetNames")?.as_array()?;
+        Some(Names(names.iter().map(|name| name.as_str().unwrap_or("").to_owned()).collect()))
+    };
+    mesh.extras.as_ref().and_then(|extras| parse(extras.get())).unwrap_or_default().0
+}

@@ -1,0 +1,180 @@
+//! One look over the JSON text before it becomes data: how deep, how much memory it will take, which version.
+//!
+//! The document model's parser cuts indices to 32 bits without a word and builds hundreds of bytes from `{}`, so both
+//! are judged here, before.
+
+use super::check as code;
+use super::walk::{Step, Walk};
+use crate::format::{ImportError, Place, guard::Guard};
+use crate::limits::{JSON_DEPTH, NODES};
+use gltf::json;
+
+/// What the parser needs to know.
+#[derive(Debug, Default)]
+pub(super) struct Survey {
+    /// Most bytes that the document will take.
+    pub(super) memory: u64,
+    /// `/asset/version` and `/asset/minVersion`, as written.
+    pub(super) version: Option<String>,
+    pub(super) min_version: Option<String>,
+    /// Where an animation's target lacks a `node`, which the document model insists on.
+    pub(super) targets_without_node: Vec<usize>,
+}
+
+/// Looks over `text`.
+pub(super) fn survey(text: &[u8], guard: &Guard<'_>) -> Result<Survey, ImportError> {
+    let mut survey = Survey::default();
+    let mut walk = Walk::new(text);
+    // Depth of the member that holds data nobody reads, where we are in one.
+    let mut skipping: Option<usize> = None;
+    while let Some(step) = walk.step() {
+        guard.work(1)?;
+        let depth = walk.frames().len();
+        if depth > JSON_DEPTH {
+            let place = Place::Pointer(walk.pointer(1));
+            let (size, limit) = (depth as u64, JSON_DEPTH as u64);
+            return Err(ImportError::TooLarge { place, what: "arrays and objects inside each other", size, limit });
+        }
+        if skipping.is_some_and(|outer| depth > outer) {
+            continue;
+        }
+        skipping = None;
+        match step {
+            Step::Key if matches!(walk.key(depth - 1), b"extras") => skipping = Some(depth),
+            Step::Key => {
+                survey.memory += MEMBER;
+                if walk.key(depth - 1) == b"node" {
+                    walk.frames()[depth - 1].note = 0;
+                }
+            }
+            Step::Open => survey.opened(&mut walk, depth)?,
+            Step::Close => survey.closed(&mut walk, depth),
+            Step::Scalar(from, to) => survey.scalar(&mut walk, &text[from..to])?,
+        }
+    }
+    Ok(survey)
+}
+
+/// Bytes for a member of an object: the objects of the model are counted with their arrays, maps are not.
+const MEMBER: u64 = 40;
+/// Bytes for what a small allocation costs on top.
+const ALLOCATION: u64 = 32;
+
+impl Survey {
+    fn opened(&mut self, walk: &mut Walk<'_>, depth: usize) -> Result<(), ImportError> {
+        let is_array = walk.frames()[depth - 1].is_array;
+        if depth >= 2 && walk.frames()[depth - 2].is_array {
+            self.element(walk, depth - 2)?;
+        }
+        if is_array && depth >= 2 {
+            let bytes = element_bytes(walk.key(depth - 2), depth == 2);
+            walk.frames()[depth - 1].note = bytes;
+            self.memory += ALLOCATION + 4 * bytes as u64;
+        } else if depth >= 2 && matches!(walk.key(depth - 2), b"attributes") {
+            self.memory += 640;
+        } else if is_target(walk, depth) {
+            walk.frames()[depth - 1].note = walk.at();
+        }
+        Ok(())
+    }
+
+    fn closed(&mut self, walk: &mut Walk<'_>, depth: usize) {
+        let note = walk.frames()[depth - 1].note;
+        if note != 0 && is_target(walk, depth) {
+            self.memory += 8;
+            self.targets_without_node.push(note);
+        }
+    }
+
+    fn scalar(&mut self, walk: &mut Walk<'_>, text: &[u8]) -> Result<(), ImportError> {
+        let Some(last) = walk.frames().len().checked_sub(1) else { return Ok(()) };
+        if walk.frames()[last].is_array {
+            self.element(walk, last)?;
+        }
+        if text.starts_with(b"\"") {
+            self.memory += ALLOCATION + text.len() as u64;
+            if last == 1 && walk.key(0) == b"asset" {
+                let word = || Some(String::from_utf8_lossy(&text[1..text.len() - 1]).into_owned());
+                match walk.key(1) {
+                    b"version" => self.version = word(),
+                    b"minVersion" => self.min_version = word(),
+                    _ => {}
+                }
+            }
+        } else if text.len() > 9 && is_index(walk, last) && too_long(text) {
+            let reason = format!("{} does not fit 32 bits", String::from_utf8_lossy(text));
+            return Err(ImportError::Invalid { place: Place::Pointer(walk.pointer(0)), code: code::INVALID_INDEX, reason });
+        }
+        Ok(())
+    }
+
+    /// One more value in the array of frame `depth`: vectors grow by doubling, so each counts three times.
+    fn element(&mut self, walk: &mut Walk<'_>, depth: usize) -> Result<(), ImportError> {
+        let frame = walk.frames()[depth];
+        if frame.count > 4 {
+            self.memory += 3 * frame.note as u64;
+        }
+        if depth == 1 && frame.count > NODES && walk.key(0) == b"nodes" {
+            let place = Place::Pointer("/nodes".to_owned());
+            let (size, limit) = (frame.count as u64, NODES as u64);
+            return Err(ImportError::TooLarge { place, what: "nodes", size, limit });
+        }
+        Ok(())
+    }
+}
+
+/// Is the innermost object the target of an animation's channel?
+fn is_target(walk: &mut Walk<'_>, depth: usize) -> bool {
+    depth == 6
+        && !walk.frames()[5].is_array
+        && walk.key(4) == b"target"
+        && walk.key(2) == b"channels"
+        && walk.key(0) == b"animations"
+}
+
+/// Bytes of one element of the array called `key` in the document model; `top`: directly in the root.
+fn element_bytes(key: &[u8], top: bool) -> usize {
+    match (key, top) {
+        (b"accessors", true) => size_of::<json::Accessor>(),
+        (b"animations", true) => size_of::<json::Animation>(),
+        (b"buffers", true) => size_of::<json::Buffer>(),
+        (b"bufferViews", true) => size_of::<json::buffer::View>(),
+        (b"cameras", true) => size_of::<json::Camera>(),
+        (b"images", true) => size_of::<json::Image>(),
+        (b"materials", true) => size_of::<json::Material>(),
+        (b"meshes", true) => size_of::<json::Mesh>(),
+        (b"nodes", true) => size_of::<json::Node>(),
+        (b"samplers", true) => size_of::<json::texture::Sampler>(),
+        (b"scenes", true) => size_of::<json::Scene>(),
+        (b"skins", true) => size_of::<json::Skin>(),
+        (b"textures", true) => size_of::<json::Texture>(),
+        (b"primitives", false) => size_of::<json::mesh::Primitive>(),
+        (b"targets", false) => size_of::<json::mesh::MorphTarget>(),
+        (b"channels", false) => size_of::<json::animation::Channel>(),
+        (b"samplers", false) => size_of::<json::animation::Sampler>(),
+        (b"min" | b"max", false) => size_of::<json::Value>(),
+        (b"extensionsUsed" | b"extensionsRequired", true) => size_of::<String>(),
+        _ => 8,
+    }
+}
+
+/// Does the number here become a 32-bit index or enumerated value?
+fn is_index(walk: &Walk<'_>, last: usize) -> bool {
+    const NAMES: &[&[u8]] = &[
+        b"buffer", b"bufferView", b"camera", b"componentType", b"index", b"indices", b"input",
+        b"inverseBindMatrices", b"magFilter", b"material", b"mesh", b"minFilter", b"mode", b"node", b"output",
+        b"sampler", b"scene", b"skeleton", b"skin", b"source", b"target", b"texCoord", b"wrapS", b"wrapT",
+    ];
+    const LISTS: &[&[u8]] = &[b"attributes", b"children", b"joints", b"nodes"];
+    let outer = last.checked_sub(1);
+    NAMES.contains(&walk.key(last))
+        || outer.is_some_and(|outer| LISTS.contains(&walk.key(outer)))
+        || last.checked_sub(2).is_some_and(|outer| walk.key(outer) == b"targets")
+}
+
+/// Is this a whole number beyond 32 bits?
+fn too_long(text: &[u8]) -> bool {
+    let digits = text.strip_prefix(b"-").unwrap_or(text);
+    let number = std::str::from_utf8(digits).ok().filter(|_| digits.iter().all(u8::is_ascii_digit));
+    number.is_some_and(|number| number.parse::<u32>().is_err())
+}

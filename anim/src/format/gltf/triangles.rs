@@ -1,0 +1,133 @@
+//! Indices: strips and fans become lists, lists are checked, and what has no indices gets them.
+
+use super::accessor::{Document, invalid};
+use super::check as code;
+use crate::format::{ImportError, Place, guard::Guard};
+use glam::Vec3;
+use gltf::json::accessor::{ComponentType, Type};
+use gltf::json::mesh::{Mode, Primitive};
+use gltf::json::validation::Checked;
+
+const INDEX_FORMATS: &[(ComponentType, Type, bool)] = &[
+    (ComponentType::U8, Type::Scalar, false),
+    (ComponentType::U16, Type::Scalar, false),
+    (ComponentType::U32, Type::Scalar, false),
+];
+
+/// Three indices a triangle, each below `vertices`; none for points and lines.
+pub(super) fn triangles(
+    document: &Document<'_>,
+    primitive: &Primitive,
+    vertices: usize,
+    path: &str,
+) -> Result<Vec<u32>, ImportError> {
+    let guard = document.guard;
+    let from = format!("{path}/indices");
+    let place = Place::Pointer(from.clone());
+    let indices = match primitive.indices {
+        Some(accessor) => {
+            let wrong = code::MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT;
+            let values = document.source(accessor, &from, INDEX_FORMATS, wrong)?.integers::<1>()?;
+            check_indices(&values, vertices, &place, guard)?;
+            values.into_iter().map(|[index]| index).collect()
+        }
+        None => {
+            let mut indices = guard.vec(&place, vertices)?;
+            guard.work(vertices)?;
+            indices.extend(0..vertices as u32);
+            indices
+        }
+    };
+    match primitive.mode {
+        Checked::Valid(Mode::Triangles) => Ok(list(indices, &place, guard)),
+        Checked::Valid(Mode::TriangleStrip) => strip(&indices, &place, guard),
+        Checked::Valid(Mode::TriangleFan) => fan(&indices, &place, guard),
+        Checked::Valid(mode) => {
+            let text = format!("{mode:?} are not shown");
+            guard.warn(Place::Pointer(format!("{path}/mode")), code::MESH_PRIMITIVE_MODE_NOT_SHOWN, text);
+            Ok(Vec::new())
+        }
+        Checked::Invalid => {
+            let reason = "none of the modes 0..6".to_owned();
+            Err(invalid(Place::Pointer(format!("{path}/mode")), code::VALUE_NOT_IN_LIST, reason))
+        }
+    }
+}
+
+fn check_indices(indices: &[[u32; 1]], vertices: usize, place: &Place, guard: &Guard<'_>) -> Result<(), ImportError> {
+    guard.work(indices.len())?;
+    match indices.iter().position(|[index]| *index as usize >= vertices) {
+        None => Ok(()),
+        Some(number) => {
+            let reason = format!("index {number} is {}, there are {vertices} vertices", indices[number][0]);
+            Err(invalid(place.clone(), code::ACCESSOR_INDEX_OOB, reason))
+        }
+    }
+}
+
+fn list(mut indices: Vec<u32>, place: &Place, guard: &Guard<'_>) -> Vec<u32> {
+    if indices.len() % 3 != 0 {
+        let text = format!("{} indices do not make whole triangles; the last ones are left out", indices.len());
+        guard.warn(place.clone(), code::MESH_PRIMITIVE_INCOMPATIBLE_MODE, text);
+        indices.truncate(indices.len() / 3 * 3);
+    }
+    indices
+}
+
+/// glTF 2.0 §3.7.2.1: triangle i of a strip is i, i + 1 + i % 2, i + 2 - i % 2.
+fn strip(indices: &[u32], place: &Place, guard: &Guard<'_>) -> Result<Vec<u32>, ImportError> {
+    let count = indices.len().saturating_sub(2);
+    let mut list = guard.vec(place, count.saturating_mul(3))?;
+    guard.work(count)?;
+    for i in 0..count {
+        list.extend([indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]]);
+    }
+    Ok(list)
+}
+
+/// glTF 2.0 §3.7.2.1: triangle i of a fan is i + 1, i + 2, 0.
+fn fan(indices: &[u32], place: &Place, guard: &Guard<'_>) -> Result<Vec<u32>, ImportError> {
+    let count = indices.len().saturating_sub(2);
+    let mut list = guard.vec(place, count.saturating_mul(3))?;
+    guard.work(count)?;
+    for i in 0..count {
+        list.extend([indices[i + 1], indices[i + 2], indices[0]]);
+    }
+    Ok(list)
+}
+
+/// Normals from the triangles around each vertex, weighted by area; +Y where there is no triangle with one.
+///
+/// The specification asks for flat normals. Those need vertices of their own a triangle, and vertices keep the
+/// file's number and order here, so that edits and comparisons can name them.
+pub(super) fn normals(
+    positions: &[Vec3],
+    indices: &[u32],
+    place: &Place,
+    guard: &Guard<'_>,
+) -> Result<Vec<Vec3>, ImportError> {
+    let mut normals = guard.filled(place, positions.len(), Vec3::ZERO)?;
+    guard.work(indices.len())?;
+    for corners in indices.chunks_exact(3) {
+        let [a, b, c] = [0, 1, 2].map(|corner| positions[corners[corner] as usize]);
+        let across = (b - a).cross(c - a);
+        // Huge positions overflow; such a triangle says nothing about the direction.
+        if across.is_finite() {
+            for &corner in corners {
+                normals[corner as usize] += across;
+            }
+        }
+    }
+    guard.work(normals.len())?;
+    for normal in &mut normals {
+        *normal = direction(*normal).unwrap_or(Vec3::Y);
+    }
+    Ok(normals)
+}
+
+/// `vector` with length one, however long or short; `None` for zero.
+pub(super) fn direction(vector: Vec3) -> Option<Vec3> {
+    let wide = vector.as_dvec3();
+    let length = wide.length();
+    if length > 0.0 && length.is_finite() { Some((wide / length).as_vec3()) } else { None }
+}

@@ -1,0 +1,164 @@
+//! A walk over a JSON text, value by value, that knows where it is and uses neither recursion nor memory to speak of.
+//!
+//! It does not check the text (the parser does, afterwards); it only never goes wrong on a broken one. As long as
+//! the text is right, it sees what the parser will see.
+
+/// What the walk came upon; [`Walk::pointer`] tells where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Step {
+    /// `[` or `{`
+    Open,
+    /// `]` or `}`; the walk still stands in what it closes.
+    Close,
+    /// The name of a member; its value comes next.
+    Key,
+    /// A string, a number, `true`, `false`, `null`; the bytes from-to.
+    Scalar(usize, usize),
+}
+
+/// An array or object that the walk stands in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    pub(super) is_array: bool,
+    /// Values begun.
+    pub(super) count: usize,
+    /// Name of the member, quotes left out.
+    key: (usize, usize),
+    expects_key: bool,
+    /// Free for whoever walks.
+    pub(super) note: usize,
+}
+
+/// A walk under way.
+pub(super) struct Walk<'a> {
+    text: &'a [u8],
+    at: usize,
+    frames: Vec<Frame>,
+    /// Take the innermost frame away with the next step.
+    closing: bool,
+}
+
+impl<'a> Walk<'a> {
+    pub(super) fn new(text: &'a [u8]) -> Self {
+        Self { text, at: 0, frames: Vec::new(), closing: false }
+    }
+
+    /// Bytes walked over.
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    /// Arrays and objects around, innermost last; after [`Step::Open`] and [`Step::Close`] that one included.
+    pub(super) fn frames(&mut self) -> &mut [Frame] {
+        &mut self.frames
+    }
+
+    /// Name of the member that the walk stands at in the `depth`-th frame; empty in an array.
+    pub(super) fn key(&self, depth: usize) -> &'a [u8] {
+        match self.frames.get(depth) {
+            Some(frame) if !frame.is_array => &self.text[frame.key.0..frame.key.1],
+            _ => b"",
+        }
+    }
+
+    /// The next step; `None` at the end of the text, or where it breaks off.
+    pub(super) fn step(&mut self) -> Option<Step> {
+        if std::mem::take(&mut self.closing) {
+            self.frames.pop();
+        }
+        loop {
+            let byte = *self.text.get(self.at)?;
+            match byte {
+                b' ' | b'\t' | b'\n' | b'\r' | b':' => self.at += 1,
+                b',' => {
+                    self.at += 1;
+                    if let Some(frame) = self.frames.last_mut() {
+                        frame.expects_key = !frame.is_array;
+                    }
+                }
+                b'[' | b'{' => return Some(self.open(byte == b'[')),
+                b']' | b'}' => {
+                    self.at += 1;
+                    self.frames.last()?;
+                    self.closing = true;
+                    return Some(Step::Close);
+                }
+                b'"' => return self.string(),
+                _ => return Some(self.word()),
+            }
+        }
+    }
+
+    fn open(&mut self, is_array: bool) -> Step {
+        self.value_begins();
+        self.at += 1;
+        self.frames.push(Frame { is_array, count: 0, key: (0, 0), expects_key: !is_array, note: 0 });
+        Step::Open
+    }
+
+    fn string(&mut self) -> Option<Step> {
+        let from = self.at;
+        let mut to = from + 1;
+        loop {
+            match *self.text.get(to)? {
+                b'"' => break,
+                b'\\' => to += 2,
+                _ => to += 1,
+            }
+        }
+        self.at = to + 1;
+        if let Some(frame) = self.frames.last_mut()
+            && frame.expects_key
+        {
+            frame.key = (from + 1, to);
+            frame.expects_key = false;
+            return Some(Step::Key);
+        }
+        self.value_begins();
+        Some(Step::Scalar(from, self.at))
+    }
+
+    fn word(&mut self) -> Step {
+        let from = self.at;
+        let ends = |byte: &u8| matches!(byte, b' ' | b'\t' | b'\n' | b'\r' | b',' | b':' | b'[' | b']' | b'{' | b'}' | b'"');
+        self.at = self.text[from..].iter().position(ends).map_or(self.text.len(), |length| from + length);
+        self.value_begins();
+        Step::Scalar(from, self.at)
+    }
+
+    fn value_begins(&mut self) {
+        if let Some(frame) = self.frames.last_mut() {
+            frame.count += 1;
+        }
+    }
+
+    /// Where the last step was made, as a JSON pointer.
+    ///
+    /// `outside` takes away that many innermost frames: 1 names the array or object that was just opened or closed.
+    pub(super) fn pointer(&self, outside: usize) -> String {
+        let mut pointer = String::new();
+        for frame in &self.frames[..self.frames.len().saturating_sub(outside)] {
+            pointer.push('/');
+            if frame.is_array {
+                pointer.push_str(&frame.count.saturating_sub(1).to_string());
+            } else {
+                let key = String::from_utf8_lossy(&self.text[frame.key.0..frame.key.1]);
+                pointer.push_str(&key.replace('~', "~0").replace('/', "~1"));
+            }
+        }
+        pointer
+    }
+}
+
+/// Pointer to the innermost value that the byte before `end` belongs to.
+pub(super) fn pointer_before(text: &[u8], end: usize) -> String {
+    let mut walk = Walk::new(text);
+    let mut pointer = String::new();
+    while let Some(step) = walk.step() {
+        if walk.at() >= end {
+            pointer = walk.pointer(usize::from(matches!(step, Step::Open | Step::Close)));
+            break;
+        }
+    }
+    pointer
+}

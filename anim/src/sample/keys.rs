@@ -1,0 +1,116 @@
+//! Which two keys lie around a time, and how far between them it is.
+//!
+//! Thesis §2.1.5.2: "two key-frames are selected, one just before the current time and one directly after".
+//!
+//! ```text
+//! before = the last key with  times[before] <= time
+//! after  = before + 1
+//! mix    = (time - times[before]) / (times[after] - times[before])
+//! ```
+
+/// The keys around a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Keys {
+    /// The last key at or before the time; the first key when the time lies before all.
+    pub before: usize,
+    /// The next one; the same as `before` outside the keys.
+    pub after: usize,
+    /// How far the time is from `before` towards `after`, 0 ≤ mix ≤ 1; 0 on a key and outside the keys.
+    pub mix: f32,
+}
+
+impl Keys {
+    /// Exactly on one key, or outside the keys.
+    fn on(key: usize) -> Self {
+        Self { before: key, after: key, mix: 0.0 }
+    }
+}
+
+/// Finds the keys around `time` seconds in ascending `times`, by binary search; `None` when there is no key.
+///
+/// NaN counts as before the first key. Times that do not ascend give some key, never a panic.
+pub fn find_keys(times: &[f32], time: f32) -> Option<Keys> {
+    let (&first, &last) = (times.first()?, times.last()?);
+    // Written so that a NaN on either side ends here.
+    if !(time > first) {
+        return Some(Keys::on(0));
+    }
+    if !(time < last) {
+        return Some(Keys::on(times.len() - 1));
+    }
+    let before = times.partition_point(|&key| key <= time).saturating_sub(1);
+    let after = (before + 1).min(times.len() - 1);
+    Some(Keys { before, after, mix: mix_factor(times[before], times[after], time) })
+}
+
+/// `(time - before) / (after - before)`, 0..=1; 0 where that is undefined (both keys at the same time).
+fn mix_factor(before: f32, after: f32, time: f32) -> f32 {
+    let span = after - before;
+    let mix = if span.is_finite() {
+        (time - before) / span
+    } else {
+        // The span of very distant keys is not a number that f32 can hold; half of it is.
+        (time * 0.5 - before * 0.5) / (after * 0.5 - before * 0.5)
+    };
+    // NaN fails both comparisons.
+    if mix >= 1.0 {
+        1.0
+    } else if mix > 0.0 {
+        mix
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keys(before: usize, after: usize, mix: f32) -> Option<Keys> {
+        Some(Keys { before, after, mix })
+    }
+
+    #[test]
+    fn a_time_between_two_keys_finds_both_and_the_way_between() {
+        let times = [0.0, 1.0, 3.0, 4.0];
+        assert_eq!(find_keys(&times, 0.25), keys(0, 1, 0.25));
+        assert_eq!(find_keys(&times, 1.5), keys(1, 2, 0.25));
+        assert_eq!(find_keys(&times, 3.75), keys(2, 3, 0.75));
+    }
+
+    #[test]
+    fn a_time_on_a_key_is_that_key() {
+        let times = [0.5, 1.0, 3.0, 4.0];
+        assert_eq!(find_keys(&times, 0.5), keys(0, 0, 0.0));
+        assert_eq!(find_keys(&times, 1.0), keys(1, 2, 0.0));
+        assert_eq!(find_keys(&times, 4.0), keys(3, 3, 0.0));
+    }
+
+    #[test]
+    fn outside_the_keys_the_nearest_key_stays() {
+        let times = [0.5, 1.0];
+        for time in [0.0, -7.0, f32::NEG_INFINITY, f32::NAN] {
+            assert_eq!(find_keys(&times, time), keys(0, 0, 0.0), "{time}");
+        }
+        for time in [1.5, f32::MAX, f32::INFINITY] {
+            assert_eq!(find_keys(&times, time), keys(1, 1, 0.0), "{time}");
+        }
+        assert_eq!(find_keys(&[], 0.0), None);
+        assert_eq!(find_keys(&[2.0], 3.0), keys(0, 0, 0.0));
+    }
+
+    #[test]
+    fn keys_further_apart_than_f32_can_say_are_still_mixed() {
+        assert_eq!(find_keys(&[f32::MIN, f32::MAX], 0.0), keys(0, 1, 0.5));
+    }
+
+    #[test]
+    fn keys_at_one_time_and_unordered_keys_give_a_number() {
+        for times in [vec![1.0, 1.0, 1.0], vec![0.0, 1.0, 1.0, 2.0], vec![3.0, f32::NAN, 1.0, 5.0]] {
+            for step in 0..=60 {
+                let found = find_keys(&times, step as f32 * 0.1).unwrap();
+                assert!(found.after < times.len() && (0.0..=1.0).contains(&found.mix), "{times:?} {found:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! How two keys are combined (thesis §2.1.5.2: "0.5 * K1 + 0.5 * K2"; glTF 2.0 appendix C for the others).
+//!
+//! `mix` is always 0..1: 0 the first key, 1 the second.
+
+use glam::Quat;
+use std::ops::{Add, Mul};
+
+/// Linear: `(1 - mix) * a + mix * b`, for translations, scales and single numbers.
+pub fn lerp<T: Copy + Add<Output = T> + Mul<f32, Output = T>>(a: T, b: T, mix: f32) -> T {
+    a * (1.0 - mix) + b * mix
+}
+
+/// Above this cosine two rotations are so near (less than 0.06° in quaternion space) that the division by
+/// `sin(angle)` would lose more than the straight line does.
+const NEARLY_PARALLEL: f32 = 0.999_999_5;
+
+/// Spherical linear: turns from `a` to `b` about one axis at constant speed, the short way round.
+///
+/// ```text
+/// angle = the angle between a and b as four-dimensional vectors
+/// (sin((1 - mix) * angle) * a + sin(mix * angle) * b) / sin(angle)
+/// ```
+///
+/// * `b` and `-b` are the same rotation; the one nearer to `a` is used, so the way is never longer than 180°.
+/// * Rotations exactly 180° apart have two ways of the same length: the one towards `b` as it is stored is taken, so
+///   the axis is that of `b * a⁻¹`.
+/// * Nearly parallel rotations: a straight line, see [`nlerp`].
+///
+/// Both of unit length; the result is normalised.
+pub fn slerp(a: Quat, b: Quat, mix: f32) -> Quat {
+    let cosine = a.dot(b);
+    let b = if cosine < 0.0 { -b } else { b };
+    if cosine.abs() > NEARLY_PARALLEL {
+        return nlerp(a, b, mix);
+    }
+    // The arc cosine is inexact for small angles; the two diagonals of the rhombus of a and b are not.
+    let angle = 2.0 * (a - b).length().atan2((a + b).length());
+    let from = ((1.0 - mix) * angle).sin();
+    let to = (mix * angle).sin();
+    ((a * from + b * to) / angle.sin()).normalize()
+}
+
+/// The straight line between two rotations of one hemisphere, normalised.
+pub fn nlerp(a: Quat, b: Quat, mix: f32) -> Quat {
+    lerp(a, b, mix).normalize()
+}
+
+/// Cubic Hermite spline from key `a` to key `b`.
+///
+/// ```text
+/// ( 2 m³ - 3 m² + 1) * a  +  span * (m³ - 2 m² + m) * out_tangent
+/// (-2 m³ + 3 m²    ) * b  +  span * (m³ -   m²    ) * in_tangent
+/// ```
+///
+/// `out_tangent` leaves `a`, `in_tangent` arrives at `b`, both in units a second; `span` is the seconds between
+/// the keys. A rotation has to be normalised afterwards.
+pub fn hermite<T>(a: T, out_tangent: T, in_tangent: T, b: T, span: f32, mix: f32) -> T
+where
+    T: Copy + Add<Output = T> + Mul<f32, Output = T>,
+{
+    let (mix2, mix3) = (mix * mix, mix * mix * mix);
+    a * (2.0 * mix3 - 3.0 * mix2 + 1.0)
+        + out_tangent * (span * (mix3 - 2.0 * mix2 + mix))
+        + b * (-2.0 * mix3 + 3.0 * mix2)
+        + in_tangent * (span * (mix3 - mix2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    fn angle_between(a: Quat, b: Quat) -> f32 {
+        2.0 * (a - b).length().min((a + b).length()).atan2((a + b).length().max((a - b).length())) * 2.0
+    }
+
+    #[test]
+    fn slerp_turns_at_constant_speed() {
+        let a = Quat::from_rotation_y(0.2);
+        let b = Quat::from_rotation_y(1.2);
+        for step in 0..=10 {
+            let mix = step as f32 / 10.0;
+            let expected = Quat::from_rotation_y(0.2 + mix);
+            assert!(angle_between(slerp(a, b, mix), expected) < 1e-6, "{mix}");
+        }
+    }
+
+    #[test]
+    fn slerp_goes_the_short_way_whatever_sign_the_keys_have() {
+        let (a, b) = (Quat::from_rotation_z(0.1), Quat::from_rotation_z(0.7));
+        let half = Quat::from_rotation_z(0.4);
+        for (a, b) in [(a, b), (-a, b), (a, -b), (-a, -b)] {
+            assert!(angle_between(slerp(a, b, 0.5), half) < 1e-6);
+        }
+    }
+
+    #[test]
+    fn half_a_turn_has_a_defined_axis() {
+        // Quaternions at right angles: rotations 180° apart.
+        let half = slerp(Quat::IDENTITY, Quat::from_xyzw(0.0, 1.0, 0.0, 0.0), 0.5);
+        assert!(angle_between(half, Quat::from_rotation_y(std::f32::consts::FRAC_PI_2)) < 1e-6);
+        let half = slerp(Quat::IDENTITY, Quat::from_xyzw(0.0, -1.0, 0.0, 0.0), 0.5);
+        assert!(angle_between(half, Quat::from_rotation_y(-std::f32::consts::FRAC_PI_2)) < 1e-6);
+    }
+
+    #[test]
+    fn slerp_has_no_step_where_it_changes_to_a_straight_line() {
+        let a = Quat::from_rotation_x(0.3);
+        for angle in [0.000_1_f32, 0.001, 0.001_9, 0.002, 0.002_1, 0.003, 0.01] {
+            let b = Quat::from_rotation_x(0.3 + angle);
+            for mix in [0.1_f32, 0.5, 0.9] {
+                let expected = Quat::from_rotation_x(0.3 + angle * mix);
+                assert!(angle_between(slerp(a, b, mix), expected) < 5e-7, "{angle} {mix}");
+            }
+        }
+    }
+
+    #[test]
+    fn hermite_meets_its_keys_and_tangents() {
+        let (a, b) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(3.0, 5.0, 0.0));
+        let (leave, arrive) = (Vec3::Y, Vec3::X);
+        assert_eq!(hermite(a, leave, arrive, b, 2.0, 0.0), a);
+        assert_eq!(hermite(a, leave, arrive, b, 2.0, 1.0), b);
+        // Half way: a/2 + b/2 + span/8 * (leave - arrive).
+        assert_eq!(hermite(a, leave, arrive, b, 2.0, 0.5), Vec3::new(1.75, 2.75, 0.0));
+    }
+}

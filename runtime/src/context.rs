@@ -1,0 +1,262 @@
+//! What a worker or receiver can ask of the thread it lives in.
+
+use crate::handle::ThreadHandle;
+use crate::mailbox::Envelope;
+use crate::object::AnyReceiver;
+use crate::register::{Factory, Kind, LAST, Register, Slot, WorkerId};
+use crate::shared::Shared;
+use crate::trace::{Record, Trace};
+use crate::watchdog::Watched;
+use crate::{Address, Fault, Receiver, Timer, Worker};
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// The inside of a thread: its loop's state and its registers.
+///
+/// Every call in the thread gets it as `&mut Context`. Changes of the registers take place at
+/// once: a message that waits for a removed receiver is undeliverable, a removed worker is not called
+/// any more. A worker that comes while workers are being called has its first turn in the next
+/// iteration, so an iteration always ends.
+pub struct Context {
+    pub(crate) handle: ThreadHandle,
+    pub(crate) workers: Register<dyn Worker>,
+    pub(crate) receivers: Register<dyn AnyReceiver>,
+    /// Taken from the mailbox, not yet delivered; rests here while the thread sleeps or pauses.
+    pub(crate) batch: VecDeque<Envelope>,
+    /// The number of the object being called; 0 for none.
+    pub(crate) running: u32,
+    pub(crate) again: bool,
+    pub(crate) stopped: bool,
+    pub(crate) finished: bool,
+    pub(crate) sleep_until: Option<Instant>,
+    /// One for each object at most. Few, so a list is quicker than a map, and keeps its memory.
+    pub(crate) alarms: Vec<(u32, Instant)>,
+    pub(crate) calls: u32,
+    pub(crate) observer: Option<Observer>,
+    pub(crate) trace: Option<Trace>,
+    pub(crate) watchers: Vec<Address<Watched>>,
+}
+
+/// Who is told of panics.
+type Observer = Box<dyn FnMut(&Fault)>;
+
+impl Context {
+    pub(crate) fn new(shared: Arc<Shared>) -> Self {
+        Self {
+            handle: ThreadHandle::new(shared),
+            workers: BTreeMap::new(),
+            receivers: BTreeMap::new(),
+            batch: VecDeque::new(),
+            running: 0,
+            again: false,
+            stopped: false,
+            finished: false,
+            sleep_until: None,
+            alarms: Vec::new(),
+            calls: 0,
+            observer: None,
+            trace: None,
+            watchers: Vec::new(),
+        }
+    }
+
+    /// This thread, as others see it. Sending to it is for the next iteration.
+    pub fn handle(&self) -> &ThreadHandle {
+        &self.handle
+    }
+
+    /// The time now, by this thread's clock; in a test that is turned by hand.
+    pub fn now(&self) -> Instant {
+        self.shared().clock.now()
+    }
+
+    /// A timer that starts now and goes by this thread's clock.
+    pub fn timer(&self) -> Timer {
+        Timer::with_clock(self.shared().clock.clone())
+    }
+
+    /// Adds `worker` behind the others, but before those that stay last.
+    pub fn register_worker(&mut self, worker: impl Worker) -> WorkerId {
+        let id = self.shared().new_id();
+        self.insert::<dyn Worker>(id, Box::new(worker), None);
+        WorkerId(id)
+    }
+
+    /// Adds `worker` behind all others, those that come later included; among several of these,
+    /// registration order counts.
+    pub fn register_last_worker(&mut self, worker: impl Worker) -> WorkerId {
+        let id = self.shared().new_id() | LAST;
+        self.insert::<dyn Worker>(id, Box::new(worker), None);
+        WorkerId(id)
+    }
+
+    /// Adds the worker that `make` makes, and has it made anew, in the same place, when it panics:
+    /// at most [`RESTARTS`](crate::RESTARTS) times in [`RESTART_WINDOW`](crate::RESTART_WINDOW).
+    pub fn register_restartable_worker<W: Worker>(
+        &mut self,
+        make: impl FnMut(&mut Context) -> W + 'static,
+    ) -> WorkerId {
+        let id = self.shared().new_id();
+        self.insert_restartable_worker(id, make);
+        WorkerId(id)
+    }
+
+    pub(crate) fn insert_restartable_worker<W: Worker>(
+        &mut self,
+        id: u32,
+        mut make: impl FnMut(&mut Context) -> W + 'static,
+    ) {
+        let first = Box::new(make(self));
+        let factory: Factory<dyn Worker> = Box::new(move |thread| Box::new(make(thread)));
+        self.insert::<dyn Worker>(id, first, Some(factory));
+    }
+
+    /// Adds `receiver`.
+    pub fn register_receiver<R: Receiver>(&mut self, receiver: R) -> Address<R::Message> {
+        let address = self.handle.reserve_address();
+        self.register_receiver_at(&address, receiver);
+        address
+    }
+
+    /// Adds `receiver` at an address that was reserved before, or puts it in the place of the one
+    /// that is there.
+    ///
+    /// # Panics
+    /// When the address belongs to another thread.
+    pub fn register_receiver_at<R: Receiver>(&mut self, address: &Address<R::Message>, receiver: R) {
+        self.check_own(&address.thread);
+        self.insert::<dyn AnyReceiver>(address.receiver, Box::new(receiver), None);
+    }
+
+    /// Adds the receiver that `make` makes, and has it made anew, at the same address, when it
+    /// panics: at most [`RESTARTS`](crate::RESTARTS) times in
+    /// [`RESTART_WINDOW`](crate::RESTART_WINDOW). Only the message that it panicked with is lost.
+    pub fn register_restartable_receiver<R: Receiver>(
+        &mut self,
+        make: impl FnMut(&mut Context) -> R + 'static,
+    ) -> Address<R::Message> {
+        let address = self.handle.reserve_address();
+        self.insert_restartable_receiver(address.receiver, make);
+        address
+    }
+
+    pub(crate) fn insert_restartable_receiver<R: Receiver>(
+        &mut self,
+        id: u32,
+        mut make: impl FnMut(&mut Context) -> R + 'static,
+    ) {
+        let first = Box::new(make(self));
+        let factory: Factory<dyn AnyReceiver> = Box::new(move |thread| Box::new(make(thread)));
+        self.insert::<dyn AnyReceiver>(id, first, Some(factory));
+    }
+
+    /// Removes and drops a worker; `false` when there is none of that number.
+    /// A worker that removes itself is dropped when its call returns.
+    pub fn unregister_worker(&mut self, id: WorkerId) -> bool {
+        self.remove::<dyn Worker>(id.0)
+    }
+
+    /// Removes and drops a receiver; `false` when there is none at that address. What is queued
+    /// for it is undeliverable.
+    ///
+    /// # Panics
+    /// When the address belongs to another thread.
+    pub fn unregister_receiver<M>(&mut self, address: &Address<M>) -> bool {
+        self.check_own(&address.thread);
+        self.remove::<dyn AnyReceiver>(address.receiver)
+    }
+
+    /// Ends the thread when the running call returns: nothing more is delivered or called. See
+    /// [`remote_stop`](ThreadHandle::remote_stop) for the other way, behind all queued messages.
+    pub fn stop(&mut self) {
+        self.stopped = true;
+    }
+
+    /// Lets the thread sleep from when the running call returns, which ends the iteration; messages
+    /// it has not delivered come first in the next one. Messages do not wake it, they are stored; a
+    /// [`remote_stop`](ThreadHandle::remote_stop) does.
+    pub fn sleep(&mut self, duration: Duration) {
+        self.sleep_until = self.now().checked_add(duration);
+    }
+
+    /// Like [`sleep`](Self::sleep), until somebody calls [`resume`](ThreadHandle::resume).
+    pub fn pause(&mut self) {
+        self.handle.pause();
+    }
+
+    /// Asks for another iteration without waiting for a message. Holds for the next one only, so
+    /// who wants to run continuously asks in every call.
+    pub fn iterate_again(&mut self) {
+        self.again = true;
+    }
+
+    /// Asks for an iteration at `when` at the latest. Each object has one such alarm: a later call
+    /// replaces it, it is gone when it has rung, and when the object is removed.
+    pub fn wake_at(&mut self, when: Instant) {
+        let running = self.running;
+        self.alarms.retain(|(id, _)| *id != running);
+        self.alarms.push((running, when));
+    }
+
+    /// Tells `observer` of every panic in this thread from now on, in place of any earlier one.
+    /// Panics are reported to `tracing` at level ERROR in any case.
+    pub fn observe(&mut self, observer: impl FnMut(&Fault) + 'static) {
+        self.observer = Some(Box::new(observer));
+    }
+
+    /// Keeps the newest `capacity` records of what happens from now on; 0 ends the trace.
+    pub fn set_trace(&mut self, capacity: usize) {
+        self.trace = (capacity > 0).then(|| Trace::new(capacity));
+        let traced = &self.shared().traced;
+        traced.store(capacity > 0, std::sync::atomic::Ordering::Relaxed);
+    }
+
+    /// The records of the trace, oldest first; empty when it is off.
+    pub fn trace(&self) -> Vec<Record> {
+        self.trace.as_ref().map(Trace::records).unwrap_or_default()
+    }
+
+    pub(crate) fn shared(&self) -> &Arc<Shared> {
+        self.handle.shared()
+    }
+
+    /// Puts an object in its place in the register; one that was there is dropped.
+    pub(crate) fn insert<T: Kind + ?Sized>(&mut self, id: u32, object: Box<T>, factory: Option<Factory<T>>) {
+        let name: Arc<str> = object.object_name().into();
+        for watcher in &self.watchers {
+            // A watcher that has stopped watches nobody.
+            let _ = watcher.send(Watched::new(&self.handle, id, &name, object.call_name()));
+        }
+        let slot = Slot { name, object: Some(object), factory, failures: Default::default() };
+        let old = T::register(self).insert(id, slot);
+        self.drop_slot(old);
+    }
+
+    fn remove<T: Kind + ?Sized>(&mut self, id: u32) -> bool {
+        let slot = T::register(self).remove(&id);
+        let there = slot.is_some();
+        if there {
+            self.forget(id);
+        }
+        self.drop_slot(slot);
+        there
+    }
+
+    /// What is kept of an object beside its slot.
+    pub(crate) fn forget(&mut self, id: u32) {
+        self.alarms.retain(|(owner, _)| *owner != id);
+        for watcher in &self.watchers {
+            let _ = watcher.send(Watched::removed(&self.handle, id));
+        }
+    }
+
+    fn check_own(&self, thread: &Arc<Shared>) {
+        assert!(
+            Arc::ptr_eq(thread, self.shared()),
+            "the address belongs to thread {:?}, not to {:?}",
+            thread.name,
+            self.shared().name,
+        );
+    }
+}

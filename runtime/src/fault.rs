@@ -1,0 +1,61 @@
+//! When a call panics: what is reported, and whether the object gets another chance.
+
+use std::any::Any;
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A panic in a worker, a receiver, or a closure that was sent to a thread.
+///
+/// The thread lives on; of the messages only the one being received is lost.
+#[derive(Clone, Debug)]
+pub struct Fault {
+    /// The thread's name.
+    pub thread: Arc<str>,
+    /// The object's name.
+    pub object: Arc<str>,
+    /// The type of the message being received; `"update"` for a worker, else what was being done
+    /// with the object (`"make"`, `"drop"`, `"run"`).
+    pub call: &'static str,
+    /// The text of the panic.
+    pub reason: String,
+    /// What became of the object.
+    pub outcome: Outcome,
+}
+
+/// What became of an object that panicked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// It is dropped and no longer registered.
+    Removed,
+    /// It was dropped, and its factory made a new one in the same place.
+    Restarted,
+    /// It panicked more than [`RESTARTS`] times within [`RESTART_WINDOW`] (or its factory did) and
+    /// is removed for good.
+    GivenUp,
+}
+
+/// How many restarts an object gets within [`RESTART_WINDOW`].
+pub const RESTARTS: usize = 3;
+/// See [`RESTARTS`].
+pub const RESTART_WINDOW: Duration = Duration::from_secs(10);
+
+/// The panics of one restartable object that still count.
+#[derive(Default)]
+pub(crate) struct Failures(VecDeque<Instant>);
+
+impl Failures {
+    /// Counts a panic at `now`: may the object be made anew?
+    pub(crate) fn allow_restart(&mut self, now: Instant) -> bool {
+        self.0.retain(|then| now.saturating_duration_since(*then) < RESTART_WINDOW);
+        self.0.push_back(now);
+        self.0.len() <= RESTARTS
+    }
+}
+
+/// The text of a panic, when it has one.
+pub(crate) fn reason(payload: &(dyn Any + Send)) -> String {
+    let text = payload.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+    text.unwrap_or("a panic without a text").to_owned()
+}

@@ -1,0 +1,261 @@
+//! A thread, as other threads see it.
+
+use crate::mailbox::Content;
+use crate::register::{LAST, WorkerId};
+use crate::shared::{Counters, Shared};
+use crate::sync::atomic::Ordering;
+use crate::sync::planted;
+use crate::{Address, Context, Fault, Receiver, TraceSnapshot, Worker};
+use std::fmt;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// A thread's remote control: cheap to clone, usable anywhere, never waiting.
+///
+/// What it asks for is a message to the thread (thesis §2.2.3.3), so it happens in order with all
+/// other messages of the same sender. Asking a stopped thread does nothing.
+///
+/// Objects of a thread need not be [`Send`]; what is sent is a closure that makes the object
+/// there. A closure that panics is reported like an object that does.
+#[derive(Clone)]
+pub struct ThreadHandle {
+    shared: Arc<Shared>,
+}
+
+/// The thread has stopped, and nothing will ever be done there again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stopped;
+
+impl fmt::Display for Stopped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the thread has stopped")
+    }
+}
+
+impl std::error::Error for Stopped {}
+
+impl ThreadHandle {
+    pub(crate) fn new(shared: Arc<Shared>) -> Self {
+        Self { shared }
+    }
+
+    pub(crate) fn shared(&self) -> &Arc<Shared> {
+        &self.shared
+    }
+
+    /// The name given at the start; also that of the OS thread, of which Linux shows 15 bytes.
+    pub fn name(&self) -> &str {
+        &self.shared.name
+    }
+
+    /// Runs `job` in the thread, between two of its messages.
+    ///
+    /// # Errors
+    /// When the thread has stopped; `job` is dropped.
+    pub fn run(&self, job: impl FnOnce(&mut Context) + Send + 'static) -> Result<(), Stopped> {
+        self.shared.send(Content::Run(Box::new(job))).map_err(|_| Stopped)
+    }
+
+    /// Adds the worker that `make` makes behind the others; see [`Context::register_worker`].
+    pub fn register_worker<W: Worker>(
+        &self,
+        make: impl FnOnce(&mut Context) -> W + Send + 'static,
+    ) -> WorkerId {
+        self.send_worker(self.shared.new_id(), make)
+    }
+
+    /// Adds the worker that `make` makes behind all; see [`Context::register_last_worker`].
+    pub fn register_last_worker<W: Worker>(
+        &self,
+        make: impl FnOnce(&mut Context) -> W + Send + 'static,
+    ) -> WorkerId {
+        self.send_worker(self.shared.new_id() | LAST, make)
+    }
+
+    /// Adds a worker that is made anew when it panics; see
+    /// [`Context::register_restartable_worker`].
+    pub fn register_restartable_worker<W: Worker>(
+        &self,
+        make: impl FnMut(&mut Context) -> W + Send + 'static,
+    ) -> WorkerId {
+        let id = self.shared.new_id();
+        self.command(move |thread| thread.insert_restartable_worker(id, make));
+        WorkerId(id)
+    }
+
+    /// Adds the receiver that `make` makes. The address is good at once: what is sent to it after
+    /// this call arrives after the receiver was made.
+    pub fn register_receiver<R: Receiver>(
+        &self,
+        make: impl FnOnce(&mut Context) -> R + Send + 'static,
+    ) -> Address<R::Message> {
+        let address = self.reserve_address();
+        self.register_receiver_at(&address, make);
+        address
+    }
+
+    /// Adds the receiver that `make` makes at an address reserved before, or puts it in the place
+    /// of the one that is there.
+    ///
+    /// # Panics
+    /// When the address belongs to another thread.
+    pub fn register_receiver_at<R: Receiver>(
+        &self,
+        address: &Address<R::Message>,
+        make: impl FnOnce(&mut Context) -> R + Send + 'static,
+    ) {
+        self.check_own(address);
+        let address = address.clone();
+        self.command(move |thread| {
+            let receiver = make(thread);
+            thread.register_receiver_at(&address, receiver);
+        });
+    }
+
+    /// Adds a receiver that is made anew when it panics; see
+    /// [`Context::register_restartable_receiver`].
+    pub fn register_restartable_receiver<R: Receiver>(
+        &self,
+        make: impl FnMut(&mut Context) -> R + Send + 'static,
+    ) -> Address<R::Message> {
+        let address = self.reserve_address();
+        let id = address.receiver;
+        self.command(move |thread| thread.insert_restartable_receiver(id, make));
+        address
+    }
+
+    /// An address at which nobody is registered yet, for objects that need each other's address.
+    /// What arrives before a receiver is registered there is undeliverable.
+    pub fn reserve_address<M: Send + 'static>(&self) -> Address<M> {
+        Address::new(Arc::clone(&self.shared), self.shared.new_id())
+    }
+
+    /// Removes and drops a worker, in its thread.
+    pub fn unregister_worker(&self, id: WorkerId) {
+        self.command(move |thread| {
+            thread.unregister_worker(id);
+        });
+    }
+
+    /// Removes and drops a receiver, in its thread. What is queued behind this is undeliverable.
+    ///
+    /// # Panics
+    /// When the address belongs to another thread.
+    pub fn unregister_receiver<M: Send + 'static>(&self, address: &Address<M>) {
+        self.check_own(address);
+        let address = address.clone();
+        self.command(move |thread| {
+            thread.unregister_receiver(&address);
+        });
+    }
+
+    /// Ends the thread behind all messages queued so far: they are delivered, later ones are not.
+    /// Ends a sleep or pause early. [`Thread::wait_for`](crate::Thread::wait_for) waits for it.
+    pub fn remote_stop(&self) {
+        self.shared.stopping.store(true, Ordering::SeqCst);
+        // Nothing to do when it has stopped already.
+        let _ = self.shared.send(Content::Stop);
+        self.shared.mailbox.wake_now();
+    }
+
+    /// Lets the thread sleep for `duration`, behind all messages queued so far; see
+    /// [`Context::sleep`].
+    pub fn remote_sleep(&self, duration: Duration) {
+        // A stopped thread sleeps well enough.
+        let _ = self.shared.send(Content::Sleep(duration));
+    }
+
+    /// Lets the thread rest as soon as the call that is running there returns: it does not wait in
+    /// the queue. Messages are stored until [`resume`](Self::resume).
+    pub fn pause(&self) {
+        self.shared.paused.store(true, Ordering::SeqCst);
+    }
+
+    /// Ends a pause. Pauses do not add up.
+    pub fn resume(&self) {
+        self.shared.paused.store(false, Ordering::SeqCst);
+        if !planted("silent_resume") {
+            self.shared.mailbox.wake_now();
+        }
+    }
+
+    /// Has the loop ended, with every object of the thread dropped?
+    pub fn is_stopped(&self) -> bool {
+        self.shared.is_finished()
+    }
+
+    /// How many messages are stored for the next iteration.
+    pub fn queue_len(&self) -> usize {
+        self.shared.mailbox.len()
+    }
+
+    /// What happened in the thread so far.
+    pub fn counters(&self) -> Counters {
+        self.shared.tallies.read()
+    }
+
+    /// Tells `observer`, in that thread, of every panic there; see [`Context::observe`].
+    pub fn observe(&self, observer: impl FnMut(&Fault) + Send + 'static) {
+        self.command(move |thread| thread.observe(observer));
+    }
+
+    /// Traces the thread, keeping the newest `capacity` records; 0 ends the trace.
+    pub fn set_trace(&self, capacity: usize) {
+        self.command(move |thread| thread.set_trace(capacity));
+    }
+
+    /// Asks for the records of the trace; they come as a message, like any answer.
+    pub fn request_trace(&self, to: &Address<TraceSnapshot>) {
+        let to = to.clone();
+        self.command(move |thread| {
+            let snapshot = TraceSnapshot {
+                thread: Arc::clone(&thread.shared().name),
+                taken: thread.now(),
+                records: thread.trace(),
+            };
+            // Who has stopped does not want it any more.
+            let _ = to.send(snapshot);
+        });
+    }
+
+    fn send_worker<W: Worker>(
+        &self,
+        id: u32,
+        make: impl FnOnce(&mut Context) -> W + Send + 'static,
+    ) -> WorkerId {
+        self.command(move |thread| {
+            let worker = Box::new(make(thread));
+            thread.insert::<dyn Worker>(id, worker, None);
+        });
+        WorkerId(id)
+    }
+
+    /// A message that the thread itself understands; a stopped thread has no use for it.
+    fn command(&self, job: impl FnOnce(&mut Context) + Send + 'static) {
+        let _ = self.run(job);
+    }
+
+    fn check_own<M>(&self, address: &Address<M>) {
+        assert!(
+            Arc::ptr_eq(&address.thread, &self.shared),
+            "the address belongs to thread {:?}, not to {:?}",
+            address.thread.name,
+            self.shared.name,
+        );
+    }
+}
+
+impl PartialEq for ThreadHandle {
+    /// Do both stand for the same thread?
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
+    }
+}
+
+impl Eq for ThreadHandle {}
+
+impl fmt::Debug for ThreadHandle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "ThreadHandle({})", self.name())
+    }
+}

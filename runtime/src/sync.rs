@@ -1,0 +1,117 @@
+//! All that threads share passes through here, so that the model checkers see the real code.
+//!
+//! | build | queue | threads, atomics |
+//! |---|---|---|
+//! | normal | a flume channel, whose two ends stay together | `std` |
+//! | `--cfg loom`, `--cfg shuttle` | a `Mutex<VecDeque>` of the checker, with the same methods | the checker's |
+//!
+//! flume cannot run under a checker, so what is proved there is our protocol over a queue that is
+//! right (push, drain, empty), not flume itself; flume has the stress tests.
+//! Statistics (counters, what is running) stay with `std`: nothing waits for them, and each
+//! further atomic multiplies what a checker has to try.
+
+#[cfg(loom)]
+pub(crate) use loom::sync::atomic;
+#[cfg(loom)]
+#[path = "sync/loom_thread.rs"]
+pub mod thread;
+#[cfg(shuttle)]
+pub(crate) use shuttle::sync::atomic;
+#[cfg(shuttle)]
+pub use shuttle::thread;
+#[cfg(not(any(loom, shuttle)))]
+pub(crate) use std::{sync::atomic, thread};
+
+#[cfg(not(any(loom, shuttle)))]
+use std::collections::VecDeque;
+use std::time::Instant;
+
+/// An unbounded queue that many threads fill and one empties. Held for a push or a drain, no longer.
+#[cfg(not(any(loom, shuttle)))]
+pub(crate) struct Queue<T> {
+    enter: flume::Sender<T>,
+    leave: flume::Receiver<T>,
+}
+
+#[cfg(not(any(loom, shuttle)))]
+impl<T> Queue<T> {
+    pub(crate) fn new() -> Self {
+        let (enter, leave) = flume::unbounded();
+        Self { enter, leave }
+    }
+
+    pub(crate) fn push(&self, item: T) {
+        self.enter.send(item).expect("both ends of the channel live in this struct");
+    }
+
+    /// Moves everything that is there now to the end of `into`, oldest first, under one lock.
+    pub(crate) fn drain(&self, into: &mut VecDeque<T>) {
+        into.extend(self.leave.drain());
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.leave.len()
+    }
+}
+
+#[cfg(any(loom, shuttle))]
+mod modelled {
+    #[cfg(loom)]
+    use loom::sync::Mutex;
+    #[cfg(shuttle)]
+    use shuttle::sync::Mutex;
+    use std::collections::VecDeque;
+
+    pub(crate) struct Queue<T>(Mutex<VecDeque<T>>);
+
+    impl<T> Queue<T> {
+        pub(crate) fn new() -> Self {
+            Self(Mutex::new(VecDeque::new()))
+        }
+
+        pub(crate) fn push(&self, item: T) {
+            self.0.lock().expect("no panic under the lock").push_back(item);
+        }
+
+        pub(crate) fn drain(&self, into: &mut VecDeque<T>) {
+            let items = std::mem::take(&mut *self.0.lock().expect("no panic under the lock"));
+            // Outside the lock, as with flume.
+            into.extend(items);
+        }
+
+        pub(crate) fn len(&self) -> usize {
+            self.0.lock().expect("no panic under the lock").len()
+        }
+    }
+}
+#[cfg(any(loom, shuttle))]
+pub(crate) use modelled::Queue;
+
+/// Sleeps until somebody unparks this thread, or until `deadline`. May return early.
+/// The checkers know no time: there a deadline never comes, and a lost wake-up shows as a deadlock.
+pub(crate) fn park(deadline: Option<Instant>) {
+    match deadline {
+        #[cfg(not(any(loom, shuttle)))]
+        Some(deadline) => {
+            thread::park_timeout(deadline.saturating_duration_since(Instant::now()));
+        }
+        _ => thread::park(),
+    }
+}
+
+/// Is the planted bug of this name on? Never, in a normal build: the question compiles to nothing.
+///
+/// A model that cannot fail proves nothing. `.ci/models` turns each bug on in turn and demands
+/// that a checker finds it.
+#[cfg(not(any(loom, shuttle)))]
+pub(crate) const fn planted(_bug: &str) -> bool {
+    false
+}
+
+/// The planted bug that is on, from the environment, read anew each time: only models ask.
+#[cfg(any(loom, shuttle))]
+pub(crate) fn planted(bug: &str) -> bool {
+    static ON: std::sync::LazyLock<String> =
+        std::sync::LazyLock::new(|| std::env::var("PLANTED").unwrap_or_default());
+    *ON == bug
+}

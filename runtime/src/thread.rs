@@ -1,0 +1,152 @@
+//! A thread's owner: an OS thread of its own, or one that is driven from outside.
+
+use crate::clock::Clock;
+use crate::shared::Shared;
+use crate::sync::{Queue, park, thread};
+use crate::{Context, Next, ThreadHandle};
+use std::collections::VecDeque;
+use std::io;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// How long dropping a [`Thread`] waits for it to end.
+pub const DROP_DEADLINE: Duration = Duration::from_secs(2);
+
+/// An OS thread that runs the loop: asleep until a message comes, a deadline passes, or for as
+/// long as a worker asks to go on.
+///
+/// Dropping it stops the thread behind its queued messages and waits for that, for at most
+/// [`DROP_DEADLINE`]; a thread that is stuck in a call is then left to itself and reported.
+pub struct Thread {
+    handle: ThreadHandle,
+    os_thread: Option<thread::JoinHandle<()>>,
+}
+
+impl Thread {
+    /// Starts an OS thread called `name`.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    ///
+    /// # Panics
+    /// When `name` contains a zero byte.
+    pub fn start(name: &str) -> io::Result<Self> {
+        // The mailbox must know whom to wake, and the loop needs the mailbox: so the thread is
+        // started first, and waits until its mailbox is laid in the cradle.
+        let cradle = Arc::new(Queue::new());
+        let theirs = Arc::clone(&cradle);
+        let os_thread = thread::Builder::new()
+            .name(name.to_owned())
+            .spawn(move || thread_proc(Context::new(wait_for_cradle(&theirs))))?;
+        let sleeper = os_thread.thread().clone();
+        let wake = Box::new(move || sleeper.unpark());
+        let shared = Shared::new(name, Clock::Real, wake);
+        cradle.push(Arc::clone(&shared));
+        os_thread.thread().unpark();
+        Ok(Self { handle: ThreadHandle::new(shared), os_thread: Some(os_thread) })
+    }
+
+    /// Makes a thread of the caller's: there is no OS thread, the caller's loop calls
+    /// [`Captured::iterate`]. For the main thread, whose loop belongs to the window system.
+    ///
+    /// `wake` is called from sending threads when a message comes after `iterate` said it would
+    /// wait, and on [`resume`](ThreadHandle::resume) and
+    /// [`remote_stop`](ThreadHandle::remote_stop). It must be quick and make the caller's loop
+    /// call `iterate` soon; once too often does no harm.
+    pub fn capture(name: &str, wake: impl Fn() + Send + Sync + 'static) -> Captured {
+        Captured::new(Shared::new(name, Clock::Real, Box::new(wake)))
+    }
+
+    /// Its remote control.
+    pub fn handle(&self) -> &ThreadHandle {
+        &self.handle
+    }
+
+    /// Waits until all of `threads` have stopped and dropped their objects.
+    ///
+    /// It only waits: stop them before. A thread that waits for itself waits in vain.
+    ///
+    /// # Errors
+    /// The names of those that still run at `deadline`.
+    pub fn wait_for(threads: &[ThreadHandle], deadline: Instant) -> Result<(), Vec<String>> {
+        let threads: Vec<_> = threads.iter().map(|one| Arc::clone(one.shared())).collect();
+        Shared::wait_for(&threads, deadline)
+    }
+}
+
+impl Drop for Thread {
+    fn drop(&mut self) {
+        let Some(os_thread) = self.os_thread.take() else {
+            return;
+        };
+        self.handle.remote_stop();
+        if os_thread.thread().id() == thread::current().id() {
+            return; // It owns itself; the stop is in its queue.
+        }
+        let waited = Self::wait_for(std::slice::from_ref(&self.handle), Instant::now() + DROP_DEADLINE);
+        if waited.is_err() {
+            tracing::error!(thread = self.handle.name(), "does not stop; left to itself");
+            return;
+        }
+        if os_thread.join().is_err() {
+            tracing::error!(thread = self.handle.name(), "its loop panicked");
+        }
+    }
+}
+
+/// The loop of a thread of its own (thesis §3.2.6.1).
+fn thread_proc(mut context: Context) {
+    tracing::debug!(thread = context.handle().name(), "started");
+    loop {
+        match context.iterate() {
+            Next::Now => {}
+            Next::At(deadline) => park(Some(deadline)),
+            Next::OnMessage => park(None),
+            Next::Stopped => return,
+        }
+    }
+}
+
+fn wait_for_cradle(cradle: &Queue<Arc<Shared>>) -> Arc<Shared> {
+    let mut found = VecDeque::new();
+    loop {
+        cradle.drain(&mut found);
+        if let Some(shared) = found.pop_front() {
+            return shared;
+        }
+        park(None);
+    }
+}
+
+/// A thread that is driven from outside: the same loop, one [`iterate`](Self::iterate) at a time.
+///
+/// Dropping it ends it at once: what is queued is not delivered, its objects are dropped.
+pub struct Captured {
+    context: Context,
+}
+
+impl Captured {
+    pub(crate) fn new(shared: Arc<Shared>) -> Self {
+        let context = Context::new(shared);
+        Self { context }
+    }
+
+    /// Its remote control.
+    pub fn handle(&self) -> &ThreadHandle {
+        self.context.handle()
+    }
+
+    /// One iteration: delivers, calls the workers, and says when to call this again.
+    ///
+    /// With winit: `Now` is `ControlFlow::Poll`, `At` is `WaitUntil`, `OnMessage` is `Wait`,
+    /// `Stopped` leaves the event loop. Calling it earlier than asked does no harm.
+    pub fn iterate(&mut self) -> Next {
+        self.context.iterate()
+    }
+
+    /// The inside of the thread, for registering objects directly. Call [`iterate`](Self::iterate)
+    /// afterwards, so that what was asked for here is taken into account.
+    pub fn context(&mut self) -> &mut Context {
+        &mut self.context
+    }
+}

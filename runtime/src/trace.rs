@@ -1,0 +1,151 @@
+//! Who sent what to whom, when, how long it waited and how long it took.
+//!
+//! Off, it costs one relaxed load for each message sent and one comparison for each call. On, each message
+//! and each worker call becomes a [`Record`] in a ring that belongs to the traced thread, and an
+//! event of the `tracing` crate at level TRACE, target `dragonfly_runtime::trace`.
+
+use crate::clock::Clock;
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// One message delivered, or one worker called.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// The iteration it happened in, counted from 1.
+    pub iteration: u64,
+    /// When the call began.
+    pub at: Instant,
+    /// How long the call took.
+    pub took: Duration,
+    /// What it was.
+    pub event: Event,
+}
+
+/// What a [`Record`] tells of.
+#[derive(Clone, Debug)]
+pub enum Event {
+    /// A message was taken from the queue.
+    Message {
+        /// `thread/object` that sent it; empty when it was sent outside of any runtime thread, or
+        /// before the trace was on.
+        from: Arc<str>,
+        /// The receiver's name; empty when there is none any more.
+        to: Arc<str>,
+        /// The type of the message.
+        message: &'static str,
+        /// How long it lay in the queue; `None` when it was sent before the trace was on.
+        waited: Option<Duration>,
+        /// What became of it.
+        end: End,
+    },
+    /// A worker was called.
+    Worker {
+        /// The worker's name.
+        name: Arc<str>,
+        /// What became of the call; `Done(false)` ended the iteration.
+        end: End,
+    },
+}
+
+/// How a call ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// It returned; the answer is a worker's, and `true` for messages.
+    Done(bool),
+    /// It panicked.
+    Panicked,
+    /// There is no such receiver.
+    Undeliverable,
+}
+
+/// The newest records of one thread, oldest first.
+#[derive(Clone, Debug)]
+pub struct TraceSnapshot {
+    /// The thread's name.
+    pub thread: Arc<str>,
+    /// When it was taken.
+    pub taken: Instant,
+    /// At most as many as the trace was told to keep.
+    pub records: Vec<Record>,
+}
+
+/// The ring, and the current iteration.
+pub(crate) struct Trace {
+    pub(crate) iteration: u64,
+    capacity: usize,
+    records: VecDeque<Record>,
+}
+
+/// How many threads are traced. While it is 0 nobody keeps track of who is sending.
+static TRACED_THREADS: AtomicUsize = AtomicUsize::new(0);
+
+impl Trace {
+    pub(crate) fn new(capacity: usize) -> Self {
+        TRACED_THREADS.fetch_add(1, Ordering::Relaxed);
+        Self { iteration: 0, capacity, records: VecDeque::with_capacity(capacity) }
+    }
+
+    pub(crate) fn add(&mut self, at: Instant, took: Duration, event: Event) {
+        match &event {
+            Event::Message { from, to, message, waited, end } => {
+                tracing::trace!(%from, %to, message, ?waited, ?took, ?end, "message")
+            }
+            Event::Worker { name, end } => tracing::trace!(worker = %name, ?took, ?end, "worker"),
+        }
+        if self.records.len() == self.capacity {
+            self.records.pop_front();
+        }
+        self.records.push_back(Record { iteration: self.iteration, at, took, event });
+    }
+
+    pub(crate) fn records(&self) -> Vec<Record> {
+        self.records.iter().cloned().collect()
+    }
+}
+
+impl Drop for Trace {
+    fn drop(&mut self) {
+        TRACED_THREADS.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Put on a message by its sender.
+pub(crate) struct Stamp {
+    pub(crate) from: Arc<str>,
+    pub(crate) sent: Instant,
+}
+
+thread_local! {
+    /// Which object of which runtime thread is being called on this OS thread.
+    static SENDER: RefCell<Option<Arc<str>>> = const { RefCell::new(None) };
+}
+
+impl Stamp {
+    pub(crate) fn now(clock: &Clock) -> Self {
+        let from = SENDER.with_borrow(Clone::clone).unwrap_or_default();
+        let sent = clock.now();
+        Self { from, sent }
+    }
+}
+
+/// While this lives, messages are stamped as sent by that object.
+pub(crate) struct Sending(Option<Arc<str>>);
+
+impl Sending {
+    /// `None`, and next to free, while no thread is traced.
+    pub(crate) fn enter(thread: &str, object: &str) -> Option<Self> {
+        (TRACED_THREADS.load(Ordering::Relaxed) > 0).then(|| {
+            let name = format!("{thread}/{object}").into();
+            Self(SENDER.replace(Some(name)))
+        })
+    }
+}
+
+impl Drop for Sending {
+    fn drop(&mut self) {
+        SENDER.set(self.0.take());
+    }
+}

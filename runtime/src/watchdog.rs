@@ -1,0 +1,185 @@
+//! Says which object of which thread does not come back, and with which type of message.
+
+use crate::register::RUN;
+use crate::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::io;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+/// How long a call may take before the watchdog speaks, unless another time is given.
+pub const STALL_LIMIT: Duration = Duration::from_secs(5);
+
+/// A call that has taken longer than the limit, and goes on.
+#[derive(Clone, Debug)]
+pub struct Stall {
+    /// The thread's name.
+    pub thread: String,
+    /// The name of the worker or receiver; `run` for a closure that was sent to the thread.
+    pub object: Arc<str>,
+    /// The type of the message being received, `update` for a worker, `run` for a closure.
+    pub call: &'static str,
+    /// How long it has been seen running, at least.
+    pub running: Duration,
+}
+
+/// Watches any number of threads; itself a worker and receiver like any other.
+///
+/// It looks four times within the limit, at one atomic number for each thread; the watched
+/// threads do nothing for it but store that number. A stall is reported once, between one limit
+/// and one and a quarter after it began.
+pub struct Watchdog {
+    address: Address<Watched>,
+    /// Ends with the watchdog, when it has a thread of its own.
+    _thread: Option<Thread>,
+}
+
+impl Watchdog {
+    /// Starts a watchdog in a thread of its own. `report` is called there, and the stall is
+    /// reported to `tracing` at level WARN in any case.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start(limit: Duration, report: impl FnMut(&Stall) + Send + 'static) -> io::Result<Self> {
+        let thread = Thread::start("watchdog")?;
+        let mut watchdog = Self::start_in(thread.handle(), limit, report);
+        watchdog._thread = Some(thread);
+        Ok(watchdog)
+    }
+
+    /// Starts a watchdog in a thread that is there already, and lives as long as it.
+    pub fn start_in(
+        thread: &ThreadHandle,
+        limit: Duration,
+        report: impl FnMut(&Stall) + Send + 'static,
+    ) -> Self {
+        let address = thread.reserve_address();
+        let own = address.clone();
+        // A stopped thread watches nobody.
+        let _ = thread.run(move |thread| {
+            let watch = Rc::new(RefCell::new(Watch { limit, report: Box::new(report), threads: Vec::new() }));
+            thread.register_receiver_at(&own, Rc::clone(&watch));
+            thread.register_worker(watch);
+        });
+        Self { address, _thread: None }
+    }
+
+    /// Watches `thread` until it stops.
+    pub fn watch(&self, thread: &ThreadHandle) {
+        let address = self.address.clone();
+        // A stopped thread need not be watched.
+        let _ = thread.run(move |thread| {
+            let handle = thread.handle().clone();
+            let tell = |id, name: &Arc<str>, call| {
+                // A watchdog that is gone has no use for it.
+                let _ = address.send(Watched::new(&handle, id, name, call));
+            };
+            tell(RUN, &"run".into(), "run");
+            for (id, slot) in &thread.workers {
+                tell(*id, &slot.name, "update");
+            }
+            for (id, slot) in &thread.receivers {
+                let call = slot.object.as_ref().map_or("", |object| object.message_name());
+                tell(*id, &slot.name, call);
+            }
+            thread.watchers.push(address);
+        });
+    }
+}
+
+/// An object that may stall, told by its thread when it is registered, and when it is removed.
+pub(crate) struct Watched {
+    thread: ThreadHandle,
+    id: u32,
+    /// Its name, and what its calls are called; `None` when it is removed.
+    object: Option<(Arc<str>, &'static str)>,
+}
+
+impl Watched {
+    pub(crate) fn new(thread: &ThreadHandle, id: u32, name: &Arc<str>, call: &'static str) -> Self {
+        Self { thread: thread.clone(), id, object: Some((Arc::clone(name), call)) }
+    }
+
+    pub(crate) fn removed(thread: &ThreadHandle, id: u32) -> Self {
+        Self { thread: thread.clone(), id, object: None }
+    }
+}
+
+struct Watch {
+    limit: Duration,
+    report: Box<dyn FnMut(&Stall)>,
+    threads: Vec<Look>,
+}
+
+/// What was seen of a thread.
+struct Look {
+    thread: ThreadHandle,
+    objects: HashMap<u32, (Arc<str>, &'static str)>,
+    running: u64,
+    since: Instant,
+    reported: bool,
+}
+
+impl Receiver for Watch {
+    type Message = Watched;
+
+    fn receive(&mut self, watched: Watched, thread: &mut Context) {
+        let known = |look: &Look| look.thread == watched.thread;
+        let index = self.threads.iter().position(known).unwrap_or_else(|| {
+            self.threads.push(Look {
+                thread: watched.thread.clone(),
+                objects: HashMap::new(),
+                running: 0,
+                since: thread.now(),
+                reported: false,
+            });
+            self.threads.len() - 1
+        });
+        let objects = &mut self.threads[index].objects;
+        match watched.object {
+            Some(object) => objects.insert(watched.id, object),
+            None => objects.remove(&watched.id),
+        };
+    }
+}
+
+impl Worker for Watch {
+    fn update(&mut self, thread: &mut Context) -> bool {
+        let now = thread.now();
+        self.threads.retain(|look| !look.thread.is_stopped());
+        for look in &mut self.threads {
+            if let Some(stall) = look.again(now, self.limit) {
+                let Stall { thread, object, call, running } = &stall;
+                tracing::warn!(thread, %object, call, ?running, "stalled");
+                (self.report)(&stall);
+            }
+        }
+        if !self.threads.is_empty() {
+            thread.wake_at(now + self.limit / 4);
+        }
+        true
+    }
+}
+
+impl Look {
+    fn again(&mut self, now: Instant, limit: Duration) -> Option<Stall> {
+        let running = self.thread.shared().running.load(Ordering::Relaxed);
+        let id = running as u32; // The upper half numbers the calls.
+        if running != self.running || id == 0 {
+            self.running = running;
+            self.since = now;
+            self.reported = false;
+            return None;
+        }
+        let time = now.saturating_duration_since(self.since);
+        if self.reported || time < limit {
+            return None;
+        }
+        self.reported = true;
+        let (object, call) = self.objects.get(&id).cloned().unwrap_or_default();
+        Some(Stall { thread: self.thread.name().to_owned(), object, call, running: time })
+    }
+}

@@ -1,0 +1,407 @@
+//! The runtime's own code under the model checkers loom and shuttle: promises R1 and R2.
+//!
+//! `.ci/models` builds this with `--cfg loom` and `--cfg shuttle` and starts each model in a
+//! process of its own, because a deadlock that loom finds aborts the process. With `PLANTED=name`
+//! a bug of that name is on in the runtime, and the model must fail.
+//!
+//! ```text
+//! models list             the models of this build, each with the planted bugs it must find
+//! models NAME [SCHEDULES] one model; SCHEDULES is for shuttle: that many random and PCT ones
+//! ```
+//!
+//! Built the usual way it holds one thing only: `models race`, which `sanitizers.sh` starts to see
+//! that ThreadSanitizer is awake.
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    run::main(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+}
+
+/// The models that both checkers run. In each, `check(f)` runs `f` under every schedule.
+#[cfg(any(loom, shuttle))]
+mod models {
+    use dragonfly_runtime::sync::thread;
+    use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::sync::{Arc, mpsc};
+    use std::time::{Duration, Instant};
+
+    /// Passes on what it gets.
+    struct Tap(Box<dyn FnMut(u32)>);
+
+    impl Receiver for Tap {
+        type Message = u32;
+        fn receive(&mut self, message: u32, _: &mut Context) {
+            (self.0)(message);
+        }
+    }
+
+    /// Keeps what it gets in a list that the model reads. The checkers do not look into mpsc
+    /// without waiting, so it adds no schedules.
+    fn recorder() -> (Tap, mpsc::Receiver<u32>) {
+        let (keep, kept) = mpsc::channel();
+        let tap = Tap(Box::new(move |message| keep.send(message).unwrap()));
+        (tap, kept)
+    }
+
+    fn capture() -> Captured {
+        let owner = thread::current();
+        Thread::capture("captured", move || owner.unpark())
+    }
+
+    /// Time has no meaning here: a wait that is not woken is a deadlock, which the checker sees.
+    fn never() -> Instant {
+        Instant::now() + Duration::from_secs(1_000_000)
+    }
+
+    fn iterate_until(captured: &mut Captured, mut done: impl FnMut() -> bool) {
+        loop {
+            let next = captured.iterate();
+            if done() {
+                return;
+            }
+            match next {
+                Next::Now => {}
+                Next::OnMessage | Next::At(_) => thread::park(),
+                Next::Stopped => panic!("nobody stopped it"),
+            }
+        }
+    }
+
+    /// Two senders, one of them with two messages: all arrive, once each, in each sender's order,
+    /// and the sleeping thread is woken.
+    pub(crate) fn mailbox() {
+        let mut captured = capture();
+        let (tap, kept) = recorder();
+        let address = captured.context().register_receiver(tap);
+        let second = address.clone();
+        let first = thread::spawn(move || {
+            address.send(10).unwrap();
+            address.send(11).unwrap();
+        });
+        let second = thread::spawn(move || second.send(20).unwrap());
+        let mut all = Vec::new();
+        iterate_until(&mut captured, || {
+            all.extend(kept.try_iter());
+            all.len() >= 3
+        });
+        first.join().unwrap();
+        second.join().unwrap();
+        captured.iterate();
+        all.extend(kept.try_iter());
+        assert_eq!(all.len(), 3, "{all:?}");
+        assert!(all.contains(&20), "{all:?}");
+        let first: Vec<_> = all.into_iter().filter(|one| *one < 20).collect();
+        assert_eq!(first, [10, 11]);
+    }
+
+    /// A thread ends while somebody sends: each message is delivered, counted as undelivered, or
+    /// comes back.
+    pub(crate) fn close() {
+        let mut captured = capture();
+        let (tap, kept) = recorder();
+        let address = captured.context().register_receiver(tap);
+        let handle = captured.handle().clone();
+        let sender = thread::spawn(move || {
+            let sent = [1, 2].map(|message| address.send(message).is_ok());
+            assert!(sent[0] || !sent[1], "it opened again");
+            sent.iter().filter(|sent| **sent).count()
+        });
+        captured.iterate();
+        drop(captured);
+        let accepted = sender.join().unwrap();
+        let delivered = kept.try_iter().count();
+        let counters = handle.counters();
+        assert_eq!(counters.delivered, delivered as u64);
+        assert_eq!(accepted as u64, counters.delivered + counters.undelivered);
+        assert_eq!(handle.queue_len(), 0, "left lying");
+    }
+
+    /// The newest message of a conflating address always arrives.
+    pub(crate) fn latest() {
+        let mut captured = capture();
+        let (tap, kept) = recorder();
+        let address = captured.context().register_receiver(tap).latest();
+        let sender = thread::spawn(move || {
+            address.send(1).unwrap();
+            address.send(2).unwrap();
+        });
+        let mut all = Vec::new();
+        iterate_until(&mut captured, || {
+            all.extend(kept.try_iter());
+            all.last() == Some(&2)
+        });
+        sender.join().unwrap();
+        assert!(all == [2] || all == [1, 2], "{all:?}");
+    }
+
+    /// Who waits for a thread is woken, after all its messages were delivered and its objects
+    /// dropped; and sees what they did.
+    pub(crate) fn stop() {
+        /// Says in its last moment how many messages it got.
+        struct Last {
+            got: u32,
+            #[cfg(loom)]
+            said: Arc<loom::cell::UnsafeCell<u32>>,
+            #[cfg(shuttle)]
+            said: Arc<shuttle::sync::atomic::AtomicU32>,
+        }
+        impl Receiver for Last {
+            type Message = u32;
+            fn receive(&mut self, _: u32, _: &mut Context) {
+                self.got += 1;
+            }
+        }
+        impl Drop for Last {
+            fn drop(&mut self) {
+                #[cfg(loom)]
+                self.said.with_mut(|said| write(said, self.got));
+                #[cfg(shuttle)]
+                self.said.store(self.got, Ordering::SeqCst);
+            }
+        }
+
+        let said = Arc::new(Default::default());
+        let theirs = Shared(Arc::clone(&said));
+        let thread = Thread::start("stopped").unwrap();
+        let address = thread.handle().register_receiver(move |_| {
+            let said = theirs.take();
+            Last { got: 0, said }
+        });
+        address.send(7).unwrap();
+        thread.handle().remote_stop();
+        Thread::wait_for(&[thread.handle().clone()], never()).unwrap();
+        #[cfg(loom)]
+        assert_eq!(said.with(read), 1);
+        #[cfg(shuttle)]
+        assert_eq!(said.load(Ordering::SeqCst), 1);
+        assert!(address.send(8).is_err());
+    }
+
+    /// A paused thread goes on when it is resumed, and a stop reaches it though it is paused.
+    pub(crate) fn pause() {
+        let thread = Thread::start("paused").unwrap();
+        let got = Arc::new(AtomicUsize::new(0));
+        let count = Arc::clone(&got);
+        let handle = thread.handle().clone();
+        let address = handle.register_receiver(move |_| {
+            Tap(Box::new(move |_| {
+                count.fetch_add(1, Ordering::SeqCst);
+            }))
+        });
+        handle.pause();
+        address.send(1).unwrap();
+        handle.resume();
+        // Sent by the thread itself, so it proves that the thread woke and delivered.
+        let owner = thread::current();
+        let woke = Arc::new(AtomicUsize::new(0));
+        let said = Arc::clone(&woke);
+        handle
+            .run(move |_| {
+                said.store(1, Ordering::SeqCst);
+                owner.unpark();
+            })
+            .unwrap();
+        while woke.load(Ordering::SeqCst) == 0 {
+            thread::park();
+        }
+        assert_eq!(got.load(Ordering::SeqCst), 1);
+        handle.pause();
+        handle.remote_stop();
+        Thread::wait_for(&[handle], never()).unwrap();
+    }
+
+    /// A chain of `stages` threads passes `messages` messages on: they come out in order, all, and
+    /// the chain stops from its head to its end with none left inside.
+    pub(crate) fn chain(stages: usize, messages: u32) {
+        let (tap, kept) = recorder();
+        let mut captured = capture();
+        let mut next = captured.context().register_receiver(tap);
+        let mut threads = Vec::new();
+        for stage in 0..stages {
+            let thread = Thread::start(&format!("stage {stage}")).unwrap();
+            let to = next.clone();
+            next = thread.handle().register_receiver(move |_| {
+                Tap(Box::new(move |message| to.send(message).unwrap()))
+            });
+            threads.push(thread);
+        }
+        for message in 0..messages {
+            next.send(message).unwrap();
+        }
+        // The head of the chain is the thread that was made last.
+        for thread in threads.iter().rev() {
+            thread.handle().remote_stop();
+            Thread::wait_for(&[thread.handle().clone()], never()).unwrap();
+        }
+        captured.iterate();
+        let out: Vec<_> = kept.try_iter().collect();
+        assert_eq!(out, (0..messages).collect::<Vec<_>>());
+    }
+
+    #[cfg(loom)]
+    mod cell {
+        // Only the cell that the checker watches needs it; a real one would be a real race.
+        #![allow(unsafe_code)]
+
+        pub(super) fn write(cell: *mut u32, value: u32) {
+            // SAFETY: loom runs one thread at a time and reports two that are not ordered.
+            unsafe { *cell = value }
+        }
+
+        pub(super) fn read(cell: *const u32) -> u32 {
+            // SAFETY: as above.
+            unsafe { *cell }
+        }
+
+        pub(super) struct Shared<T>(pub(super) T);
+        // SAFETY: as above; loom's cell is to be shared by threads, that is its purpose.
+        unsafe impl<T> Send for Shared<T> {}
+        impl<T> Shared<T> {
+            pub(super) fn take(self) -> T {
+                self.0
+            }
+        }
+    }
+    #[cfg(loom)]
+    use cell::{Shared, read, write};
+
+    #[cfg(shuttle)]
+    struct Shared<T>(T);
+    #[cfg(shuttle)]
+    impl<T> Shared<T> {
+        fn take(self) -> T {
+            self.0
+        }
+    }
+}
+
+#[cfg(any(loom, shuttle))]
+type Model = (&'static str, fn(), &'static [&'static str]);
+
+#[cfg(loom)]
+mod run {
+    use super::{Model, models};
+
+    const MODELS: &[Model] = &[
+        ("mailbox", models::mailbox, &["lost_notify", "unchecked_sleep", "reversed_batch"]),
+        ("close", models::close, &["late_send", "sweep_before_close"]),
+        ("latest", models::latest, &["announced_too_long"]),
+        ("stop", models::stop, &["finished_too_early", "relaxed_finish", "unchecked_wait"]),
+        ("pause", models::pause, &["silent_resume", "stuck_in_pause"]),
+        ("chain", || models::chain(1, 2), &["lost_notify"]),
+    ];
+
+    pub(crate) fn main(arguments: &[&str]) {
+        match arguments {
+            [name] if *name != "list" => {
+                let model = super::find(MODELS, name);
+                let mut builder = loom::model::Builder::new();
+                builder.preemption_bound = Some(match std::env::var("LOOM_BOUND") {
+                    Ok(bound) => bound.parse().expect("LOOM_BOUND is a number"),
+                    Err(_) => 2,
+                });
+                builder.max_branches = 100_000;
+                let tries = std::sync::Arc::new(std::sync::atomic::AtomicUsize::new(0));
+                let count = std::sync::Arc::clone(&tries);
+                builder.check(move || {
+                    count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                    model();
+                });
+                println!("{name}: {} schedules", tries.load(std::sync::atomic::Ordering::Relaxed));
+            }
+            _ => super::list(MODELS),
+        }
+    }
+}
+
+#[cfg(shuttle)]
+mod run {
+    use super::{Model, models};
+
+    const MODELS: &[Model] = &[
+        ("mailbox", models::mailbox, &["lost_notify", "unchecked_sleep", "reversed_batch"]),
+        ("close", models::close, &["late_send", "sweep_before_close"]),
+        ("latest", models::latest, &["announced_too_long"]),
+        ("stop", models::stop, &["finished_too_early", "unchecked_wait"]),
+        ("pause", models::pause, &["silent_resume", "stuck_in_pause"]),
+        ("chain", || models::chain(3, 5), &["lost_notify", "unchecked_sleep", "reversed_batch"]),
+    ];
+
+    pub(crate) fn main(arguments: &[&str]) {
+        let (name, schedules) = match arguments {
+            [name] if *name != "list" => (*name, 1_000),
+            [name, count] => (*name, count.parse().expect("SCHEDULES is a number")),
+            _ => return super::list(MODELS),
+        };
+        let model = super::find(MODELS, name);
+        shuttle::check_random(model, schedules);
+        shuttle::check_pct(model, schedules, 3);
+        println!("{name}: {schedules} random, {schedules} PCT(3) schedules");
+    }
+}
+
+#[cfg(any(loom, shuttle))]
+fn find(models: &[Model], name: &str) -> fn() {
+    let found = models.iter().find(|(known, ..)| *known == name);
+    found.expect("see the list").1
+}
+
+#[cfg(any(loom, shuttle))]
+fn list(models: &[Model]) {
+    for (name, _, bugs) in models {
+        println!("{name} {}", bugs.join(" "));
+    }
+}
+
+#[cfg(not(any(loom, shuttle)))]
+mod run {
+    pub(crate) fn main(arguments: &[&str]) {
+        match arguments {
+            ["race"] => super::race::run(),
+            _ => println!("nothing to do in this build; see .ci/models"),
+        }
+    }
+}
+
+#[cfg(not(any(loom, shuttle)))]
+mod race {
+    // A race cannot be written without it, which is the point of the language.
+    #![allow(unsafe_code)]
+
+    use dragonfly_runtime::{Context, Receiver, Thread};
+    use std::cell::UnsafeCell;
+    use std::sync::Arc;
+    use std::time::{Duration, Instant};
+
+    struct Unguarded(UnsafeCell<u64>);
+    // SAFETY: it is not sound, on purpose: two threads change it with nothing between them.
+    unsafe impl Sync for Unguarded {}
+
+    struct Racer(Arc<Unguarded>);
+    impl Receiver for Racer {
+        type Message = ();
+        fn receive(&mut self, (): (), _: &mut Context) {
+            // SAFETY: see above.
+            unsafe { *self.0.0.get() += 1 }
+        }
+    }
+
+    /// Two threads add to one number without a message between them.
+    pub(crate) fn run() {
+        let number = Arc::new(Unguarded(UnsafeCell::new(0)));
+        let threads = ["one", "two"].map(|name| Thread::start(name).expect("a thread"));
+        for thread in &threads {
+            let number = Arc::clone(&number);
+            let racer = thread.handle().register_receiver(|_| Racer(number));
+            for _ in 0..1000 {
+                racer.send(()).expect("it runs");
+            }
+            thread.handle().remote_stop();
+        }
+        let handles = threads.each_ref().map(|thread| thread.handle().clone());
+        let deadline = Instant::now() + Duration::from_secs(20);
+        Thread::wait_for(&handles, deadline).expect("they stop");
+        println!("raced");
+    }
+}
