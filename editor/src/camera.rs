@@ -4,7 +4,7 @@
 //! distance, so the planes can be generous.
 
 use dragonfly_anim::bounds::Sphere;
-use glam::{Mat4, Vec2, Vec3};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// Perspective or parallel.
@@ -129,11 +129,25 @@ impl Camera {
         let aspect = aspect.max(1e-3);
         let (near, far) = self.depth_range(bounds);
         match self.projection {
-            // glam's near and far exchanged: that is what reverses the depth.
-            Projection::Perspective => Mat4::perspective_rh(2.0 * self.half_angle(), aspect, far, near),
+            Projection::Perspective => {
+                let y = 1.0 / self.half_angle().tan();
+                let depth = near / (far - near);
+                Mat4::from_cols(
+                    Vec4::new(y / aspect, 0.0, 0.0, 0.0),
+                    Vec4::new(0.0, y, 0.0, 0.0),
+                    Vec4::new(0.0, 0.0, depth, -1.0),
+                    Vec4::new(0.0, 0.0, depth * far, 0.0),
+                )
+            }
             Projection::Orthographic => {
-                let (y, x) = (self.height_at_target() / 2.0, self.height_at_target() / 2.0 * aspect);
-                Mat4::orthographic_rh(-x, x, -y, y, far, near)
+                let y = 2.0 / self.height_at_target();
+                let depth = 1.0 / (far - near);
+                Mat4::from_cols(
+                    Vec4::new(y / aspect, 0.0, 0.0, 0.0),
+                    Vec4::new(0.0, y, 0.0, 0.0),
+                    Vec4::new(0.0, 0.0, depth, 0.0),
+                    Vec4::new(0.0, 0.0, depth * far, 1.0),
+                )
             }
         }
     }

@@ -143,13 +143,12 @@ impl Studio {
             scene.look.background = [color; 2];
             scene.background_alpha = f32::from(alpha) / 255.0;
         }
-        scene.playback = Playback { take: settings.take, ..Playback::rest(now) };
-        let takes = scene.model().map_or(&[][..], |model| &model.loaded().model.animation.takes);
+        let mut playback = Playback { take: settings.take, ..Playback::rest(now) };
+        let takes = self.shown.as_ref().map_or(&[][..], |shown| &shown.model.animation.takes);
         if let Some(take) = settings.take.and_then(|take| takes.get(take)) {
-            scene.playback.start = take.start;
-            scene.playback.length = take.length;
+            (playback.start, playback.length) = (take.start, take.length);
         }
-        scene.playback = scene.playback.seek(settings.time, now);
+        scene.playback = playback.seek(settings.time, now);
         scene.prepare(now);
         let camera = settings.camera.unwrap_or_else(|| self.framing(settings, true));
         self.stage.scene.camera = camera;

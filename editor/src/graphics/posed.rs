@@ -67,7 +67,8 @@ impl PosedModel {
         let mut weight_ranges = Vec::with_capacity(model.instances.len());
         let mut weight_count = 0;
         for instance in &model.instances {
-            let targets = primitives(model, instance.mesh).iter().map(|primitive| primitive.morph_targets.len());
+            let targets =
+                primitives(model, instance.mesh).iter().map(|primitive| primitive.morph_targets.len());
             let targets = targets.max().unwrap_or(0);
             weight_ranges.push((weight_count, targets));
             weight_count += targets;
@@ -156,7 +157,9 @@ impl PosedModel {
             *matrix = rigid(instance, to_root).into();
         }
         let take = take.and_then(|take| model.animation.takes.get(take)).map(Arc::as_ref);
-        for (index, (instance, &(start, count))) in model.instances.iter().zip(&self.weight_ranges).enumerate() {
+        for (index, (instance, &(start, count))) in
+            model.instances.iter().zip(&self.weight_ranges).enumerate()
+        {
             let weights = &mut self.weights[start..start + count];
             sample_morph_weights(take, index as u32, &instance.morph_weights, time, weights);
         }

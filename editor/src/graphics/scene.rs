@@ -102,9 +102,9 @@ impl Scene {
             Shading::Clay => 1.0,
             Shading::Unlit => 2.0,
         };
-        let [top, bottom] = look.background.map(|color| {
-            (Vec3::from(color) * self.background_alpha).extend(self.background_alpha)
-        });
+        let [top, bottom] = look
+            .background
+            .map(|color| (Vec3::from(color) * self.background_alpha).extend(self.background_alpha));
         let (spacing, appeared) = grid_spacing(camera.distance);
         // A high eye sees far; the ground should not end under it.
         let radius = camera.distance.max(camera.eye().y.abs()) * 5.0;

@@ -188,9 +188,7 @@ impl SkeletonShape {
     }
 
     fn radius(&self, length: f32) -> f32 {
-        (length * SLIMNESS)
-            .clamp(self.size * THICKNESS[0], self.size * THICKNESS[1])
-            .min(length * 0.3)
+        (length * SLIMNESS).clamp(self.size * THICKNESS[0], self.size * THICKNESS[1]).min(length * 0.3)
     }
 
     fn add(&mut self, body: Body, bone: BoneIndex, instance: BoneInstance) {
@@ -225,7 +223,8 @@ fn joints(model: &ModelData) -> Vec<bool> {
 
 /// Diagonal of the box around the joints; one unit for a single point.
 fn extent(rest: &[Mat4], joints: &[bool]) -> f32 {
-    let places = rest.iter().zip(joints).filter(|(_, is_joint)| **is_joint).map(|(to, _)| to.w_axis.truncate());
+    let places =
+        rest.iter().zip(joints).filter(|(_, is_joint)| **is_joint).map(|(to, _)| to.w_axis.truncate());
     let around = |(low, high): (Vec3, Vec3), place: Vec3| (low.min(place), high.max(place));
     let (low, high) = places.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), around);
     let size = (high - low).length();

@@ -8,7 +8,7 @@ use wgpu::util::DeviceExt;
 /// WGSL twin: `VertexIn` in `shaders/model.wgsl`. What a primitive lacks is filled with what changes nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct GpuVertex {
+pub(super) struct GpuVertex {
     position: [f32; 3],
     normal: [f32; 3],
     tangent: [f32; 4],
@@ -19,7 +19,7 @@ pub struct GpuVertex {
 }
 
 /// Attributes of [`GpuVertex`], by shader location.
-pub const ATTRIBUTES: [wgpu::VertexAttribute; 9] = wgpu::vertex_attr_array![
+pub(super) const ATTRIBUTES: [wgpu::VertexAttribute; 9] = wgpu::vertex_attr_array![
     0 => Float32x3,
     1 => Float32x3,
     2 => Float32x4,
@@ -32,22 +32,26 @@ pub const ATTRIBUTES: [wgpu::VertexAttribute; 9] = wgpu::vertex_attr_array![
 ];
 
 /// Buffers of one primitive.
-pub struct GpuGeometry {
+pub(super) struct GpuGeometry {
     /// [`GpuVertex`] each.
-    pub vertices: wgpu::Buffer,
+    pub(super) vertices: wgpu::Buffer,
     /// 32 bits each.
-    pub indices: wgpu::Buffer,
+    pub(super) indices: wgpu::Buffer,
     /// Number of indices.
-    pub count: u32,
+    pub(super) count: u32,
     /// Morph differences; `None` without targets.
-    pub deltas: Option<wgpu::Buffer>,
+    pub(super) deltas: Option<wgpu::Buffer>,
 }
 
 impl GpuGeometry {
     /// Copies `primitive` to `device`.
-    pub fn new(device: &wgpu::Device, primitive: &Primitive) -> Self {
+    pub(super) fn new(device: &wgpu::Device, primitive: &Primitive) -> Self {
         let buffer = |label, contents: &[u8], usage| {
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage,
+            })
         };
         let vertices: Vec<GpuVertex> =
             (0..primitive.vertices.len()).map(|index| vertex(primitive, index)).collect();

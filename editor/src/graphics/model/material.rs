@@ -10,9 +10,9 @@ use std::collections::HashMap;
 use wgpu::util::DeviceExt;
 
 /// Bind group 2 of the model's shader, one a material; the last is that of surfaces without material.
-pub struct GpuMaterials {
+pub(super) struct GpuMaterials {
     /// Layout of the groups.
-    pub layout: wgpu::BindGroupLayout,
+    pub(super) layout: wgpu::BindGroupLayout,
     /// Made by the last [`Self::load`].
     groups: Vec<wgpu::BindGroup>,
 }
@@ -22,9 +22,10 @@ type Bound = (wgpu::TextureView, wgpu::Sampler);
 
 impl GpuMaterials {
     /// No material yet.
-    pub fn new(gpu: &Gpu) -> Self {
+    pub(super) fn new(gpu: &Gpu) -> Self {
         let fragment = wgpu::ShaderStages::FRAGMENT;
-        let entry = |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: fragment, ty, count: None };
+        let entry =
+            |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: fragment, ty, count: None };
         let uniform = wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
             has_dynamic_offset: false,
@@ -47,7 +48,7 @@ impl GpuMaterials {
     }
 
     /// Takes the materials and images of `loaded` to the device, each image once a way of reading it.
-    pub fn load(&mut self, gpu: &Gpu, maker: &mut TextureMaker, loaded: &LoadedModel) {
+    pub(super) fn load(&mut self, gpu: &Gpu, maker: &mut TextureMaker, loaded: &LoadedModel) {
         let mut views = HashMap::new();
         let mut samplers = HashMap::new();
         let white = DecodedImage { width: 1, height: 1, pixels: vec![255; 4] };
@@ -87,7 +88,7 @@ impl GpuMaterials {
     }
 
     /// The bind group of a material; that of no material for `None` and what is out of range.
-    pub fn group(&self, gpu: &Gpu, uniform: &MaterialUniform, bound: &[Bound; 5]) -> wgpu::BindGroup {
+    pub(super) fn group(&self, gpu: &Gpu, uniform: &MaterialUniform, bound: &[Bound; 5]) -> wgpu::BindGroup {
         let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("material"),
             contents: bytemuck::bytes_of(uniform),
@@ -108,7 +109,7 @@ impl GpuMaterials {
     }
 
     /// The bind group of material number `index`.
-    pub fn get(&self, index: Option<u32>) -> Option<&wgpu::BindGroup> {
+    pub(super) fn get(&self, index: Option<u32>) -> Option<&wgpu::BindGroup> {
         let last = self.groups.len().checked_sub(1)?;
         self.groups.get(index.map_or(last, |index| (index as usize).min(last)))
     }

@@ -66,7 +66,8 @@ impl GpuModel {
     pub fn prepare(&mut self, gpu: &Gpu, posed: Option<&PosedModel>) {
         self.loaded = posed.map(|posed| Arc::clone(posed.loaded()));
         let (Some(resources), Some(posed)) = (&mut self.resources, posed) else { return };
-        let known = resources.content.as_ref().is_some_and(|content| Arc::ptr_eq(&content.loaded, posed.loaded()));
+        let known =
+            resources.content.as_ref().is_some_and(|content| Arc::ptr_eq(&content.loaded, posed.loaded()));
         if !known {
             resources.load(gpu, posed);
         }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 /// Which faces are left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Cull {
+pub(super) enum Cull {
     /// None.
     Nothing,
     /// Those that face the viewer.
@@ -19,19 +19,19 @@ pub enum Cull {
 
 /// What tells one pipeline from another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct PipelineKind {
+pub(super) struct PipelineKind {
     /// Alpha chooses samples.
-    pub mask: bool,
+    pub(super) mask: bool,
     /// Alpha blends.
-    pub blend: bool,
+    pub(super) blend: bool,
     /// Which faces are left out.
-    pub cull: Cull,
+    pub(super) cull: Cull,
     /// Front faces run clockwise: the pose mirrors.
-    pub mirrored: bool,
+    pub(super) mirrored: bool,
 }
 
 /// Pipelines, made when first wanted: few of the possible ones ever are.
-pub struct ModelPipelines {
+pub(super) struct ModelPipelines {
     module: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
     draw_layout: wgpu::BindGroupLayout,
@@ -40,7 +40,7 @@ pub struct ModelPipelines {
 
 impl ModelPipelines {
     /// None made yet.
-    pub fn new(gpu: &Gpu, material_layout: &wgpu::BindGroupLayout) -> Self {
+    pub(super) fn new(gpu: &Gpu, material_layout: &wgpu::BindGroupLayout) -> Self {
         let draw_layout = draw_layout(gpu);
         let layout = gpu.pipeline_layout("model", &[&draw_layout, material_layout]);
         let module = shaders::MODEL.module(&gpu.device);
@@ -48,18 +48,18 @@ impl ModelPipelines {
     }
 
     /// The pipeline of `kind`, if it was made.
-    pub fn get(&self, kind: PipelineKind) -> Option<&wgpu::RenderPipeline> {
+    pub(super) fn get(&self, kind: PipelineKind) -> Option<&wgpu::RenderPipeline> {
         self.made.get(&kind)
     }
 
     /// Makes the pipeline of `kind` unless it is there.
-    pub fn make(&mut self, gpu: &Gpu, kind: PipelineKind) {
+    pub(super) fn make(&mut self, gpu: &Gpu, kind: PipelineKind) {
         let Self { module, layout, made, .. } = self;
         made.entry(kind).or_insert_with(|| pipeline(gpu, module, layout, kind));
     }
 
     /// Bind group 1 of a draw.
-    pub fn draw_group(
+    pub(super) fn draw_group(
         &self,
         gpu: &Gpu,
         uniforms: &wgpu::Buffer,

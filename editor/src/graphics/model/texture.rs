@@ -5,7 +5,7 @@ use crate::graphics::gpu::Gpu;
 use crate::graphics::shaders;
 
 /// Makes textures; keeps what halving a picture takes.
-pub struct TextureMaker {
+pub(super) struct TextureMaker {
     layout: wgpu::BindGroupLayout,
     module: wgpu::ShaderModule,
     sampler: wgpu::Sampler,
@@ -14,7 +14,7 @@ pub struct TextureMaker {
 
 impl TextureMaker {
     /// A maker on `gpu`.
-    pub fn new(gpu: &Gpu) -> Self {
+    pub(super) fn new(gpu: &Gpu) -> Self {
         let texture = wgpu::BindGroupLayoutEntry {
             binding: 0,
             visibility: wgpu::ShaderStages::FRAGMENT,
@@ -45,13 +45,19 @@ impl TextureMaker {
 
     /// `image` as a texture; `encoded` when its values are sRGB colours. `None` for an image that is empty, torn or larger
     /// than the device can hold.
-    pub fn texture(&mut self, gpu: &Gpu, image: &DecodedImage, encoded: bool) -> Option<wgpu::TextureView> {
+    pub(super) fn texture(
+        &mut self,
+        gpu: &Gpu,
+        image: &DecodedImage,
+        encoded: bool,
+    ) -> Option<wgpu::TextureView> {
         let DecodedImage { width, height, .. } = *image;
         let bytes = u64::from(width) * u64::from(height) * 4;
         if bytes == 0 || width.max(height) > gpu.max_side || bytes != image.pixels.len() as u64 {
             return None;
         }
-        let format = if encoded { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm };
+        let format =
+            if encoded { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm };
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         let levels = width.max(height).ilog2() + 1;
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
