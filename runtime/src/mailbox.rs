@@ -109,12 +109,12 @@ impl Mailbox {
 
     /// The owner is up: senders need not wake it.
     pub(crate) fn stay_awake(&self) {
-        self.state.store(AWAKE, Ordering::SeqCst);
+        self.enter(AWAKE);
     }
 
     /// The owner wants to sleep until a message comes. `false`: one is here already.
     pub(crate) fn fall_asleep(&self) -> bool {
-        self.state.store(ASLEEP, Ordering::SeqCst);
+        self.enter(ASLEEP);
         if self.queue.len() > 0 && !planted("unchecked_sleep") {
             self.stay_awake();
             return false;
@@ -134,10 +134,10 @@ impl Mailbox {
     pub(crate) fn close(&self) -> usize {
         if planted("sweep_before_close") {
             let count = self.discard();
-            self.state.store(CLOSED, Ordering::SeqCst);
+            self.enter(CLOSED);
             return count;
         }
-        self.state.store(CLOSED, Ordering::SeqCst);
+        self.enter(CLOSED);
         self.discard()
     }
 
@@ -147,6 +147,11 @@ impl Mailbox {
 
     pub(crate) fn len(&self) -> usize {
         self.queue.len()
+    }
+
+    /// A swap, not a store: it takes its place behind what a sender changed, and sees it.
+    fn enter(&self, state: u8) {
+        self.state.swap(state, Ordering::SeqCst);
     }
 
     fn discard(&self) -> usize {

@@ -35,6 +35,7 @@ use dragonfly_anim::data::{
 use dragonfly_anim::sample::{loop_time, rest_pose, sample_channel, sample_track};
 use dragonfly_anim::skin::{Movement, skin_normals, skin_positions};
 use glam::{Mat4, Quat, Vec3};
+use std::f32::consts::PI;
 
 const INTERPOLATIONS: [Interpolation; 4] =
     [Interpolation::Step, Interpolation::Linear, Interpolation::CubicSpline, Interpolation::Closest];
@@ -95,7 +96,7 @@ fn a_rest_pose_that_is_no_number_is_the_identity() {
 
 #[test]
 fn a_mixed_rotation_has_unit_length() {
-    for angle in [1e-7_f32, 1e-4, 1e-3, 0.1, 1.0, 3.0, 3.141_592, 3.141_593, 6.0] {
+    for angle in [1e-7_f32, 1e-4, 1e-3, 0.1, 1.0, 3.0, PI.next_down(), PI, PI.next_up(), 6.0] {
         for interpolation in INTERPOLATIONS {
             let (a, b) = (Quat::from_rotation_y(0.4), Quat::from_rotation_y(0.4 + angle));
             let keys = match interpolation {
@@ -272,6 +273,12 @@ fn weights_are_used_as_stored_and_those_of_one_joint_add_up() {
     assert_eq!(moved(&one_vertex(&[(0, 0.5)]), &finals).0, stored);
     assert_eq!(moved(&one_vertex(&[(0, 0.25), (1, 0.5), (0, 0.25)]), &finals).0, stored * 1.5);
     assert_eq!(moved(&one_vertex(&[]), &finals).0, Vec3::ZERO, "no weight at all");
+}
+
+#[test]
+fn an_influence_without_weight_has_no_say_even_where_its_product_overflows() {
+    let finals = [Mat4::IDENTITY, Mat4::from_scale(Vec3::splat(f32::MAX))];
+    assert_eq!(moved(&one_vertex(&[(0, 0.5), (1, 0.0), (0, 0.25)]), &finals).0, Vec3::new(0.75, 1.5, 2.25));
 }
 
 #[test]

@@ -1,8 +1,10 @@
 //! Promises of the crate, one module each.
 
+mod agreement;
 mod bounds;
 mod degenerate;
 mod determinism;
+mod doors;
 mod hostile;
 mod poses;
 mod sampling;

@@ -1,1 +1,19 @@
-//! Promises of the crate, one module each.
+//! What the runtime promises, one module a promise.
+
+mod cast;
+
+mod addresses;
+mod alarms_and_sleep;
+mod iteration;
+mod no_locks;
+mod overload;
+mod panics;
+mod registers;
+mod shutdown;
+mod stage;
+mod stop_and_pause;
+mod stress;
+mod timer;
+mod trace;
+mod waking;
+mod watchdog;

@@ -135,6 +135,28 @@ mod models {
         assert!(all == [2] || all == [1, 2], "{all:?}");
     }
 
+    /// Two senders share a conflating address: each message is delivered or replaced, none twice.
+    pub(crate) fn latest_of_two() {
+        let mut captured = capture();
+        let (tap, kept) = recorder();
+        let address = captured.context().register_receiver(tap).latest();
+        let second = address.clone();
+        let first = thread::spawn(move || {
+            address.send(10).unwrap();
+            address.send(11).unwrap();
+        });
+        let second = thread::spawn(move || second.send(20).unwrap());
+        captured.iterate();
+        first.join().unwrap();
+        second.join().unwrap();
+        while captured.iterate() == Next::Now {}
+        let delivered: Vec<_> = kept.try_iter().collect();
+        let counters = captured.handle().counters();
+        assert_eq!(counters.delivered, delivered.len() as u64);
+        assert_eq!(counters.delivered + counters.replaced, 3, "{delivered:?}");
+        assert!(delivered.contains(&11) || delivered.contains(&20), "{delivered:?}");
+    }
+
     /// Who waits for a thread is woken, after all its messages were delivered and its objects
     /// dropped; and sees what they did.
     pub(crate) fn stop() {
@@ -211,9 +233,18 @@ mod models {
         Thread::wait_for(&[handle], never()).unwrap();
     }
 
-    /// A chain of `stages` threads passes `messages` messages on: they come out in order, all, and
-    /// the chain stops from its head to its end with none left inside.
+    /// A chain of `stages` threads passes `messages` messages on: all come out, in order, without
+    /// a further push.
     pub(crate) fn chain(stages: usize, messages: u32) {
+        run_chain(stages, messages, false);
+    }
+
+    /// The same when the chain is stopped at once, from its head to its end: none is left inside.
+    pub(crate) fn stopped_chain(stages: usize, messages: u32) {
+        run_chain(stages, messages, true);
+    }
+
+    fn run_chain(stages: usize, messages: u32, stop_at_once: bool) {
         let (tap, kept) = recorder();
         let mut captured = capture();
         let mut next = captured.context().register_receiver(tap);
@@ -229,13 +260,21 @@ mod models {
         for message in 0..messages {
             next.send(message).unwrap();
         }
+        let mut out = Vec::new();
+        let mut done = |kept: &mpsc::Receiver<u32>| {
+            out.extend(kept.try_iter());
+            out.len() == messages as usize
+        };
+        if !stop_at_once {
+            iterate_until(&mut captured, || done(&kept));
+        }
         // The head of the chain is the thread that was made last.
         for thread in threads.iter().rev() {
             thread.handle().remote_stop();
             Thread::wait_for(&[thread.handle().clone()], never()).unwrap();
         }
         captured.iterate();
-        let out: Vec<_> = kept.try_iter().collect();
+        done(&kept);
         assert_eq!(out, (0..messages).collect::<Vec<_>>());
     }
 
@@ -287,9 +326,11 @@ mod run {
         ("mailbox", models::mailbox, &["lost_notify", "unchecked_sleep", "reversed_batch"]),
         ("close", models::close, &["late_send", "sweep_before_close"]),
         ("latest", models::latest, &["announced_too_long"]),
+        ("latest_of_two", models::latest_of_two, &["announced_too_long"]),
         ("stop", models::stop, &["finished_too_early", "relaxed_finish", "unchecked_wait"]),
         ("pause", models::pause, &["silent_resume", "stuck_in_pause"]),
-        ("chain", || models::chain(1, 2), &["lost_notify"]),
+        ("chain", || models::chain(1, 2), &["lost_notify", "unchecked_sleep"]),
+        ("stopped_chain", || models::stopped_chain(1, 2), &["reversed_batch"]),
     ];
 
     pub(crate) fn main(arguments: &[&str]) {
@@ -323,9 +364,11 @@ mod run {
         ("mailbox", models::mailbox, &["lost_notify", "unchecked_sleep", "reversed_batch"]),
         ("close", models::close, &["late_send", "sweep_before_close"]),
         ("latest", models::latest, &["announced_too_long"]),
+        ("latest_of_two", models::latest_of_two, &["announced_too_long"]),
         ("stop", models::stop, &["finished_too_early", "unchecked_wait"]),
         ("pause", models::pause, &["silent_resume", "stuck_in_pause"]),
         ("chain", || models::chain(3, 5), &["lost_notify", "unchecked_sleep", "reversed_batch"]),
+        ("stopped_chain", || models::stopped_chain(4, 6), &["reversed_batch"]),
     ];
 
     pub(crate) fn main(arguments: &[&str]) {

@@ -4,7 +4,7 @@ use std::fmt;
 use thiserror::Error;
 
 /// Where in a file.
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Place {
     /// The file as a whole.
     #[default]

@@ -3,11 +3,13 @@
 use super::{ImportError, OverBudget, Place, ReadOptions, Warning};
 use crate::limits::{CANCEL_EVERY, WARNINGS};
 use std::cell::{Cell, RefCell};
+use std::collections::HashSet;
 
 /// One import under way.
 pub(crate) struct Guard<'a> {
     options: &'a ReadOptions<'a>,
     warnings: RefCell<Vec<Warning>>,
+    said: RefCell<HashSet<(Place, &'static str)>>,
     unsaid: Cell<usize>,
     work: Cell<usize>,
     progress: Cell<f32>,
@@ -18,6 +20,7 @@ impl<'a> Guard<'a> {
         Self {
             options,
             warnings: RefCell::default(),
+            said: RefCell::default(),
             unsaid: Cell::new(0),
             work: Cell::new(0),
             progress: Cell::new(0.0),
@@ -81,10 +84,13 @@ impl<'a> Guard<'a> {
         Ok(())
     }
 
-    /// Notes something odd. Past [`WARNINGS`] it is only counted.
+    /// Notes something odd, once a place and rule. Past [`WARNINGS`] it is only counted.
     pub(crate) fn warn(&self, place: Place, code: &'static str, text: impl Into<String>) {
         let mut warnings = self.warnings.borrow_mut();
         if warnings.len() < WARNINGS {
+            if !self.said.borrow_mut().insert((place.clone(), code)) {
+                return;
+            }
             warnings.push(Warning { place, code, text: text.into() });
         } else {
             self.unsaid.set(self.unsaid.get() + 1);

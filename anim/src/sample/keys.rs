@@ -29,6 +29,7 @@ impl Keys {
 /// Finds the keys around `time` seconds in ascending `times`, by binary search; `None` when there is no key.
 ///
 /// NaN counts as before the first key. Times that do not ascend give some key, never a panic.
+#[allow(clippy::neg_cmp_op_on_partial_ord, reason = "the negation is how NaN is caught")]
 pub fn find_keys(times: &[f32], time: f32) -> Option<Keys> {
     let (&first, &last) = (times.first()?, times.last()?);
     // Written so that a NaN on either side ends here.
@@ -102,6 +103,21 @@ mod tests {
     #[test]
     fn keys_further_apart_than_f32_can_say_are_still_mixed() {
         assert_eq!(find_keys(&[f32::MIN, f32::MAX], 0.0), keys(0, 1, 0.5));
+    }
+
+    #[test]
+    fn the_way_between_keys_is_zero_where_it_is_undefined() {
+        let hostile = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+        for (before, after, time) in [
+            (1.0, 1.0, 1.0),
+            (0.0, hostile[0], 1.0),
+            (hostile[0], 1.0, 0.0),
+            (hostile[2], 1.0, 0.0),
+            (hostile[2], hostile[1], 0.0),
+        ] {
+            assert_eq!(mix_factor(before, after, time), 0.0, "{before} {after} {time}");
+        }
+        assert_eq!(mix_factor(0.0, 1.0, 2.0), 1.0, "keys out of order");
     }
 
     #[test]

@@ -26,6 +26,7 @@ impl PlayMode {
 ///
 /// A length that is negative or not finite counts as zero, a start that is not finite as 0, and an end past what f32
 /// can hold is the largest f32.
+#[allow(clippy::neg_cmp_op_on_partial_ord, reason = "the negation is how NaN is caught")]
 pub fn clamp_time(time: f32, start: f32, length: f32) -> f32 {
     let (start, length) = checked(start, length);
     let end = (start + length).min(f32::MAX);

@@ -54,7 +54,7 @@ fn thorax(u: f32, v: f32) -> Vec3 {
     let (top, bottom) = (curve(&TOP, u), curve(&BOTTOM, u));
     let (s, c) = (sin(v * PI), cos(v * PI));
     // A little squarer than an ellipse: flanks are flat, the back is a ridge between the wings.
-    let square = 1.0 + 0.24 * s.abs() * c.abs();
+    let square = 1.0 + 0.34 * s.abs() * c.abs();
     let (mid, half) = ((top + bottom) * 0.5, (top - bottom) * 0.5);
     let ridge = 0.006 * bump(0.0, 0.22, v) * bump(0.45, 0.35, u);
     // The whole thorax leans back: the legs are bunched forward, the wings sit behind.

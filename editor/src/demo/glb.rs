@@ -47,25 +47,19 @@ impl Writer {
         self.accessors.len() - 1
     }
 
-    /// Rows of floats; the smallest and largest of each column are recorded where `bounds`.
-    fn floats(&mut self, data: &[f32], kind: &str, target: Option<u32>, bounds: bool) -> usize {
-        let width = match kind {
-            "SCALAR" => 1,
-            "VEC3" => 3,
-            "VEC4" => 4,
-            _ => 16,
+    /// Rows of floats, in a view of their own.
+    fn floats(&mut self, data: &[f32], kind: &str, target: Option<u32>) -> usize {
+        let view = self.view(&little_endian(data), target);
+        self.accessor(view, FLOAT, kind, data.len() / width(kind))
+    }
+
+    /// Records the smallest and largest value of each column of an accessor.
+    fn bound(&mut self, accessor: usize, data: &[f32], width: usize) {
+        let fold = |start: f32, pick: fn(f32, f32) -> f32| -> Vec<f32> {
+            (0..width).map(|c| data.iter().skip(c).step_by(width).copied().fold(start, pick)).collect()
         };
-        let bytes: Vec<u8> = data.iter().flat_map(|x| x.to_le_bytes()).collect();
-        let view = self.view(&bytes, target);
-        let index = self.accessor(view, FLOAT, kind, data.len() / width);
-        if bounds {
-            let fold = |start: f32, pick: fn(f32, f32) -> f32| -> Vec<f32> {
-                (0..width).map(|c| data.iter().skip(c).step_by(width).copied().fold(start, pick)).collect()
-            };
-            self.accessors[index]["min"] = json!(fold(f32::MAX, f32::min));
-            self.accessors[index]["max"] = json!(fold(f32::MIN, f32::max));
-        }
-        index
+        self.accessors[accessor]["min"] = json!(fold(f32::MAX, f32::min));
+        self.accessors[accessor]["max"] = json!(fold(f32::MIN, f32::max));
     }
 
     fn primitive(&mut self, mesh: &Mesh, material: usize, tangents: bool) -> Value {
@@ -76,13 +70,15 @@ impl Writer {
         let target = Some(VERTICES);
         let position = floats(&|v| v.position.to_array().to_vec());
         let normal = floats(&|v| v.normal.to_array().to_vec());
+        let at = self.floats(&position, "VEC3", target);
+        self.bound(at, &position, 3);
         let mut attributes = json!({
-            "NORMAL": self.floats(&normal, "VEC3", target, false),
-            "POSITION": self.floats(&position, "VEC3", target, true),
+            "NORMAL": self.floats(&normal, "VEC3", target),
+            "POSITION": at,
         });
         if tangents {
             let tangent = floats(&|v| v.tangent.to_array().to_vec());
-            attributes["TANGENT"] = json!(self.floats(&tangent, "VEC4", target, false));
+            attributes["TANGENT"] = json!(self.floats(&tangent, "VEC4", target));
         }
         let uv: Vec<u8> = mesh
             .vertices
@@ -110,7 +106,15 @@ impl Writer {
         json!({"attributes": attributes, "indices": indices, "material": material})
     }
 
-    fn animation(&mut self, take: &Take) -> Value {
+    /// Key data of all takes goes into one view, `at`, which is filled last.
+    fn keys(&mut self, all: &mut Vec<f32>, at: usize, data: &[f32], kind: &str) -> usize {
+        let index = self.accessor(at, FLOAT, kind, data.len() / width(kind));
+        self.accessors[index]["byteOffset"] = json!(all.len() * 4);
+        all.extend_from_slice(data);
+        index
+    }
+
+    fn animation(&mut self, take: &Take, all: &mut Vec<f32>, at: usize) -> Value {
         // Tracks that share their key times share one accessor for them.
         let mut inputs: Vec<(&[f32], usize)> = Vec::new();
         let (mut channels, mut samplers) = (Vec::new(), Vec::new());
@@ -119,7 +123,8 @@ impl Writer {
             let input = match known {
                 Some(&(_, index)) => index,
                 None => {
-                    let index = self.floats(&track.times, "SCALAR", None, true);
+                    let index = self.keys(all, at, &track.times, "SCALAR");
+                    self.bound(index, &track.times, 1);
                     inputs.push((&track.times, index));
                     index
                 }
@@ -128,7 +133,7 @@ impl Writer {
                 Path::Rotation => ("rotation", "VEC4"),
                 Path::Translation => ("translation", "VEC3"),
             };
-            let output = self.floats(&track.values, kind, None, false);
+            let output = self.keys(all, at, &track.values, kind);
             channels.push(json!({
                 "sampler": samplers.len(), "target": {"node": track.bone, "path": path},
             }));
@@ -142,14 +147,33 @@ impl Writer {
     }
 }
 
+/// How many numbers a row of an accessor of this kind has.
+fn width(kind: &str) -> usize {
+    match kind {
+        "SCALAR" => 1,
+        "VEC3" => 3,
+        "VEC4" => 4,
+        _ => 16,
+    }
+}
+
+fn little_endian(data: &[f32]) -> Vec<u8> {
+    data.iter().flat_map(|x| x.to_le_bytes()).collect()
+}
+
 /// The bytes of the file.
 pub(super) fn write(model: &Model) -> Vec<u8> {
     let mut out = Writer::default();
     let primitives: Vec<Value> = (0..3).map(|i| out.primitive(&model.meshes[i], i, i < 2)).collect();
     let inverse: Vec<f32> =
         model.bones.iter().flat_map(|b| glam::Mat4::from_translation(-b.head).to_cols_array()).collect();
-    let bind = out.floats(&inverse, "MAT4", None, false);
-    let animations: Vec<Value> = model.takes.iter().map(|t| out.animation(t)).collect();
+    let bind = out.floats(&inverse, "MAT4", None);
+    let (mut keys, at) = (Vec::new(), out.views.len());
+    // The view's place is taken now; a view per track would only bloat the document.
+    out.views.push(Value::Null);
+    let animations: Vec<Value> = model.takes.iter().map(|take| out.animation(take, &mut keys, at)).collect();
+    out.view(&little_endian(&keys), None);
+    out.views.swap_remove(at);
     let images: Vec<Value> = model
         .pictures
         .iter()

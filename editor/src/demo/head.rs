@@ -27,8 +27,8 @@ const OUTLINE: [(f32, f32, f32); 14] = [
     (0.58, 0.176, 0.4065),
     (0.66, 0.163, 0.404),
     (0.73, 0.150, 0.396),
-    (0.82, 0.141, 0.379),
-    (0.91, 0.150, 0.347),
+    (0.82, 0.1385, 0.377),
+    (0.91, 0.1395, 0.342),
     (1.00, 0.176, 0.320),
 ];
 
@@ -67,7 +67,7 @@ pub(super) fn add(mesh: &mut Mesh) {
 }
 
 /// How far from its middle the eye's chart reaches, in radians.
-const REACH: f32 = 1.75;
+const REACH: f32 = 1.95;
 
 /// The direction from the eye's centre that the point (`u`, `v`) of its chart shows. The chart
 /// is centred on the way the eye looks, and keeps distances from there true, so that the facets
@@ -93,6 +93,7 @@ pub(super) fn add_eye(mesh: &mut Mesh) {
         let low = (-d.y).max(0.0);
         at.x -= 0.012 * low * low * d.x.max(0.0);
         at.z -= 0.008 * low * low;
+        at.y += 0.005 * low * low;
         // The two eyes meet in a flat seam on top of the head and never cross it.
         let k = 0.0035;
         at.x = 0.5 * (at.x + (at.x * at.x + k * k).sqrt());

@@ -16,8 +16,8 @@ const fn rgb(hex: u32) -> Vec3 {
     Vec3::new(part(hex >> 16), part(hex >> 8), part(hex))
 }
 
-const INK: Vec3 = rgb(0x0C_16_14);
-const BRONZE: Vec3 = rgb(0x1B_32_26);
+const INK: Vec3 = rgb(0x14_1F_1C);
+const BRONZE: Vec3 = rgb(0x2A_40_2E);
 const EMERALD: Vec3 = rgb(0x1A_7E_58);
 const LEAF: Vec3 = rgb(0x4E_AE_58);
 const LIME: Vec3 = rgb(0xB8_CE_58);
@@ -130,10 +130,14 @@ pub(super) fn thorax(a: f32, b: f32) -> Paint {
     // Black keel down the front, pale soft skin between the wings, dark belly and neck.
     colour =
         colour.lerp(INK, 0.85 * bump(0.0, 0.035, b) * smooth(0.1, 0.2, a) * (1.0 - smooth(0.36, 0.42, a)));
-    let saddle = smooth(0.42, 0.50, a) * (1.0 - smooth(0.86, 0.93, a)) * (1.0 - smooth(0.11, 0.17, b));
-    let plates = bump(0.53, 0.06, a) + bump(0.70, 0.07, a) + bump(0.83, 0.04, a);
-    colour = colour.lerp(rgb(0x2A_3A_30), saddle);
-    colour = colour.lerp(TURQUOISE * 0.85, saddle * (plates * smooth(0.1, 0.02, b)).min(1.0) * 0.8);
+    let saddle = smooth(0.44, 0.48, a) * (1.0 - smooth(0.86, 0.91, a)) * (1.0 - smooth(0.10, 0.135, b));
+    let spot = |centre: f32, half: f32| {
+        let (x, y) = ((a - centre) / half, b / 0.085);
+        1.0 - smooth(0.55, 1.1, x * x + y * y)
+    };
+    let plates = (spot(0.535, 0.040) + spot(0.68, 0.050) + spot(0.80, 0.032)).min(1.0);
+    colour = colour.lerp(rgb(0x1C_30_2A), saddle);
+    colour = colour.lerp(TURQUOISE * 0.9, 0.85 * saddle * plates);
     let belly = smooth(0.84, 0.94, b);
     colour = colour.lerp(rgb(0x33_3C_2C), 0.8 * belly);
     colour = colour.lerp(INK, 0.8 * (1.0 - smooth(0.08, 0.14, a)));
@@ -149,7 +153,7 @@ pub(super) fn thorax(a: f32, b: f32) -> Paint {
     colour *= 1.0 - 0.55 * seams - 0.3 * collar.min(1.0);
     let height = 0.5 * (grain - 0.5) + 0.12 * fuzz - 3.0 * seams - 2.2 * collar
         + 2.5 * bump(0.0, 0.04, b) * (1.0 - smooth(0.36, 0.44, a))
-        + 3.0 * saddle * plates.min(1.0)
+        + 2.0 * saddle * plates
         + 0.8 * first.max(second);
     Paint {
         colour,
@@ -173,6 +177,9 @@ pub(super) fn head(a: f32, b: f32) -> Paint {
     let mut tone = forehead.lerp(clypeus, smooth(0.50, 0.52, a));
     tone = tone.lerp(lip, smooth(0.615, 0.635, a));
     colour = colour.lerp(tone * mix(1.05, 0.8, b), face);
+    // Below the dark mouth line, the lower lip is dull horn.
+    let chin = smooth(0.785, 0.80, a) * (1.0 - smooth(0.88, 0.92, a));
+    colour = colour.lerp(rgb(0x6A_70_3A), 0.8 * chin);
     // The black T on the forehead.
     let t = bump(0.365, 0.035, a) * (1.0 - smooth(0.45, 0.55, b))
         + bump(0.40, 0.06, a) * (1.0 - smooth(0.05, 0.09, b));
@@ -201,7 +208,8 @@ pub(super) fn head(a: f32, b: f32) -> Paint {
 pub(super) fn femur(a: f32, b: f32) -> Paint {
     let grain = fractal(a * 40.0, b * 8.0, 81);
     let pale = rgb(0xA8_8A_3A).lerp(LEAF, 0.45);
-    let mut paint = plain(pale.lerp(INK, smooth(0.36, 0.62, a + 0.12 * (grain - 0.5))));
+    let mut paint =
+        plain(pale.lerp(INK.lerp(rgb(0x3A_2E_1C), 0.5), smooth(0.36, 0.62, a + 0.12 * (grain - 0.5))));
     paint.colour *= 0.8 + 0.4 * grain;
     paint.height = 0.45 * (grain - 0.5) + 0.8 * bump(0.5, 0.06, b);
     paint
@@ -211,7 +219,7 @@ pub(super) fn femur(a: f32, b: f32) -> Paint {
 pub(super) fn tibia(a: f32, b: f32) -> Paint {
     let grain = fractal(a * 46.0, b * 8.0, 91);
     let line = bump(0.5, 0.12, b) * smooth(0.03, 0.1, a) * (1.0 - smooth(0.7, 0.95, a));
-    let mut paint = plain(INK.lerp(rgb(0x9A_7A_34), 0.75 * line));
+    let mut paint = plain(INK.lerp(rgb(0x3A_2E_1C), 0.7).lerp(rgb(0xA8_84_3A), 0.8 * line));
     paint.colour *= 0.85 + 0.4 * grain;
     paint.height = 1.0 * (grain - 0.5);
     paint
@@ -233,12 +241,13 @@ pub(super) fn coxa(a: f32, b: f32) -> Paint {
     paint
 }
 
-/// The socket of a wing: dark horn with an amber edge.
+/// The socket of a wing: dark green horn with an amber edge.
 pub(super) fn socket(a: f32, b: f32) -> Paint {
     let grain = fractal(a * 20.0, b * 14.0, 111);
-    let mut paint = plain(rgb(0x1A_2A_22).lerp(rgb(0x7A_62_30), smooth(0.55, 0.95, a) * 0.6));
-    paint.colour *= 0.8 + 0.4 * grain;
-    paint.height = 2.0 * (grain - 0.5);
+    let rim = smooth(0.55, 0.95, a);
+    let mut paint = plain((EMERALD * 0.45).lerp(rgb(0x8A_6C_30), rim * 0.8));
+    paint.colour *= 0.9 + 0.2 * grain;
+    paint.height = 0.6 * (grain - 0.5);
     paint
 }
 
@@ -252,7 +261,7 @@ pub(super) fn dark(a: f32, b: f32) -> Paint {
 
 /// Width and half the double row of the facets, in texels: whole numbers, so that the relief
 /// repeats exactly and packs to almost nothing.
-const FACET: (f32, f32) = (10.0, 9.0);
+const FACET: (f32, f32) = (8.0, 7.0);
 
 /// The compound eye: blue above, through green to gold below, under a net of facets.
 pub(super) fn eye(a: f32, b: f32) -> Paint {
@@ -272,8 +281,8 @@ pub(super) fn eye(a: f32, b: f32) -> Paint {
             }
         }
     }
-    let rim = 1.0 - smooth(0.0, 2.2, near[1] - near[0]);
-    let dome = 1.0 - near[0] * near[0] / 36.0;
+    let rim = 1.0 - smooth(0.0, 1.8, near[1] - near[0]);
+    let dome = 1.0 - near[0] * near[0] / 22.0;
 
     let d = eye_direction(a, b);
     let cloud = fractal(a * 6.0, b * 6.0, 131);
@@ -296,7 +305,7 @@ pub(super) fn eye(a: f32, b: f32) -> Paint {
     colour *= 0.92 + 0.16 * cloud;
     Paint {
         colour,
-        height: 2.4 * dome,
+        height: 1.9 * dome,
         roughness: mix(0.20, 0.60, rim),
         metallic: 0.0,
         openness: 1.0 - 0.6 * rim,

@@ -22,9 +22,9 @@ impl Trunk {
 
 /// The directions of femur, tibia and tarsus of a folded left leg, in the thorax's own axes.
 const FOLDED: [[Vec3; 3]; 3] = [
-    [Vec3::new(0.50, 0.55, -0.12), Vec3::new(-0.42, -0.68, 0.34), Vec3::new(-0.30, -0.60, 0.55)],
-    [Vec3::new(0.38, -0.08, -0.92), Vec3::new(-0.27, -0.08, 0.95), Vec3::new(-0.20, -0.10, 0.95)],
-    [Vec3::new(0.28, 0.02, -0.95), Vec3::new(-0.26, 0.07, -0.95), Vec3::new(-0.06, 0.04, -0.99)],
+    [Vec3::new(0.50, 0.12, 0.86), Vec3::new(-0.38, -0.10, -0.92), Vec3::new(-0.10, 0.05, -0.98)],
+    [Vec3::new(0.36, 0.16, -0.92), Vec3::new(-0.22, -0.18, 0.96), Vec3::new(-0.20, 0.10, 0.95)],
+    [Vec3::new(0.25, 0.20, -0.95), Vec3::new(-0.30, 0.11, -0.95), Vec3::new(-0.04, 0.04, -0.99)],
 ];
 
 /// A rotation that carries the rest directions of two joined pieces onto new ones, so that the

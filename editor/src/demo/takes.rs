@@ -110,7 +110,7 @@ fn hover(t: f32) -> Pose {
     turns[HEAD] = yzx(0.65 * look, 5.0 * sin(slow - 0.5), 2.0 - 1.5 * sin(slow * 2.0 + 0.4));
     abdomen(turns, |i| {
         let lag = 0.38 * i;
-        (0.75 - 0.95 * sin(slow * 2.0 + 1.0 - lag) - 0.22 * sin(wings - 0.5 * i), -0.9 * sin(slow - lag))
+        (0.75 - 0.95 * sin(slow * 2.0 + 1.0 - lag), -0.9 * sin(slow - lag))
     });
     for side in SIDES {
         let lean = if side == 0 { 1.0 } else { -1.0 };
@@ -132,7 +132,7 @@ fn hover(t: f32) -> Pose {
         for pair in 0..3 {
             let sway = sin(slow + 0.9 * pair as f32 + 1.7 * side as f32);
             let shift = stood.place - stood.rest;
-            stance::set(&mut pose.turns, side, pair, stood, shift, 0.07 + 0.035 * sway);
+            stance::set(&mut pose.turns, side, pair, stood, shift, 0.035 + 0.03 * sway);
         }
     }
     pose
@@ -158,10 +158,7 @@ fn cruise(t: f32) -> Pose {
     abdomen(turns, |i| {
         let lag = 0.62 * i;
         let grow = 0.5 + 0.16 * i;
-        (
-            -1.0 + 1.15 * grow * sin(slow * 2.0 - lag),
-            0.85 * grow * sin(slow - 0.5 * lag) + 0.10 * sin(wings - lag),
-        )
+        (-1.0 + 1.15 * grow * sin(slow * 2.0 - lag), 0.85 * grow * sin(slow - 0.5 * lag))
     });
     for side in SIDES {
         let lean = if side == 0 { 1.0 } else { -1.0 };
@@ -258,7 +255,7 @@ fn land(t: f32) -> Pose {
             let start = 0.30 + 0.14 * (2 - pair) as f32 + 0.03 * side as f32;
             let out = smooth(start, start + 0.62, t);
             let shift = Vec3::new(0.0, (height - 0.018 * out).max(0.0), back);
-            stance::set(&mut pose.turns, side, pair, stood, shift, mix(0.07, 1.0, out));
+            stance::set(&mut pose.turns, side, pair, stood, shift, mix(0.035, 1.0, out));
         }
     }
     pose
@@ -267,6 +264,13 @@ fn land(t: f32) -> Pose {
 /// Key times: `count` equal steps over `length` seconds.
 fn steps(length: f32, count: usize) -> Vec<f32> {
     (0..=count).map(|i| length * i as f32 / count as f32).collect()
+}
+
+/// `busy` key times, then `count` more, evenly spread to the end of the landing.
+fn rests(busy: &[f32], count: usize) -> Vec<f32> {
+    let start = busy[busy.len() - 1];
+    let more = (1..=count).map(|i| start + (LAND - start) * i as f32 / count as f32);
+    busy.iter().copied().chain(more).collect()
 }
 
 /// Reads tracks off a pose function.
@@ -355,9 +359,14 @@ fn take(name: &'static str, closed: bool, pose: &dyn Fn(f32) -> Pose, rhythm: &R
 
 /// The three takes: hover and cruise, which repeat, and land, which ends standing.
 pub(super) fn takes() -> Vec<Take> {
-    let hovering = Rhythm { wings: steps(HOVER, 40), trunk: steps(HOVER, 20), legs: steps(HOVER, 12) };
-    let cruising = Rhythm { wings: steps(CRUISE, 48), trunk: steps(CRUISE, 24), legs: steps(CRUISE, 10) };
-    let landing = Rhythm { wings: steps(LAND, 64), trunk: steps(LAND, 32), legs: steps(LAND, 64) };
+    let hovering = Rhythm { wings: steps(HOVER, 40), trunk: steps(HOVER, 14), legs: steps(HOVER, 12) };
+    let cruising = Rhythm { wings: steps(CRUISE, 48), trunk: steps(CRUISE, 14), legs: steps(CRUISE, 10) };
+    // Dense while the wings beat and the feet find the ground, sparse once it rests.
+    let landing = Rhythm {
+        wings: rests(&steps(2.3, 46), 5),
+        trunk: rests(&steps(2.2, 22), 6),
+        legs: rests(&steps(2.4, 40), 4),
+    };
     vec![
         take("hover", true, &hover, &hovering),
         take("cruise", true, &cruise, &cruising),

@@ -40,7 +40,7 @@ const AMBER: (f32, f32) = (0.815, 0.895);
 /// The mean width of a cell of the field, in units.
 const CELL: f32 = 0.0125;
 
-/// How strongly each texel is vein, and how strongly it is amber cell, per texel.
+/// How strongly each texel is vein.
 struct Ink {
     width: usize,
     height: usize,
@@ -137,18 +137,12 @@ fn draw_veins(plan: &Plan, seed: u32, ink: &mut Ink) {
     for s in [AMBER.0, AMBER.1] {
         ink.line(point(s + 0.004, 0.0), point(s - 0.004, vein(1, s)), 1.8);
     }
-    // The triangle near the base, by which wings of this kind are known.
-    let corner = [(0.135, 0.33), (0.20, 0.36), (0.165, 0.50)].map(|(s, f)| point(s, f));
-    for k in 0..3 {
-        ink.line(corner[k], corner[(k + 1) % 3], 1.6);
-    }
 }
 
 /// Distance to the nearest wall between cells of the field, in units.
 fn wall(span: f32, chord: f32, edge: f32, seed: u32) -> f32 {
-    // Cells shrink towards the trailing edge.
-    let size = CELL * mix(0.72, 1.25, smooth(0.0, 0.05, edge));
-    let size = if size < CELL { CELL * 0.8 } else { CELL };
+    // A hem of smaller cells runs along the trailing edge.
+    let size = if edge < 0.025 { CELL * 0.8 } else { CELL };
     let (gx, gy) = (span / size, chord / size * 1.12);
     let (cx, cy) = (gx.floor() as i32, gy.floor() as i32);
     let mut cells = [(f32::MAX, Vec2::ZERO); 2];
@@ -190,24 +184,29 @@ fn texel(plan: &Plan, seed: u32, span: f32, chord: f32, mut vein: f32) -> [u8; 4
     } else {
         0.0
     };
-    // The membrane: warm at the root and along the front, elsewhere a breath of green and rose.
+    // The membrane's colour is kept not much lighter than the veins', or veins would turn pale where
+    // filtering blends the two. It is warm at the root and along the front, elsewhere a breath of
+    // green and rose.
     let warm = (0.9 * (1.0 - smooth(0.0, 0.20, s)) + 0.4 * (1.0 - smooth(0.04, 0.2, f))).min(1.0);
     let film = sheen(1.5 * s + 0.8 * f + 0.4 * fractal(s * 5.0, f * 3.0, seed + 60));
-    let cool = Vec3::new(0.70, 0.88, 0.86).lerp(film, 0.22);
-    let clear = cool.lerp(Vec3::new(0.88, 0.62, 0.18), warm);
+    let cool = Vec3::new(0.54, 0.68, 0.66).lerp(film * 0.85, 0.25);
+    let clear = cool.lerp(Vec3::new(0.66, 0.45, 0.13), warm);
     let clear = clear.lerp(Vec3::new(0.48, 0.22, 0.05), amber);
-    let thin = mix(0.075 + 0.13 * warm, 0.95, amber);
-    let dark = Vec3::new(0.07, 0.065, 0.045).lerp(Vec3::new(0.26, 0.16, 0.05), 0.6 * warm);
-    // Vein over membrane: the thin film hardly tells where a vein covers any of the texel.
+    let thin = mix(0.12 + 0.12 * warm, 0.95, amber);
+    // The costa is straw yellow, as on many hawkers; other veins are brown, warmer at the root.
+    let root = 1.0 - smooth(0.0, 0.25, s);
+    let dark = Vec3::new(0.18, 0.14, 0.09).lerp(Vec3::new(0.34, 0.22, 0.08), 0.7 * root);
+    let costa = (lead - chord) * WING_SCALE < 3.0 && s < 0.93;
+    let dark = if costa { Vec3::new(0.60, 0.46, 0.17) } else { dark };
+    // Where a vein touches a texel only its coverage changes, not its colour: that packs far
+    // better, and filtering blends them all the same.
     let cover = vein * 0.97 + thin * (1.0 - vein * 0.97);
-    let colour = clear.lerp(dark, vein * 0.97 / cover);
+    let colour = if vein > 0.0 { dark } else { clear };
     if inside <= 0.0 && vein <= 0.0 {
         return CLEAR;
     }
     let cover = cover * inside.max(if s <= 1.0 { vein } else { 0.0 });
-    // Few levels are enough and pack far better; the colour of a faint film needs the fewest.
     let level =
         |x: f32, step: f32| (((x.clamp(0.0, 1.0) * 255.0) / step + 0.5).floor() * step).min(255.0) as u8;
-    let step = if vein > 0.0 { 24.0 } else { 12.0 };
-    [level(colour.x, step), level(colour.y, step), level(colour.z, step), level(cover, 8.0)]
+    [level(colour.x, 10.0), level(colour.y, 10.0), level(colour.z, 10.0), level(cover, 17.0)]
 }

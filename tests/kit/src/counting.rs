@@ -27,6 +27,8 @@ pub struct Count {
 thread_local! {
     // Constant and without a destructor, so that reading it never allocates.
     static COUNT: Cell<Count> = const { Cell::new(Count { allocations: 0, bytes: 0 }) };
+    /// Bytes held now and at most, by what this thread took and gave back.
+    static HELD: Cell<(i64, i64)> = const { Cell::new((0, 0)) };
 }
 
 /// What the calling thread has asked for so far; zero unless [`CountingAllocator`] is the global allocator.
@@ -44,6 +46,16 @@ pub fn count<T>(work: impl FnOnce() -> T) -> (Count, T) {
     (count, result)
 }
 
+/// Runs `work` and tells how many bytes more than before it held at most, taken and not given back by this thread.
+pub fn peak<T>(work: impl FnOnce() -> T) -> (u64, T) {
+    let (before, outer) = HELD.get();
+    HELD.set((before, before));
+    let result = work();
+    let (now, most) = HELD.get();
+    HELD.set((now, most.max(outer)));
+    ((most - before).max(0) as u64, result)
+}
+
 /// The system's allocator, which counts per thread.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CountingAllocator;
@@ -57,28 +69,42 @@ fn note(bytes: usize) {
     });
 }
 
+/// Adds to the bytes that this thread holds.
+fn hold(bytes: i64) {
+    let _ = HELD.try_with(|cell| {
+        let (held, most) = cell.get();
+        cell.set((held + bytes, most.max(held + bytes)));
+    });
+}
+
 // SAFETY: every method hands its arguments on to `System` unchanged and returns what `System` returned, so the contract
-// of `GlobalAlloc` is kept because `System` keeps it; `note` neither allocates nor unwinds.
+// of `GlobalAlloc` is kept because `System` keeps it; `note` and `hold` neither allocate nor unwind.
 unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         note(layout.size());
+        hold(layout.size() as i64);
         // SAFETY: the caller keeps the contract of `alloc`, which is that of `System.alloc`.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         note(layout.size());
+        hold(layout.size() as i64);
         // SAFETY: as for `alloc`.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn realloc(&self, block: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         note(size);
+        // A block that grows may be copied: for a moment there are two.
+        hold(size as i64);
+        hold(-(layout.size() as i64));
         // SAFETY: `block` came from this allocator, hence from `System`, with this `layout`.
         unsafe { System.realloc(block, layout, size) }
     }
 
     unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        hold(-(layout.size() as i64));
         // SAFETY: `block` came from this allocator, hence from `System`, with this `layout`.
         unsafe { System.dealloc(block, layout) }
     }

@@ -1,4 +1,8 @@
 //! What the tests of all crates share. Small on purpose: a test should show what it does.
 
 pub mod counting;
+mod eventually;
+pub mod process;
 pub mod random;
+
+pub use eventually::eventually;

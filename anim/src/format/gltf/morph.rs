@@ -8,6 +8,8 @@ use crate::format::{ImportError, Place};
 use glam::Vec3;
 use gltf::json;
 use gltf::json::accessor::Accessor;
+use serde_json::value::RawValue;
+use std::collections::HashMap;
 
 /// The morph targets of a primitive; each column is empty or as long as the primitive.
 pub(super) fn morph_targets(
@@ -89,14 +91,16 @@ pub(super) fn fitted(
     Ok(fitted)
 }
 
+/// Extras longer than this are not searched for names.
+const EXTRAS_BYTES: usize = 1 << 20;
+
 /// `extras.targetNames`: not in the specification, but what everybody writes.
 fn target_names(mesh: &json::Mesh) -> Vec<String> {
-    #[derive(Default)]
-    struct Names(Vec<String>);
-    let parse = |text: &str| -> Option<Names> {
-        let value: serde_json::Value = serde_json::from_str(text).ok()?;
-        let names = value.get("targetNames")?.as_array()?;
-        Some(Names(names.iter().map(|name| name.as_str().unwrap_or("").to_owned()).collect()))
+    let names = |text: &str| -> Option<Vec<String>> {
+        let members: HashMap<String, &RawValue> = serde_json::from_str(text).ok()?;
+        let names: Vec<&RawValue> = serde_json::from_str(members.get("targetNames")?.get()).ok()?;
+        Some(names.iter().map(|name| serde_json::from_str(name.get()).unwrap_or_default()).collect())
     };
-    mesh.extras.as_ref().and_then(|extras| parse(extras.get())).unwrap_or_default().0
+    let extras = mesh.extras.as_ref().map(|extras| extras.get()).filter(|text| text.len() <= EXTRAS_BYTES);
+    extras.and_then(names).unwrap_or_default()
 }

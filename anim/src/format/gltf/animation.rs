@@ -1,0 +1,231 @@
+//! Animations become takes: a track a bone, a column a property.
+
+use super::accessor::{Document, ElementFormat, invalid, unresolved};
+use super::check as code;
+use super::document::NO_NODE;
+use super::keys::{self, Column, Keys};
+use super::scene::Stage;
+use crate::data::{Channel, MorphTrack, Take, Track};
+use crate::format::{ImportError, Place};
+use crate::limits::KEYS;
+use glam::{Quat, Vec3};
+use gltf::json;
+use gltf::json::accessor::{ComponentType, Type};
+use gltf::json::animation::Property;
+use gltf::json::validation::Checked;
+use std::collections::{HashMap, HashSet};
+
+const VEC3: &[ElementFormat] = &[(ComponentType::F32, Type::Vec3, false)];
+const QUATERNION: &[ElementFormat] = &[
+    (ComponentType::F32, Type::Vec4, false),
+    (ComponentType::I8, Type::Vec4, true),
+    (ComponentType::U8, Type::Vec4, true),
+    (ComponentType::I16, Type::Vec4, true),
+    (ComponentType::U16, Type::Vec4, true),
+];
+const WEIGHT: &[ElementFormat] = &[
+    (ComponentType::F32, Type::Scalar, false),
+    (ComponentType::I8, Type::Scalar, true),
+    (ComponentType::U8, Type::Scalar, true),
+    (ComponentType::I16, Type::Scalar, true),
+    (ComponentType::U16, Type::Scalar, true),
+];
+const WRONG: &str = code::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT;
+
+/// Marks every node that a channel moves in `is_bone`.
+pub(super) fn mark_animated(document: &Document<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
+    for (index, animation) in document.root.animations.iter().enumerate() {
+        for (number, channel) in animation.channels.iter().enumerate() {
+            document.guard.work(1)?;
+            let node = channel.target.node.value();
+            if node == NO_NODE || channel.target.path == Checked::Invalid {
+                continue;
+            }
+            let from = || format!("/animations/{index}/channels/{number}/target/node");
+            *is_bone.get_mut(node).ok_or_else(|| unresolved(&from(), node))? = true;
+        }
+    }
+    Ok(())
+}
+
+/// All animations, as takes with one track a bone of `stage`.
+pub(super) fn takes(document: &Document<'_>, stage: &Stage) -> Result<Vec<Take>, ImportError> {
+    let guard = document.guard;
+    let count = document.root.animations.len();
+    let mut takes = guard.vec(&Place::Pointer("/animations".to_owned()), count)?;
+    let mut reader = TakeReader { document, stage, times: HashMap::new(), keys: 0 };
+    for (index, animation) in document.root.animations.iter().enumerate() {
+        takes.push(reader.take(animation, index)?);
+        guard.progress(0.7 + 0.3 * (index + 1) as f32 / count as f32)?;
+    }
+    Ok(takes)
+}
+
+/// What is remembered from take to take: key times are shared between channels.
+struct TakeReader<'a> {
+    document: &'a Document<'a>,
+    stage: &'a Stage,
+    times: HashMap<usize, Keys>,
+    keys: usize,
+}
+
+impl TakeReader<'_> {
+    fn take(&mut self, animation: &json::Animation, index: usize) -> Result<Take, ImportError> {
+        let path = format!("/animations/{index}");
+        let place = Place::Pointer(path.clone());
+        let bones = self.stage.skeleton.len();
+        let mut tracks: Vec<Track> = self.document.guard.vec(&place, bones)?;
+        self.document.guard.work(bones)?;
+        tracks.extend((0..bones as u32).map(|bone| Track { bone, ..Track::default() }));
+        let mut take = Take { name: animation.name.clone().unwrap_or_default(), tracks, ..Take::default() };
+        if animation.channels.is_empty() {
+            self.document.guard.warn(place, code::EMPTY_ENTITY, "the animation has no channel");
+        }
+        let mut moved = HashSet::new();
+        for (number, channel) in animation.channels.iter().enumerate() {
+            let path = format!("{path}/channels/{number}");
+            self.channel(animation, channel, &path, index, &mut moved, &mut take)?;
+        }
+        let ranges = take.tracks.iter().flat_map(|track| {
+            [track.translation.range(), track.rotation.range(), track.scale.range()].into_iter().flatten()
+        });
+        let morphs = take.morphs.iter().filter_map(|morph| Some((*morph.times.first()?, *morph.times.last()?)));
+        let range = ranges.chain(morphs).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let (start, end) = range.unwrap_or((0.0, 0.0));
+        (take.start, take.length) = (start, end - start);
+        Ok(take)
+    }
+
+    fn channel(
+        &mut self,
+        animation: &json::Animation,
+        channel: &json::animation::Channel,
+        path: &str,
+        index: usize,
+        moved: &mut HashSet<(usize, u8)>,
+        take: &mut Take,
+    ) -> Result<(), ImportError> {
+        let guard = self.document.guard;
+        let number = channel.sampler.value();
+        let sampler =
+            animation.samplers.get(number).ok_or_else(|| unresolved(&format!("{path}/sampler"), number))?;
+        let node = channel.target.node.value();
+        let target = || Place::Pointer(format!("{path}/target"));
+        let property = match channel.target.path {
+            Checked::Valid(property) if node != NO_NODE => property,
+            _ => {
+                let text = "the channel moves something that is not shown";
+                guard.warn(target(), code::ANIMATION_CHANNEL_TARGET_UNKNOWN, text);
+                return Ok(());
+            }
+        };
+        if !moved.insert((node, property as u8)) {
+            guard.warn(target(), code::ANIMATION_DUPLICATE_TARGETS, "moved by an earlier channel already; left out");
+            return Ok(());
+        }
+        if self.document.root.nodes[node].matrix.is_some() && property != Property::MorphTargetWeights {
+            let text = "the node has a matrix, of which the animated part is replaced";
+            guard.warn(target(), code::ANIMATION_CHANNEL_TARGET_NODE_MATRIX, text);
+        }
+        let sampler_path = format!("/animations/{index}/samplers/{number}");
+        let bone = self.stage.bones[node].expect("every animated node was marked as a bone") as usize;
+        match property {
+            Property::Translation => {
+                let (keys, column) = self.column::<3>(sampler, VEC3, 1, &sampler_path)?;
+                take.tracks[bone].translation = channel_of(keys, column, Vec3::from_array);
+            }
+            Property::Scale => {
+                let (keys, column) = self.column::<3>(sampler, VEC3, 1, &sampler_path)?;
+                take.tracks[bone].scale = channel_of(keys, column, Vec3::from_array);
+            }
+            Property::Rotation => {
+                let (keys, mut column) = self.column::<4>(sampler, QUATERNION, 1, &sampler_path)?;
+                keys::make_unit(&mut column, &format!("{sampler_path}/output"), guard);
+                take.tracks[bone].rotation = channel_of(keys, column, Quat::from_array);
+            }
+            Property::MorphTargetWeights => self.weights(sampler, node, path, &sampler_path, take)?,
+        }
+        Ok(())
+    }
+
+    fn weights(
+        &mut self,
+        sampler: &json::animation::Sampler,
+        node: usize,
+        path: &str,
+        sampler_path: &str,
+        take: &mut Take,
+    ) -> Result<(), ImportError> {
+        let guard = self.document.guard;
+        let place = || Place::Pointer(format!("{path}/target"));
+        let targets = self.stage.morph_targets_of(self.document, node);
+        if targets == 0 {
+            let text = "the node has no mesh with morph targets; the channel is left out";
+            guard.warn(place(), code::ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS, text);
+            return Ok(());
+        }
+        let (keys, column) = self.column::<1>(sampler, WEIGHT, targets, sampler_path)?;
+        let Some(instance) = self.stage.instance_of(node) else { return Ok(()) };
+        if !keys.times.is_empty() {
+            take.morphs.push(MorphTrack {
+                instance,
+                targets: targets as u32,
+                times: keys.times,
+                weights: column.values.into_iter().map(|[weight]| weight).collect(),
+                interpolation: column.interpolation,
+            });
+        }
+        Ok(())
+    }
+
+    /// Key times and values of a sampler, `width` values a key, sorted and finite.
+    fn column<const N: usize>(
+        &mut self,
+        sampler: &json::animation::Sampler,
+        allowed: &[ElementFormat],
+        width: usize,
+        path: &str,
+    ) -> Result<(Keys, Column<N>), ImportError> {
+        let input = sampler.input.value();
+        let keys = match self.times.get(&input) {
+            Some(keys) => keys.clone(),
+            None => {
+                let keys = Keys::read(self.document, sampler.input, path)?;
+                self.times.insert(input, keys.clone());
+                keys
+            }
+        };
+        self.keys = self.keys.saturating_add(keys.count);
+        if self.keys > KEYS {
+            let (size, limit) = (self.keys as u64, KEYS as u64);
+            let place = Place::Pointer(path.to_owned());
+            return Err(ImportError::TooLarge { place, what: "keys in all", size, limit });
+        }
+        let output = format!("{path}/output");
+        let source = self.document.source(sampler.output, &output, allowed, WRONG)?;
+        let interpolation = keys::interpolation(sampler, path, self.document.guard);
+        let per_key = width * if interpolation == crate::data::Interpolation::CubicSpline { 3 } else { 1 };
+        if keys.count.checked_mul(per_key) != Some(source.count) {
+            let reason = format!("{} values for {} keys of {per_key}", source.count, keys.count);
+            let code = code::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT;
+            return Err(invalid(Place::Pointer(output), code, reason));
+        }
+        // Once as numbers, once as what the channel shares.
+        self.document.guard.charge(&source.place, (source.count as u64).saturating_mul(2 * 4 * N as u64))?;
+        let mut column = Column { values: source.floats()?, interpolation, width };
+        column.check(&source.place, self.document.guard)?;
+        column.sort(&keys, self.document.guard)?;
+        Ok((keys, column))
+    }
+}
+
+fn channel_of<T: Copy, const N: usize>(keys: Keys, column: Column<N>, value: fn([f32; N]) -> T) -> Channel<T> {
+    if keys.times.is_empty() {
+        return Channel { times: Default::default(), values: Vec::new().into(), interpolation: column.interpolation };
+    }
+    Channel {
+        times: keys.times,
+        values: column.values.into_iter().map(value).collect(),
+        interpolation: column.interpolation,
+    }
+}

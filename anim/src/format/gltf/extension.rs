@@ -1,0 +1,29 @@
+//! Extensions: those that are read, and what becomes of the others.
+
+use super::check as code;
+use crate::format::{ImportError, Place, guard::Guard};
+use gltf::json;
+
+/// Extensions that are read in full.
+pub const SUPPORTED: &[&str] =
+    &["KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"];
+
+/// Refuses what the file needs and is not read; warns of what it uses.
+pub(super) fn check(root: &json::Root, guard: &Guard<'_>) -> Result<(), ImportError> {
+    for (index, name) in root.extensions_required.iter().enumerate() {
+        guard.work(1)?;
+        if !SUPPORTED.contains(&name.as_str()) {
+            let place = Place::Pointer(format!("/extensionsRequired/{index}"));
+            return Err(ImportError::Unsupported { place, feature: format!("the extension {name}") });
+        }
+    }
+    for (index, name) in root.extensions_used.iter().enumerate() {
+        guard.work(1)?;
+        if !SUPPORTED.contains(&name.as_str()) {
+            let place = Place::Pointer(format!("/extensionsUsed/{index}"));
+            let what = if name == "KHR_lights_punctual" { "the file's lights" } else { name };
+            guard.warn(place, code::UNSUPPORTED_EXTENSION, format!("{what} is not shown"));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,184 @@
+//! The columns of a sampler: times that rise, values that are finite and stand in the same order.
+
+use super::accessor::{Document, ElementFormat, invalid};
+use super::check as code;
+use super::node::{ROTATION_TOLERANCE, unit};
+use crate::data::Interpolation;
+use crate::format::{ImportError, Place, guard::Guard};
+use crate::limits::{CLIP_SECONDS, HUGE, KEYS_PER_CHANNEL};
+use glam::Quat;
+use gltf::json;
+use gltf::json::accessor::{Accessor, ComponentType, Type};
+use gltf::json::validation::Checked;
+use std::sync::Arc;
+
+const TIME: &[ElementFormat] = &[(ComponentType::F32, Type::Scalar, false)];
+
+/// The key times of a sampler.
+#[derive(Clone)]
+pub(super) struct Keys {
+    /// Seconds, strictly ascending.
+    pub(super) times: Arc<[f32]>,
+    /// How many the file has; more than `times` where some were left out.
+    pub(super) count: usize,
+    /// Which of the file's keys each time is, where that is not simply the same.
+    order: Option<Arc<[u32]>>,
+}
+
+impl Keys {
+    /// Reads and sorts; of keys at the same time the last one counts.
+    pub(super) fn read(document: &Document<'_>, input: json::Index<Accessor>, path: &str) -> Result<Self, ImportError> {
+        let guard = document.guard;
+        let from = format!("{path}/input");
+        let wrong = code::ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT;
+        let source = document.source(input, &from, TIME, wrong)?;
+        let too_large = |what, size: u64, limit: u64| ImportError::TooLarge { place: source.place.clone(), what, size, limit };
+        if source.count > KEYS_PER_CHANNEL {
+            return Err(too_large("keys", source.count as u64, KEYS_PER_CHANNEL as u64));
+        }
+        if source.count == 0 {
+            guard.warn(source.place.clone(), code::EMPTY_ENTITY, "the channel has no key and moves nothing");
+        }
+        // -0 would sort before 0 and yet be equal to it.
+        let times: Vec<f32> = source.finite::<1>()?.into_iter().map(|[time]| time + 0.0).collect();
+        guard.work(times.len())?;
+        guard.charge(&source.place, times.len() as u64 * 8)?;
+        if let Some(far) = times.iter().find(|time| time.abs() > CLIP_SECONDS) {
+            return Err(too_large("seconds", far.abs() as u64, CLIP_SECONDS as u64));
+        }
+        if times.iter().any(|&time| time < 0.0) {
+            let text = "key times below zero are kept";
+            guard.warn(source.place.clone(), code::ACCESSOR_ANIMATION_INPUT_NEGATIVE, text);
+        }
+        // Written so that NaN would fail.
+        if times.windows(2).any(|pair| !(pair[1] > pair[0])) {
+            return Self::sorted(&times, &source.place, guard);
+        }
+        Ok(Self { count: times.len(), times: times.into(), order: None })
+    }
+
+    fn sorted(times: &[f32], place: &Place, guard: &Guard<'_>) -> Result<Self, ImportError> {
+        let text = "key times do not rise; they were sorted, and of equal ones the last was kept";
+        guard.warn(place.clone(), code::ACCESSOR_ANIMATION_INPUT_NON_INCREASING, text);
+        let mut order: Vec<u32> = guard.vec(place, times.len())?;
+        order.extend(0..times.len() as u32);
+        order.sort_by(|&a, &b| times[a as usize].total_cmp(&times[b as usize]));
+        guard.work(times.len())?;
+        let is_last = |&(position, &key): &(usize, &u32)| {
+            order.get(position + 1).is_none_or(|&next| times[next as usize] != times[key as usize])
+        };
+        let kept: Arc<[u32]> = order.iter().enumerate().filter(is_last).map(|(_, &key)| key).collect();
+        let sorted = kept.iter().map(|&key| times[key as usize]).collect();
+        Ok(Self { times: sorted, count: times.len(), order: Some(kept) })
+    }
+}
+
+/// The values of a sampler as the file has them, `width` of them together.
+pub(super) struct Column<const N: usize> {
+    pub(super) values: Vec<[f32; N]>,
+    pub(super) interpolation: Interpolation,
+    /// Values that belong together: 1, or the number of morph targets.
+    pub(super) width: usize,
+}
+
+impl<const N: usize> Column<N> {
+    /// Values: a key, tangents included.
+    fn per_key(&self) -> usize {
+        self.width * if self.interpolation == Interpolation::CubicSpline { 3 } else { 1 }
+    }
+
+    /// Is the value at `index` a tangent?
+    fn is_tangent(&self, index: usize) -> bool {
+        self.interpolation == Interpolation::CubicSpline && index / self.width % 3 != 1
+    }
+
+    /// Refuses values that are not finite, and mends tangents that are not.
+    pub(super) fn check(&mut self, place: &Place, guard: &Guard<'_>) -> Result<(), ImportError> {
+        let (mut mended, mut huge) = (0, false);
+        guard.work(self.values.len())?;
+        for index in 0..self.values.len() {
+            if self.values[index].iter().all(|number| number.is_finite()) {
+                huge |= self.values[index].iter().any(|number| number.abs() > HUGE);
+            } else if self.is_tangent(index) {
+                self.values[index] = [0.0; N];
+                mended += 1;
+            } else {
+                let reason = format!("element {index} is not finite");
+                return Err(invalid(place.clone(), code::ACCESSOR_INVALID_FLOAT, reason));
+            }
+        }
+        if mended > 0 {
+            let text = format!("{mended} tangents are not finite; they were set to zero");
+            guard.warn(place.clone(), code::ANIMATION_TANGENT_NOT_FINITE, text);
+        }
+        if huge {
+            guard.warn(place.clone(), code::HUGE_TRANSLATION, "a key is too large for single precision");
+        }
+        Ok(())
+    }
+
+    /// Puts the values into the order of `keys`.
+    pub(super) fn sort(&mut self, keys: &Keys, guard: &Guard<'_>) -> Result<(), ImportError> {
+        let Some(order) = &keys.order else { return Ok(()) };
+        let per_key = self.per_key();
+        guard.work(self.values.len())?;
+        guard.charge(&Place::File, (self.values.len() * size_of::<[f32; N]>()) as u64)?;
+        let old = std::mem::take(&mut self.values);
+        self.values = order.iter().flat_map(|&key| &old[key as usize * per_key..][..per_key]).copied().collect();
+        Ok(())
+    }
+}
+
+/// Makes the rotations of all keys unit.
+///
+/// Between keys that are mixed by distance, neighbours are brought into one hemisphere: q and -q are the same
+/// rotation, and the short way between them is meant. A spline is left as it is: with its tangents it says itself
+/// which way it goes.
+pub(super) fn make_unit(column: &mut Column<4>, place: &str, guard: &Guard<'_>) {
+    let (mut zero, mut off) = (0, 0);
+    let mut last: Option<Quat> = None;
+    for index in 0..column.values.len() {
+        if column.is_tangent(index) {
+            continue;
+        }
+        let mut rotation = match unit(Quat::from_array(column.values[index])) {
+            Some((rotation, error)) => {
+                off += usize::from(error > ROTATION_TOLERANCE);
+                rotation
+            }
+            None => {
+                zero += 1;
+                Quat::IDENTITY
+            }
+        };
+        if column.interpolation != Interpolation::CubicSpline {
+            if last.is_some_and(|last| last.dot(rotation) < 0.0) {
+                rotation = -rotation;
+            }
+            last = Some(rotation);
+        }
+        column.values[index] = rotation.to_array();
+    }
+    let code = code::ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION;
+    let warn = |count: usize, what: &str| {
+        if count > 0 {
+            guard.warn(Place::Pointer(place.to_owned()), code, format!("{count} rotations {what}"));
+        }
+    };
+    warn(zero, "have no length; none is taken instead");
+    warn(off, "are not of unit length and were made so");
+}
+
+/// How to mix; linear where the file says something unknown.
+pub(super) fn interpolation(sampler: &json::animation::Sampler, path: &str, guard: &Guard<'_>) -> Interpolation {
+    match sampler.interpolation {
+        Checked::Valid(json::animation::Interpolation::Step) => Interpolation::Step,
+        Checked::Valid(json::animation::Interpolation::CubicSpline) => Interpolation::CubicSpline,
+        Checked::Valid(json::animation::Interpolation::Linear) => Interpolation::Linear,
+        Checked::Invalid => {
+            let place = Place::Pointer(format!("{path}/interpolation"));
+            guard.warn(place, code::VALUE_NOT_IN_LIST, "unknown; linear is taken instead");
+            Interpolation::Linear
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! From nodes to bones and instances: what moves, and what is shown.
+
+use super::accessor::{Document, invalid, unresolved};
+use super::check as code;
+use super::graph::Graph;
+use super::mesh::ReadMesh;
+use super::morph::fitted;
+use super::node::{Local, inverse};
+use crate::data::{Bone, BoneIndex, MeshInstance, Skeleton, Skin};
+use crate::format::{ImportError, Place};
+use glam::Mat4;
+
+/// Bones and instances, and how nodes map to them.
+pub(super) struct Stage {
+    pub(super) skeleton: Skeleton,
+    pub(super) instances: Vec<MeshInstance>,
+    /// The bone of each node.
+    pub(super) bones: Vec<Option<BoneIndex>>,
+    /// Number of morph targets of each mesh.
+    morph_targets: Vec<usize>,
+}
+
+impl Stage {
+    /// The instance that node `node` is; `None` for one without mesh, or outside the scene.
+    pub(super) fn instance_of(&self, node: usize) -> Option<u32> {
+        // Instances are in node order.
+        let found = self.instances.binary_search_by_key(&Some(node as u32), |instance| instance.node);
+        found.ok().map(|index| index as u32)
+    }
+
+    /// How many morph targets the mesh of `node` has.
+    pub(super) fn morph_targets_of(&self, document: &Document<'_>, node: usize) -> usize {
+        let mesh = document.root.nodes[node].mesh;
+        mesh.and_then(|mesh| self.morph_targets.get(mesh.value()).copied()).unwrap_or(0)
+    }
+}
+
+/// Numbers the bones: parents first, depth first from the roots. `is_bone` gets the ancestors too.
+pub(super) fn number_bones(
+    document: &Document<'_>,
+    graph: &Graph,
+    is_bone: &mut [bool],
+) -> Result<Vec<Option<BoneIndex>>, ImportError> {
+    for &node in graph.order.iter().rev() {
+        if let Some(parent) = graph.parents[node as usize] {
+            is_bone[parent as usize] |= is_bone[node as usize];
+        }
+    }
+    let mut bones = document.guard.filled(&Place::Pointer("/nodes".to_owned()), is_bone.len(), None)?;
+    let moving = graph.order.iter().filter(|&&node| is_bone[node as usize]);
+    for (bone, &node) in moving.enumerate() {
+        bones[node as usize] = Some(bone as BoneIndex);
+    }
+    Ok(bones)
+}
+
+/// The bones themselves. A bone's offset is that of the first skin that uses it.
+pub(super) fn skeleton(
+    document: &Document<'_>,
+    graph: &Graph,
+    locals: &[Local],
+    globals: &[Mat4],
+    bones: &[Option<BoneIndex>],
+    skins: &[Skin],
+) -> Result<Skeleton, ImportError> {
+    let place = Place::Pointer("/nodes".to_owned());
+    let count = bones.iter().flatten().count();
+    let mut list = document.guard.vec(&place, count)?;
+    for &node in graph.order.iter().filter(|&&node| bones[node as usize].is_some()) {
+        document.guard.work(1)?;
+        let local = &locals[node as usize];
+        list.push(Bone {
+            name: document.root.nodes[node as usize].name.clone().unwrap_or_default(),
+            parent: graph.parents[node as usize].and_then(|parent| bones[parent as usize]),
+            rest: local.parts,
+            rest_matrix: local.sheared,
+            offset: inverse(globals[node as usize]).unwrap_or(Mat4::IDENTITY),
+            node: Some(node),
+        });
+    }
+    for skin in skins.iter().rev() {
+        document.guard.work(skin.bones.len())?;
+        // Backwards, so that the first joint counts where one is named twice.
+        for (&bone, &offset) in skin.bones.iter().zip(&skin.offsets).rev() {
+            list[bone as usize].offset = offset;
+        }
+    }
+    Ok(Skeleton { bones: list })
+}
+
+/// Places every mesh of the scene that is shown: the default one, else the first, else all nodes.
+pub(super) fn stage(
+    document: &Document<'_>,
+    graph: &Graph,
+    locals: &[Local],
+    skeleton: Skeleton,
+    bones: Vec<Option<BoneIndex>>,
+    meshes: &[ReadMesh],
+) -> Result<Stage, ImportError> {
+    let is_shown = shown(document, graph)?;
+    let mut instances = Vec::new();
+    for (index, node) in document.root.nodes.iter().enumerate() {
+        document.guard.work(1)?;
+        check_references(document, index)?;
+        let Some(mesh) = node.mesh else { continue };
+        let path = format!("/nodes/{index}");
+        let read = meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
+        let skin = skin_of(document, index, read)?;
+        if !is_shown[index] {
+            let text = "the mesh stands outside the scene that is shown";
+            document.guard.warn(Place::Pointer(path), code::NODE_NOT_IN_SCENE, text);
+            continue;
+        }
+        let place = Place::Pointer(format!("{path}/weights"));
+        let defaults = &read.mesh.morph_weights;
+        let weights = node.weights.as_deref();
+        let morph_weights = fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
+        let (bone, to_bone) = carrier(index, graph, locals, &bones);
+        document.guard.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
+        let (mesh, node) = (mesh.value() as u32, Some(index as u32));
+        instances.push(MeshInstance { mesh, node, skin, bone, to_bone, morph_weights });
+    }
+    let morph_targets = meshes.iter().map(|read| read.mesh.morph_weights.len()).collect();
+    Ok(Stage { skeleton, instances, bones, morph_targets })
+}
+
+/// The skin of a node, if its mesh has joints; refused where a vertex names a joint that the skin lacks.
+fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
+    let Some(skin) = document.root.nodes[index].skin else { return Ok(None) };
+    let path = format!("/nodes/{index}/skin");
+    let joints = document.root.skins.get(skin.value()).ok_or_else(|| unresolved(&path, skin.value()))?.joints.len();
+    match read.largest_joint {
+        None => {
+            let text = "the mesh has no joints; the skin is left out";
+            document.guard.warn(Place::Pointer(path), code::NODE_SKIN_WITH_NON_SKINNED_MESH, text);
+            Ok(None)
+        }
+        Some(largest) if usize::from(largest) >= joints => {
+            let reason = format!("a vertex names joint {largest}, the skin has {joints}");
+            Err(invalid(Place::Pointer(path), code::ACCESSOR_JOINTS_INDEX_OOB, reason))
+        }
+        Some(_) => Ok(Some(skin.value() as u32)),
+    }
+}
+
+/// The bone that carries a node, and the way there: from the node up to the first bone, or to the scene.
+fn carrier(node: usize, graph: &Graph, locals: &[Local], bones: &[Option<BoneIndex>]) -> (Option<BoneIndex>, Mat4) {
+    let mut to_bone = Mat4::IDENTITY;
+    let mut at = Some(node as u32);
+    while let Some(node) = at {
+        if let Some(bone) = bones[node as usize] {
+            return (Some(bone), to_bone);
+        }
+        to_bone = locals[node as usize].matrix() * to_bone;
+        at = graph.parents[node as usize];
+    }
+    (None, to_bone)
+}
+
+/// Which nodes belong to the scene that is shown.
+fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
+    let root = document.root;
+    let place = Place::Pointer("/scenes".to_owned());
+    let index = match root.scene {
+        Some(scene) if scene.value() < root.scenes.len() => scene.value(),
+        Some(scene) => return Err(unresolved("/scene", scene.value())),
+        None => 0,
+    };
+    for (number, scene) in root.scenes.iter().enumerate() {
+        for (position, node) in scene.nodes.iter().enumerate() {
+            document.guard.work(1)?;
+            let from = || format!("/scenes/{number}/nodes/{position}");
+            match graph.parents.get(node.value()) {
+                None => return Err(unresolved(&from(), node.value())),
+                Some(Some(parent)) => {
+                    let text = format!("node {} is a child of node {parent}", node.value());
+                    document.guard.warn(Place::Pointer(from()), code::SCENE_NON_ROOT_NODE, text);
+                }
+                Some(None) => {}
+            }
+        }
+    }
+    let Some(scene) = root.scenes.get(index) else {
+        return document.guard.filled(&place, root.nodes.len(), true);
+    };
+    let mut is_shown = document.guard.filled(&place, root.nodes.len(), false)?;
+    for node in &scene.nodes {
+        is_shown[node.value()] = true;
+    }
+    for &node in &graph.order {
+        if let Some(parent) = graph.parents[node as usize] {
+            is_shown[node as usize] |= is_shown[parent as usize];
+        }
+    }
+    Ok(is_shown)
+}
+
+/// References of a node that nothing else looks at.
+fn check_references(document: &Document<'_>, index: usize) -> Result<(), ImportError> {
+    let node = &document.root.nodes[index];
+    if let Some(camera) = node.camera {
+        let path = format!("/nodes/{index}/camera");
+        if camera.value() >= document.root.cameras.len() {
+            return Err(unresolved(&path, camera.value()));
+        }
+        document.guard.warn(Place::Pointer(path), code::CAMERA_NOT_SHOWN, "the file's camera is not used");
+    }
+    match node.skin {
+        Some(skin) if skin.value() >= document.root.skins.len() => {
+            Err(unresolved(&format!("/nodes/{index}/skin"), skin.value()))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,64 @@
+//! Doors to other files for importers under test: one in memory that remembers every knock, one into the test data.
+
+use dragonfly_anim::format::{AssetError, AssetFs};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// Files that exist only here, and a record of what was asked for.
+#[derive(Default)]
+pub(crate) struct MemoryFs {
+    files: HashMap<String, Vec<u8>>,
+    asked: RefCell<Vec<String>>,
+}
+
+impl MemoryFs {
+    /// A door with the given files behind it.
+    pub(crate) fn with(files: &[(&str, &[u8])]) -> Self {
+        let files = files.iter().map(|(path, bytes)| ((*path).to_owned(), bytes.to_vec())).collect();
+        Self { files, asked: RefCell::default() }
+    }
+
+    /// Every path asked for, in order.
+    pub(crate) fn asked(&self) -> Vec<String> {
+        self.asked.borrow().clone()
+    }
+}
+
+impl AssetFs for MemoryFs {
+    fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
+        self.asked.borrow_mut().push(path.to_owned());
+        let bytes = self.files.get(path).ok_or(AssetError::Missing)?;
+        let size = bytes.len() as u64;
+        if size > limit { Err(AssetError::TooLarge { size, limit }) } else { Ok(bytes.clone()) }
+    }
+}
+
+/// The files of a folder of test data.
+pub(crate) struct FolderFs(pub(crate) PathBuf);
+
+impl AssetFs for FolderFs {
+    fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
+        let path = self.0.join(path);
+        let size = std::fs::metadata(&path).map_err(|_| AssetError::Missing)?.len();
+        if size > limit {
+            return Err(AssetError::TooLarge { size, limit });
+        }
+        std::fs::read(path).map_err(|error| AssetError::Failed(error.to_string()))
+    }
+}
+
+/// The folder of test data that travels with the repository.
+pub(crate) fn data() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data")
+}
+
+/// The folder of test data beside the repository, where there is one; says so where there is none.
+pub(crate) fn shared(folder: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared").join(folder);
+    if path.is_dir() {
+        return Some(path);
+    }
+    println!("skipped: {} is not there", path.display());
+    None
+}

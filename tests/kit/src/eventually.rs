@@ -1,0 +1,18 @@
+//! Waiting for what happens in another thread, without guessing how long it takes.
+
+use std::time::{Duration, Instant};
+
+/// Looks at `condition` again and again until it holds: at once, then less and less often.
+///
+/// # Panics
+/// When it does not hold within `limit`, at the caller's line.
+#[track_caller]
+pub fn eventually(limit: Duration, mut condition: impl FnMut() -> bool) {
+    let deadline = Instant::now() + limit;
+    let mut pause = Duration::from_micros(20);
+    while !condition() {
+        assert!(Instant::now() < deadline, "did not become true within {limit:?}");
+        std::thread::park_timeout(pause);
+        pause = (pause * 2).min(Duration::from_millis(5));
+    }
+}
