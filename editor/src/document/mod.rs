@@ -3,9 +3,12 @@
 mod cancel;
 pub mod images;
 mod import;
+mod job;
 mod load;
+mod owner;
 mod view;
 
 pub use cancel::{Cancel, Progress, Stage};
 pub use load::{LoadError, Source, load_model};
+pub use owner::{Document, DocumentHandle, DocumentMessage, DocumentReply};
 pub use view::{DecodedImage, LoadedModel, View};
