@@ -1,14 +1,17 @@
 //! Promises of the crate, one module each.
 
 mod agreement;
+mod bad_files;
 mod bounds;
 mod degenerate;
 mod determinism;
 mod doors;
+mod fixture;
 mod hostile;
 mod poses;
 mod sampling;
 mod skinning;
+mod soundness;
 mod support;
 
 /// Counts what each thread allocates, for the promises that playing allocates nothing.

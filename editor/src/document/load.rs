@@ -1,8 +1,10 @@
 //! Opening a model: bytes, data, pixels; with progress, cancellable, the same for window and command line.
 
+use super::folder::{DoorError, read_file};
 use super::{Cancel, LoadedModel, Progress, Stage};
 use super::{images, import};
 use dragonfly_anim::bounds::bounds_of_pose;
+use dragonfly_anim::limits::FILE_BYTES;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
@@ -30,12 +32,12 @@ impl Source {
 #[derive(Debug, Error)]
 pub enum LoadError {
     /// The file itself.
-    #[error("{}: {reason}", path.display())]
+    #[error("{}: file: {reason}", path.display())]
     File {
         /// Which.
         path: PathBuf,
-        /// Why, in the system's words.
-        reason: std::io::Error,
+        /// Why.
+        reason: DoorError,
     },
     /// Its contents.
     #[error("{title}: {reason}")]
@@ -65,8 +67,8 @@ pub fn load_model(
             import::built_in(source)?
         }
         Source::File(path) => {
-            let bytes =
-                std::fs::read(path).map_err(|reason| LoadError::File { path: path.clone(), reason })?;
+            let bytes = read_file(path, FILE_BYTES)
+                .map_err(|reason| LoadError::File { path: path.clone(), reason })?;
             check(cancel)?;
             progress(Progress { stage: Stage::Understanding, done: 0.2 });
             import::file(path, &bytes)?

@@ -90,12 +90,14 @@ fn placed(error: &json::Error, text: &str, at: u64) -> ImportError {
     let message = error.to_string();
     let reason = message.split(" at line ").next().unwrap_or(&message).to_owned();
     let end = offset(text, error.line(), error.column());
-    if !error.is_data() {
+    if !error.is_data() && reason != "number out of range" {
         let reason = if error.is_eof() { "the text ends too early".to_owned() } else { reason };
         return ImportError::Invalid { place: Place::Byte(at + end as u64), code: code::INVALID_JSON, reason };
     }
     let code = if reason.starts_with("missing field") {
         code::UNDEFINED_PROPERTY
+    } else if reason == "number out of range" {
+        code::VALUE_NOT_IN_RANGE
     } else if reason.starts_with("duplicate field") {
         code::DUPLICATE_PROPERTY
     } else {
