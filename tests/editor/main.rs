@@ -1,1 +1,5 @@
 //! Promises, one module each.
+
+mod commands;
+mod fixture;
+mod panels;
