@@ -114,7 +114,10 @@ impl BaseRuntime for EditorRuntime {
             }
             Err(error) => {
                 let mut interface = parts.interface.borrow_mut();
-                interface.state.status.say(Level::Error, format!("No document thread could be started: {error}"));
+                interface
+                    .state
+                    .status
+                    .say(Level::Error, format!("No document thread could be started: {error}"));
                 None
             }
         };
@@ -149,6 +152,9 @@ impl BaseRuntime for EditorRuntime {
             GraphicsReply::Recovered { reason, losses } => {
                 let text = format!("The graphics device was lost and is back ({losses}): {reason}");
                 interface.state.status.say(Level::Info, text);
+            }
+            GraphicsReply::Paused { .. } if self.options.never_pause => {
+                running.parts.graphics.send(GraphicsMessage::Resume);
             }
             GraphicsReply::Paused { reason } => {
                 interface.state.status.say(Level::Warning, format!("The viewport is paused: {reason}"));
