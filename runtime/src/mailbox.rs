@@ -141,6 +141,11 @@ impl Mailbox {
         self.discard()
     }
 
+    /// Has nothing happened since [`fall_asleep`](Self::fall_asleep)?
+    pub(crate) fn is_asleep(&self) -> bool {
+        self.state.load(Ordering::SeqCst) == ASLEEP
+    }
+
     pub(crate) fn is_closed(&self) -> bool {
         self.state.load(Ordering::SeqCst) == CLOSED
     }

@@ -100,9 +100,21 @@ fn thread_proc(mut context: Context) {
     loop {
         match context.iterate() {
             Next::Now => {}
-            Next::At(deadline) => park(Some(deadline)),
-            Next::OnMessage => park(None),
+            Next::At(deadline) => rest(&context, Some(deadline)),
+            Next::OnMessage => rest(&context, None),
             Next::Stopped => return,
+        }
+    }
+}
+
+/// Sleeps until a message wakes the thread, or until `deadline`. A wake-up that nobody meant, which
+/// the system allows itself, is slept through.
+fn rest(context: &Context, deadline: Option<Instant>) {
+    let due = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    loop {
+        park(deadline);
+        if due() || !context.shared().mailbox.is_asleep() {
+            return;
         }
     }
 }

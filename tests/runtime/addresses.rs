@@ -128,9 +128,8 @@ fn what_was_never_delivered_gives_its_room_back() {
 fn messages_of_one_sender_keep_their_order_across_receivers() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    let all: Vec<Address<u32>> = ["a", "b", "c"]
-        .map(|name| stage.context(&thread).register_receiver(listen(&log, name)))
-        .into();
+    let all: Vec<Address<u32>> =
+        ["a", "b", "c"].map(|name| stage.context(&thread).register_receiver(listen(&log, name))).into();
     for message in 0..9 {
         all[message % 3].send(message as u32).unwrap();
     }
@@ -146,9 +145,7 @@ fn each_message_that_was_accepted_is_counted_once() {
     let address = handle.register_receiver(|_| hear(|_: u32, _| ()));
     let senders: Vec<_> = [address.clone(), address.latest(), handle.reserve_address()]
         .into_iter()
-        .map(|address| {
-            std::thread::spawn(move || (0..).take_while(|n| address.send(*n).is_ok()).count())
-        })
+        .map(|address| std::thread::spawn(move || (0..).take_while(|n| address.send(*n).is_ok()).count()))
         .collect();
     eventually(LIMIT, || handle.counters().delivered > 1000);
     handle.remote_stop();

@@ -1,6 +1,6 @@
 //! Deadlines: alarms that objects set, and threads that are told to sleep (thesis §3.2.6.1).
 
-use crate::cast::{Log, Work, hear, listen, note};
+use crate::cast::{Log, hear, listen, note, work};
 use dragonfly_runtime::{Context, Next, Stage};
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ fn the_thread_is_due_at_the_earliest_alarm() {
     let start = stage.now();
     for secs in [5, 2, 9] {
         let mut set = false;
-        stage.context(&thread).register_worker(Work(move |thread| {
+        stage.context(&thread).register_worker(work(move |thread| {
             if !std::mem::replace(&mut set, true) {
                 thread.wake_at(thread.now() + SECOND * secs);
             }
@@ -47,7 +47,7 @@ fn an_alarm_goes_with_its_object() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     let soon = stage.now() + SECOND;
-    let id = stage.context(&thread).register_worker(Work(move |thread| {
+    let id = stage.context(&thread).register_worker(work(move |thread| {
         thread.wake_at(soon);
         true
     }));
@@ -81,7 +81,7 @@ fn an_object_can_send_its_thread_to_sleep() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     stage.context(&thread).register_worker(note(&log, "a"));
-    stage.context(&thread).register_worker(Work(|thread| {
+    stage.context(&thread).register_worker(work(|thread| {
         thread.sleep(SECOND);
         true
     }));

@@ -1,6 +1,6 @@
 //! The loop: deliver everything stored, then call the workers in order (thesis §3.2.6.1).
 
-use crate::cast::{Log, Work, hear, listen, note};
+use crate::cast::{Log, hear, listen, note, work};
 use dragonfly_runtime::{Next, Stage};
 
 #[test]
@@ -37,7 +37,7 @@ fn a_worker_that_returns_false_ends_the_iteration() {
     let thread = stage.start("thread");
     stage.context(&thread).register_worker(note(&log, "first"));
     let mut ready = false;
-    stage.context(&thread).register_worker(Work(move |_| std::mem::replace(&mut ready, true)));
+    stage.context(&thread).register_worker(work(move |_| std::mem::replace(&mut ready, true)));
     stage.context(&thread).register_worker(note(&log, "third"));
     stage.iterate(&thread);
     assert_eq!(log.take(), "first", "the device is not ready");
@@ -71,7 +71,7 @@ fn an_iteration_is_due_at_once_only_while_a_worker_asks_for_it() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     let mut frames = 3;
-    stage.context(&thread).register_worker(Work(move |thread| {
+    stage.context(&thread).register_worker(work(move |thread| {
         frames -= 1;
         if frames > 0 {
             thread.iterate_again();
@@ -86,7 +86,7 @@ fn an_iteration_is_due_at_once_only_while_a_worker_asks_for_it() {
 fn returning_false_asks_for_nothing() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(Work(|_| false));
+    stage.context(&thread).register_worker(work(|_| false));
     assert_eq!(stage.iterate(&thread), Next::OnMessage);
 }
 
@@ -96,7 +96,7 @@ fn an_iteration_without_messages_or_changes_allocates_nothing() {
     let thread = stage.start("thread");
     let start = stage.now();
     for _ in 0..5 {
-        stage.context(&thread).register_worker(Work(move |thread| {
+        stage.context(&thread).register_worker(work(move |thread| {
             thread.iterate_again();
             thread.wake_at(start);
             true

@@ -9,8 +9,9 @@
 //! models NAME [SCHEDULES] one model; SCHEDULES is for shuttle: that many random and PCT ones
 //! ```
 //!
-//! Built the usual way it holds one thing only: `models race`, which `sanitizers.sh` starts to see
-//! that ThreadSanitizer is awake.
+//! Built the usual way it holds what `sanitizers.sh` starts under ThreadSanitizer: `models exercise`
+//! does with real threads everything that threads share, and `models race` holds a true race. Both
+//! keep away from the test harness and from `mpsc`, which ThreadSanitizer does not understand.
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -252,9 +253,9 @@ mod models {
         for stage in 0..stages {
             let thread = Thread::start(&format!("stage {stage}")).unwrap();
             let to = next.clone();
-            next = thread.handle().register_receiver(move |_| {
-                Tap(Box::new(move |message| to.send(message).unwrap()))
-            });
+            next = thread
+                .handle()
+                .register_receiver(move |_| Tap(Box::new(move |message| to.send(message).unwrap())));
             threads.push(thread);
         }
         for message in 0..messages {
@@ -402,6 +403,7 @@ mod run {
     pub(crate) fn main(arguments: &[&str]) {
         match arguments {
             ["race"] => super::race::run(),
+            ["exercise"] => super::exercise::run(),
             _ => println!("nothing to do in this build; see .ci/models"),
         }
     }
@@ -446,5 +448,134 @@ mod race {
         let deadline = Instant::now() + Duration::from_secs(20);
         Thread::wait_for(&handles, deadline).expect("they stop");
         println!("raced");
+    }
+}
+
+#[cfg(not(any(loom, shuttle)))]
+mod exercise {
+    use dragonfly_runtime::{
+        Address, Captured, Context, Next, Receiver, Thread, ThreadHandle, TraceSnapshot, Watchdog, Worker,
+    };
+    use std::time::{Duration, Instant};
+
+    /// A ball with a number that grows with each hop; it carries memory from thread to thread.
+    struct Ball(Box<u32>);
+
+    /// Passes balls on, for so many hops; some go by way of the other flavours of addresses.
+    struct Player {
+        next: Address<Ball>,
+        latest: Address<Ball>,
+        bounded: Address<Ball>,
+        home: Address<u32>,
+        caught: Vec<u32>,
+    }
+
+    const HOPS: u32 = 400;
+
+    impl Receiver for Player {
+        type Message = Ball;
+        fn receive(&mut self, ball: Ball, _: &mut Context) {
+            let Ball(mut hops) = ball;
+            *hops += 1;
+            self.caught.push(*hops);
+            // At the end of a round the others may have stopped already, or be full.
+            match (*hops).cmp(&HOPS) {
+                std::cmp::Ordering::Less => {
+                    let _ = self.latest.send(Ball(Box::new(HOPS)));
+                    let _ = self.bounded.send(Ball(Box::new(HOPS)));
+                    let _ = self.next.send(Ball(hops));
+                }
+                std::cmp::Ordering::Equal => _ = self.home.send(*hops),
+                std::cmp::Ordering::Greater => {}
+            }
+        }
+    }
+
+    struct Ticker(u32);
+    impl Worker for Ticker {
+        fn update(&mut self, thread: &mut Context) -> bool {
+            self.0 += 1;
+            thread.wake_at(thread.now() + Duration::from_micros(200));
+            true
+        }
+    }
+
+    struct Home(u32);
+    impl Receiver for Home {
+        type Message = u32;
+        fn receive(&mut self, _: u32, thread: &mut Context) {
+            self.0 += 1;
+            if self.0 >= 4 {
+                thread.stop();
+            }
+        }
+    }
+
+    struct Inspector;
+    impl Receiver for Inspector {
+        type Message = TraceSnapshot;
+        fn receive(&mut self, snapshot: TraceSnapshot, _: &mut Context) {
+            assert!(snapshot.records.len() <= 64);
+        }
+    }
+
+    pub(crate) fn run() {
+        let begin = Instant::now();
+        let mut rounds = 0;
+        while rounds < 20 || begin.elapsed() < Duration::from_secs(5) {
+            round();
+            rounds += 1;
+        }
+        println!("{rounds} rounds");
+    }
+
+    fn round() {
+        let main = std::thread::current();
+        let mut captured = Thread::capture("home", move || main.unpark());
+        let home = captured.context().register_receiver(Home(0));
+        let traces = captured.context().register_receiver(Inspector);
+        let watchdog = Watchdog::start(Duration::from_millis(4), |_| ()).expect("a thread");
+        let threads = ["a", "b", "c", "d"].map(|name| Thread::start(name).expect("a thread"));
+        let handles: Vec<ThreadHandle> = threads.iter().map(|thread| thread.handle().clone()).collect();
+        // Addresses are made before the players, because a ring has no first one.
+        let ring: Vec<Address<Ball>> = handles.iter().map(ThreadHandle::reserve_address).collect();
+        for (index, handle) in handles.iter().enumerate() {
+            handle.set_trace(64);
+            watchdog.watch(handle);
+            handle.register_worker(|_| Ticker(0));
+            let _ = handle.run(|_| std::panic::resume_unwind(Box::new("on purpose")));
+            let (next, home) = (ring[(index + 1) % ring.len()].clone(), home.clone());
+            let (latest, bounded) = (next.latest(), next.bounded(8));
+            let player = move |_: &mut Context| Player { next, latest, bounded, home, caught: Vec::new() };
+            let own = ring[index].clone();
+            handle.register_receiver_at(&own, player);
+        }
+        for address in &ring {
+            address.send(Ball(Box::new(0))).expect("it runs");
+        }
+        handles[1].pause();
+        handles[1].resume();
+        handles[2].remote_sleep(Duration::from_micros(300));
+        for handle in &handles {
+            handle.request_trace(&traces);
+        }
+        drive(&mut captured);
+        for handle in handles.iter().rev() {
+            handle.remote_stop();
+        }
+        Thread::wait_for(&handles, Instant::now() + Duration::from_secs(60)).expect("they stop");
+        let delivered: u64 = handles.iter().map(|handle| handle.counters().delivered).sum();
+        assert!(delivered > 0);
+        drop(threads);
+    }
+
+    fn drive(captured: &mut Captured) {
+        loop {
+            match captured.iterate() {
+                Next::Now => {}
+                Next::At(_) | Next::OnMessage => std::thread::park_timeout(Duration::from_secs(60)),
+                Next::Stopped => return,
+            }
+        }
     }
 }

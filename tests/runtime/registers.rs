@@ -1,7 +1,7 @@
 //! The registers: changed at any time, by message or from inside, with the order kept
 //! (thesis §2.2.3.3, §2.2.5.1).
 
-use crate::cast::{Farewell, Log, Work, hear, listen, note};
+use crate::cast::{Farewell, Log, hear, listen, note, work};
 use dragonfly_runtime::{Context, Receiver, Stage, Worker};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -22,9 +22,8 @@ fn a_last_worker_stays_behind_those_that_come_later() {
 fn a_worker_leaves_and_the_others_keep_their_order() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    let ids: Vec<_> = ["a", "b", "c", "d"]
-        .map(|name| stage.context(&thread).register_worker(note(&log, name)))
-        .into();
+    let ids: Vec<_> =
+        ["a", "b", "c", "d"].map(|name| stage.context(&thread).register_worker(note(&log, name))).into();
     assert!(stage.context(&thread).unregister_worker(ids[1]));
     assert!(!stage.context(&thread).unregister_worker(ids[1]), "it is gone already");
     stage.context(&thread).register_worker(note(&log, "e"));
@@ -40,7 +39,7 @@ fn registers_are_changed_by_message_in_order_with_other_messages() {
     let make = |name: &'static str| {
         let said = said.clone();
         move |_: &mut Context| {
-            Work(move |_: &mut Context| {
+            work(move |_: &mut Context| {
                 said.send(name).unwrap();
                 true
             })
@@ -76,7 +75,7 @@ fn a_worker_that_comes_during_the_workers_turn_is_called_from_the_next_iteration
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let lines = log.clone();
-    stage.context(&thread).register_worker(Work(move |thread| {
+    stage.context(&thread).register_worker(work(move |thread| {
         thread.register_worker(note(&lines, "new"));
         lines.add("old");
         true
@@ -93,7 +92,7 @@ fn a_worker_can_remove_itself_and_those_behind_it() {
     let thread = stage.start("thread");
     let ids = Rc::new(RefCell::new(Vec::new()));
     let (theirs, farewell) = (Rc::clone(&ids), Farewell(log.clone(), "dropped"));
-    let own = stage.context(&thread).register_worker(Work(move |thread| {
+    let own = stage.context(&thread).register_worker(work(move |thread| {
         for id in theirs.borrow_mut().drain(..) {
             assert!(thread.unregister_worker(id));
         }

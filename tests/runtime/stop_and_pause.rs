@@ -1,9 +1,9 @@
 //! Stopping, pausing, waiting for threads; the order in which things end (thesis §2.2.6.3,
 //! §3.2.6.1).
 
-use crate::cast::{Farewell, LIMIT, Log, Work, deadline, hear, listen, note, outlet};
-use dragonfly_kit::eventually;
+use crate::cast::{Farewell, LIMIT, Log, deadline, hear, keep, listen, note, outlet, work};
 use dragonfly_runtime::{Context, Next, Stage, Thread};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 #[test]
@@ -27,7 +27,7 @@ fn a_stop_from_inside_is_at_once() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     stage.context(&thread).register_worker(note(&log, "a"));
-    stage.context(&thread).register_worker(Work(|thread| {
+    stage.context(&thread).register_worker(work(|thread| {
         thread.stop();
         true
     }));
@@ -42,12 +42,11 @@ fn objects_are_dropped_in_reverse_order_workers_first() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let context = stage.context(&thread);
-    let part = |name| {
-        let farewell = Farewell(log.clone(), name);
-        Work(move |_: &mut Context| !farewell.1.is_empty())
-    };
+    let part = |name| keep(Farewell(log.clone(), name));
     let device = Farewell(log.clone(), "device");
-    context.register_receiver(hear(move |_: u32, _: &mut Context| drop(device.1)));
+    context.register_receiver(hear(move |_: u32, _: &mut Context| {
+        let Farewell(..) = &device;
+    }));
     context.register_last_worker(part("present"));
     context.register_worker(part("scene"));
     context.register_worker(part("model"));
@@ -59,15 +58,15 @@ fn objects_are_dropped_in_reverse_order_workers_first() {
 #[test]
 fn messages_left_in_a_stopped_thread_are_dropped_not_kept() {
     let thread = Thread::start("left").unwrap();
-    let content = std::sync::Arc::new(());
-    let address = thread.handle().register_receiver(|_| hear(|_: std::sync::Arc<()>, _| ()));
+    let content = Arc::new(());
+    let address = thread.handle().register_receiver(|_| hear(|_: Arc<()>, _| ()));
+    // Both in one batch, whether the thread is awake or not.
     thread.handle().pause();
-    eventually(LIMIT, || thread.handle().counters().iterations > 0 || address.queue_len() > 0);
     thread.handle().run(|thread| thread.stop()).unwrap();
-    address.send(content.clone()).unwrap();
+    address.send(Arc::clone(&content)).unwrap();
     thread.handle().resume();
     Thread::wait_for(&[thread.handle().clone()], deadline()).unwrap();
-    eventually(LIMIT, || std::sync::Arc::strong_count(&content) == 1);
+    assert_eq!(Arc::strong_count(&content), 1);
 }
 
 #[test]
@@ -166,8 +165,7 @@ fn dropping_a_thread_stops_it_behind_its_messages() {
 fn a_captured_thread_that_is_dropped_is_stopped() {
     let (mut captured, log) = (Thread::capture("window", || ()), Log::default());
     let address = captured.context().register_receiver(listen(&log, "m"));
-    let farewell = Farewell(log.clone(), "dropped");
-    captured.context().register_worker(Work(move |_| farewell.1.is_empty()));
+    captured.context().register_worker(keep(Farewell(log.clone(), "dropped")));
     let handle = captured.handle().clone();
     address.send(1).unwrap();
     drop(captured);

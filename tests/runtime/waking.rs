@@ -1,6 +1,6 @@
 //! A thread sleeps when it has nothing to do, and wakes when it has.
 
-use crate::cast::{LIMIT, Work, deadline, hear, outlet};
+use crate::cast::{LIMIT, deadline, hear, outlet, work};
 use dragonfly_kit::eventually;
 use dragonfly_kit::process::{OsThread, os_threads};
 use dragonfly_runtime::{Context, Next, Thread};
@@ -8,14 +8,18 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-fn os_thread(name: &str) -> OsThread {
-    os_threads().into_iter().find(|thread| thread.name == name).expect("it runs")
+fn os_thread(name: &str) -> Option<OsThread> {
+    os_threads().into_iter().find(|thread| thread.name == name)
+}
+
+fn is_asleep(name: &str) -> bool {
+    os_thread(name).is_some_and(|thread| thread.state == 'S')
 }
 
 #[test]
 fn the_os_thread_has_the_threads_name() {
     let thread = Thread::start("named").unwrap();
-    eventually(LIMIT, || os_threads().iter().any(|os| os.name == "named"));
+    eventually(LIMIT, || os_thread("named").is_some());
     let (inside, outside) = std::sync::mpsc::channel();
     let name = move |_: &mut Context| {
         let name = std::thread::current().name().map(str::to_owned);
@@ -29,9 +33,9 @@ fn the_os_thread_has_the_threads_name() {
 #[test]
 fn a_thread_without_work_sleeps_and_does_not_turn() {
     let idle = Thread::start("idle").unwrap();
-    idle.handle().register_worker(|_| Work(|_| true));
+    idle.handle().register_worker(|_| work(|_| true));
     let settled = || {
-        let os = os_thread("idle");
+        let os = os_thread("idle")?;
         (os.state == 'S' && idle.handle().counters().iterations > 0).then_some(os.waits)
     };
     eventually(LIMIT, || settled().is_some());
@@ -63,7 +67,7 @@ fn a_thread_wakes_at_its_alarm_and_not_before() {
     let (inside, outside) = std::sync::mpsc::channel();
     let when = Instant::now() + Duration::from_millis(50);
     thread.handle().register_worker(move |_| {
-        Work(move |thread| {
+        work(move |thread| {
             if thread.now() < when {
                 thread.wake_at(when);
             } else {
@@ -84,7 +88,7 @@ fn a_thread_runs_on_only_while_a_worker_asks() {
     let (inside, outside) = std::sync::mpsc::channel();
     handle.register_worker(move |_| {
         let mut left = 500;
-        Work(move |thread| {
+        work(move |thread| {
             if left > 0 {
                 left -= 1;
                 thread.iterate_again();
@@ -95,8 +99,9 @@ fn a_thread_runs_on_only_while_a_worker_asks() {
         })
     });
     outside.recv_timeout(LIMIT).unwrap();
-    eventually(LIMIT, || os_thread("runner").state == 'S');
-    assert_eq!(handle.counters().iterations, 501);
+    eventually(LIMIT, || is_asleep("runner"));
+    assert!(outside.try_recv().is_err(), "it was called after it had stopped asking");
+    assert!(handle.counters().iterations >= 501);
 }
 
 #[test]
@@ -132,9 +137,9 @@ fn a_captured_and_an_own_thread_talk() {
     let (receiver, hears) = outlet();
     let answers = captured.context().register_receiver(receiver);
     let doubler = Thread::start("doubler").unwrap();
-    let questions = doubler.handle().register_receiver(move |_| {
-        hear(move |message: u32, _| answers.send(message * 2).unwrap())
-    });
+    let questions = doubler
+        .handle()
+        .register_receiver(move |_| hear(move |message: u32, _| answers.send(message * 2).unwrap()));
     let end = deadline();
     let mut sum = 0;
     for question in 0..100 {

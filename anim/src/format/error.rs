@@ -67,6 +67,8 @@ pub enum ImportError {
     External {
         /// Where it is named.
         place: Place,
+        /// As in [`Self::Invalid`].
+        code: &'static str,
         /// As written in the file, shortened when very long.
         uri: String,
         /// Why not.
@@ -98,10 +100,9 @@ impl ImportError {
     /// Name of the broken rule.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Invalid { code, .. } => code,
+            Self::Invalid { code, .. } | Self::External { code, .. } => code,
             Self::Unsupported { .. } => "UNSUPPORTED_EXTENSION",
             Self::TooLarge { .. } => "LIMIT",
-            Self::External { .. } => "EXTERNAL",
             Self::UnknownFormat { .. } => "UNKNOWN_FORMAT",
             Self::Cancelled => "CANCELLED",
         }

@@ -104,8 +104,7 @@ fn spines(mesh: &mut Mesh, pair: usize, part: usize) {
     let along = (to - from).normalize();
     let bend = (joints[2] - joints[1]).cross(joints[3] - joints[2]).normalize();
     // Inside of the fold: where femur and tibia close on each other.
-    let inner = if part == 1 { -along.cross(bend) } else { along.cross(bend) };
-    let inner = if part == 1 { -inner } else { inner };
+    let inner = bend.cross(along);
     let count = if part == 1 { 4 } else { 6 };
     let radius = if part == 1 { 0.0055 } else { 0.0030 };
     let bow = if part == 1 { 0.006 } else { 0.0 };

@@ -26,7 +26,7 @@ pub const DRAGONFLY_GLB: &[u8] = include_bytes!("../../assets/dragonfly.glb");
 
 /// Makes the bytes of [`DRAGONFLY_GLB`] anew; every call gives the same.
 ///
-/// This paints and packs all textures and takes some seconds in an unoptimised build.
+/// It paints and packs every texture, which takes about a second.
 pub fn build() -> Vec<u8> {
     glb::write(&model())
 }

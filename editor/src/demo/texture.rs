@@ -60,7 +60,7 @@ pub(super) fn pictures() -> [Picture; 7] {
     let wings = veins::paint(w as usize, h as usize);
     [
         jpeg("body_colour", &colours(&skin), SKIN, 84),
-        jpeg("body_normal", &normals(&skin, SKIN), SKIN, 76),
+        jpeg("body_normal", &normals(&skin, SKIN), SKIN, 74),
         jpeg("body_surface", &halved(&skin, SKIN, gloss), half(SKIN), 82),
         jpeg("eye_colour", &halved(&eyes, EYES, |p| p.colour), half(EYES), 90),
         png("eye_normal", &normals(&eyes, EYES), EYES, ExtendedColorType::Rgb8),

@@ -68,7 +68,7 @@ impl Ink {
 }
 
 /// A texel with nothing on it.
-const CLEAR: [u8; 4] = [24, 24, 24, 0];
+const CLEAR: [u8; 4] = [90, 64, 28, 0];
 
 /// Paints both wings; four bytes a texel, colour then coverage.
 pub(super) fn paint(width: usize, height: usize) -> Vec<u8> {
@@ -115,7 +115,7 @@ fn draw_veins(plan: &Plan, seed: u32, ink: &mut Ink) {
     stroke(-0.01, 1.0, 1.5, &|_| 0.99);
     for (points, wide) in LONG {
         let (from, to) = (points[0].0, points[points.len() - 1].0);
-        stroke(from, to, wide, &|s| curve(points, s));
+        stroke(from, to, wide * 1.25, &|s| curve(points, s));
     }
     let vein = |i: usize, s: f32| curve(LONG[i].0, s);
     let mut rungs =
@@ -173,6 +173,7 @@ fn texel(plan: &Plan, seed: u32, span: f32, chord: f32, mut vein: f32) -> [u8; 4
     // A soft rim of one texel, except where the rim's own vein carries it.
     let inside = ((lead - chord).min(chord - trail) * WING_SCALE + 0.5).clamp(0.0, 1.0);
     let inside = if s > 1.0 || span < PICTURE.0 + 0.002 { 0.0 } else { inside };
+    let strong = vein > 0.0;
     // The field begins behind the third lengthwise vein; nearer the base, behind the second.
     let field = curve(LONG[3].0, s).min(if s < 0.16 { 0.22 } else { 1.0 });
     if f > field && s > 0.02 {
@@ -189,15 +190,17 @@ fn texel(plan: &Plan, seed: u32, span: f32, chord: f32, mut vein: f32) -> [u8; 4
     // green and rose.
     let warm = (0.9 * (1.0 - smooth(0.0, 0.20, s)) + 0.4 * (1.0 - smooth(0.04, 0.2, f))).min(1.0);
     let film = sheen(1.5 * s + 0.8 * f + 0.4 * fractal(s * 5.0, f * 3.0, seed + 60));
-    let cool = Vec3::new(0.54, 0.68, 0.66).lerp(film * 0.85, 0.25);
+    let cool = Vec3::new(0.46, 0.62, 0.60).lerp(film * 0.85, 0.25);
     let clear = cool.lerp(Vec3::new(0.66, 0.45, 0.13), warm);
     let clear = clear.lerp(Vec3::new(0.48, 0.22, 0.05), amber);
     let thin = mix(0.12 + 0.12 * warm, 0.95, amber);
-    // The costa is straw yellow, as on many hawkers; other veins are brown, warmer at the root.
+    // The costa is straw yellow, as on many hawkers; the strong veins are gold brown, which reads
+    // before dark and light alike, and the net of cells between them is darker.
     let root = 1.0 - smooth(0.0, 0.25, s);
-    let dark = Vec3::new(0.18, 0.14, 0.09).lerp(Vec3::new(0.34, 0.22, 0.08), 0.7 * root);
+    let net = Vec3::new(0.22, 0.17, 0.10).lerp(Vec3::new(0.40, 0.26, 0.10), 0.7 * root);
+    let dark = if strong { Vec3::new(0.52, 0.38, 0.17) } else { net };
     let costa = (lead - chord) * WING_SCALE < 3.0 && s < 0.93;
-    let dark = if costa { Vec3::new(0.60, 0.46, 0.17) } else { dark };
+    let dark = if costa { Vec3::new(0.72, 0.56, 0.22) } else { dark };
     // Where a vein touches a texel only its coverage changes, not its colour: that packs far
     // better, and filtering blends them all the same.
     let cover = vein * 0.97 + thin * (1.0 - vein * 0.97);

@@ -59,10 +59,7 @@ impl Builder {
         self
     }
 
-    pub fn spawn<T: 'static>(
-        self,
-        body: impl FnOnce() -> T + Send + 'static,
-    ) -> io::Result<JoinHandle<T>> {
+    pub fn spawn<T: 'static>(self, body: impl FnOnce() -> T + Send + 'static) -> io::Result<JoinHandle<T>> {
         let thread = Thread::new();
         let theirs = thread.clone();
         let join = loom::thread::spawn(move || {

@@ -60,8 +60,13 @@ impl<'a> Document<'a> {
         let buffer = self
             .buffers
             .get(view.buffer.value())
-            .ok_or_else(|| unresolved(&format!("{}/buffer", place()), view.buffer.value()))?
-            .bytes();
+            .ok_or_else(|| unresolved(&format!("{}/buffer", place()), view.buffer.value()))?;
+        if matches!(buffer, Buffer::Missing) {
+            let at = Place::Pointer(format!("/buffers/{}", view.buffer.value()));
+            let reason = "the buffer has no URI, and there is no binary chunk for it".to_owned();
+            return Err(invalid(at, code::BUFFER_MISSING_GLB_DATA, reason));
+        }
+        let buffer = buffer.bytes();
         let offset = view.byte_offset.unwrap_or_default().0;
         let range = to_usize(offset).zip(offset.checked_add(view.byte_length.0).and_then(to_usize));
         let bytes = range.and_then(|(from, to)| buffer.get(from..to)).ok_or_else(|| {

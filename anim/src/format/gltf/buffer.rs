@@ -68,7 +68,7 @@ impl<'a> Store<'a> {
             size if size > limit => Err(AssetError::TooLarge { size, limit }),
             _ => Ok(bytes),
         });
-        let bytes = read.map_err(|error| external(uri, place, error.to_string()))?;
+        let bytes = read.map_err(|error| external(uri, place, code::IO_ERROR, error.to_string()))?;
         self.guard.charge(place, bytes.len() as u64 * 2)?;
         self.guard.input(bytes.len());
         let bytes: Arc<[u8]> = bytes.into();
@@ -80,6 +80,8 @@ impl<'a> Store<'a> {
 /// One buffer: its bytes and how many of them count.
 #[derive(Clone)]
 pub(super) enum Buffer<'a> {
+    /// Has no URI and no binary chunk: an error for whoever needs it.
+    Missing,
     Chunk(&'a [u8]),
     Fetched(Arc<[u8]>, usize),
 }
@@ -87,6 +89,7 @@ pub(super) enum Buffer<'a> {
 impl Buffer<'_> {
     pub(super) fn bytes(&self) -> &[u8] {
         match self {
+            Self::Missing => &[],
             Self::Chunk(bytes) => bytes,
             Self::Fetched(bytes, length) => &bytes[..*length],
         }
@@ -110,8 +113,15 @@ pub(super) fn load<'a>(
                 let place = Place::Pointer(format!("/buffers/{index}/uri"));
                 Buffer::Fetched(store.fetch(uri, &place)?.bytes, 0)
             }
-            None if index == 0 => Buffer::Chunk(bin.ok_or_else(|| no_chunk(&place))?),
-            None => return Err(no_chunk(&place)),
+            None => match bin.filter(|_| index == 0) {
+                Some(bytes) => Buffer::Chunk(bytes),
+                None => {
+                    let text = "the buffer has no URI, and there is no binary chunk for it";
+                    guard.warn(place, code::BUFFER_MISSING_GLB_DATA, text);
+                    buffers.push(Buffer::Missing);
+                    continue;
+                }
+            },
         };
         buffers.push(cut(loaded, announced, &place, guard)?);
     }
@@ -121,6 +131,7 @@ pub(super) fn load<'a>(
 /// The first `announced` bytes of a buffer.
 fn cut<'a>(buffer: Buffer<'a>, announced: u64, place: &Place, guard: &Guard<'_>) -> Result<Buffer<'a>, ImportError> {
     let present = match &buffer {
+        Buffer::Missing => 0,
         Buffer::Chunk(bytes) => bytes.len(),
         Buffer::Fetched(bytes, _) => bytes.len(),
     };
@@ -136,24 +147,20 @@ fn cut<'a>(buffer: Buffer<'a>, announced: u64, place: &Place, guard: &Guard<'_>)
         guard.warn(place.clone(), code::BUFFER_GLB_CHUNK_TOO_BIG, text);
     }
     Ok(match buffer {
+        Buffer::Missing => Buffer::Missing,
         Buffer::Chunk(bytes) => Buffer::Chunk(&bytes[..length]),
         Buffer::Fetched(bytes, _) => Buffer::Fetched(bytes, length),
     })
 }
 
-fn no_chunk(place: &Place) -> ImportError {
-    let reason = "the buffer has no URI, and there is no binary chunk for it".to_owned();
-    ImportError::Invalid { place: place.clone(), code: code::BUFFER_MISSING_GLB_DATA, reason }
-}
-
 fn not_followed(uri: &str, place: &Place, error: &UriError) -> ImportError {
-    external(uri, place, error.to_string())
+    external(uri, place, code::INVALID_URI, error.to_string())
 }
 
-fn external(uri: &str, place: &Place, reason: String) -> ImportError {
+fn external(uri: &str, place: &Place, code: &'static str, reason: String) -> ImportError {
     let uri = match uri.char_indices().nth(120) {
         Some((end, _)) => format!("{}…", &uri[..end]),
         None => uri.to_owned(),
     };
-    ImportError::External { place: place.clone(), uri, reason }
+    ImportError::External { place: place.clone(), code, uri, reason }
 }

@@ -58,15 +58,16 @@ checks! {
     Refuse INVALID_INDEX "An index or an enumerated number does not fit 32 bits.";
     Refuse VALUE_NOT_IN_RANGE "A number is not finite or out of its range.";
     Either VALUE_NOT_IN_LIST "A word or number is none of those allowed.";
-    Refuse UNRESOLVED_REFERENCE "An index names nothing.";
+    Either UNRESOLVED_REFERENCE "An index names nothing.";
     Either EMPTY_ENTITY "A list is empty that must not be.";
     Warn DUPLICATE_ELEMENTS "A list names something twice.";
-    Warn UNSUPPORTED_EXTENSION "An extension is used that is not shown.";
+    Either UNSUPPORTED_EXTENSION "An extension is used that is not shown.";
 
     Refuse BUFFER_BYTE_LENGTH_MISMATCH "A buffer holds fewer bytes than it announces.";
     Warn BUFFER_GLB_CHUNK_TOO_BIG "A buffer or binary chunk holds more bytes than it announces.";
-    Refuse BUFFER_MISSING_GLB_DATA "A buffer has no URI, and there is no binary chunk for it.";
+    Either BUFFER_MISSING_GLB_DATA "A buffer has no URI, and there is no binary chunk for it.";
     Refuse INVALID_URI "A URI cannot be decoded, or is not followed.";
+    Refuse IO_ERROR "A file beside this one is missing or may not be read.";
     Refuse BUFFER_VIEW_TOO_LONG "A buffer view reaches past the end of its buffer.";
     Warn BUFFER_VIEW_INVALID_BYTE_STRIDE "A byte stride is outside 4..252 or no multiple of 4.";
 
@@ -129,7 +130,7 @@ checks! {
     Warn ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS "Weights of a mesh without morph targets are animated.";
     Warn ANIMATION_CHANNEL_TARGET_UNKNOWN "A channel moves something that is not shown.";
 
-    Either IMAGE_DATA_INVALID "An image cannot be read; it is left empty.";
+    Warn IMAGE_DATA_INVALID "An image cannot be read; it is left empty.";
     Warn IMAGE_TOO_LARGE "An image has too many pixels; it is left empty.";
     Warn IMAGE_MIME_TYPE_INVALID "An image is not of the type that it says.";
     Warn TEXTURE_NO_SOURCE "A texture has no image that can be shown.";

@@ -97,7 +97,12 @@ fn read_primitive(
     if let Some(index) = material.filter(|&index| index as usize >= document.root.materials.len()) {
         return Err(super::accessor::unresolved(&format!("{path}/material"), index as usize));
     }
-    let mut vertices = Vertices { positions: positions(document, primitive, path)?, ..Vertices::default() };
+    let Some(positions) = positions(document, primitive, path)? else {
+        let text = "the primitive has no positions and stays empty";
+        document.guard.warn(Place::Pointer(path.to_owned()), code::MESH_PRIMITIVE_NO_POSITION, text);
+        return Ok(Primitive { material, ..Primitive::default() });
+    };
+    let mut vertices = Vertices { positions, ..Vertices::default() };
     let count = vertices.len();
     *total = total.saturating_add(count);
     if *total > VERTICES {
@@ -159,13 +164,9 @@ fn positions(
     document: &Document<'_>,
     primitive: &json::mesh::Primitive,
     path: &str,
-) -> Result<Vec<Vec3>, ImportError> {
+) -> Result<Option<Vec<Vec3>>, ImportError> {
     let from = format!("{path}/attributes/POSITION");
-    let Some(accessor) = attribute(primitive, Semantic::Positions) else {
-        let text = "the primitive has no positions and stays empty";
-        document.guard.warn(Place::Pointer(path.to_owned()), code::MESH_PRIMITIVE_NO_POSITION, text);
-        return Ok(Vec::new());
-    };
+    let Some(accessor) = attribute(primitive, Semantic::Positions) else { return Ok(None) };
     let positions = document.source(accessor, &from, ANY_VEC3, WRONG)?.finite::<3>()?;
     document.guard.work(positions.len())?;
     let positions: Vec<Vec3> = positions.into_iter().map(Vec3::from).collect();
@@ -173,7 +174,7 @@ fn positions(
         let text = "a vertex is too far away for single precision";
         document.guard.warn(Place::Pointer(from), code::HUGE_TRANSLATION, text);
     }
-    Ok(positions)
+    Ok(Some(positions))
 }
 
 /// The file's normals made unit; those it lacks, and those without a length, from the triangles.

@@ -22,6 +22,7 @@ mod material;
 mod mesh;
 mod morph;
 mod node;
+mod references;
 mod scene;
 mod skin;
 mod survey;
@@ -70,6 +71,7 @@ fn read_document(
 ) -> Result<ModelData, ImportError> {
     let root = document::parse(json, json_at, guard)?;
     extension::check(&root, guard)?;
+    references::check(&root, guard)?;
     let graph = graph::graph(&root, guard)?;
     let store = Store::new(door, guard);
     let buffers = buffer::load(&root, bin, &store, guard)?;
@@ -93,7 +95,7 @@ fn read_document(
     let stage = scene::stage(&document, &graph, &locals, skeleton, bones, &meshes)?;
     let takes = animation::takes(&document, &stage)?;
 
-    let scene = root.scenes.get(root.scene.map_or(0, |scene| scene.value()));
+    let scene = root.scene.and_then(|scene| root.scenes.get(scene.value())).or(root.scenes.first());
     Ok(ModelData {
         name: scene.and_then(|scene| scene.name.clone()).unwrap_or_default(),
         meshes: meshes.into_iter().map(|read| read.mesh).collect(),

@@ -163,7 +163,11 @@ fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportErro
     let place = Place::Pointer("/scenes".to_owned());
     let index = match root.scene {
         Some(scene) if scene.value() < root.scenes.len() => scene.value(),
-        Some(scene) => return Err(unresolved("/scene", scene.value())),
+        Some(scene) => {
+            let text = format!("there is no number {}; the first scene is shown", scene.value());
+            document.guard.warn(Place::Pointer("/scene".to_owned()), code::UNRESOLVED_REFERENCE, text);
+            0
+        }
         None => 0,
     };
     for (number, scene) in root.scenes.iter().enumerate() {

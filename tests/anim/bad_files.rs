@@ -1,0 +1,102 @@
+//! Every bad file of the collection gets a clear error, or opens with a warning where that is allowed; quickly, in
+//! little memory, on a small stack.
+
+use crate::doors::{FolderFs, shared};
+use crate::soundness::{faults, faults_of_poses};
+use dragonfly_anim::format::{AssetError, AssetFs, ImportError, Place, ReadOptions, read};
+use dragonfly_kit::counting::peak;
+use std::cell::RefCell;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Promised: no file takes longer, or more memory.
+const MOST_TIME: Duration = Duration::from_secs(2);
+const MOST_MEMORY: u64 = 256 << 20;
+
+/// A folder's door that remembers what was asked for.
+struct Watched(FolderFs, RefCell<Vec<String>>);
+
+impl AssetFs for Watched {
+    fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
+        self.1.borrow_mut().push(path.to_owned());
+        self.0.read(path, limit)
+    }
+}
+
+/// What is wrong with how `path` was read; the message shown is printed.
+fn faults_of(path: PathBuf, expected: &str) -> Vec<String> {
+    let bytes = std::fs::read(&path).unwrap();
+    let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+    let door = Watched(FolderFs(path.parent().unwrap().to_owned()), RefCell::default());
+    let start = Instant::now();
+    let (memory, result) = peak(|| read(&name, &bytes, &door, &ReadOptions::default()));
+    let elapsed = start.elapsed();
+    let mut wrong = Vec::new();
+    if elapsed > MOST_TIME || memory > MOST_MEMORY {
+        wrong.push(format!("took {elapsed:?} and {memory} bytes"));
+    }
+    for asked in door.1.borrow().iter() {
+        if asked.starts_with('/') || asked.contains("..") || asked.contains(':') || asked.contains('\\') {
+            wrong.push(format!("asked for {asked}"));
+        }
+    }
+    match result {
+        Ok(imported) => {
+            if expected.starts_with("error") {
+                wrong.push("was read, expected an error".to_owned());
+            }
+            let warnings: Vec<String> = imported.warnings.iter().take(3).map(ToString::to_string).collect();
+            println!("{name}: read; {}", warnings.join("; "));
+            wrong.extend(faults(&imported.model));
+            wrong.extend(faults_of_poses(imported.model));
+        }
+        Err(error) => {
+            println!("{name}: {error}");
+            wrong.extend(faults_of_error(&error, expected));
+        }
+    }
+    wrong
+}
+
+fn faults_of_error(error: &ImportError, expected: &str) -> Vec<String> {
+    let mut wrong = Vec::new();
+    if expected == "load" {
+        wrong.push(format!("expected a model: {error}"));
+    }
+    if expected == "error-unsupported" && !matches!(error, ImportError::Unsupported { .. }) {
+        wrong.push(format!("expected the missing feature: {error}"));
+    }
+    if error.to_string().contains('\n') || *error.place() == Place::File {
+        wrong.push(format!("no clear place: {error}"));
+    }
+    wrong
+}
+
+#[test]
+fn every_bad_file_is_answered_as_its_index_says() {
+    let Some(folder) = shared("bad") else { return };
+    let index = std::fs::read_to_string(folder.join("INDEX.tsv")).unwrap();
+    let (mut files, mut failures) = (0, Vec::new());
+    for row in index.lines().skip(1) {
+        let mut columns = row.split('\t');
+        let (file, _, expected) = (columns.next().unwrap(), columns.next().unwrap(), columns.next().unwrap());
+        if !file.ends_with(".gltf") && !file.ends_with(".glb") {
+            continue;
+        }
+        if !folder.join(file).exists() {
+            println!("{file}: is not there");
+            continue;
+        }
+        files += 1;
+        let (path, expected) = (folder.join(file), expected.to_owned());
+        // A small stack: nothing may recurse as deep as a file says.
+        let thread = std::thread::Builder::new().stack_size(256 << 10).spawn(move || faults_of(path, &expected));
+        match thread.unwrap().join() {
+            Ok(wrong) => failures.extend(wrong.into_iter().map(|wrong| format!("{file}: {wrong}"))),
+            Err(_) => failures.push(format!("{file}: panicked")),
+        }
+    }
+    println!("{files} files");
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    assert!(files >= 150);
+}

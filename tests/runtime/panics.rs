@@ -1,0 +1,239 @@
+//! R5: a panic costs one message, or one object; never the thread.
+
+use crate::cast::{LIMIT, Log, Work, deadline, hear, listen, note, outlet, panic_quietly, work};
+use dragonfly_kit::process::{alone, resident_bytes};
+use dragonfly_runtime::{Context, Fault, Outcome, Receiver, Stage, Thread};
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+/// Collects the faults of a thread on a stage.
+fn faults(thread: &mut Context) -> Rc<RefCell<Vec<Fault>>> {
+    let seen = Rc::new(RefCell::new(Vec::new()));
+    let list = Rc::clone(&seen);
+    thread.observe(move |fault| list.borrow_mut().push(fault.clone()));
+    seen
+}
+
+#[test]
+fn a_worker_that_panics_is_removed_and_reported_and_the_rest_goes_on() {
+    struct Clumsy;
+    impl dragonfly_runtime::Worker for Clumsy {
+        fn update(&mut self, _: &mut Context) -> bool {
+            panic!("dropped {}", "everything")
+        }
+    }
+
+    let (mut stage, log) = (Stage::new(), Log::default());
+    let thread = stage.start("kitchen");
+    let seen = faults(stage.context(&thread));
+    stage.context(&thread).register_worker(note(&log, "a"));
+    stage.context(&thread).register_worker(Clumsy);
+    stage.context(&thread).register_worker(note(&log, "b"));
+    stage.iterate(&thread);
+    assert_eq!(log.take(), "a", "those behind may depend on it: as if it had returned false");
+    stage.iterate(&thread);
+    assert_eq!(log.take(), "a b");
+    let seen = seen.borrow();
+    assert_eq!(seen.len(), 1);
+    assert_eq!((&*seen[0].thread, &*seen[0].object, seen[0].call), ("kitchen", "Clumsy", "update"));
+    assert_eq!((&*seen[0].reason, seen[0].outcome), ("dropped everything", Outcome::Removed));
+    assert_eq!(thread.counters().panics, 1);
+}
+
+#[test]
+fn a_receiver_that_panics_is_removed_and_reported_with_its_message_type() {
+    let (mut stage, log) = (Stage::new(), Log::default());
+    let thread = stage.start("kitchen");
+    let seen = faults(stage.context(&thread));
+    let bad = hear(|_: String, _: &mut Context| panic_quietly("no"));
+    let bad = stage.context(&thread).register_receiver(bad);
+    let good = stage.context(&thread).register_receiver(listen(&log, "good"));
+    bad.send("one".to_owned()).unwrap();
+    good.send(1).unwrap();
+    bad.send("two".to_owned()).unwrap();
+    good.send(2).unwrap();
+    stage.iterate(&thread);
+    assert_eq!(log.take(), "good1 good2");
+    let seen = seen.borrow();
+    assert_eq!((seen.len(), seen[0].call, &*seen[0].reason), (1, "String", "no"));
+    assert_eq!((thread.counters().delivered, thread.counters().undeliverable), (3, 1));
+}
+
+#[test]
+fn a_panic_anywhere_in_the_thread_is_contained() {
+    struct Sticky;
+    impl Receiver for Sticky {
+        type Message = ();
+        fn receive(&mut self, (): (), _: &mut Context) {}
+    }
+    impl Drop for Sticky {
+        fn drop(&mut self) {
+            panic_quietly("would not go")
+        }
+    }
+
+    let mut stage = Stage::new();
+    let thread = stage.start("kitchen");
+    let seen = faults(stage.context(&thread));
+    thread.run(|_| panic_quietly("in a closure")).unwrap();
+    thread.register_worker(|_| -> Work<fn(&mut Context) -> bool> { panic_quietly("in the making") });
+    let sticky = thread.register_receiver(|_| Sticky);
+    thread.unregister_receiver(&sticky);
+    thread.register_receiver(|_| Sticky); // Dropped at the end of the thread.
+    stage.iterate(&thread);
+    thread.remote_stop();
+    stage.iterate(&thread);
+    let reasons: Vec<_> = seen.borrow().iter().map(|fault| fault.reason.clone()).collect();
+    assert_eq!(reasons, ["in a closure", "in the making", "would not go", "would not go"]);
+    assert!(thread.is_stopped());
+}
+
+#[test]
+fn an_observer_that_panics_is_not_asked_again() {
+    let mut stage = Stage::new();
+    let thread = stage.start("kitchen");
+    let asked = Rc::new(RefCell::new(0));
+    let count = Rc::clone(&asked);
+    stage.context(&thread).observe(move |_| {
+        *count.borrow_mut() += 1;
+        panic_quietly("the observer too");
+    });
+    for _ in 0..3 {
+        thread.run(|_| panic_quietly("again")).unwrap();
+    }
+    stage.iterate(&thread);
+    assert_eq!((*asked.borrow(), thread.counters().panics), (1, 3));
+}
+
+/// Counts its messages, and panics with every multiple of `trap`.
+fn trapped(trap: u32, log: &Log) -> impl FnMut(&mut Context) -> Trapped + use<> {
+    let log = log.clone();
+    move |_| Trapped { trap, count: 0, log: log.clone() }
+}
+
+struct Trapped {
+    trap: u32,
+    count: u32,
+    log: Log,
+}
+
+impl Receiver for Trapped {
+    type Message = u32;
+    fn receive(&mut self, message: u32, _: &mut Context) {
+        if message.is_multiple_of(self.trap) {
+            panic_quietly("trapped");
+        }
+        self.count += 1;
+        self.log.add(format!("{message}:{}", self.count));
+    }
+}
+
+#[test]
+fn a_restartable_receiver_comes_back_fresh_and_loses_only_that_message() {
+    let (mut stage, log) = (Stage::new(), Log::default());
+    let thread = stage.start("kitchen");
+    let seen = faults(stage.context(&thread));
+    let address = stage.context(&thread).register_restartable_receiver(trapped(3, &log));
+    for message in 1..=8 {
+        address.send(message).unwrap();
+    }
+    stage.iterate(&thread);
+    assert_eq!(log.take(), "1:1 2:2 4:1 5:2 7:1 8:2");
+    assert!(seen.borrow().iter().all(|fault| fault.outcome == Outcome::Restarted));
+    assert_eq!(thread.counters().restarts, 2);
+}
+
+#[test]
+fn a_restartable_worker_keeps_its_place() {
+    let (mut stage, log) = (Stage::new(), Log::default());
+    let thread = stage.start("kitchen");
+    stage.context(&thread).register_worker(note(&log, "a"));
+    let (lines, mut made) = (log.clone(), 0);
+    stage.context(&thread).register_restartable_worker(move |_| {
+        made += 1;
+        let (lines, made) = (lines.clone(), made);
+        work(move |_: &mut Context| {
+            if made == 1 {
+                panic_quietly("the first one");
+            }
+            lines.add(format!("made{made}"));
+            true
+        })
+    });
+    stage.context(&thread).register_worker(note(&log, "b"));
+    stage.iterate(&thread);
+    stage.iterate(&thread);
+    assert_eq!(log.take(), "a a made2 b");
+}
+
+#[test]
+fn more_than_three_panics_in_ten_seconds_are_too_many() {
+    let (mut stage, log) = (Stage::new(), Log::default());
+    let thread = stage.start("kitchen");
+    let seen = faults(stage.context(&thread));
+    let address = stage.context(&thread).register_restartable_receiver(trapped(1, &log));
+    // Spread out: a thousand are allowed.
+    for _ in 0..1000 {
+        stage.advance(Duration::from_secs(4));
+        address.send(1).unwrap();
+        stage.iterate(&thread);
+    }
+    assert!(seen.borrow().iter().all(|fault| fault.outcome == Outcome::Restarted));
+    // In a row: the fourth is the last.
+    stage.advance(Duration::from_secs(10));
+    seen.borrow_mut().clear();
+    for _ in 0..5 {
+        address.send(1).unwrap();
+    }
+    stage.iterate(&thread);
+    let outcomes: Vec<_> = seen.borrow().iter().map(|fault| fault.outcome).collect();
+    assert_eq!(outcomes[..3], [Outcome::Restarted; 3]);
+    assert_eq!(outcomes[3..], [Outcome::GivenUp]);
+    assert_eq!(thread.counters().undeliverable, 1, "the fifth message");
+}
+
+/// The program's own figures: 1,000 panics among 100,000 messages of two types, in a real thread.
+#[test]
+fn a_thousand_panics_lose_no_other_message_and_no_memory() {
+    alone("panics::a_thousand_panics_lose_no_other_message_and_no_memory", || {
+        const ROUNDS: u64 = 1000;
+        let thread = Thread::start("panicky").unwrap();
+        let handle = thread.handle().clone();
+        let reported = Arc::new(AtomicU64::new(0));
+        let reports = Arc::clone(&reported);
+        handle.observe(move |_| {
+            reports.fetch_add(1, Ordering::Relaxed);
+        });
+        let (receiver, hears) = outlet();
+        let steady = handle.register_receiver(|_| receiver);
+        let round = |round: u64| {
+            let bad = handle.register_receiver(|_| hear(|_: Vec<u8>, _| panic_quietly("injected")));
+            handle.register_worker(|_| work(|_| panic_quietly("injected")));
+            for message in 0..49 {
+                steady.send(round * 98 + message).unwrap();
+            }
+            bad.send(vec![0; 1000]).unwrap();
+            for message in 49..98 {
+                steady.send(round * 98 + message).unwrap();
+            }
+            bad.send(vec![0; 1000]).unwrap();
+            for message in 0..98 {
+                assert_eq!(hears.recv_timeout(LIMIT), Ok(round * 98 + message));
+            }
+        };
+        (0..ROUNDS / 10).for_each(round); // The allocator's own growth.
+        let before = resident_bytes();
+        (ROUNDS / 10..ROUNDS / 10 + ROUNDS / 2).for_each(round);
+        let grown = resident_bytes().saturating_sub(before);
+        handle.remote_stop();
+        Thread::wait_for(std::slice::from_ref(&handle), deadline()).unwrap();
+        let counters = handle.counters();
+        println!("R5: {} panics, {} messages, {grown} bytes grown", counters.panics, counters.delivered);
+        assert!(counters.panics >= ROUNDS, "{counters:?}");
+        assert_eq!(reported.load(Ordering::Relaxed), counters.panics);
+        assert!(grown <= 1 << 20, "{grown} bytes");
+    });
+}
