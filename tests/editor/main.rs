@@ -9,6 +9,7 @@ mod fixture;
 mod folder;
 mod no_allocation;
 mod panels;
+mod picking;
 mod picture;
 mod program;
 mod screen;
