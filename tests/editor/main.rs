@@ -2,10 +2,17 @@
 
 mod arm;
 mod camera;
+mod command_line;
+mod commands;
 mod device_loss;
+mod fixture;
+mod folder;
 mod no_allocation;
+mod panels;
 mod picking;
 mod picture;
+mod program;
+mod screen;
 mod shaders;
 mod studio;
 
