@@ -3,7 +3,8 @@
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
 use super::store::{self, Store};
-use crate::graphics::{GraphicsHandle, GraphicsMessage, PanelsFrame};
+use crate::graphics::GraphicsHandle;
+use crate::graphics::{GraphicsMessage, PanelsFrame};
 use crate::panels::commands;
 use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;

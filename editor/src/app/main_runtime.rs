@@ -1,6 +1,5 @@
 //! Window, captured main thread, graphics thread: what every program of this kind has (thesis §3.2.4.1).
 
-use super::AppError;
 use super::base_runtime::Parts;
 use super::editor_runtime::report_faults;
 use super::event::UserEvent;
@@ -8,7 +7,9 @@ use super::init_manager::{InitManager, MakeRuntime};
 use super::interface::Interface;
 use super::store::Store;
 use super::timeline::{Step, Timeline};
-use crate::graphics::{Graphics, GraphicsHandle, SurfaceSource};
+use super::AppError;
+use crate::graphics::{Graphics, GraphicsHandle};
+use crate::graphics::surface::SurfaceSource;
 use dragonfly_runtime::{Captured, Next, Thread};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -47,8 +48,7 @@ impl MainRuntime {
             .with_visible(false)
             .with_min_inner_size(LogicalSize::new(480.0, 320.0))
             .with_inner_size(LogicalSize::new(1280.0, 720.0));
-        let window =
-            event_loop.create_window(attributes).map_err(|error| AppError::Window(error.to_string()))?;
+        let window = event_loop.create_window(attributes).map_err(|error| AppError::Window(error.to_string()))?;
         let window = Arc::new(window);
         let context = egui::Context::default();
         let scale = window.scale_factor() as f32;
@@ -77,8 +77,7 @@ impl MainRuntime {
         main.context().register_restartable_worker(move |_| Rc::clone(&kept));
         timeline.borrow_mut().reach(Step::MainRuntime);
 
-        let source =
-            SurfaceSource { window: Arc::clone(&window), display: event_loop.owned_display_handle() };
+        let source = SurfaceSource { window: Arc::clone(&window), display: event_loop.owned_display_handle() };
         let size = window.inner_size();
         let graphics = Graphics::start(source, [size.width, size.height], replies)
             .map_err(|error| AppError::Thread(error.to_string()))?;
