@@ -10,22 +10,19 @@ pub(crate) struct Fixture {
     pub(crate) bin: Vec<u8>,
 }
 
-/// Accessors of [`Fixture::new`], by number.
+/// Accessors of [`Fixture::new`] that tests change, by number.
 pub(crate) mod accessor {
     pub(crate) const POSITION: usize = 0;
     pub(crate) const NORMAL: usize = 1;
     pub(crate) const TANGENT: usize = 2;
-    pub(crate) const COORDINATES: usize = 3;
     pub(crate) const COLOR: usize = 4;
     pub(crate) const JOINTS: usize = 5;
     pub(crate) const WEIGHTS: usize = 6;
     pub(crate) const INDICES: usize = 7;
-    pub(crate) const MORPH: usize = 8;
     pub(crate) const OFFSETS: usize = 9;
     pub(crate) const TIMES: usize = 10;
     pub(crate) const TRANSLATIONS: usize = 11;
     pub(crate) const ROTATIONS: usize = 12;
-    pub(crate) const MORPH_WEIGHTS: usize = 13;
     pub(crate) const SPARSE: usize = 14;
     pub(crate) const CUBIC: usize = 15;
 }

@@ -478,15 +478,15 @@ mod exercise {
             let Ball(mut hops) = ball;
             *hops += 1;
             self.caught.push(*hops);
-            if *hops >= HOPS {
-                let _ = self.home.send(*hops);
-                return;
-            }
-            let _ = self.latest.send(Ball(Box::new(HOPS)));
-            let _ = self.bounded.send(Ball(Box::new(HOPS)));
-            let _ = self.next.send(Ball(hops));
-            if self.caught.len().is_multiple_of(100) {
-                std::panic::resume_unwind(Box::new("made anew"));
+            // At the end of a round the others may have stopped already, or be full.
+            match (*hops).cmp(&HOPS) {
+                std::cmp::Ordering::Less => {
+                    let _ = self.latest.send(Ball(Box::new(HOPS)));
+                    let _ = self.bounded.send(Ball(Box::new(HOPS)));
+                    let _ = self.next.send(Ball(hops));
+                }
+                std::cmp::Ordering::Equal => _ = self.home.send(*hops),
+                std::cmp::Ordering::Greater => {}
             }
         }
     }
@@ -543,17 +543,12 @@ mod exercise {
             handle.set_trace(64);
             watchdog.watch(handle);
             handle.register_worker(|_| Ticker(0));
+            let _ = handle.run(|_| std::panic::resume_unwind(Box::new("on purpose")));
             let (next, home) = (ring[(index + 1) % ring.len()].clone(), home.clone());
             let (latest, bounded) = (next.latest(), next.bounded(8));
-            let make = move |_: &mut Context| Player {
-                next: next.clone(),
-                latest: latest.clone(),
-                bounded: bounded.clone(),
-                home: home.clone(),
-                caught: Vec::new(),
-            };
+            let player = move |_: &mut Context| Player { next, latest, bounded, home, caught: Vec::new() };
             let own = ring[index].clone();
-            handle.register_receiver_at(&own, make);
+            handle.register_receiver_at(&own, player);
         }
         for address in &ring {
             address.send(Ball(Box::new(0))).expect("it runs");

@@ -12,7 +12,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 host=$(rustc -vV | sed -n 's/^host: //p')
 target=${CARGO_TARGET_DIR:-target}/sanitizers
-export RUSTC_BOOTSTRAP=1 DRAGONFLY_STRESS=${DRAGONFLY_STRESS:-400000} DRAGONFLY_OVERLOAD=1
+export RUSTC_BOOTSTRAP=1 DRAGONFLY_SANITIZER=1 DRAGONFLY_STRESS=${DRAGONFLY_STRESS:-400000} DRAGONFLY_OVERLOAD=1
 suppressions=$(mktemp)
 trap 'rm -f "$suppressions"' EXIT
 echo 'race:drop_slow' >"$suppressions"

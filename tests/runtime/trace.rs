@@ -2,6 +2,7 @@
 
 use crate::cast::{LIMIT, Log, hear, note, outlet, panic_quietly, work};
 use dragonfly_runtime::{Context, End, Event, Receiver, Record, Stage, Thread, TraceSnapshot, Worker};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 const MS: Duration = Duration::from_millis(1);
@@ -122,4 +123,58 @@ fn off_it_adds_no_allocation_to_a_send() {
     turn(&mut stage);
     let (count, ()) = dragonfly_kit::counting::count(|| (0..100).for_each(|_| turn(&mut stage)));
     assert!(count.allocations <= 200, "the message's box, and the queue's block: {count:?}");
+}
+
+/// Keeps what `tracing` gets: each event's fields, as one line.
+#[derive(Clone, Default)]
+struct Listener(Arc<Mutex<Vec<String>>>);
+
+impl tracing::Subscriber for Listener {
+    fn enabled(&self, metadata: &tracing::Metadata<'_>) -> bool {
+        metadata.target().starts_with("dragonfly_runtime")
+    }
+    fn new_span(&self, _: &tracing::span::Attributes<'_>) -> tracing::span::Id {
+        tracing::span::Id::from_u64(1)
+    }
+    fn record(&self, _: &tracing::span::Id, _: &tracing::span::Record<'_>) {}
+    fn record_follows_from(&self, _: &tracing::span::Id, _: &tracing::span::Id) {}
+    fn event(&self, event: &tracing::Event<'_>) {
+        struct Line(String);
+        impl tracing::field::Visit for Line {
+            fn record_debug(&mut self, field: &tracing::field::Field, value: &dyn std::fmt::Debug) {
+                self.0 += &format!(" {field}={value:?}");
+            }
+        }
+        let mut line = Line(event.metadata().level().to_string());
+        event.record(&mut line);
+        self.0.lock().unwrap().push(line.0);
+    }
+    fn enter(&self, _: &tracing::span::Id) {}
+    fn exit(&self, _: &tracing::span::Id) {}
+}
+
+#[test]
+fn the_trace_feeds_tracing_and_trouble_is_told_even_when_it_is_off() {
+    let listener = Listener::default();
+    tracing::subscriber::with_default(listener.clone(), || {
+        let mut stage = Stage::new();
+        let kitchen = stage.start("kitchen");
+        let address = stage.context(&kitchen).register_receiver(Cook);
+        let gone = kitchen.reserve_address::<u32>();
+        address.send(Order).unwrap();
+        gone.send(1).unwrap();
+        kitchen.run(|_| panic_quietly("on fire")).unwrap();
+        stage.iterate(&kitchen);
+        stage.context(&kitchen).set_trace(1);
+        address.send(Order).unwrap();
+        stage.iterate(&kitchen);
+    });
+    let lines = listener.0.lock().unwrap();
+    assert_eq!(lines.len(), 3, "{lines:#?}");
+    assert!(
+        lines[0].starts_with("DEBUG message=undeliverable") && lines[0].contains("kitchen"),
+        "{lines:#?}"
+    );
+    assert!(lines[1].starts_with("ERROR message=panic") && lines[1].contains("on fire"), "{lines:#?}");
+    assert!(lines[2].starts_with("TRACE") && lines[2].contains("to=chef"), "{lines:#?}");
 }

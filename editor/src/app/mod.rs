@@ -10,7 +10,6 @@
 mod base_runtime;
 mod editor_runtime;
 mod event;
-mod graphics_thread;
 mod init_manager;
 mod interface;
 mod main_runtime;

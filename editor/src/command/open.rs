@@ -2,6 +2,7 @@
 
 use super::choice::{Size, load, source};
 use super::{Command, Failure, output, render, tell};
+use crate::app::{self, AppError, Options};
 use crate::document::Source;
 use std::env;
 use std::path::{Path, PathBuf};
@@ -12,6 +13,15 @@ pub(super) struct Arguments {
     /// Models to open (.glb, .gltf); without any, the built-in dragonfly
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Loses the graphics device after every so many drawn frames, to show that nothing is lost with it
+    #[arg(long, value_name = "FRAMES", hide = true)]
+    lose_device: Option<u32>,
+    /// Goes on drawing however often the device is lost
+    #[arg(long, hide = true)]
+    never_pause: bool,
+    /// Where settings are kept, instead of the usual place
+    #[arg(long, value_name = "FOLDER", hide = true)]
+    settings: Option<PathBuf>,
 }
 
 impl Command for Arguments {
@@ -19,7 +29,15 @@ impl Command for Arguments {
         if !has_display() {
             return self.draw("DISPLAY and WAYLAND_DISPLAY are not set");
         }
-        self.draw("the window is not part of this build")
+        match app::run(self.options()) {
+            Ok(()) => Ok(()),
+            Err(AppError::Display(reason)) => self.draw(&reason),
+            Err(error @ AppError::Graphics(_)) => {
+                let hint = "`dragonfly info` and `dragonfly pose` need no graphics";
+                Err(Failure::Machine(format!("{error}; {hint}")))
+            }
+            Err(error) => Err(Failure::Machine(error.to_string())),
+        }
     }
 }
 
@@ -31,6 +49,16 @@ fn has_display() -> bool {
 }
 
 impl Arguments {
+    fn options(&self) -> Options {
+        let built_in = Source::BuiltIn;
+        Options {
+            source: self.files.first().map_or(built_in, |file| source(file)),
+            lose_device_every: self.lose_device,
+            never_pause: self.never_pause,
+            settings_folder: self.settings.clone(),
+        }
+    }
+
     /// The main job without a window: a picture of the model in the current folder, and where to get more.
     fn draw(&self, why: &str) -> Result<(), Failure> {
         tell(format_args!("no display to open a window on ({why}); drawing a picture instead"));

@@ -3,7 +3,10 @@
 use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
 use super::{Command, Failure, output, tell};
 use crate::document::LoadedModel;
+use crate::graphics::{GraphicsError, PictureSettings, render_picture};
+use std::io::Cursor;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Draws one picture of a model; no window and no display needed
 #[derive(Clone, Debug, clap::Args)]
@@ -77,10 +80,36 @@ impl Command for Arguments {
 
 /// The picture of `loaded` at `time` seconds of take number `take`, as the bytes of a PNG file.
 pub(super) fn draw(
-    _loaded: LoadedModel,
-    _take: Option<usize>,
-    _time: f32,
-    _view: &View,
+    loaded: LoadedModel,
+    take: Option<usize>,
+    time: f32,
+    view: &View,
 ) -> Result<Vec<u8>, Failure> {
-    Err(Failure::Machine("drawing is not part of this build".to_owned()))
+    let settings = PictureSettings {
+        size: [view.size.width, view.size.height],
+        take,
+        time,
+        yaw: view.yaw.to_radians(),
+        pitch: view.pitch.to_radians(),
+        background: view.background.map(|color| color.0),
+        skeleton: view.skeleton,
+        // Ground under a transparent model would leave half of it behind glass.
+        grid: view.background.is_none(),
+        ..PictureSettings::default()
+    };
+    let picture = render_picture(&Arc::new(loaded), &settings).map_err(|error| match error {
+        GraphicsError::PictureSize { .. } => Failure::input("--size", error),
+        other => machine(&other),
+    })?;
+    let mut png = Vec::new();
+    picture
+        .write_to(&mut Cursor::new(&mut png), image::ImageFormat::Png)
+        .map_err(|error| Failure::Machine(format!("the picture cannot be encoded: {error}")))?;
+    Ok(png)
+}
+
+/// What a person without graphics can do about it.
+pub(super) fn machine(error: &GraphicsError) -> Failure {
+    let hint = "`dragonfly info` and `dragonfly pose` need no graphics";
+    Failure::Machine(format!("{error}; {hint}"))
 }

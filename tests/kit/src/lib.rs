@@ -2,6 +2,7 @@
 
 pub mod counting;
 mod eventually;
+pub mod mutate;
 pub mod process;
 pub mod random;
 

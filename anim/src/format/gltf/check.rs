@@ -130,7 +130,7 @@ checks! {
     Warn ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS "Weights of a mesh without morph targets are animated.";
     Warn ANIMATION_CHANNEL_TARGET_UNKNOWN "A channel moves something that is not shown.";
 
-    Either IMAGE_DATA_INVALID "An image cannot be read; it is left empty.";
+    Warn IMAGE_DATA_INVALID "An image cannot be read; it is left empty.";
     Warn IMAGE_TOO_LARGE "An image has too many pixels; it is left empty.";
     Warn IMAGE_MIME_TYPE_INVALID "An image is not of the type that it says.";
     Warn TEXTURE_NO_SOURCE "A texture has no image that can be shown.";

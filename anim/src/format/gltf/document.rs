@@ -19,9 +19,8 @@ pub(super) fn parse(bytes: &[u8], at: u64, guard: &Guard<'_>) -> Result<json::Ro
     let text = text_of(bytes, at)?;
     let survey = survey(text.as_bytes(), guard)?;
     check_version(&survey)?;
-    let memory = survey.memory + survey.targets_without_node.len() as u64 * NODE.len() as u64;
-    guard.charge(&Place::Pointer(String::new()), memory)?;
-    let text = with_nodes(text, &survey, guard)?;
+    guard.charge(&Place::Pointer(String::new()), survey.memory)?;
+    let text = completed(text, &survey, guard)?;
     let parsed = if text.len() <= PARSE_AT_ONCE {
         json::deserialize::from_str(&text)
     } else {
@@ -61,21 +60,18 @@ fn check_version(survey: &Survey) -> Result<(), ImportError> {
     }
 }
 
-const NODE: &str = "\"node\":4294967295,";
-
-/// The text with a node that does not exist in each animation target that names none.
-fn with_nodes<'a>(text: &'a str, survey: &Survey, guard: &Guard<'_>) -> Result<Cow<'a, str>, ImportError> {
-    if survey.targets_without_node.is_empty() {
+/// The text with the members that the document model misses.
+fn completed<'a>(text: &'a str, survey: &Survey, guard: &Guard<'_>) -> Result<Cow<'a, str>, ImportError> {
+    if survey.missing.is_empty() {
         return Ok(Cow::Borrowed(text));
     }
-    let length = text.len() + survey.targets_without_node.len() * NODE.len();
-    let place = Place::Pointer("/animations".to_owned());
-    guard.charge(&place, length as u64)?;
+    let length = text.len() + survey.missing.iter().map(|(_, member)| member.len()).sum::<usize>();
+    guard.charge(&Place::Pointer(String::new()), length as u64)?;
     let mut patched = String::with_capacity(length);
     let mut from = 0;
-    for &at in &survey.targets_without_node {
+    for &(at, member) in &survey.missing {
         patched.push_str(&text[from..at]);
-        patched.push_str(NODE);
+        patched.push_str(member);
         from = at;
     }
     patched.push_str(&text[from..]);

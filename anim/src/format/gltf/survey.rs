@@ -17,8 +17,8 @@ pub(super) struct Survey {
     /// `/asset/version` and `/asset/minVersion`, as written.
     pub(super) version: Option<String>,
     pub(super) min_version: Option<String>,
-    /// Where an animation's target lacks a `node`, which the document model insists on.
-    pub(super) targets_without_node: Vec<usize>,
+    /// Members that the specification does not ask for but the document model does: where, and what to put there.
+    pub(super) missing: Vec<(usize, &'static str)>,
 }
 
 /// Looks over `text`.
@@ -43,7 +43,7 @@ pub(super) fn survey(text: &[u8], guard: &Guard<'_>) -> Result<Survey, ImportErr
             Step::Key if matches!(walk.key(depth - 1), b"extras") => skipping = Some(depth),
             Step::Key => {
                 survey.memory += MEMBER;
-                if walk.key(depth - 1) == b"node" {
+                if asked_for(&mut walk, depth).is_some_and(|member| walk.key(depth - 1) == member.name) {
                     walk.frames()[depth - 1].note = 0;
                 }
             }
@@ -72,17 +72,19 @@ impl Survey {
             self.memory += ALLOCATION + 4 * bytes as u64;
         } else if depth >= 2 && matches!(walk.key(depth - 2), b"attributes") {
             self.memory += 640;
-        } else if is_target(walk, depth) {
+        } else if asked_for(walk, depth).is_some() {
             walk.frames()[depth - 1].note = walk.at();
         }
         Ok(())
     }
 
     fn closed(&mut self, walk: &mut Walk<'_>, depth: usize) {
-        let note = walk.frames()[depth - 1].note;
-        if note != 0 && is_target(walk, depth) {
-            self.memory += 8;
-            self.targets_without_node.push(note);
+        let frame = walk.frames()[depth - 1];
+        if frame.note != 0
+            && let Some(member) = asked_for(walk, depth)
+        {
+            self.memory += 64 + member.followed.len() as u64;
+            self.missing.push((frame.note, if frame.count == 0 { member.alone } else { member.followed }));
         }
     }
 
@@ -123,13 +125,32 @@ impl Survey {
     }
 }
 
-/// Is the innermost object the target of an animation's channel?
-fn is_target(walk: &mut Walk<'_>, depth: usize) -> bool {
-    depth == 6
-        && !walk.frames()[5].is_array
-        && walk.key(4) == b"target"
-        && walk.key(2) == b"channels"
-        && walk.key(0) == b"animations"
+/// A member that the document model insists on.
+struct Member {
+    name: &'static [u8],
+    /// What stands for it in an empty object, and before other members.
+    alone: &'static str,
+    followed: &'static str,
+}
+
+/// No node: an extension says what is animated, if anything.
+const NODE: Member =
+    Member { name: b"node", alone: "\"node\":4294967295", followed: "\"node\":4294967295," };
+const NODES_OF_SCENE: Member = Member { name: b"nodes", alone: "\"nodes\":[]", followed: "\"nodes\":[]," };
+
+/// The member that the innermost object must have for the document model, and need not have for the specification.
+fn asked_for(walk: &mut Walk<'_>, depth: usize) -> Option<&'static Member> {
+    if depth == 0 || walk.frames()[depth - 1].is_array {
+        return None;
+    }
+    let is_target =
+        depth == 6 && walk.key(4) == b"target" && walk.key(2) == b"channels" && walk.key(0) == b"animations";
+    let is_scene = depth == 3 && walk.key(0) == b"scenes";
+    match (is_target, is_scene) {
+        (true, _) => Some(&NODE),
+        (_, true) => Some(&NODES_OF_SCENE),
+        _ => None,
+    }
 }
 
 /// Bytes of one element of the array called `key` in the document model; `top`: directly in the root.

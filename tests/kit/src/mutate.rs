@@ -1,0 +1,95 @@
+//! Damage: files that were right, changed at random, so that a reader of files meets what nobody would write.
+
+use crate::random::Random;
+
+/// Numbers that break arithmetic on sizes.
+const SPECIALS: [u32; 18] = [
+    0, 1, 2, 3, 4, 7, 8, 0x7f, 0xff, 0x7fff_ffff, 0x8000_0000, 0xffff_ffff, 0xffff_fffe,
+    // As floats: infinity, NaN, nearly infinity, nearly nothing, a minus.
+    0x7f80_0000, 0x7fc0_0000, 0x7f7f_ffff, 0x0000_0001, 0xbf80_0000,
+];
+
+/// Changes files: a few random steps each, all from one seed.
+pub struct Mutator<'a> {
+    random: Random,
+    words: &'a [&'a [u8]],
+}
+
+impl<'a> Mutator<'a> {
+    /// `words` are put in here and there: what means something in the format.
+    pub fn new(seed: u64, words: &'a [&'a [u8]]) -> Self {
+        Self { random: Random::new(seed), words }
+    }
+
+    /// One of the `files`, changed in one to four places, sometimes with a piece of another one.
+    pub fn mutant(&mut self, files: &[Vec<u8>]) -> Vec<u8> {
+        let mut bytes = files[self.random.below(files.len())].clone();
+        let most = self.random.below(4);
+        for _ in 0..=self.random.below(most + 1) {
+            let other = &files[self.random.below(files.len())];
+            self.change(&mut bytes, other);
+        }
+        bytes
+    }
+
+    fn change(&mut self, bytes: &mut Vec<u8>, other: &[u8]) {
+        let at = self.random.below(bytes.len());
+        match self.random.below(24) {
+            0 => self.put(bytes, at, |random| vec![random.bits() as u8]),
+            1 => self.put(bytes, at, |random| random.choice(&SPECIALS).to_le_bytes().to_vec()),
+            2 => self.put(bytes, at & !3, |random| random.choice(&SPECIALS).to_le_bytes().to_vec()),
+            3 => {
+                if let Some(byte) = bytes.get_mut(at) {
+                    *byte ^= 1 << self.random.below(8);
+                }
+            }
+            4 => bytes.truncate(at),
+            5 => {
+                let end = (at + 1 + self.random.below(16)).min(bytes.len());
+                bytes.drain(at.min(end)..end);
+            }
+            6 => {
+                let from = self.random.below(other.len());
+                let to = (from + self.random.below(64)).min(other.len());
+                bytes.splice(at..at, other[from..to].iter().copied());
+            }
+            7 | 8 => {
+                let word = self.words[self.random.below(self.words.len())];
+                // Words for the beginning of an object are put there.
+                let object = bytes[at.min(bytes.len())..].iter().position(|&byte| byte == b'{');
+                let at = if word.ends_with(b",") { object.map_or(at, |object| at + object + 1) } else { at };
+                bytes.splice(at..at, word.iter().copied());
+            }
+            9 => {
+                // Far back, where the numbers of a binary file are.
+                let at = bytes.len().saturating_sub(1 + self.random.below(600));
+                self.put(bytes, at & !3, |random| random.choice(&SPECIALS).to_le_bytes().to_vec());
+            }
+            _ => self.change_number(bytes, at),
+        }
+    }
+
+    /// Overwrites from `at` on, as far as there is something.
+    fn put(&mut self, bytes: &mut [u8], at: usize, make: impl Fn(&mut Random) -> Vec<u8>) {
+        let made = make(&mut self.random);
+        for (slot, byte) in bytes.iter_mut().skip(at).zip(made) {
+            *slot = byte;
+        }
+    }
+
+    /// Changes the next digit after `at`, or makes a longer number of it.
+    fn change_number(&mut self, bytes: &mut Vec<u8>, at: usize) {
+        let Some(digit) = bytes[at.min(bytes.len())..].iter().position(u8::is_ascii_digit) else { return };
+        let at = at + digit;
+        match self.random.below(4) {
+            0 => {
+                let number = self.random.choice(&[
+                    "-1", "4294967296", "18446744073709551615", "1e39", "1e-46", "65536", "0.5", "null",
+                ]);
+                bytes.splice(at..=at, number.bytes());
+            }
+            1 => bytes.insert(at, b'0' + self.random.below(10) as u8),
+            _ => bytes[at] = b'0' + self.random.below(10) as u8,
+        }
+    }
+}
