@@ -3,8 +3,7 @@
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
 use super::store::{self, Store};
-use crate::graphics::GraphicsHandle;
-use crate::graphics::{GraphicsMessage, PanelsFrame};
+use crate::graphics::{GraphicsHandle, PanelsFrame};
 use crate::panels::commands;
 use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;
@@ -63,6 +62,7 @@ impl Interface {
 
     /// From now on drawings have somewhere to go.
     pub(super) fn set_graphics(&mut self, graphics: GraphicsHandle) {
+        graphics.resize(self.window_size());
         self.graphics = Some(graphics);
     }
 
@@ -136,9 +136,7 @@ impl Interface {
                 self.tell_size();
                 self.redraw();
             }
-            WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => {
-                self.redraw()
-            }
+            WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => self.redraw(),
             _ if response.repaint => self.redraw(),
             _ => {}
         }
@@ -148,24 +146,15 @@ impl Interface {
     pub(super) fn accesskit_event(&mut self, event: accesskit_winit::WindowEvent) {
         match event {
             accesskit_winit::WindowEvent::InitialTreeRequested => self.egui.egui_ctx().enable_accesskit(),
-            accesskit_winit::WindowEvent::ActionRequested(request) => {
-                self.egui.on_accesskit_action_request(request)
-            }
-            accesskit_winit::WindowEvent::AccessibilityDeactivated => {
-                self.egui.egui_ctx().disable_accesskit()
-            }
+            accesskit_winit::WindowEvent::ActionRequested(request) => self.egui.on_accesskit_action_request(request),
+            accesskit_winit::WindowEvent::AccessibilityDeactivated => self.egui.egui_ctx().disable_accesskit(),
         }
         self.redraw();
     }
 
     fn tell_size(&self) {
-        let size = self.window_size();
-        self.send(GraphicsMessage::Resized(size));
-    }
-
-    fn send(&self, message: GraphicsMessage) {
         if let Some(graphics) = &self.graphics {
-            graphics.send(message);
+            graphics.resize(self.window_size());
         }
     }
 
@@ -217,8 +206,7 @@ impl Interface {
         });
         self.egui.handle_platform_output(&self.window, output.platform_output);
 
-        let before =
-            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+        let before = (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
         let (overlay, viewport) = (self.state.overlay, self.state.viewport);
         self.state.hovered = None;
         self.state.find = false;
@@ -230,22 +218,23 @@ impl Interface {
             self.effects.extend(effect);
         }
         // What was asked for is seen in the next drawing.
-        let after =
-            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+        let after = (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
         let changed = before != after || overlay != self.state.overlay || viewport != self.state.viewport;
 
         let size = self.window.inner_size();
         let jobs = context.tessellate(output.shapes, output.pixels_per_point);
-        self.send(GraphicsMessage::Panels(Box::new(PanelsFrame {
+        let frame = PanelsFrame {
             size: [size.width, size.height],
             pixels_per_point: output.pixels_per_point,
             jobs,
             textures: output.textures_delta,
-        })));
+        };
+        if let Some(graphics) = &self.graphics {
+            graphics.show_panels(frame);
+        }
         self.drawn = now;
         self.due = None;
-        let egui_wants =
-            output.viewport_output.get(&egui::ViewportId::ROOT).map(|output| output.repaint_delay);
+        let egui_wants = output.viewport_output.get(&egui::ViewportId::ROOT).map(|output| output.repaint_delay);
         let wanted = [changed.then_some(Duration::ZERO), egui_wants, self.state.next_display()];
         if let Some(when) = wanted.into_iter().flatten().min().and_then(|delay| now.checked_add(delay)) {
             self.redraw_at(when);

@@ -8,8 +8,8 @@ use super::interface::Interface;
 use super::store::Store;
 use super::timeline::{Step, Timeline};
 use super::AppError;
-use crate::graphics::{Graphics, GraphicsHandle};
 use crate::graphics::surface::SurfaceSource;
+use crate::graphics::{DeviceParameters, Graphics};
 use dragonfly_runtime::{Captured, Next, Thread};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -29,7 +29,7 @@ pub struct MainRuntime {
     window: Arc<Window>,
     interface: Rc<RefCell<Interface>>,
     init: Rc<RefCell<InitManager>>,
-    graphics: GraphicsHandle,
+    graphics: Thread,
     timeline: Rc<RefCell<Timeline>>,
 }
 
@@ -78,15 +78,17 @@ impl MainRuntime {
         timeline.borrow_mut().reach(Step::MainRuntime);
 
         let source = SurfaceSource { window: Arc::clone(&window), display: event_loop.owned_display_handle() };
+        let graphics = Thread::start("graphics").map_err(|error| AppError::Thread(error.to_string()))?;
+        report_faults(graphics.handle(), &interface, main.context());
+        let parameters = DeviceParameters { source: Some(source), ..DeviceParameters::default() };
         let size = window.inner_size();
-        let graphics = Graphics::start(source, [size.width, size.height], replies)
-            .map_err(|error| AppError::Thread(error.to_string()))?;
+        let size = [size.width, size.height];
+        let drawing = Graphics::start_in(graphics.handle(), parameters, size, replies);
         timeline.borrow_mut().reach(Step::Graphics);
-        report_faults(graphics.thread(), &interface, main.context());
         let handle = main.handle().clone();
         report_faults(&handle, &interface, main.context());
-        interface.borrow_mut().set_graphics(graphics.clone());
-        let parts = Parts { interface: Rc::clone(&interface), graphics: graphics.clone() };
+        interface.borrow_mut().set_graphics(drawing.clone());
+        let parts = Parts { interface: Rc::clone(&interface), graphics: drawing };
         init.borrow_mut().set_parts(parts);
         Ok(Self { main, window, interface, init, graphics, timeline })
     }
@@ -116,8 +118,8 @@ impl MainRuntime {
         let Self { mut main, window, interface, init, graphics, timeline } = self;
         interface.borrow_mut().close();
         init.borrow_mut().destroy(main.context());
-        graphics.stop();
-        match Thread::wait_for(std::slice::from_ref(graphics.thread()), Instant::now() + END) {
+        graphics.handle().remote_stop();
+        match Thread::wait_for(std::slice::from_ref(graphics.handle()), Instant::now() + END) {
             Ok(()) => timeline.borrow_mut().reach(Step::GraphicsDestruction),
             // The driver holds it. The process ends all the same, and nothing of the person's work is there.
             Err(late) => tracing::warn!(?late, "did not end in time"),

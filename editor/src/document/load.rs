@@ -1,10 +1,8 @@
 //! Opening a model: bytes, data, pixels; with progress, cancellable, the same for window and command line.
 
-use super::folder::{DoorError, read_file};
 use super::{Cancel, DoorError, LoadedModel, Progress, Stage, read_file};
 use super::{images, import};
 use dragonfly_anim::bounds::bounds_of_pose;
-use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_anim::limits::FILE_BYTES;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
