@@ -108,6 +108,13 @@ impl Screen {
         self.fake(3, key, 0, 0);
     }
 
+    /// Gives the window the keyboard; without a window manager nobody else does.
+    pub(crate) fn focus(&mut self, window: Window) {
+        let mut request = vec![42, 2, 3, 0];
+        request.extend(words(&[window, 0]));
+        self.send(&request);
+    }
+
     /// Asks the window to close, as a click on its cross does.
     pub(crate) fn close(&mut self, window: Window) {
         let (protocols, delete) = (self.atom("WM_PROTOCOLS"), self.atom("WM_DELETE_WINDOW"));
