@@ -12,12 +12,48 @@ use std::time::Duration;
 
 /// What means something in a glTF file.
 const WORDS: &[&[u8]] = &[
-    b"{}", b"[]", b"[[[[", b"}}", b"null", b"\"\"", b"-1", b"1e400", b"\\u0000", b"\"node\":0,", b"\"mesh\":0,",
-    b"\"skin\":0,", b"\"children\":[0,1],", b"\"matrix\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],", b"\"scale\":[0,0,0],",
-    b"\"count\":0,", b"\"byteOffset\":1,", b"\"byteStride\":4,", b"\"sparse\":{},", b"\"normalized\":true,",
-    b"\"interpolation\":\"CUBICSPLINE\",", b"\"path\":\"weights\",", b"5120", b"5121", b"5122", b"5123", b"5125",
-    b"5126", b"VEC3", b"VEC4", b"SCALAR", b"MAT4", b"JOINTS_1", b"WEIGHTS_1", b"\"targets\":[{}],", b"\"mode\":5,",
-    b"\x00\x00\xc0\x7f", b"\x00\x00\x80\x7f", b"\x00\x00\x00\x80", b"BIN\0", b"JSON", b"glTF",
+    b"{}",
+    b"[]",
+    b"[[[[",
+    b"}}",
+    b"null",
+    b"\"\"",
+    b"-1",
+    b"1e400",
+    b"\\u0000",
+    b"\"node\":0,",
+    b"\"mesh\":0,",
+    b"\"skin\":0,",
+    b"\"children\":[0,1],",
+    b"\"matrix\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],",
+    b"\"scale\":[0,0,0],",
+    b"\"count\":0,",
+    b"\"byteOffset\":1,",
+    b"\"byteStride\":4,",
+    b"\"sparse\":{},",
+    b"\"normalized\":true,",
+    b"\"interpolation\":\"CUBICSPLINE\",",
+    b"\"path\":\"weights\",",
+    b"5120",
+    b"5121",
+    b"5122",
+    b"5123",
+    b"5125",
+    b"5126",
+    b"VEC3",
+    b"VEC4",
+    b"SCALAR",
+    b"MAT4",
+    b"JOINTS_1",
+    b"WEIGHTS_1",
+    b"\"targets\":[{}],",
+    b"\"mode\":5,",
+    b"\x00\x00\xc0\x7f",
+    b"\x00\x00\x80\x7f",
+    b"\x00\x00\x00\x80",
+    b"BIN\0",
+    b"JSON",
+    b"glTF",
 ];
 
 /// A file that broke a promise.
@@ -120,7 +156,11 @@ fn damage_at_every_place_does_no_harm() {
                 damaged(bytes, |bytes, damage| {
                     done.fetch_add(1, Ordering::Relaxed);
                     if let Err(what) = trial(name, bytes, &door) {
-                        broken.push(Broken { seed: name.clone(), what: format!("{damage}: {what}"), bytes: bytes.to_vec() });
+                        broken.push(Broken {
+                            seed: name.clone(),
+                            what: format!("{damage}: {what}"),
+                            bytes: bytes.to_vec(),
+                        });
                     }
                 });
             }

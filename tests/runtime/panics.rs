@@ -92,6 +92,34 @@ fn a_panic_anywhere_in_the_thread_is_contained() {
 }
 
 #[test]
+fn a_message_that_panics_when_dropped_stops_nobody() {
+    struct Grudge;
+    impl Drop for Grudge {
+        fn drop(&mut self) {
+            panic_quietly("never forgotten")
+        }
+    }
+
+    let thread = Thread::start("grudge").unwrap();
+    let handle = thread.handle().clone();
+    let gone = handle.reserve_address::<Grudge>();
+    let (receiver, hears) = outlet();
+    let alive = handle.register_receiver(|_| receiver);
+    gone.send(Grudge).unwrap();
+    gone.latest().send(Grudge).unwrap();
+    alive.send(1).unwrap();
+    assert_eq!(hears.recv_timeout(LIMIT), Ok(1));
+    assert_eq!(handle.counters().undeliverable, 2);
+    handle.pause();
+    handle.run(|thread| thread.stop()).unwrap();
+    gone.send(Grudge).unwrap();
+    gone.send(Grudge).unwrap();
+    handle.resume();
+    Thread::wait_for(std::slice::from_ref(&handle), deadline()).unwrap();
+    assert_eq!(handle.counters().undelivered, 2);
+}
+
+#[test]
 fn an_observer_that_panics_is_not_asked_again() {
     let mut stage = Stage::new();
     let thread = stage.start("kitchen");
@@ -195,7 +223,7 @@ fn more_than_three_panics_in_ten_seconds_are_too_many() {
     assert_eq!(thread.counters().undeliverable, 1, "the fifth message");
 }
 
-/// The program's own figures: 1,000 panics among 100,000 messages of two types, in a real thread.
+/// In a real thread: 1,200 panics, in receivers and in workers, among 60,000 messages.
 #[test]
 fn a_thousand_panics_lose_no_other_message_and_no_memory() {
     alone("panics::a_thousand_panics_lose_no_other_message_and_no_memory", || {
