@@ -6,6 +6,7 @@ pub mod app;
 pub mod camera;
 pub mod command;
 pub mod control;
+pub mod demo;
 pub mod document;
 pub mod graphics;
 pub mod panels;

@@ -1,1 +1,159 @@
-//! Placeholder.
+//! The window program: its life from the first line of main to the last (thesis §3.2.4).
+//!
+//! ```text
+//! run ── winit's loop ── MainRuntime ─┬─ main thread, captured: Interface (panels) · InitManager → EditorRuntime
+//!                                     └─ graphics thread            EditorRuntime ── document thread ── load jobs
+//! ```
+//!
+//! [`timeline`] has the order in which all of this comes and goes.
+
+mod base_runtime;
+mod editor_runtime;
+mod event;
+mod init_manager;
+mod interface;
+mod main_runtime;
+mod open_dialog;
+mod options;
+pub mod store;
+pub mod timeline;
+
+pub use base_runtime::{BaseRuntime, Parts};
+pub use editor_runtime::EditorRuntime;
+pub use init_manager::{InitManager, MakeRuntime};
+pub use interface::Interface;
+pub use main_runtime::MainRuntime;
+pub use options::Options;
+
+use dragonfly_runtime::Next;
+use event::UserEvent;
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+use thiserror::Error;
+use timeline::{Step, Timeline};
+use winit::application::ApplicationHandler;
+use winit::event::WindowEvent;
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
+use winit::window::WindowId;
+
+/// Why there is no window.
+#[derive(Debug, Error)]
+pub enum AppError {
+    /// There is no display to show it on.
+    #[error("no display: {0}")]
+    Display(String),
+    /// The display refused it.
+    #[error("no window: {0}")]
+    Window(String),
+    /// The system gave no thread.
+    #[error("no thread: {0}")]
+    Thread(String),
+    /// Nothing can draw into it.
+    #[error("no graphics: {0}")]
+    Graphics(String),
+}
+
+/// Shows the editor until the person leaves it. Must be called in the main thread, once.
+pub fn run(options: Options) -> Result<(), AppError> {
+    let timeline = Rc::new(RefCell::new(Timeline::default()));
+    timeline.borrow_mut().reach(Step::MainFunction);
+    let event_loop = EventLoop::<UserEvent>::with_user_event()
+        .build()
+        .map_err(|error| AppError::Display(error.to_string()))?;
+    let proxy = event_loop.create_proxy();
+    let mut shell = Shell {
+        options,
+        proxy,
+        runtime: None,
+        quit: Rc::default(),
+        error: None,
+        timeline: Rc::clone(&timeline),
+    };
+    let ended = event_loop.run_app(&mut shell);
+    // Also when the loop ended by an error of the display, which calls nobody.
+    shell.destroy();
+    if let Some(error) = shell.error {
+        return Err(error);
+    }
+    ended.map_err(|error| AppError::Display(error.to_string()))?;
+    timeline.borrow_mut().reach(Step::MainFunctionEnd);
+    Ok(())
+}
+
+/// Passes winit's events on.
+struct Shell {
+    options: Options,
+    proxy: EventLoopProxy<UserEvent>,
+    runtime: Option<MainRuntime>,
+    quit: Rc<Cell<bool>>,
+    error: Option<AppError>,
+    timeline: Rc<RefCell<Timeline>>,
+}
+
+impl Shell {
+    fn start(&mut self, event_loop: &ActiveEventLoop) -> Result<MainRuntime, AppError> {
+        let store = store::Store::new(self.options.settings_folder.clone());
+        let (options, quit) = (self.options.clone(), Rc::clone(&self.quit));
+        let custom: MakeRuntime = Box::new(move || Box::new(EditorRuntime::new(options, quit)));
+        MainRuntime::new(event_loop, &self.proxy, store, custom, Rc::clone(&self.timeline))
+    }
+
+    fn destroy(&mut self) {
+        if let Some(runtime) = self.runtime.take() {
+            runtime.destroy();
+        }
+    }
+}
+
+impl ApplicationHandler<UserEvent> for Shell {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if self.runtime.is_some() {
+            return;
+        }
+        match self.start(event_loop) {
+            Ok(runtime) => self.runtime = Some(runtime),
+            Err(error) => {
+                self.error = Some(error);
+                event_loop.exit();
+            }
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _window: WindowId, event: WindowEvent) {
+        let Some(runtime) = &mut self.runtime else { return };
+        if matches!(event, WindowEvent::CloseRequested | WindowEvent::Destroyed) {
+            event_loop.exit();
+            return;
+        }
+        runtime.window_event(&event);
+    }
+
+    fn user_event(&mut self, _event_loop: &ActiveEventLoop, event: UserEvent) {
+        match (event, &mut self.runtime) {
+            // The turn follows in `about_to_wait`.
+            (UserEvent::Wake, _) | (_, None) => {}
+            (UserEvent::AccessKit(event), Some(runtime)) => runtime.accesskit_event(event),
+        }
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        let Some(runtime) = &mut self.runtime else { return };
+        let next = runtime.iterate();
+        if let Some(reason) = runtime.fatal() {
+            self.error = Some(AppError::Graphics(reason));
+            event_loop.exit();
+        } else if self.quit.get() {
+            event_loop.exit();
+        }
+        match next {
+            Next::Now => event_loop.set_control_flow(ControlFlow::Poll),
+            Next::At(when) => event_loop.set_control_flow(ControlFlow::WaitUntil(when)),
+            Next::OnMessage => event_loop.set_control_flow(ControlFlow::Wait),
+            Next::Stopped => event_loop.exit(),
+        }
+    }
+
+    fn exiting(&mut self, _event_loop: &ActiveEventLoop) {
+        self.destroy();
+    }
+}

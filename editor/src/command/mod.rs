@@ -1,1 +1,105 @@
-//! Placeholder.
+//! The command line: one file a command, one line in [`Commands`].
+//!
+//! Results go to stdout, messages and progress to stderr. Exit codes: 0 done, 1 the comparison asked for found a
+//! difference, 2 wrong input, 3 trouble of the machine.
+
+mod choice;
+mod demo;
+mod failure;
+mod info;
+mod log;
+mod open;
+mod output;
+mod pose;
+mod progress;
+mod render;
+mod table;
+
+pub use failure::{Failure, tell};
+
+use clap::Parser;
+use std::any::Any;
+use std::panic::{self, AssertUnwindSafe};
+use std::process::ExitCode;
+
+/// Something that can be asked for on the command line.
+trait Command {
+    /// Does it.
+    fn run(self) -> Result<(), Failure>;
+}
+
+/// Every command; without one, the editor opens.
+#[derive(Debug, clap::Subcommand)]
+enum Commands {
+    Info(info::Arguments),
+    Pose(pose::Arguments),
+    Render(render::Arguments),
+    Demo(demo::Arguments),
+}
+
+const HELP: &str = "\
+Examples:
+  dragonfly                         the editor, with the built-in dragonfly
+  dragonfly Fox.glb                 the editor, with a model of yours
+  dragonfly info Fox.glb            what is in a file
+  dragonfly render demo: -o fly.png --take cruise --time 0.4
+                                    a picture, without any window
+  dragonfly pose Fox.glb --time 0.5 --json
+                                    exact numbers, for other programs
+
+FILE may be `demo:` for the built-in model. Exit codes: 0 done, 1 a difference was found, 2 wrong input,
+3 trouble of the machine. DRAGONFLY_LOG=info (or debug, trace) tells on stderr what the program does.";
+
+/// Opens an animated model, shows it moving, and lets you look inside.
+#[derive(Debug, Parser)]
+#[command(
+    name = "dragonfly",
+    version,
+    about = "Dragonfly, an editor for skeletal animation",
+    after_help = HELP,
+    args_conflicts_with_subcommands = true,
+    disable_help_subcommand = true
+)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Option<Commands>,
+    #[command(flatten)]
+    open: open::Arguments,
+}
+
+/// The whole program: reads the command line, does what it asks, and gives the exit code.
+///
+/// Nothing that goes wrong inside escapes as a crash: it is told, and is exit code 3.
+pub fn main() -> ExitCode {
+    log::start();
+    log::quiet_panics();
+    let command_line = CommandLine::parse();
+    match panic::catch_unwind(AssertUnwindSafe(|| run(command_line))) {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(failure)) => failure.report(),
+        Err(panic) => {
+            tell(format_args!(
+                "a mistake in the program, not in what you did: {}\n  Your files are as they were. \
+                 DRAGONFLY_LOG=debug shows what led to it.",
+                reason(&*panic)
+            ));
+            ExitCode::from(3)
+        }
+    }
+}
+
+fn run(command_line: CommandLine) -> Result<(), Failure> {
+    match command_line.command {
+        None => command_line.open.run(),
+        Some(Commands::Info(arguments)) => arguments.run(),
+        Some(Commands::Pose(arguments)) => arguments.run(),
+        Some(Commands::Render(arguments)) => arguments.run(),
+        Some(Commands::Demo(arguments)) => arguments.run(),
+    }
+}
+
+/// The words of a panic.
+fn reason(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("it did not say why")
+}

@@ -1,5 +1,6 @@
 //! What the document publishes: immutable, shared, never locked.
 
+use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::ModelData;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -25,9 +26,12 @@ pub struct LoadedModel {
     /// "glb", "gltf".
     pub format: String,
     /// The data.
-    pub model: ModelData,
+    pub model: Arc<ModelData>,
+    /// How much room it takes at the begin of its first take, or in the rest pose when it has none.
+    pub bounds: Bounds,
     /// One an image of the model; `None` where it could not be decoded (a warning says why).
-    pub images: Vec<Option<DecodedImage>>,
+    /// Shared, because several images of a file may name the same source.
+    pub images: Vec<Option<Arc<DecodedImage>>>,
     /// What is not shown or was mended, one sentence each.
     pub warnings: Vec<String>,
 }

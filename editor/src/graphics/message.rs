@@ -56,6 +56,31 @@ pub struct Look {
     pub shading: Shading,
     /// Is the surface drawn at all?
     pub surface: bool,
+    /// Linear RGB of bones that are neither selected nor hovered.
+    pub bone_color: [f32; 3],
+    /// Linear RGB of selected bones: the program's accent.
+    pub accent: [f32; 3],
+}
+
+impl Default for Look {
+    /// The dark theme in a viewport of no size: fill in the viewport, then what differs.
+    fn default() -> Self {
+        Self {
+            viewport: [0; 4],
+            background: [[0.046, 0.052, 0.061], [0.014, 0.016, 0.020]],
+            grid: true,
+            grid_color: [0.30, 0.33, 0.37],
+            skeleton: false,
+            bone_look: BoneLook::Octahedra,
+            bones_in_front: true,
+            selected: Vec::new(),
+            hovered: None,
+            shading: Shading::Material,
+            surface: true,
+            bone_color: [0.62, 0.66, 0.72],
+            accent: [0.95, 0.38, 0.06],
+        }
+    }
 }
 
 /// One drawing of the panels.
@@ -93,6 +118,8 @@ pub enum GraphicsMessage {
     },
     /// Loses the device on purpose, to show that nothing is lost with it.
     LoseDevice,
+    /// Starts drawing the scene again after [`GraphicsReply::Paused`].
+    Resume,
     /// Writes the next whole frame as a PNG, then answers [`GraphicsReply::Captured`].
     Capture(PathBuf),
 }
@@ -128,7 +155,8 @@ pub enum GraphicsReply {
         /// Losses since the start.
         losses: u32,
     },
-    /// Lost too often: the viewport stands still until asked to try again; everything else works.
+    /// Lost too often: the viewport stands still until [`GraphicsMessage::Resume`]; everything else works, the panels
+    /// are still drawn.
     Paused {
         /// What the driver said.
         reason: String,

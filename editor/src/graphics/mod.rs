@@ -1,5 +1,38 @@
 //! Everything that lives in the graphics thread.
+//!
+//! ```text
+//! Scene (what, from where, which time)      processor's side, allocates nothing while playing
+//!   └ PosedModel: anim's evaluator → matrices, morph weights, bones
+//! Stage: opens a frame · every pass draws · presents
+//!   ├ Device: adapter, device, queue, surface; tells its listeners of losses
+//!   └ pass/: background, surface, grid, glass, skeleton │ composite, panels      scene │ window
+//! ```
 
+pub mod body;
+pub mod device;
+pub mod fault;
+pub mod gpu;
+pub mod guard;
+mod handle;
+pub mod headless;
 mod message;
+mod model;
+pub mod pass;
+pub mod pick;
+pub mod posed;
+pub mod readback;
+pub mod scene;
+pub mod shaders;
+pub mod shape;
+pub mod stage;
+pub mod surface;
+pub mod target;
+pub mod uniform;
+mod worker;
 
+pub use device::{Device, DeviceListener, DeviceParameters, DeviceState, GraphicsError};
+pub use handle::GraphicsHandle;
+pub use headless::{PictureSettings, Studio, render_picture};
 pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading};
+pub use surface::SurfaceSource;
+pub use worker::{Drawer, Graphics, Present};

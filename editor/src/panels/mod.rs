@@ -1,1 +1,147 @@
-//! Placeholder.
+//! Everything around the picture: panels that read a [`State`] and push [`Request`]s, and never wait for an answer.
+//!
+//! A new panel is a file here and a line in [`all`].
+
+pub mod commands;
+pub mod digest;
+mod execute;
+pub mod hierarchy;
+pub mod icons;
+pub mod layout;
+pub mod menu;
+pub mod overlays;
+pub mod properties;
+pub mod ruler;
+pub mod settings;
+pub mod state;
+pub mod status;
+pub mod status_line;
+pub mod style;
+pub mod takes;
+pub mod theme;
+pub mod timeline;
+mod transport;
+pub mod viewport;
+mod widgets;
+
+pub use layout::Layout;
+pub use settings::Settings;
+pub use state::{Effect, Request, State};
+
+use egui::Ui;
+
+/// The name of the panel through which the picture shows.
+pub const VIEWPORT: &str = "viewport";
+
+/// Where a panel stands before anybody moves it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Upper left.
+    Left,
+    /// Lower left.
+    LeftBelow,
+    /// The middle.
+    Middle,
+    /// The right edge.
+    Right,
+    /// Over the whole width.
+    Below,
+}
+
+/// A part of the window.
+pub trait Panel {
+    /// Its name in files; never changes.
+    fn id(&self) -> &'static str;
+
+    /// Its name on the screen.
+    fn title(&self) -> &'static str;
+
+    /// Where it stands at first.
+    fn place(&self) -> Place;
+
+    /// Draws it. What the person did is pushed to `requests`.
+    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>);
+}
+
+/// Every panel.
+pub fn all() -> Vec<Box<dyn Panel>> {
+    vec![
+        Box::<hierarchy::Hierarchy>::default(),
+        Box::<takes::Takes>::default(),
+        Box::<viewport::Viewport>::default(),
+        Box::<properties::Properties>::default(),
+        Box::<timeline::Timeline>::default(),
+    ]
+}
+
+/// All that is drawn in the window.
+pub struct Desk {
+    panels: Vec<Box<dyn Panel>>,
+    layout: Layout,
+    overlays: overlays::Overlays,
+}
+
+impl Desk {
+    /// Panels in the places that `layout`, the text of a layout file, says; empty for the usual ones.
+    pub fn new(layout: &str) -> Self {
+        let panels = all();
+        let layout = Layout::parse(layout, &panels);
+        Self { panels, layout, overlays: overlays::Overlays::default() }
+    }
+
+    /// The places, as the text of a layout file.
+    pub fn layout_text(&self) -> String {
+        self.layout.to_text()
+    }
+
+    /// Puts every panel where it was at first.
+    pub fn reset_layout(&mut self) {
+        self.layout = Layout::usual(&self.panels);
+    }
+
+    /// Shows or hides a panel.
+    pub fn toggle_panel(&mut self, id: &str) {
+        self.layout.toggle(id);
+    }
+
+    /// Draws everything once.
+    pub fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        let theme = theme::Theme::of(ui);
+        let bar = egui::Frame::NONE.fill(theme.bar);
+        egui::Panel::top("menu").exact_size(style::BAR).frame(bar).show_separator_line(false).show(
+            ui,
+            |ui| {
+                let shown: Vec<_> = self
+                    .panels
+                    .iter()
+                    .map(|panel| (panel.id(), panel.title(), self.layout.is_shown(panel.id())))
+                    .collect();
+                ui.centered_and_justified(|ui| menu::show(ui, state, &shown, requests));
+            },
+        );
+        egui::Panel::bottom("status").exact_size(24.0).frame(bar).show_separator_line(false).show(ui, |ui| {
+            status_line::show(ui, state, requests);
+        });
+        egui::CentralPanel::no_frame().show(ui, |ui| {
+            self.layout.show(ui, &mut self.panels, state, requests);
+        });
+        drop_hint(ui);
+        self.overlays.show(ui, state, requests);
+    }
+}
+
+/// Shows that a file held over the window can be dropped.
+fn drop_hint(ui: &Ui) {
+    if ui.input(|input| input.raw.hovered_files.is_empty()) {
+        return;
+    }
+    let theme = theme::Theme::of(ui);
+    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop"));
+    let painter = ui.ctx().layer_painter(layer);
+    let rect = ui.ctx().content_rect();
+    painter.rect_filled(rect, 0.0, theme.glass.gamma_multiply(0.7));
+    let stroke = egui::Stroke::new(2.0, theme.accent);
+    painter.rect_stroke(rect.shrink(12.0), f32::from(style::CARD_RADIUS), stroke, egui::StrokeKind::Inside);
+    let font = egui::FontId::proportional(20.0);
+    painter.text(rect.center(), egui::Align2::CENTER_CENTER, "Drop to open", font, theme.text);
+}

@@ -1,0 +1,342 @@
+//! The editor: opens models, and carries what the person does to the threads that can do it (thesis §3.2.4.5).
+
+use super::base_runtime::{BaseRuntime, Parts};
+use super::interface::Interface;
+use super::open_dialog::{self, Answer};
+use super::options::Options;
+use crate::camera::Camera;
+use crate::document::{Document, DocumentHandle, DocumentReply, Source};
+use crate::graphics::{GraphicsHandle, GraphicsMessage, GraphicsReply, Look};
+use crate::panels::state::{Device, Loading, Overlay};
+use crate::panels::status::Level;
+use crate::panels::theme::{Theme, linear};
+use crate::panels::{Effect, State};
+use crate::playback::Playback;
+use dragonfly_runtime::{Address, Context, Receiver, Thread};
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+/// How long the document may take to end.
+const END: Duration = Duration::from_millis(500);
+
+/// The editor's custom run-time.
+pub struct EditorRuntime {
+    options: Options,
+    quit: Rc<Cell<bool>>,
+    running: Option<Running>,
+}
+
+/// What it has between initialize and destroy.
+struct Running {
+    parts: Parts,
+    document: Option<DocumentHandle>,
+    replies: Address<DocumentReply>,
+    answers: Address<Answer>,
+    sent: Sent,
+    tickets: u64,
+    /// Frames drawn when the device was last lost on purpose.
+    lost_at: u64,
+}
+
+/// What the graphics thread knows already.
+#[derive(Default)]
+struct Sent {
+    playback: Option<Playback>,
+    camera: Option<Camera>,
+    look: Option<Look>,
+    generation: Option<u64>,
+}
+
+impl EditorRuntime {
+    /// Inactive until [`BaseRuntime::initialize`]; raises `quit` when the person wants to leave.
+    pub fn new(options: Options, quit: Rc<Cell<bool>>) -> Self {
+        Self { options, quit, running: None }
+    }
+
+    /// Opens a model: the document loads it, and what is open stays until then.
+    pub fn open_model(&mut self, source: Source) {
+        let Some(running) = &self.running else { return };
+        match &running.document {
+            Some(document) => document.open(source),
+            None => {
+                let mut interface = running.parts.interface.borrow_mut();
+                interface.state.status.say(Level::Error, "There is no document thread");
+            }
+        }
+    }
+
+    fn effect(&mut self, effect: Effect) {
+        if let Effect::Open(source) = effect {
+            return self.open_model(source);
+        }
+        let Some(running) = &mut self.running else { return };
+        let graphics = &running.parts.graphics;
+        let mut interface = running.parts.interface.borrow_mut();
+        match effect {
+            Effect::Open(_) => {}
+            Effect::OpenDialog => {
+                let recent = interface.state.settings.recent.first();
+                let folder = recent.and_then(|path| path.parent()).map(std::path::Path::to_owned);
+                if let Err(error) = open_dialog::ask(folder, running.answers.clone()) {
+                    interface.state.status.say(Level::Error, format!("No dialog could be opened: {error}"));
+                }
+            }
+            Effect::CancelLoading => {
+                if let Some(document) = &running.document {
+                    document.cancel_loading();
+                }
+            }
+            Effect::Pick(position) => {
+                running.tickets += 1;
+                let scale = interface.pixels_per_point();
+                let position = [position.x * scale, position.y * scale];
+                graphics.send(GraphicsMessage::Pick { position, ticket: running.tickets });
+            }
+            Effect::FullScreen => interface.toggle_full_screen(),
+            Effect::TogglePanel(id) => interface.toggle_panel(id),
+            Effect::ResetLayout => interface.reset_layout(),
+            Effect::RetryDevice => graphics.send(GraphicsMessage::Resume),
+            Effect::Quit => self.quit.set(true),
+        }
+        interface.redraw();
+    }
+}
+
+impl BaseRuntime for EditorRuntime {
+    fn initialize(&mut self, parts: Parts, main: &mut Context) {
+        let replies = main.register_receiver(Replies(Rc::clone(&parts.interface)));
+        let answers = main.register_receiver(Answers(Rc::clone(&parts.interface)));
+        let document = match Document::start(replies.clone()) {
+            Ok(document) => {
+                report_faults(document.thread(), &parts.interface, main);
+                Some(document)
+            }
+            Err(error) => {
+                let mut interface = parts.interface.borrow_mut();
+                interface
+                    .state
+                    .status
+                    .say(Level::Error, format!("No document thread could be started: {error}"));
+                None
+            }
+        };
+        let sent = Sent::default();
+        self.running = Some(Running { parts, document, replies, answers, sent, tickets: 0, lost_at: 0 });
+        self.open_model(self.options.source.clone());
+    }
+
+    fn graphics_said(&mut self, reply: GraphicsReply, _main: &mut Context) {
+        let Some(running) = &mut self.running else { return };
+        let mut interface = running.parts.interface.borrow_mut();
+        match reply {
+            GraphicsReply::Ready { adapter, max_texture_side } => {
+                interface.set_max_texture_side(max_texture_side);
+                interface.state.device = Device::Ready { adapter };
+            }
+            GraphicsReply::Picked { bone, ticket } => {
+                // An answer to an older question is not what the person points at now.
+                if ticket == running.tickets {
+                    interface.state.selected = bone;
+                }
+            }
+            GraphicsReply::Statistics { frames, milliseconds } => {
+                interface.state.frame_time = Some(milliseconds);
+                if let Some(every) = self.options.lose_device_every
+                    && frames.saturating_sub(running.lost_at) >= u64::from(every.max(1))
+                {
+                    running.lost_at = frames;
+                    running.parts.graphics.send(GraphicsMessage::LoseDevice);
+                }
+            }
+            GraphicsReply::Recovered { reason, losses } => {
+                let text = format!("The graphics device was lost and is back ({losses}): {reason}");
+                interface.state.status.say(Level::Info, text);
+            }
+            GraphicsReply::Paused { .. } if self.options.never_pause => {
+                running.parts.graphics.send(GraphicsMessage::Resume);
+            }
+            GraphicsReply::Paused { reason } => {
+                interface.state.status.say(Level::Warning, format!("The viewport is paused: {reason}"));
+                interface.state.device = Device::Paused { reason };
+            }
+            GraphicsReply::Captured(Ok(path)) => {
+                interface.state.status.say(Level::Info, format!("Wrote {}", path.display()));
+            }
+            GraphicsReply::Captured(Err(reason)) => {
+                interface.state.status.say(Level::Error, format!("No picture was written: {reason}"));
+            }
+            GraphicsReply::Fatal(reason) => {
+                interface.state.status.say(Level::Error, format!("Nothing can be drawn any more: {reason}"));
+            }
+        }
+        interface.redraw();
+    }
+
+    fn update(&mut self, _main: &mut Context) {
+        let effects = match &self.running {
+            Some(running) => std::mem::take(&mut running.parts.interface.borrow_mut().effects),
+            None => return,
+        };
+        for effect in effects {
+            self.effect(effect);
+        }
+        if let Some(running) = &mut self.running {
+            let interface = running.parts.interface.borrow();
+            running.sent.update(&running.parts.graphics, &interface);
+        }
+    }
+
+    fn destroy(&mut self, main: &mut Context) {
+        let Some(running) = self.running.take() else { return };
+        main.unregister_receiver(&running.answers);
+        if let Some(document) = running.document {
+            document.stop();
+            if let Err(late) = Thread::wait_for(&[document.thread().clone()], Instant::now() + END) {
+                tracing::warn!(?late, "did not end in time");
+            }
+        }
+        main.unregister_receiver(&running.replies);
+    }
+}
+
+impl Sent {
+    /// Sends what differs from what was sent last. The model first: times and bones are about it.
+    fn update(&mut self, graphics: &GraphicsHandle, interface: &Interface) {
+        let state = &interface.state;
+        if let Some(view) = &state.view
+            && self.generation != Some(view.generation)
+        {
+            self.generation = Some(view.generation);
+            graphics.send(GraphicsMessage::ShowModel(std::sync::Arc::clone(&view.loaded)));
+        }
+        if self.playback != Some(state.playback) {
+            self.playback = Some(state.playback);
+            graphics.send(GraphicsMessage::Play(state.playback));
+        }
+        if self.camera != Some(state.camera) {
+            self.camera = Some(state.camera);
+            graphics.send(GraphicsMessage::Camera(state.camera));
+        }
+        let look = look(state, interface.pixels_per_point(), interface.is_dark());
+        if self.look.as_ref() != Some(&look) {
+            graphics.send(GraphicsMessage::Look(Box::new(look.clone())));
+            self.look = Some(look);
+        }
+    }
+}
+
+/// How the graphics thread is to draw what the state says.
+fn look(state: &State, pixels_per_point: f32, dark: bool) -> Look {
+    let theme = Theme::get(dark);
+    let settings = &state.settings.look;
+    let pixels = |points: f32| (points * pixels_per_point).round().max(0.0) as u32;
+    let rect = state.viewport;
+    let (left, top) = (pixels(rect.left()), pixels(rect.top()));
+    Look {
+        viewport: [
+            left,
+            top,
+            pixels(rect.right()).saturating_sub(left),
+            pixels(rect.bottom()).saturating_sub(top),
+        ],
+        background: theme.sky.map(linear),
+        grid: settings.grid,
+        grid_color: linear(theme.grid),
+        skeleton: settings.skeleton,
+        bone_look: settings.bone_look,
+        bones_in_front: settings.bones_in_front,
+        selected: state.selected.into_iter().collect(),
+        hovered: state.hovered,
+        shading: settings.shading,
+        surface: settings.surface,
+        bone_color: linear(theme.bone),
+        accent: linear(theme.accent),
+    }
+}
+
+/// Lets panics of another thread be seen in the status line.
+pub(super) fn report_faults(
+    thread: &dragonfly_runtime::ThreadHandle,
+    interface: &Rc<RefCell<Interface>>,
+    main: &mut Context,
+) {
+    let address = main.register_receiver(Faults(Rc::clone(interface)));
+    thread.observe(move |fault| {
+        let text = format!("{} in thread {} failed: {}", fault.object, fault.thread, fault.reason);
+        // The log has it in any case.
+        let _ = address.send(text);
+    });
+}
+
+struct Faults(Rc<RefCell<Interface>>);
+
+impl Receiver for Faults {
+    type Message = String;
+
+    fn receive(&mut self, text: String, _main: &mut Context) {
+        let mut interface = self.0.borrow_mut();
+        interface.state.status.say(Level::Error, text);
+        interface.redraw();
+    }
+}
+
+struct Replies(Rc<RefCell<Interface>>);
+
+impl Receiver for Replies {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _main: &mut Context) {
+        let mut interface = self.0.borrow_mut();
+        let state = &mut interface.state;
+        match reply {
+            DocumentReply::Loading { title, progress } => state.loading = Some(Loading { title, progress }),
+            DocumentReply::Cancelled => {
+                state.loading = None;
+                state.status.say(Level::Info, "Stopped loading");
+            }
+            DocumentReply::Failed { source, reason } => {
+                state.loading = None;
+                if let Source::File(path) = source {
+                    state.settings.recent.retain(|other| *other != path || path.exists());
+                }
+                state.status.say(Level::Error, reason);
+            }
+            DocumentReply::View(view) => {
+                state.loading = None;
+                if let Some(path) = &view.loaded.path {
+                    state.settings.remember(path);
+                }
+                for warning in &view.loaded.warnings {
+                    state.status.say(Level::Warning, format!("{}: {warning}", view.loaded.title));
+                }
+                let title = view.loaded.title.clone();
+                state.now = Instant::now();
+                state.show(view);
+                state.status.say(Level::Info, format!("Opened {title}"));
+                interface.set_title(&title);
+            }
+        }
+        interface.redraw();
+    }
+}
+
+struct Answers(Rc<RefCell<Interface>>);
+
+impl Receiver for Answers {
+    type Message = Answer;
+
+    fn receive(&mut self, answer: Answer, _main: &mut Context) {
+        let mut interface = self.0.borrow_mut();
+        match answer {
+            Answer::File(path) => interface.effects.push(Effect::Open(Source::File(path))),
+            Answer::Nothing { quick: true } => {
+                let text = "This desktop has no dialog for opening files; type the path instead";
+                interface.state.status.say(Level::Warning, text);
+                interface.state.overlay = Some(Overlay::OpenPath);
+            }
+            Answer::Nothing { quick: false } => {}
+        }
+        interface.redraw();
+    }
+}

@@ -1,0 +1,16 @@
+//! What wakes the main loop besides the window.
+
+/// An event that another thread or the accessibility bridge puts into the window system's queue.
+#[derive(Debug)]
+pub(super) enum UserEvent {
+    /// Messages wait for the main thread.
+    Wake,
+    /// A screen reader.
+    AccessKit(accesskit_winit::Event),
+}
+
+impl From<accesskit_winit::Event> for UserEvent {
+    fn from(event: accesskit_winit::Event) -> Self {
+        Self::AccessKit(event)
+    }
+}

@@ -1,0 +1,85 @@
+//! Hides the messages by which the graphics thread and the custom run-time learn of each other (thesis §3.2.4.4).
+
+use super::base_runtime::{BaseRuntime, Parts};
+use super::timeline::{Step, Timeline};
+use crate::graphics::GraphicsReply;
+use dragonfly_runtime::{Context, Receiver, Worker};
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// Makes a custom run-time, when the time has come.
+pub type MakeRuntime = Box<dyn FnOnce() -> Box<dyn BaseRuntime>>;
+
+/// Waits for the graphics thread, then lets the custom run-time begin.
+pub struct InitManager {
+    prepared: Option<MakeRuntime>,
+    runtime: Option<Box<dyn BaseRuntime>>,
+    parts: Option<Parts>,
+    timeline: Rc<RefCell<Timeline>>,
+    fatal: Option<String>,
+}
+
+impl InitManager {
+    /// Keeps what is needed to begin.
+    pub fn new(prepared: MakeRuntime, timeline: Rc<RefCell<Timeline>>) -> Self {
+        Self { prepared: Some(prepared), runtime: None, parts: None, timeline, fatal: None }
+    }
+
+    /// What the run-time will get.
+    pub(super) fn set_parts(&mut self, parts: Parts) {
+        self.parts = Some(parts);
+    }
+
+    /// Why nothing can be drawn, when nothing can.
+    pub(super) fn fatal(&self) -> Option<&str> {
+        self.fatal.as_deref()
+    }
+
+    /// Lets the run-time begin; the graphics thread is ready.
+    fn initialize(&mut self, main: &mut Context) {
+        let (Some(make), Some(parts)) = (self.prepared.take(), self.parts.take()) else { return };
+        let reach = |step| self.timeline.borrow_mut().reach(step);
+        reach(Step::GraphicsInitialisation);
+        let mut runtime = make();
+        reach(Step::EditorRuntime);
+        runtime.initialize(parts, main);
+        reach(Step::EditorRuntimeInitialisation);
+        self.runtime = Some(runtime);
+        reach(Step::RunTime);
+    }
+
+    /// Lets the run-time end, if it ever began.
+    pub(super) fn destroy(&mut self, main: &mut Context) {
+        self.prepared = None;
+        self.parts = None;
+        if let Some(mut runtime) = self.runtime.take() {
+            runtime.destroy(main);
+            drop(runtime);
+            self.timeline.borrow_mut().reach(Step::EditorRuntimeDestruction);
+        }
+    }
+}
+
+impl Receiver for InitManager {
+    type Message = GraphicsReply;
+
+    fn receive(&mut self, reply: GraphicsReply, main: &mut Context) {
+        match &reply {
+            GraphicsReply::Ready { .. } => self.initialize(main),
+            GraphicsReply::Fatal(reason) => self.fatal = Some(reason.clone()),
+            _ => {}
+        }
+        if let Some(runtime) = &mut self.runtime {
+            runtime.graphics_said(reply, main);
+        }
+    }
+}
+
+impl Worker for InitManager {
+    fn update(&mut self, main: &mut Context) -> bool {
+        if let Some(runtime) = &mut self.runtime {
+            runtime.update(main);
+        }
+        true
+    }
+}

@@ -1,0 +1,280 @@
+//! The two-dimensional side of the window: input goes to egui and the panels, drawings go to the graphics thread.
+//!
+//! It is there before the device and before any model, so the program answers at once (T-093).
+
+use super::store::{self, Store};
+use crate::graphics::{GraphicsHandle, GraphicsMessage, PanelsFrame};
+use crate::panels::commands;
+use crate::panels::settings::ThemeChoice;
+use crate::panels::status::Level;
+use crate::panels::{Desk, Effect, Request, Settings, State, style};
+use dragonfly_runtime::{Context, Worker};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use winit::event::WindowEvent;
+use winit::window::{Fullscreen, Window};
+
+/// Panels are drawn at most this often, however fast the mouse reports.
+const FASTEST: Duration = Duration::from_millis(8);
+
+/// Window, egui, panels and their state.
+pub struct Interface {
+    window: Arc<Window>,
+    egui: egui_winit::State,
+    desk: Desk,
+    /// What the panels show.
+    pub state: State,
+    /// What they asked for and only others can do.
+    pub effects: Vec<Effect>,
+    graphics: Option<GraphicsHandle>,
+    store: Store,
+    saved: (Settings, String),
+    /// When the panels are to be drawn.
+    due: Option<Instant>,
+    drawn: Instant,
+    accepts_input: bool,
+    occluded: bool,
+}
+
+impl Interface {
+    /// For `window`, which must not be visible yet; `egui` has its accessibility bridge.
+    pub(super) fn new(window: Arc<Window>, egui: egui_winit::State, store: Store) -> Self {
+        let now = Instant::now();
+        let settings = Settings::parse(&store.read(store::SETTINGS));
+        let desk = Desk::new(&store.read(store::LAYOUT));
+        style::install(egui.egui_ctx());
+        let saved = (settings.clone(), desk.layout_text());
+        Self {
+            window,
+            egui,
+            desk,
+            state: State::new(settings, now),
+            effects: Vec::new(),
+            graphics: None,
+            store,
+            saved,
+            due: Some(now),
+            drawn: now - FASTEST,
+            accepts_input: true,
+            occluded: false,
+        }
+    }
+
+    /// From now on drawings have somewhere to go.
+    pub(super) fn set_graphics(&mut self, graphics: GraphicsHandle) {
+        self.graphics = Some(graphics);
+    }
+
+    /// Draws the panels soon.
+    pub fn redraw(&mut self) {
+        self.redraw_at(Instant::now());
+    }
+
+    fn redraw_at(&mut self, when: Instant) {
+        self.due = Some(self.due.map_or(when, |due| due.min(when)));
+    }
+
+    /// Physical pixels of the window.
+    pub fn window_size(&self) -> [u32; 2] {
+        let size = self.window.inner_size();
+        if self.occluded { [0, 0] } else { [size.width, size.height] }
+    }
+
+    /// Physical pixels a point.
+    pub fn pixels_per_point(&self) -> f32 {
+        egui_winit::pixels_per_point(self.egui.egui_ctx(), &self.window)
+    }
+
+    /// Is the dark theme shown?
+    pub fn is_dark(&self) -> bool {
+        self.egui.egui_ctx().theme() == egui::Theme::Dark
+    }
+
+    /// The longest side of a texture that the device takes.
+    pub fn set_max_texture_side(&mut self, side: u32) {
+        self.egui.set_max_texture_side(side as usize);
+    }
+
+    /// Names the document in the window's title.
+    pub fn set_title(&self, title: &str) {
+        self.window.set_title(&format!("{title} – Dragonfly"));
+    }
+
+    /// Uses the whole screen, or a window again.
+    pub fn toggle_full_screen(&mut self) {
+        self.state.full_screen = !self.state.full_screen;
+        let full = self.state.full_screen.then_some(Fullscreen::Borderless(None));
+        self.window.set_fullscreen(full);
+    }
+
+    /// Shows or hides a panel.
+    pub fn toggle_panel(&mut self, id: &str) {
+        self.desk.toggle_panel(id);
+    }
+
+    /// Puts every panel where it was at first.
+    pub fn reset_layout(&mut self) {
+        self.desk.reset_layout();
+    }
+
+    /// Takes an event of the window.
+    pub(super) fn window_event(&mut self, event: &WindowEvent) {
+        if !self.accepts_input {
+            return;
+        }
+        let response = self.egui.on_window_event(&self.window, event);
+        match event {
+            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
+                self.tell_size();
+                // The old drawing does not fit: at once, whatever was drawn just now.
+                self.drawn = Instant::now() - FASTEST;
+                self.redraw();
+            }
+            WindowEvent::Occluded(occluded) => {
+                self.occluded = *occluded;
+                self.tell_size();
+                self.redraw();
+            }
+            WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => {
+                self.redraw()
+            }
+            _ if response.repaint => self.redraw(),
+            _ => {}
+        }
+    }
+
+    /// Takes an event of the accessibility bridge.
+    pub(super) fn accesskit_event(&mut self, event: accesskit_winit::WindowEvent) {
+        match event {
+            accesskit_winit::WindowEvent::InitialTreeRequested => self.egui.egui_ctx().enable_accesskit(),
+            accesskit_winit::WindowEvent::ActionRequested(request) => {
+                self.egui.on_accesskit_action_request(request)
+            }
+            accesskit_winit::WindowEvent::AccessibilityDeactivated => {
+                self.egui.egui_ctx().disable_accesskit()
+            }
+        }
+        self.redraw();
+    }
+
+    fn tell_size(&self) {
+        let size = self.window_size();
+        self.send(GraphicsMessage::Resized(size));
+    }
+
+    fn send(&self, message: GraphicsMessage) {
+        if let Some(graphics) = &self.graphics {
+            graphics.send(message);
+        }
+    }
+
+    /// Input is not accepted any more, the window disappears, settings are kept.
+    pub(super) fn close(&mut self) {
+        self.accepts_input = false;
+        self.window.set_visible(false);
+        self.save();
+        self.graphics = None;
+    }
+
+    fn save(&mut self) {
+        let layout = self.desk.layout_text();
+        if self.state.settings != self.saved.0 {
+            self.keep(store::SETTINGS, &self.state.settings.to_text());
+        }
+        if layout != self.saved.1 {
+            self.keep(store::LAYOUT, &layout);
+        }
+        self.saved = (self.state.settings.clone(), layout);
+    }
+
+    fn keep(&mut self, name: &str, text: &str) {
+        if let Err(error) = self.store.write(name, text) {
+            self.state.status.say(Level::Warning, format!("The settings could not be kept: {error}"));
+        }
+    }
+
+    fn draw(&mut self, now: Instant) {
+        let context = self.egui.egui_ctx().clone();
+        let scale = self.state.settings.scale;
+        if context.zoom_factor() != scale {
+            context.set_zoom_factor(scale);
+        }
+        context.set_theme(match self.state.settings.theme {
+            ThemeChoice::System => egui::ThemePreference::System,
+            ThemeChoice::Dark => egui::ThemePreference::Dark,
+            ThemeChoice::Light => egui::ThemePreference::Light,
+        });
+        let input = self.egui.take_egui_input(&self.window);
+        let dropped = input.dropped_files.first().map(|file| file.path().to_owned());
+        let mut requests = Vec::new();
+        self.state.begin(now);
+        let (desk, state) = (&mut self.desk, &self.state);
+        let output = context.run_ui(input, |ui| {
+            // A frame may be run twice; what was asked for in the first run counts.
+            requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
+            desk.show(ui, state, &mut requests);
+        });
+        self.egui.handle_platform_output(&self.window, output.platform_output);
+
+        let before =
+            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+        let (overlay, viewport) = (self.state.overlay, self.state.viewport);
+        self.state.hovered = None;
+        self.state.find = false;
+        if let Some(path) = dropped {
+            requests.push(Request::Open(crate::document::Source::File(path)));
+        }
+        for request in requests {
+            let effect = self.state.execute(request);
+            self.effects.extend(effect);
+        }
+        // What was asked for is seen in the next drawing.
+        let after =
+            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+        let changed = before != after || overlay != self.state.overlay || viewport != self.state.viewport;
+
+        let size = self.window.inner_size();
+        let jobs = context.tessellate(output.shapes, output.pixels_per_point);
+        self.send(GraphicsMessage::Panels(Box::new(PanelsFrame {
+            size: [size.width, size.height],
+            pixels_per_point: output.pixels_per_point,
+            jobs,
+            textures: output.textures_delta,
+        })));
+        self.drawn = now;
+        self.due = None;
+        let egui_wants =
+            output.viewport_output.get(&egui::ViewportId::ROOT).map(|output| output.repaint_delay);
+        let wanted = [changed.then_some(Duration::ZERO), egui_wants, self.state.next_display()];
+        if let Some(when) = wanted.into_iter().flatten().min().and_then(|delay| now.checked_add(delay)) {
+            self.redraw_at(when);
+        }
+    }
+}
+
+impl Worker for Interface {
+    /// Draws the panels when it is time to.
+    fn update(&mut self, main: &mut Context) -> bool {
+        if !self.accepts_input || self.graphics.is_none() {
+            return true;
+        }
+        if self.occluded {
+            self.due = None;
+            return true;
+        }
+        if let Some(due) = self.due {
+            let now = Instant::now();
+            let due = due.max(self.drawn + FASTEST);
+            if due <= now {
+                self.draw(now);
+                if self.due.is_none() {
+                    self.save();
+                }
+            }
+        }
+        if let Some(due) = self.due {
+            main.wake_at(due.max(self.drawn + FASTEST));
+        }
+        true
+    }
+}

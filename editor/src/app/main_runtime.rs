@@ -1,0 +1,135 @@
+//! Window, captured main thread, graphics thread: what every program of this kind has (thesis §3.2.4.1).
+
+use super::AppError;
+use super::base_runtime::Parts;
+use super::editor_runtime::report_faults;
+use super::event::UserEvent;
+use super::init_manager::{InitManager, MakeRuntime};
+use super::interface::Interface;
+use super::store::Store;
+use super::timeline::{Step, Timeline};
+use crate::graphics::{Graphics, GraphicsHandle, SurfaceSource};
+use dragonfly_runtime::{Captured, Next, Thread};
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use winit::dpi::LogicalSize;
+use winit::event::WindowEvent;
+use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
+use winit::window::Window;
+
+/// How long the graphics thread may take to end.
+const END: Duration = Duration::from_millis(1200);
+
+/// See the module.
+pub struct MainRuntime {
+    main: Captured,
+    window: Arc<Window>,
+    interface: Rc<RefCell<Interface>>,
+    init: Rc<RefCell<InitManager>>,
+    graphics: GraphicsHandle,
+    timeline: Rc<RefCell<Timeline>>,
+}
+
+impl MainRuntime {
+    /// Creates the window, captures the main thread, prepares the custom run-time, and starts the graphics thread.
+    pub(super) fn new(
+        event_loop: &ActiveEventLoop,
+        proxy: &EventLoopProxy<UserEvent>,
+        store: Store,
+        custom: MakeRuntime,
+        timeline: Rc<RefCell<Timeline>>,
+    ) -> Result<Self, AppError> {
+        // Invisible until the accessibility bridge is there: it must see the window before the window is seen.
+        let attributes = Window::default_attributes()
+            .with_title("Dragonfly")
+            .with_visible(false)
+            .with_min_inner_size(LogicalSize::new(480.0, 320.0))
+            .with_inner_size(LogicalSize::new(1280.0, 720.0));
+        let window =
+            event_loop.create_window(attributes).map_err(|error| AppError::Window(error.to_string()))?;
+        let window = Arc::new(window);
+        let context = egui::Context::default();
+        let scale = window.scale_factor() as f32;
+        let mut egui = egui_winit::State::new(
+            context,
+            egui::ViewportId::ROOT,
+            event_loop,
+            Some(scale),
+            window.theme(),
+            None,
+        );
+        egui.init_accesskit(event_loop, &window, proxy.clone());
+        window.set_visible(true);
+
+        let waker = proxy.clone();
+        let mut main = Thread::capture("main", move || {
+            // The loop may have ended; then nobody needs to be woken.
+            let _ = waker.send_event(UserEvent::Wake);
+        });
+        let interface = Rc::new(RefCell::new(Interface::new(Arc::clone(&window), egui, store)));
+        let init = Rc::new(RefCell::new(InitManager::new(custom, Rc::clone(&timeline))));
+        let (seen, kept) = (Rc::clone(&interface), Rc::clone(&init));
+        let replies = main.context().register_receiver(Rc::clone(&init));
+        // Drawing the panels is the first work of every turn, and a mistake in a panel must not end it.
+        main.context().register_restartable_worker(move |_| Rc::clone(&seen));
+        main.context().register_restartable_worker(move |_| Rc::clone(&kept));
+        timeline.borrow_mut().reach(Step::MainRuntime);
+
+        let source =
+            SurfaceSource { window: Arc::clone(&window), display: event_loop.owned_display_handle() };
+        let size = window.inner_size();
+        let graphics = Graphics::start(source, [size.width, size.height], replies)
+            .map_err(|error| AppError::Thread(error.to_string()))?;
+        timeline.borrow_mut().reach(Step::Graphics);
+        report_faults(graphics.thread(), &interface, main.context());
+        let handle = main.handle().clone();
+        report_faults(&handle, &interface, main.context());
+        interface.borrow_mut().set_graphics(graphics.clone());
+        let parts = Parts { interface: Rc::clone(&interface), graphics: graphics.clone() };
+        init.borrow_mut().set_parts(parts);
+        Ok(Self { main, window, interface, init, graphics, timeline })
+    }
+
+    /// One turn of the main thread: messages, panels, custom run-time. Says when the next is due.
+    pub(super) fn iterate(&mut self) -> Next {
+        self.main.iterate()
+    }
+
+    /// Takes an event of the window.
+    pub(super) fn window_event(&mut self, event: &WindowEvent) {
+        self.interface.borrow_mut().window_event(event);
+    }
+
+    /// Takes an event of the accessibility bridge.
+    pub(super) fn accesskit_event(&mut self, event: accesskit_winit::Event) {
+        self.interface.borrow_mut().accesskit_event(event.window_event);
+    }
+
+    /// Why nothing can be drawn, when nothing can.
+    pub(super) fn fatal(&self) -> Option<String> {
+        self.init.borrow().fatal().map(str::to_owned)
+    }
+
+    /// Destroys what uses before what is used: input, custom run-time, graphics, window (T-095, T-096).
+    pub(super) fn destroy(self) {
+        let Self { mut main, window, interface, init, graphics, timeline } = self;
+        interface.borrow_mut().close();
+        init.borrow_mut().destroy(main.context());
+        graphics.stop();
+        match Thread::wait_for(std::slice::from_ref(graphics.thread()), Instant::now() + END) {
+            Ok(()) => timeline.borrow_mut().reach(Step::GraphicsDestruction),
+            // The driver holds it. The process ends all the same, and nothing of the person's work is there.
+            Err(late) => tracing::warn!(?late, "did not end in time"),
+        }
+        drop(graphics);
+        main.context().stop();
+        main.iterate();
+        drop(main);
+        drop(init);
+        drop(interface);
+        drop(window);
+        timeline.borrow_mut().reach(Step::MainRuntimeDestruction);
+    }
+}

@@ -1,0 +1,24 @@
+//! How the editor is started.
+
+use crate::document::Source;
+use std::path::PathBuf;
+
+/// How the editor is started.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// What to open first.
+    pub source: Source,
+    /// Loses the graphics device after every so many drawn frames, to show that nothing is lost with it.
+    pub lose_device_every: Option<u32>,
+    /// Draws on however often the device is lost, where the editor would pause: for tests of just that.
+    pub never_pause: bool,
+    /// Where settings are kept; the system's usual place when it is not given.
+    pub settings_folder: Option<PathBuf>,
+}
+
+impl Default for Options {
+    /// The built-in model.
+    fn default() -> Self {
+        Self { source: Source::BuiltIn, lose_device_every: None, never_pause: false, settings_folder: None }
+    }
+}

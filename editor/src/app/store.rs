@@ -1,0 +1,52 @@
+//! Settings and panel places on the disk. Failing to keep them is worth a line, never a stop.
+
+use std::path::{Path, PathBuf};
+
+/// A folder with small text files.
+#[derive(Clone, Debug, Default)]
+pub struct Store {
+    folder: Option<PathBuf>,
+}
+
+/// Settings.
+pub const SETTINGS: &str = "settings.json";
+/// Places of panels.
+pub const LAYOUT: &str = "layout.json";
+/// A file larger than this was not written by us.
+const LARGEST: u64 = 1 << 20;
+
+impl Store {
+    /// In `folder`, or where the system keeps such things; nowhere when it has no such place.
+    pub fn new(folder: Option<PathBuf>) -> Self {
+        let usual = || {
+            let folders = directories::ProjectDirs::from("", "", "dragonfly")?;
+            Some(folders.config_dir().to_owned())
+        };
+        Self { folder: folder.or_else(usual) }
+    }
+
+    /// The text of a file; empty when there is none or it cannot be read.
+    pub fn read(&self, name: &str) -> String {
+        let Some(folder) = &self.folder else { return String::new() };
+        let path = folder.join(name);
+        let small = path.metadata().is_ok_and(|data| data.is_file() && data.len() <= LARGEST);
+        if small { std::fs::read_to_string(path).unwrap_or_default() } else { String::new() }
+    }
+
+    /// Replaces a file in one step, so that a crash leaves the old or the new one.
+    pub fn write(&self, name: &str, text: &str) -> std::io::Result<()> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        std::fs::create_dir_all(folder)?;
+        replace(&folder.join(name), text)
+    }
+}
+
+fn replace(path: &Path, text: &str) -> std::io::Result<()> {
+    let beside = path.with_extension(format!("{}.tmp", std::process::id()));
+    let written = std::fs::write(&beside, text).and_then(|()| std::fs::rename(&beside, path));
+    if written.is_err() {
+        // What is half written helps nobody; that it cannot be removed changes nothing.
+        let _ = std::fs::remove_file(&beside);
+    }
+    written
+}

@@ -1,0 +1,159 @@
+//! What the commands let one choose, and how each choice is read: a file, a take, times, a size, a colour.
+
+use super::{Failure, progress::Teller};
+use crate::document::{Cancel, LoadedModel, Source, load_model};
+use dragonfly_anim::data::{ModelData, Take};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// Stands for the built-in model where a file is expected.
+pub(super) const BUILT_IN: &str = "demo:";
+
+/// Which model.
+#[derive(Clone, Debug, clap::Args)]
+pub(super) struct File {
+    /// A model (.glb, .gltf), or `demo:` for the built-in dragonfly
+    #[arg(value_name = "FILE")]
+    path: PathBuf,
+}
+
+impl File {
+    /// Reads it, with progress on stderr when that takes long.
+    pub(super) fn load(&self) -> Result<LoadedModel, Failure> {
+        load(&source(&self.path))
+    }
+}
+
+/// What `path` stands for.
+pub(super) fn source(path: &std::path::Path) -> Source {
+    if path == std::path::Path::new(BUILT_IN) { Source::BuiltIn } else { Source::File(path.to_path_buf()) }
+}
+
+/// Reads `source`, with progress on stderr when that takes long.
+pub(super) fn load(source: &Source) -> Result<LoadedModel, Failure> {
+    let mut teller = Teller::new(source.title());
+    Ok(load_model(source, &mut |progress| teller.tell(progress), &Cancel::default())?)
+}
+
+/// Which take.
+#[derive(Clone, Debug, clap::Args)]
+pub(super) struct TakeChoice {
+    /// Which take, by name or by number from 0; a name wins over a number [default: the first]
+    #[arg(long, value_name = "TAKE", allow_hyphen_values = true)]
+    take: Option<String>,
+}
+
+impl TakeChoice {
+    /// Its position; `None` for the rest pose of a model that has no takes.
+    pub(super) fn index(&self, title: &str, model: &ModelData) -> Result<Option<usize>, Failure> {
+        let takes = &model.animation.takes;
+        let Some(wanted) = &self.take else {
+            return Ok(if takes.is_empty() { None } else { Some(0) });
+        };
+        takes
+            .iter()
+            .position(|take| take.name == *wanted)
+            .or_else(|| wanted.parse().ok().filter(|&index| index < takes.len()))
+            .map(Some)
+            .ok_or_else(|| {
+                Failure::input(
+                    title,
+                    format_args!("--take: no take is called \"{}\"; {}", plain(wanted), offer(takes)),
+                )
+            })
+    }
+}
+
+/// What there is to choose from.
+fn offer(takes: &[std::sync::Arc<Take>]) -> String {
+    const SHOWN: usize = 12;
+    if takes.is_empty() {
+        return "the model has none".to_owned();
+    }
+    let names: Vec<String> = takes
+        .iter()
+        .take(SHOWN)
+        .enumerate()
+        .map(|(index, take)| format!("{index} \"{}\"", plain(&take.name)))
+        .collect();
+    let more = if takes.len() > SHOWN { format!(" and {} more", takes.len() - SHOWN) } else { String::new() };
+    format!("there is {}{more}", names.join(", "))
+}
+
+/// `time` within the keys of take number `take`; as it is for the rest pose, which is the same at all times.
+pub(super) fn clamp_time(model: &ModelData, take: Option<usize>, time: f32) -> f32 {
+    match take.and_then(|take| model.animation.takes.get(take)) {
+        // Not `clamp`, which panics when the ends are the wrong way round.
+        Some(take) => time.min(take.end()).max(take.start),
+        None => time,
+    }
+}
+
+/// A finite number; "nan" and "inf" can be parsed but not be meant.
+pub(super) fn finite(text: &str) -> Result<f32, String> {
+    match f32::from_str(text) {
+        Ok(number) if number.is_finite() => Ok(number),
+        Ok(_) => Err("must be a finite number".to_owned()),
+        Err(_) => Err("is not a number".to_owned()),
+    }
+}
+
+/// Longest side of a picture; what devices of today draw.
+const LONGEST_SIDE: u32 = 16_384;
+
+/// Width and height in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Size {
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let usage = || "is not a size; write for example 1280x720".to_owned();
+        let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(usage)?;
+        let side = |text: &str| text.trim().parse::<u32>().map_err(|_| usage());
+        let (width, height) = (side(width)?, side(height)?);
+        if [width, height].iter().any(|side| !(1..=LONGEST_SIDE).contains(side)) {
+            return Err(format!("each side must be 1 to {LONGEST_SIDE} pixels"));
+        }
+        Ok(Self { width, height })
+    }
+}
+
+/// A colour as written for the web: red, green, blue and, if wanted, opacity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Color(pub [u8; 4]);
+
+impl FromStr for Color {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let digits = text.strip_prefix('#').unwrap_or(text);
+        let usage = "is not a colour; write RRGGBB or RRGGBBAA, for example 202830ff";
+        if !matches!(digits.len(), 6 | 8) || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
+            return Err(usage.to_owned());
+        }
+        let mut color = [0xff; 4];
+        for (index, value) in color.iter_mut().take(digits.len() / 2).enumerate() {
+            *value =
+                u8::from_str_radix(&digits[2 * index..2 * index + 2], 16).map_err(|_| usage.to_owned())?;
+        }
+        Ok(Self(color))
+    }
+}
+
+/// `text` from a file, safe to show in a terminal: nothing in it can move the cursor or break the line.
+pub(super) fn plain(text: &str) -> String {
+    text.chars()
+        .flat_map(|character| {
+            let shown = !character.is_control();
+            let escaped = (!shown).then(|| character.escape_unicode());
+            shown.then_some(character).into_iter().chain(escaped.into_iter().flatten())
+        })
+        .collect()
+}

@@ -1,0 +1,311 @@
+//! `dragonfly info FILE`: what is in a file.
+
+use super::choice::{File, plain};
+use super::output::{print, print_json};
+use super::table::{Side, Table, count};
+use super::{Command, Failure};
+use crate::document::LoadedModel;
+use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
+use dragonfly_anim::evaluator::Evaluator;
+use serde::Serialize;
+use std::io::{self, Write};
+use std::sync::Arc;
+
+/// More bones than this are counted, not listed, in the text for people.
+const BONES_SHOWN: usize = 80;
+
+/// What is in a file: bones, skins, takes, meshes, materials, size, and what is odd about it
+#[derive(Clone, Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  dragonfly info Fox.glb\n  dragonfly info Fox.glb --json | jq '.takes[].name'"
+)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    file: File,
+    /// One JSON document instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+impl Command for Arguments {
+    fn run(self) -> Result<(), Failure> {
+        let info = Info::of(self.file.load()?);
+        if self.json { print_json(&info) } else { print(|out| info.write(out)) }
+    }
+}
+
+#[derive(Serialize)]
+struct Info {
+    file: String,
+    format: String,
+    bones: Vec<Bone>,
+    skins: Vec<Skin>,
+    takes: Vec<Take>,
+    meshes: Vec<Mesh>,
+    materials: Vec<Material>,
+    bounds: Bounds,
+    warnings: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Bone {
+    index: usize,
+    name: String,
+    parent: Option<BoneIndex>,
+    node: Option<u32>,
+}
+
+#[derive(Serialize)]
+struct Skin {
+    index: usize,
+    name: String,
+    bones: Vec<BoneIndex>,
+}
+
+#[derive(Serialize)]
+struct Take {
+    index: usize,
+    name: String,
+    start: f32,
+    end: f32,
+    tracks: usize,
+    keys: usize,
+}
+
+#[derive(Serialize)]
+struct Mesh {
+    index: usize,
+    name: String,
+    vertices: usize,
+    triangles: usize,
+    skin: Option<u32>,
+    influences: usize,
+    morph_targets: usize,
+}
+
+#[derive(Serialize)]
+struct Material {
+    index: usize,
+    name: String,
+}
+
+#[derive(Serialize)]
+struct Bounds {
+    min: [f32; 3],
+    max: [f32; 3],
+    sphere: Sphere,
+}
+
+#[derive(Serialize)]
+struct Sphere {
+    center: [f32; 3],
+    radius: f32,
+}
+
+impl Info {
+    fn of(loaded: LoadedModel) -> Self {
+        let model = Arc::new(loaded.model);
+        // The model as it stands before anything moves it.
+        let bounds = Evaluator::new(Arc::clone(&model)).bounds();
+        Self {
+            file: loaded.title,
+            format: loaded.format,
+            bones: bones(&model.animation.skeleton),
+            skins: model
+                .skins
+                .iter()
+                .enumerate()
+                .map(|(index, skin)| Skin { index, name: skin.name.clone(), bones: skin.bones.clone() })
+                .collect(),
+            takes: takes(&model),
+            meshes: meshes(&model),
+            materials: model
+                .materials
+                .iter()
+                .enumerate()
+                .map(|(index, material)| Material { index, name: material.name.clone() })
+                .collect(),
+            bounds: Bounds {
+                min: bounds.min.to_array(),
+                max: bounds.max.to_array(),
+                sphere: Sphere { center: bounds.sphere.center.to_array(), radius: bounds.sphere.radius },
+            },
+            warnings: loaded.warnings,
+        }
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "{} ({})", plain(&self.file), self.format)?;
+        let size: Vec<String> =
+            self.bounds.max.iter().zip(&self.bounds.min).map(|(max, min)| short(max - min)).collect();
+        writeln!(out, "  size {} units, radius {}", size.join(" × "), short(self.bounds.sphere.radius))?;
+        self.write_takes(out)?;
+        self.write_meshes(out)?;
+        if !self.materials.is_empty() {
+            writeln!(out, "\n{}", count(self.materials.len(), "material", "materials"))?;
+            let names: Vec<String> = self.materials.iter().map(|material| named(&material.name)).collect();
+            writeln!(out, "  {}", names.join(", "))?;
+        }
+        self.write_bones(out)?;
+        if !self.warnings.is_empty() {
+            writeln!(out, "\n{}", count(self.warnings.len(), "warning", "warnings"))?;
+            for warning in &self.warnings {
+                writeln!(out, "  {}", plain(warning))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write_takes(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "\n{}", count(self.takes.len(), "take", "takes"))?;
+        if self.takes.is_empty() {
+            return Ok(());
+        }
+        let mut table = Table::new(&[
+            ("#", Side::Right),
+            ("name", Side::Left),
+            ("from", Side::Right),
+            ("to", Side::Right),
+            ("tracks", Side::Right),
+            ("keys", Side::Right),
+        ]);
+        for take in &self.takes {
+            table.row([
+                take.index.to_string(),
+                named(&take.name),
+                format!("{:.3} s", take.start),
+                format!("{:.3} s", take.end),
+                take.tracks.to_string(),
+                take.keys.to_string(),
+            ]);
+        }
+        table.write(out)
+    }
+
+    fn write_meshes(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "\n{}", count(self.meshes.len(), "mesh", "meshes"))?;
+        if self.meshes.is_empty() {
+            return Ok(());
+        }
+        let mut table = Table::new(&[
+            ("#", Side::Right),
+            ("name", Side::Left),
+            ("vertices", Side::Right),
+            ("triangles", Side::Right),
+            ("skin", Side::Right),
+            ("influences", Side::Right),
+            ("morph targets", Side::Right),
+        ]);
+        for mesh in &self.meshes {
+            table.row([
+                mesh.index.to_string(),
+                named(&mesh.name),
+                mesh.vertices.to_string(),
+                mesh.triangles.to_string(),
+                mesh.skin.map_or_else(|| "–".to_owned(), |skin| skin.to_string()),
+                mesh.influences.to_string(),
+                mesh.morph_targets.to_string(),
+            ]);
+        }
+        table.write(out)
+    }
+
+    fn write_bones(&self, out: &mut dyn Write) -> io::Result<()> {
+        let skins = count(self.skins.len(), "skin", "skins");
+        writeln!(out, "\n{}, {skins}", count(self.bones.len(), "bone", "bones"))?;
+        let depths = depths(&self.bones);
+        // In tree order, children under their parent, as an animator reads a skeleton.
+        for &index in tree_order(&self.bones).iter().take(BONES_SHOWN) {
+            let indent = "  ".repeat(depths[index].min(30));
+            writeln!(out, "  {indent}{}", named(&self.bones[index].name))?;
+        }
+        if self.bones.len() > BONES_SHOWN {
+            writeln!(out, "  … and {} more; --json lists them all", self.bones.len() - BONES_SHOWN)?;
+        }
+        Ok(())
+    }
+}
+
+fn bones(skeleton: &Skeleton) -> Vec<Bone> {
+    let bone = |(index, bone): (usize, &dragonfly_anim::data::Bone)| Bone {
+        index,
+        name: bone.name.clone(),
+        parent: bone.parent,
+        node: bone.node,
+    };
+    skeleton.bones.iter().enumerate().map(bone).collect()
+}
+
+fn takes(model: &ModelData) -> Vec<Take> {
+    let take = |(index, take): (usize, &Arc<dragonfly_anim::data::Take>)| Take {
+        index,
+        name: take.name.clone(),
+        start: take.start,
+        end: take.end(),
+        tracks: take.moving_tracks(),
+        keys: take.keys(),
+    };
+    model.animation.takes.iter().enumerate().map(take).collect()
+}
+
+fn meshes(model: &ModelData) -> Vec<Mesh> {
+    let skin_of = |mesh: usize| {
+        model
+            .instances
+            .iter()
+            .find(|instance| instance.mesh as usize == mesh)
+            .and_then(|instance| instance.skin)
+    };
+    let mesh = |(index, mesh): (usize, &dragonfly_anim::data::Mesh)| {
+        let primitives = &mesh.primitives;
+        Mesh {
+            index,
+            name: mesh.name.clone(),
+            vertices: primitives.iter().map(|primitive| primitive.vertices.len()).sum(),
+            triangles: primitives.iter().map(|primitive| primitive.indices.len() / 3).sum(),
+            skin: skin_of(index),
+            influences: primitives.iter().map(|it| it.vertices.influences_per_vertex).max().unwrap_or(0),
+            morph_targets: primitives.iter().map(|it| it.morph_targets.len()).max().unwrap_or(0),
+        }
+    };
+    model.meshes.iter().enumerate().map(mesh).collect()
+}
+
+/// How deep each bone lies; parents come first, so one pass suffices.
+fn depths(bones: &[Bone]) -> Vec<usize> {
+    let mut depths: Vec<usize> = Vec::with_capacity(bones.len());
+    for bone in bones {
+        let depth = bone.parent.and_then(|parent| depths.get(parent as usize)).map_or(0, |depth| depth + 1);
+        depths.push(depth);
+    }
+    depths
+}
+
+/// Positions of all bones, each followed by its children; without recursion, as skeletons may be deep.
+fn tree_order(bones: &[Bone]) -> Vec<usize> {
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); bones.len()];
+    let mut stack = Vec::new();
+    for (index, bone) in bones.iter().enumerate().rev() {
+        match bone.parent {
+            Some(parent) => children[parent as usize].push(index),
+            None => stack.push(index),
+        }
+    }
+    let mut order = Vec::with_capacity(bones.len());
+    while let Some(index) = stack.pop() {
+        order.push(index);
+        stack.append(&mut children[index]);
+    }
+    order
+}
+
+/// The name, or a word for none.
+pub(super) fn named(name: &str) -> String {
+    if name.is_empty() { "(unnamed)".to_owned() } else { plain(name) }
+}
+
+/// A length in few digits.
+fn short(number: f32) -> String {
+    let text = format!("{number:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,99 @@
+//! `dragonfly [FILE…]`: the editor; where there is no display, a picture instead.
+
+use super::choice::{Size, load, source};
+use super::{Command, Failure, output, render, tell};
+use crate::app::{self, AppError, Options};
+use crate::document::Source;
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// What the editor opens.
+#[derive(Clone, Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// Models to open (.glb, .gltf); without any, the built-in dragonfly
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Loses the graphics device after every so many drawn frames, to show that nothing is lost with it
+    #[arg(long, value_name = "FRAMES", hide = true)]
+    lose_device: Option<u32>,
+    /// Goes on drawing however often the device is lost
+    #[arg(long, hide = true)]
+    never_pause: bool,
+    /// Where settings are kept, instead of the usual place
+    #[arg(long, value_name = "FOLDER", hide = true)]
+    settings: Option<PathBuf>,
+}
+
+impl Command for Arguments {
+    fn run(self) -> Result<(), Failure> {
+        if !has_display() {
+            return self.draw("DISPLAY and WAYLAND_DISPLAY are not set");
+        }
+        match app::run(self.options()) {
+            Ok(()) => Ok(()),
+            Err(AppError::Display(reason)) => self.draw(&reason),
+            Err(error @ AppError::Graphics(_)) => {
+                let hint = "`dragonfly info` and `dragonfly pose` need no graphics";
+                Err(Failure::Machine(format!("{error}; {hint}")))
+            }
+            Err(error) => Err(Failure::Machine(error.to_string())),
+        }
+    }
+}
+
+/// Is there anything to open a window on? Only asked where the environment says so; elsewhere there always is.
+fn has_display() -> bool {
+    let set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
+    cfg!(not(all(unix, not(target_os = "macos"))))
+        || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(set)
+}
+
+impl Arguments {
+    fn options(&self) -> Options {
+        let built_in = Source::BuiltIn;
+        Options {
+            source: self.files.first().map_or(built_in, |file| source(file)),
+            lose_device_every: self.lose_device,
+            never_pause: self.never_pause,
+            settings_folder: self.settings.clone(),
+        }
+    }
+
+    /// The main job without a window: a picture of the model in the current folder, and where to get more.
+    fn draw(&self, why: &str) -> Result<(), Failure> {
+        tell(format_args!("no display to open a window on ({why}); drawing a picture instead"));
+        let built_in = PathBuf::from(super::choice::BUILT_IN);
+        let file = self.files.first().unwrap_or(&built_in);
+        let source = source(file);
+        let loaded = load(&source)?;
+        let view = render::View { size: Size { width: 1280, height: 720 }, ..render::View::default() };
+        let (title, take) = (loaded.title.clone(), loaded.model.animation.takes.first().cloned());
+        // A third into the take something is on its way in most of them.
+        let time = take.as_ref().map_or(0.0, |take| take.start + take.length / 3.0);
+        let picture = render::draw(loaded, take.is_some().then_some(0), time, &view)?;
+        let path = output::write_new(Path::new("."), &stem(&source), "png", &picture)?;
+        let path = path.strip_prefix(".").unwrap_or(&path);
+        output::print(|out| {
+            writeln!(out, "{}", path.display())?;
+            let take = take.map_or_else(String::new, |take| format!(", take {}, {time:.2} s", take.name));
+            writeln!(out, "  a picture of {title}{take}, {} × {} pixels", view.size.width, view.size.height)?;
+            writeln!(out, "More without a display:")?;
+            writeln!(out, "  dragonfly render --help   other files, takes, times, views and sizes")?;
+            writeln!(out, "  dragonfly info, pose      what is in a file, exact numbers")?;
+            writeln!(
+                out,
+                "The editor itself opens in any desktop session, X11 or Wayland; over ssh, with `ssh -X`."
+            )
+        })
+    }
+}
+
+/// What a picture of `source` is called.
+fn stem(source: &Source) -> String {
+    match source {
+        Source::BuiltIn => "dragonfly".to_owned(),
+        Source::File(path) => {
+            path.file_stem().map_or_else(|| "model".to_owned(), |stem| stem.to_string_lossy().into_owned())
+        }
+    }
+}

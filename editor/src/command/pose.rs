@@ -1,0 +1,200 @@
+//! `dragonfly pose FILE --time S`: where every bone and vertex is at a time.
+
+use super::choice::{File, TakeChoice, clamp_time, finite};
+use super::info::named;
+use super::output::{print, print_json};
+use super::table::{Side, Table};
+use super::{Command, Failure};
+use dragonfly_anim::data::{ModelData, Transform};
+use dragonfly_anim::evaluator::Evaluator;
+use glam::{EulerRot, Mat4, Vec3};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::sync::Arc;
+
+/// Where every bone and vertex is at a time: bone matrices, skinning matrices, skinned positions
+#[derive(Clone, Debug, clap::Args)]
+#[command(after_help = "\
+Matrices are column-major, for column vectors. `to_root` is bone space to scene space, `final` bind space to\n\
+scene space. Text shows positions, rotations and scales; --json has everything, exactly.\n\n\
+Examples:\n  dragonfly pose Fox.glb --take Run --time 0.35\n  \
+dragonfly pose Fox.glb --time 0 --time 0.5 --time 1 --vertices 8 --json")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    file: File,
+    #[command(flatten)]
+    take: TakeChoice,
+    /// Seconds, clamped to the take; repeat for more poses
+    #[arg(long, value_name = "S", required = true, value_parser = finite, allow_negative_numbers = true)]
+    time: Vec<f32>,
+    /// Only the first N positions of each mesh [default: all in JSON, none in text]
+    #[arg(long, value_name = "N")]
+    vertices: Option<usize>,
+    /// One JSON document instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+impl Command for Arguments {
+    fn run(self) -> Result<(), Failure> {
+        let loaded = self.file.load()?;
+        let take = self.take.index(&loaded.title, &loaded.model)?;
+        let model = Arc::new(loaded.model);
+        let vertices = self.vertices.unwrap_or(if self.json { usize::MAX } else { 0 });
+        let mut evaluator = Evaluator::new(Arc::clone(&model));
+        let mut poses = Vec::with_capacity(self.time.len());
+        for &time in &self.time {
+            let time = clamp_time(&model, take, time);
+            evaluator.pose(take, time);
+            let pose = Pose::of(&evaluator, time, vertices);
+            // JSON has no word for such a number, and no reader a use for it.
+            if !pose.is_finite() {
+                let reason =
+                    format_args!("the pose at {time} s is too large for numbers of single precision");
+                return Err(Failure::input(&loaded.title, reason));
+            }
+            poses.push(pose);
+        }
+        let take = take.map(|index| TakeName { index, name: model.animation.takes[index].name.clone() });
+        let poses = Poses { file: loaded.title, take, poses };
+        if self.json { print_json(&poses) } else { print(|out| poses.write(&model, out)) }
+    }
+}
+
+#[derive(Serialize)]
+struct Poses {
+    file: String,
+    take: Option<TakeName>,
+    poses: Vec<Pose>,
+}
+
+#[derive(Serialize)]
+struct TakeName {
+    index: usize,
+    name: String,
+}
+
+#[derive(Serialize)]
+struct Pose {
+    time: f32,
+    bones: Vec<BonePose>,
+    skins: Vec<SkinPose>,
+    meshes: Vec<MeshPose>,
+}
+
+#[derive(Serialize)]
+struct BonePose {
+    name: String,
+    node: Option<u32>,
+    to_root: [f32; 16],
+}
+
+#[derive(Serialize)]
+struct SkinPose {
+    index: usize,
+    r#final: Vec<[f32; 16]>,
+}
+
+#[derive(Serialize)]
+struct MeshPose {
+    node: Option<u32>,
+    primitive: usize,
+    positions: Vec<[f32; 3]>,
+}
+
+impl Pose {
+    /// What `evaluator` was put in last, with at most `vertices` positions a primitive.
+    fn of(evaluator: &Evaluator, time: f32, vertices: usize) -> Self {
+        let model = evaluator.model();
+        let bones = model.animation.skeleton.bones.iter().zip(evaluator.to_root());
+        let bones = bones.map(|(bone, to_root)| BonePose {
+            name: bone.name.clone(),
+            node: bone.node,
+            to_root: to_root.to_cols_array(),
+        });
+        let skins = (0..model.skins.len()).map(|index| SkinPose {
+            index,
+            r#final: evaluator.final_poses(index).iter().map(Mat4::to_cols_array).collect(),
+        });
+        let meshes = model.instances.iter().enumerate().flat_map(|(index, instance)| {
+            evaluator.primitives(index).iter().enumerate().map(move |(primitive, data)| {
+                let mut positions = vec![Vec3::ZERO; data.vertices.len().min(vertices)];
+                evaluator.positions(index, primitive, &mut positions);
+                let positions = positions.iter().map(|position| position.to_array()).collect();
+                MeshPose { node: instance.node, primitive, positions }
+            })
+        });
+        Self { time, bones: bones.collect(), skins: skins.collect(), meshes: meshes.collect() }
+    }
+
+    fn is_finite(&self) -> bool {
+        let finite = |numbers: &[f32]| numbers.iter().all(|number| number.is_finite());
+        self.bones.iter().all(|bone| finite(&bone.to_root))
+            && self.skins.iter().flat_map(|skin| &skin.r#final).all(|matrix| finite(matrix))
+            && self.meshes.iter().flat_map(|mesh| &mesh.positions).all(|position| finite(position))
+    }
+}
+
+impl Poses {
+    fn write(&self, model: &ModelData, out: &mut dyn Write) -> io::Result<()> {
+        let take = self.take.as_ref().map_or_else(
+            || "no takes: the rest pose".to_owned(),
+            |take| format!("take {} {}", take.index, named(&take.name)),
+        );
+        writeln!(out, "{}, {take}", super::choice::plain(&self.file))?;
+        for pose in &self.poses {
+            writeln!(out, "\n{} s", pose.time)?;
+            pose.write_bones(out)?;
+            for mesh in pose.meshes.iter().filter(|mesh| !mesh.positions.is_empty()) {
+                mesh.write(model, out)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Pose {
+    fn write_bones(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut table = Table::new(&[
+            ("bone", Side::Left),
+            ("x", Side::Right),
+            ("y", Side::Right),
+            ("z", Side::Right),
+            ("turned x", Side::Right),
+            ("y", Side::Right),
+            ("z", Side::Right),
+            ("scaled x", Side::Right),
+            ("y", Side::Right),
+            ("z", Side::Right),
+        ]);
+        for bone in &self.bones {
+            let pose = Transform::from_matrix(Mat4::from_cols_array(&bone.to_root));
+            let (x, y, z) = pose.rotation.to_euler(EulerRot::XYZ);
+            let numbers = pose.translation.to_array().map(|length| format!("{length:.4}"));
+            let angles = [x, y, z].map(|angle| format!("{:.2}°", angle.to_degrees()));
+            let scales = pose.scale.to_array().map(|factor| format!("{factor:.3}"));
+            table.row(std::iter::once(named(&bone.name)).chain(numbers).chain(angles).chain(scales));
+        }
+        table.write(out)
+    }
+}
+
+impl MeshPose {
+    fn write(&self, model: &ModelData, out: &mut dyn Write) -> io::Result<()> {
+        let instance = model.instances.iter().find(|instance| instance.node == self.node);
+        let mesh = instance.and_then(|instance| model.meshes.get(instance.mesh as usize));
+        let name = mesh.map_or_else(|| named(""), |mesh| named(&mesh.name));
+        writeln!(out, "  {name}, primitive {}", self.primitive)?;
+        let mut table = Table::new(&[
+            ("vertex", Side::Right),
+            ("x", Side::Right),
+            ("y", Side::Right),
+            ("z", Side::Right),
+        ]);
+        for (index, position) in self.positions.iter().enumerate() {
+            let numbers = position.map(|number| format!("{number:.4}"));
+            table.row(std::iter::once(index.to_string()).chain(numbers));
+        }
+        table.write(out)
+    }
+}

@@ -1,0 +1,115 @@
+//! `dragonfly render FILE -o out.png`: one picture, no window needed.
+
+use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
+use super::{Command, Failure, output, tell};
+use crate::document::LoadedModel;
+use crate::graphics::{GraphicsError, PictureSettings, render_picture};
+use std::io::Cursor;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Draws one picture of a model; no window and no display needed
+#[derive(Clone, Debug, clap::Args)]
+#[command(after_help = "\
+Examples:\n  dragonfly render demo: -o dragonfly.png\n  \
+dragonfly render Fox.glb --take Run --time 0.35 --yaw 60 --pitch 10 --size 1920x1080 -o run.png\n  \
+dragonfly render Fox.glb --skeleton --background 00000000 -o - | display")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    file: File,
+    #[command(flatten)]
+    take: TakeChoice,
+    /// Seconds, clamped to the take [default: its beginning]
+    #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
+    time: Option<f32>,
+    /// The PNG file to write; `-` is standard output
+    #[arg(short, long, value_name = "out.png")]
+    output: PathBuf,
+    #[command(flatten)]
+    view: View,
+}
+
+/// From where, how large, and over what.
+#[derive(Clone, Debug, clap::Args)]
+pub(super) struct View {
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720")]
+    pub size: Size,
+    /// Degrees around the model; 0 is its front, 90 its left side
+    #[arg(long, value_name = "DEG", value_parser = finite, default_value = "35", allow_negative_numbers = true)]
+    pub yaw: f32,
+    /// Degrees from above; 90 looks straight down
+    #[arg(long, value_name = "DEG", value_parser = finite, default_value = "15", allow_negative_numbers = true)]
+    pub pitch: f32,
+    /// Draws the bones over the model
+    #[arg(long)]
+    pub skeleton: bool,
+    /// Colour behind the model, with opacity; 00000000 leaves it transparent [default: that of the editor]
+    #[arg(long, value_name = "RRGGBBAA")]
+    pub background: Option<Color>,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            size: Size { width: 1280, height: 720 },
+            yaw: 35.0,
+            pitch: 15.0,
+            skeleton: false,
+            background: None,
+        }
+    }
+}
+
+impl Command for Arguments {
+    fn run(self) -> Result<(), Failure> {
+        let loaded = self.file.load()?;
+        for warning in &loaded.warnings {
+            tell(format_args!("{}: warning: {}", loaded.title, super::choice::plain(warning)));
+        }
+        let take = self.take.index(&loaded.title, &loaded.model)?;
+        let time = clamp_time(&loaded.model, take, self.time.unwrap_or(f32::MIN));
+        let picture = draw(loaded, take, time, &self.view)?;
+        output::write_file(&self.output, &picture)?;
+        if self.output != *"-" {
+            tell(format_args!("wrote {}", self.output.display()));
+        }
+        Ok(())
+    }
+}
+
+/// The picture of `loaded` at `time` seconds of take number `take`, as the bytes of a PNG file.
+pub(super) fn draw(
+    loaded: LoadedModel,
+    take: Option<usize>,
+    time: f32,
+    view: &View,
+) -> Result<Vec<u8>, Failure> {
+    let settings = PictureSettings {
+        size: [view.size.width, view.size.height],
+        take,
+        time,
+        yaw: view.yaw.to_radians(),
+        pitch: view.pitch.to_radians(),
+        background: view.background.map(|color| color.0),
+        skeleton: view.skeleton,
+        // Ground under a transparent model would leave half of it behind glass.
+        grid: view.background.is_none(),
+        ..PictureSettings::default()
+    };
+    let picture = render_picture(&Arc::new(loaded), &settings).map_err(|error| match error {
+        GraphicsError::PictureSize { .. } => Failure::input("--size", error),
+        other => machine(&other),
+    })?;
+    let mut png = Vec::new();
+    picture
+        .write_to(&mut Cursor::new(&mut png), image::ImageFormat::Png)
+        .map_err(|error| Failure::Machine(format!("the picture cannot be encoded: {error}")))?;
+    Ok(png)
+}
+
+/// What a person without graphics can do about it.
+pub(super) fn machine(error: &GraphicsError) -> Failure {
+    let hint = "`dragonfly info` and `dragonfly pose` need no graphics";
+    Failure::Machine(format!("{error}; {hint}"))
+}

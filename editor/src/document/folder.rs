@@ -1,0 +1,292 @@
+//! The guarded door on a real folder.
+//!
+//! A model may name other files: buffers, images. Whoever made it may have meant harm, so a name is followed only to
+//! a regular file inside the model's own folder tree. Everything else is refused, and refused at once: a pipe is
+//! never waited for, a device never read, a link out of the tree never followed, not even when it is put there
+//! while we look.
+
+use dragonfly_anim::format::{AssetError, AssetFs};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// Longest name of one part of a path; what file systems allow.
+const MAX_NAME: usize = 255;
+
+/// Longest path inside the folder.
+const MAX_PATH: usize = 4096;
+
+/// Deepest nesting below the folder.
+const MAX_DEPTH: usize = 64;
+
+/// Why a file was not opened.
+#[derive(Debug, thiserror::Error)]
+pub enum DoorError {
+    /// The name itself can never be a file of the folder.
+    #[error("is no name of a file in the model's folder: {0}")]
+    Name(&'static str),
+    /// The name leads, by links, out of the folder.
+    #[error("leads out of the model's folder")]
+    Outside,
+    /// A folder, pipe, device or socket.
+    #[error("is {0}, not a regular file")]
+    NotRegular(&'static str),
+    /// Larger than asked for.
+    #[error("holds {size} bytes, more than the {limit} that may be read")]
+    TooLarge {
+        /// Bytes in the file.
+        size: u64,
+        /// Bytes allowed.
+        limit: u64,
+    },
+    /// The system said no.
+    #[error("{}", reason(.0))]
+    Io(#[from] io::Error),
+}
+
+/// The folder of a model and all below it.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    /// Free of links, so that a prefix of a path is a folder above it.
+    root: PathBuf,
+}
+
+impl Folder {
+    /// The folder that holds `file`.
+    pub fn of(file: &Path) -> Result<Self, DoorError> {
+        let folder = match file.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        Self::new(folder)
+    }
+
+    /// `folder` itself.
+    pub fn new(folder: &Path) -> Result<Self, DoorError> {
+        Ok(Self { root: folder.canonicalize()? })
+    }
+
+    /// Bytes of the file called `name`: a relative path with `/` between its parts, already percent-decoded.
+    ///
+    /// Links that stay inside the folder are followed.
+    pub fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, DoorError> {
+        let relative = checked(name)?;
+        let resolved = self.root.join(relative).canonicalize()?;
+        let inside = resolved.strip_prefix(&self.root).map_err(|_| DoorError::Outside)?;
+        read_regular(system::open_below(&self.root, inside)?, limit)
+    }
+}
+
+impl AssetFs for Folder {
+    fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
+        Self::read(self, path, limit).map_err(AssetError::from)
+    }
+}
+
+impl From<DoorError> for AssetError {
+    fn from(error: DoorError) -> Self {
+        match error {
+            DoorError::Io(error) if error.kind() == io::ErrorKind::NotFound => Self::Missing,
+            DoorError::Io(error) => Self::Failed(error.to_string()),
+            DoorError::TooLarge { size, limit } => Self::TooLarge { size, limit },
+            other => Self::Refused(other.to_string()),
+        }
+    }
+}
+
+/// Bytes of the one file a person named; links are followed, but only to a regular file.
+pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, DoorError> {
+    let metadata = std::fs::metadata(path)?;
+    regular(&metadata)?;
+    read_regular(system::open(path)?, limit)
+}
+
+/// Splits `name` into parts that can only lead downwards.
+fn checked(name: &str) -> Result<PathBuf, DoorError> {
+    let refuse = |reason| Err(DoorError::Name(reason));
+    if name.is_empty() {
+        return refuse("it is empty");
+    }
+    if name.len() > MAX_PATH {
+        return refuse("it is too long");
+    }
+    if name.chars().any(|character| character.is_control()) {
+        return refuse("it holds a control character");
+    }
+    if name.contains('\\') {
+        return refuse("it holds a backslash");
+    }
+    if name.starts_with('/') {
+        return refuse("it is absolute");
+    }
+    // A colon in the first part is a scheme (`file:`, `http:`) or a drive.
+    if name.split('/').next().is_some_and(|first| first.contains(':')) {
+        return refuse("it names a scheme or a drive");
+    }
+    let mut path = PathBuf::new();
+    let mut depth = 0;
+    for part in name.split('/') {
+        match part {
+            "." => continue,
+            ".." => return refuse("it leads upwards"),
+            "" => return refuse("a part of it is empty"),
+            _ if part.len() > MAX_NAME => return refuse("a part of it is too long"),
+            // Some systems drop these and would open another file than the one named.
+            _ if part.ends_with('.') || part.ends_with(' ') => {
+                return refuse("a part of it ends with a dot or a blank");
+            }
+            _ if cfg!(windows) && (part.contains(':') || is_device_name(part)) => {
+                return refuse("it names a device or a stream");
+            }
+            _ => path.push(part),
+        }
+        depth += 1;
+        if depth > MAX_DEPTH {
+            return refuse("it lies too deep");
+        }
+    }
+    if depth == 0 { refuse("it names the folder itself") } else { Ok(path) }
+}
+
+/// Names that Windows keeps for devices, whatever comes after a dot.
+fn is_device_name(part: &str) -> bool {
+    let stem = part.split('.').next().unwrap_or(part).trim_end().to_ascii_uppercase();
+    matches!(stem.as_str(), "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$")
+        || (stem.len() == 4
+            && (stem.starts_with("COM") || stem.starts_with("LPT"))
+            && stem.as_bytes()[3].is_ascii_digit())
+}
+
+/// Is it a plain file? If not, what is it?
+fn regular(metadata: &std::fs::Metadata) -> Result<(), DoorError> {
+    if metadata.is_file() { Ok(()) } else { Err(DoorError::NotRegular(system::kind(metadata))) }
+}
+
+/// Reads an open file whole, if it is regular and within `limit`; the memory is asked for, not assumed.
+fn read_regular(file: File, limit: u64) -> Result<Vec<u8>, DoorError> {
+    // Asked again of the open file: what had the name a moment ago may be gone.
+    let metadata = file.metadata()?;
+    regular(&metadata)?;
+    let size = metadata.len();
+    if size > limit {
+        return Err(DoorError::TooLarge { size, limit });
+    }
+    let mut bytes = Vec::new();
+    let wanted = usize::try_from(size).map_err(|_| DoorError::TooLarge { size, limit })?;
+    bytes.try_reserve_exact(wanted).map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))?;
+    // One more than allowed shows a file that grows while it is read.
+    file.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+    let size = bytes.len() as u64;
+    if size > limit { Err(DoorError::TooLarge { size, limit }) } else { Ok(bytes) }
+}
+
+/// The system's reason without its number, for a sentence.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "does not exist".to_owned(),
+        io::ErrorKind::PermissionDenied => "may not be read".to_owned(),
+        io::ErrorKind::OutOfMemory => "does not fit into memory".to_owned(),
+        _ => format!("cannot be read: {error}"),
+    }
+}
+
+#[cfg(unix)]
+mod system {
+    use super::DoorError;
+    use rustix::fs::{Mode, OFlags, open as open_path, openat};
+    use std::fs::File;
+    use std::os::unix::fs::FileTypeExt;
+    use std::path::{Component, Path};
+
+    /// Not blocking, so that a pipe opens at once and can be refused; never the controlling terminal.
+    const READ: OFlags = OFlags::RDONLY.union(OFlags::NONBLOCK).union(OFlags::NOCTTY).union(OFlags::CLOEXEC);
+
+    /// Opens a path that a person named.
+    pub(super) fn open(path: &Path) -> Result<File, DoorError> {
+        Ok(open_path(path, READ, Mode::empty()).map_err(std::io::Error::from)?.into())
+    }
+
+    /// Opens `inside`, a path without links, from folder to folder: one that became a link meanwhile is refused.
+    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, DoorError> {
+        let step = OFlags::DIRECTORY.union(OFlags::NOFOLLOW).union(OFlags::CLOEXEC);
+        let mut folder = open_path(root, OFlags::DIRECTORY.union(OFlags::CLOEXEC), Mode::empty())
+            .map_err(std::io::Error::from)?;
+        let mut parts = inside.components().peekable();
+        while let Some(part) = parts.next() {
+            let Component::Normal(part) = part else { return Err(DoorError::Outside) };
+            if parts.peek().is_some() {
+                folder = openat(&folder, part, step, Mode::empty()).map_err(link)?;
+                continue;
+            }
+            // Opening a device can already do something, so look before.
+            let status = rustix::fs::statat(&folder, part, rustix::fs::AtFlags::SYMLINK_NOFOLLOW)
+                .map_err(std::io::Error::from)?;
+            let kind = rustix::fs::FileType::from_raw_mode(status.st_mode);
+            if kind != rustix::fs::FileType::RegularFile {
+                return Err(DoorError::NotRegular(name_of(kind)));
+            }
+            let file = openat(&folder, part, READ.union(OFlags::NOFOLLOW), Mode::empty()).map_err(link)?;
+            return Ok(file.into());
+        }
+        Err(DoorError::NotRegular("a folder"))
+    }
+
+    /// A link where none was a moment ago is an attempt to lead us out.
+    fn link(error: rustix::io::Errno) -> DoorError {
+        match error {
+            rustix::io::Errno::LOOP | rustix::io::Errno::NOTDIR => DoorError::Outside,
+            other => DoorError::Io(other.into()),
+        }
+    }
+
+    fn name_of(kind: rustix::fs::FileType) -> &'static str {
+        match kind {
+            rustix::fs::FileType::Directory => "a folder",
+            rustix::fs::FileType::Fifo => "a pipe",
+            rustix::fs::FileType::CharacterDevice | rustix::fs::FileType::BlockDevice => "a device",
+            rustix::fs::FileType::Socket => "a socket",
+            rustix::fs::FileType::Symlink => "a link",
+            _ => "something else",
+        }
+    }
+
+    /// What a thing that is no regular file is called.
+    pub(super) fn kind(metadata: &std::fs::Metadata) -> &'static str {
+        let kind = metadata.file_type();
+        if kind.is_dir() {
+            "a folder"
+        } else if kind.is_fifo() {
+            "a pipe"
+        } else if kind.is_char_device() || kind.is_block_device() {
+            "a device"
+        } else if kind.is_socket() {
+            "a socket"
+        } else {
+            "something else"
+        }
+    }
+}
+
+#[cfg(not(unix))]
+mod system {
+    use super::DoorError;
+    use std::fs::File;
+    use std::path::Path;
+
+    /// Opens a path that a person named.
+    pub(super) fn open(path: &Path) -> Result<File, DoorError> {
+        Ok(File::open(path)?)
+    }
+
+    /// Opens a path already found to lie inside the folder; without `openat` the check cannot be made tighter.
+    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, DoorError> {
+        let path = root.join(inside);
+        super::regular(&std::fs::symlink_metadata(&path)?)?;
+        Ok(File::open(path)?)
+    }
+
+    /// What a thing that is no regular file is called.
+    pub(super) fn kind(metadata: &std::fs::Metadata) -> &'static str {
+        if metadata.is_dir() { "a folder" } else { "something else" }
+    }
+}

@@ -1,0 +1,103 @@
+//! Opening a model: bytes, data, pixels; with progress, cancellable, the same for window and command line.
+
+use super::folder::{DoorError, read_file};
+use super::{Cancel, LoadedModel, Progress, Stage};
+use super::{images, import};
+use dragonfly_anim::bounds::bounds_of_pose;
+use dragonfly_anim::limits::FILE_BYTES;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use thiserror::Error;
+
+/// What to open.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The model that is part of the program.
+    BuiltIn,
+    /// A file.
+    File(PathBuf),
+}
+
+impl Source {
+    /// File name without folder, or "Dragonfly" for the built-in model.
+    pub fn title(&self) -> String {
+        match self {
+            Self::BuiltIn => "Dragonfly".to_owned(),
+            Self::File(path) => file_name(path),
+        }
+    }
+}
+
+/// Why a model could not be opened; says the place and the reason.
+#[derive(Debug, Error)]
+pub enum LoadError {
+    /// The file itself.
+    #[error("{}: file: {reason}", path.display())]
+    File {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        reason: DoorError,
+    },
+    /// Its contents.
+    #[error("{title}: {reason}")]
+    Format {
+        /// Which.
+        title: String,
+        /// Where in it, and why.
+        reason: String,
+    },
+    /// Somebody asked to stop.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+/// Opens `source`. `progress` hears how far it is; raising `cancel` ends it at the next step.
+///
+/// What is wrong but bearable becomes a warning of the model.
+pub fn load_model(
+    source: &Source,
+    progress: &mut dyn FnMut(Progress),
+    cancel: &Cancel,
+) -> Result<LoadedModel, LoadError> {
+    progress(Progress { stage: Stage::Reading, done: 0.0 });
+    let imported = match source {
+        Source::BuiltIn => {
+            progress(Progress { stage: Stage::Understanding, done: 0.2 });
+            import::built_in(source)?
+        }
+        Source::File(path) => {
+            let bytes = read_file(path, FILE_BYTES)
+                .map_err(|reason| LoadError::File { path: path.clone(), reason })?;
+            check(cancel)?;
+            progress(Progress { stage: Stage::Understanding, done: 0.2 });
+            import::file(path, &bytes)?
+        }
+    };
+    check(cancel)?;
+    let import::Imported { model, format, mut warnings } = imported;
+    let count = model.images.len().max(1) as f32;
+    progress(Progress { stage: Stage::Decoding, done: 0.5 });
+    let decoded = images::decode_all(&model.images, cancel, |done| {
+        progress(Progress { stage: Stage::Decoding, done: 0.5 + 0.5 * done as f32 / count });
+    });
+    check(cancel)?;
+    warnings.extend(decoded.warnings);
+    let path = match source {
+        Source::BuiltIn => None,
+        Source::File(path) => Some(path.clone()),
+    };
+    let model = Arc::new(model);
+    let first = model.animation.takes.first().map(|take| take.start);
+    let bounds = bounds_of_pose(&model, first.map(|_| 0), first.unwrap_or(0.0));
+    Ok(LoadedModel { title: source.title(), path, format, model, bounds, images: decoded.images, warnings })
+}
+
+fn check(cancel: &Cancel) -> Result<(), LoadError> {
+    if cancel.is_cancelled() { Err(LoadError::Cancelled) } else { Ok(()) }
+}
+
+/// The last part of `path`; all of it when there is none.
+pub(super) fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+}

@@ -1,0 +1,152 @@
+//! What everybody needs who makes or draws something: device, queue, formats, and this frame's uniform.
+
+use super::device::GraphicsError;
+use super::fault::Faults;
+use super::surface::WindowSurface;
+use super::uniform::FrameUniform;
+
+/// The scene is drawn in linear light and stored encoded, so that 8 bits are enough where the eye is keen.
+pub const SCENE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// Reversed: 1 is near.
+pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Samples a pixel of the scene; every adapter has four.
+pub const SAMPLES: u32 = 4;
+/// Without a window pictures of whole frames are made in this format; egui wants one that does not encode.
+const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// A device and what belongs to it.
+pub struct Gpu {
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    /// Format of the window, or of the texture that stands in for it.
+    pub window_format: wgpu::TextureFormat,
+    /// Longest side of a texture.
+    pub max_side: u32,
+    /// Layout of bind group 0 of all passes of the scene.
+    pub frame_layout: wgpu::BindGroupLayout,
+    /// Bind group 0.
+    pub frame_group: wgpu::BindGroup,
+    frame_buffer: wgpu::Buffer,
+}
+
+impl Gpu {
+    /// A device of `adapter` that can draw into `surface`.
+    pub fn new(
+        adapter: &wgpu::Adapter,
+        surface: Option<&WindowSurface>,
+        faults: &Faults,
+    ) -> Result<Self, GraphicsError> {
+        check(adapter)?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("dragonfly"),
+            required_limits: limits(&adapter.limits()),
+            ..Default::default()
+        }))
+        .map_err(|error| GraphicsError::NoDevice(error.to_string()))?;
+        faults.watch(&device);
+        let window_format = match surface {
+            Some(surface) => surface.format(adapter)?,
+            None => OFFSCREEN_FORMAT,
+        };
+        let max_side = device.limits().max_texture_dimension_2d;
+        let (frame_layout, frame_group, frame_buffer) = frame_binding(&device);
+        Ok(Self { device, queue, window_format, max_side, frame_layout, frame_group, frame_buffer })
+    }
+
+    /// Hands this frame's uniform to the device.
+    pub fn write_frame(&self, uniform: &FrameUniform) {
+        self.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(uniform));
+    }
+
+    /// A pipeline layout with the frame in group 0, then `groups`.
+    pub fn pipeline_layout(&self, label: &str, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
+        let layouts: Vec<Option<&wgpu::BindGroupLayout>> =
+            std::iter::once(&self.frame_layout).chain(groups.iter().copied()).map(Some).collect();
+        self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(label),
+            bind_group_layouts: &layouts,
+            immediate_size: 0,
+        })
+    }
+}
+
+/// Colours multiplied by alpha beforehand.
+pub fn scene_target(blend: bool) -> [Option<wgpu::ColorTargetState>; 1] {
+    [Some(wgpu::ColorTargetState {
+        format: SCENE_FORMAT,
+        blend: blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+        write_mask: wgpu::ColorWrites::ALL,
+    })]
+}
+
+/// Nearer things win; `write` says whether they also hide what comes after.
+pub fn scene_depth(write: bool) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: DEPTH_FORMAT,
+        depth_write_enabled: Some(write),
+        depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+/// As many samples as the scene's textures have.
+pub fn scene_samples(alpha_to_coverage_enabled: bool) -> wgpu::MultisampleState {
+    wgpu::MultisampleState { count: SAMPLES, mask: !0, alpha_to_coverage_enabled }
+}
+
+/// Refuses an adapter that lacks something, rather than failing later in the middle of a frame.
+fn check(adapter: &wgpu::Adapter) -> Result<(), GraphicsError> {
+    let lack = |lack| Err(GraphicsError::Unsuitable { adapter: adapter.get_info().name, lack });
+    let capabilities = adapter.get_downlevel_capabilities();
+    if !capabilities.flags.contains(wgpu::DownlevelFlags::VERTEX_STORAGE) {
+        return lack("read storage buffers in vertex shaders, which skinning by any number of bones needs");
+    }
+    for format in [SCENE_FORMAT, DEPTH_FORMAT] {
+        let features = adapter.get_texture_format_features(format);
+        if !features.flags.sample_count_supported(SAMPLES) {
+            return lack("draw with four samples a pixel");
+        }
+    }
+    Ok(())
+}
+
+/// What every adapter has, and more where this one does: large models need large buffers.
+fn limits(adapter: &wgpu::Limits) -> wgpu::Limits {
+    let base = wgpu::Limits::downlevel_defaults().using_resolution(adapter.clone());
+    wgpu::Limits {
+        max_buffer_size: adapter.max_buffer_size,
+        max_storage_buffer_binding_size: adapter.max_storage_buffer_binding_size,
+        ..base
+    }
+}
+
+fn frame_binding(device: &wgpu::Device) -> (wgpu::BindGroupLayout, wgpu::BindGroup, wgpu::Buffer) {
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("frame"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: wgpu::BufferSize::new(size_of::<FrameUniform>() as u64),
+            },
+            count: None,
+        }],
+    });
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("frame"),
+        size: size_of::<FrameUniform>() as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("frame"),
+        layout: &layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+    });
+    (layout, group, buffer)
+}

@@ -1,0 +1,412 @@
+//! One frame after the other: opened once, drawn by every pass in order, presented once (T-089).
+//!
+//! The workers of the graphics thread call [`Stage::open`], [`Stage::draw`] and [`Stage::present`] in turn; a picture without
+//! a window goes the same way. Everything that touches the device is guarded: a panic in there means the device is lost.
+
+use super::device::{Device, DeviceParameters, DeviceState, GraphicsError};
+use super::fault::Patience;
+use super::guard::caught;
+use super::pass::{self, Commands, Layer, Pass, Passes, SharedPass, Surroundings};
+use super::readback;
+use super::scene::Scene;
+use super::surface::Acquired;
+use super::target::{SceneTarget, begin_window};
+use image::RgbaImage;
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::time::Instant;
+
+/// What opening a frame came to.
+#[derive(Debug)]
+pub enum Opened {
+    /// Draw now.
+    Frame,
+    /// There is nothing to draw into at the moment.
+    Nothing,
+    /// There is no device any more.
+    Gone(GraphicsError),
+}
+
+/// Something that the main thread wants to know about the device.
+#[derive(Debug)]
+pub enum Event {
+    /// It was lost and made anew.
+    Recovered(String),
+    /// It gets lost too often; the scene is not drawn any more.
+    Paused(String),
+}
+
+/// How much is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Mode {
+    /// Everything.
+    All,
+    /// The panels: drawing the scene seems to cost the device.
+    PanelsOnly,
+    /// Nothing: even that does.
+    Nothing,
+}
+
+/// A frame between opening and presenting.
+struct Frame {
+    commands: Commands,
+    pass: Option<(Layer, wgpu::RenderPass<'static>)>,
+    window: Option<wgpu::TextureView>,
+    surface_texture: Option<wgpu::SurfaceTexture>,
+    /// The scene changed since it was drawn last.
+    draws_scene: bool,
+}
+
+/// See the module.
+pub struct Stage {
+    device: Device,
+    /// What is shown; whoever changes it calls [`Self::touch_scene`].
+    pub scene: Scene,
+    passes: Passes,
+    target: Option<SceneTarget>,
+    frame: Option<Frame>,
+    window_size: [u32; 2],
+    scene_changed: bool,
+    window_changed: bool,
+    /// A texture that stands for the window in the next frame.
+    stand_in: Option<wgpu::Texture>,
+    mode: Mode,
+    events: Vec<Event>,
+    frames: u64,
+}
+
+impl Stage {
+    /// An empty scene on a new device.
+    pub fn new(parameters: DeviceParameters, now: Instant) -> Result<Self, GraphicsError> {
+        let mut device = Device::new(parameters)?;
+        let passes = pass::all();
+        // The model first: passes draw with it.
+        device.add_listener(Rc::clone(&passes.model) as _);
+        for pass in &passes.list {
+            device.add_listener(Rc::new(RefCell::new(ListeningPass(Rc::clone(pass)))));
+        }
+        Ok(Self {
+            device,
+            scene: Scene::new(now),
+            passes,
+            target: None,
+            frame: None,
+            window_size: [0, 0],
+            scene_changed: true,
+            window_changed: true,
+            stand_in: None,
+            mode: Mode::All,
+            events: Vec::new(),
+            frames: 0,
+        })
+    }
+
+    /// The device.
+    pub fn device(&mut self) -> &mut Device {
+        &mut self.device
+    }
+
+    /// The passes in order.
+    pub fn passes(&self) -> &[SharedPass] {
+        &self.passes.list
+    }
+
+    /// The pass of the panels.
+    pub fn panels(&self) -> &Rc<RefCell<pass::PanelsPass>> {
+        &self.passes.panels
+    }
+
+    /// Physical pixels of the window; zero when it is minimised.
+    pub fn resize(&mut self, size: [u32; 2]) {
+        if self.window_size != size {
+            self.window_size = size;
+            self.window_changed = true;
+        }
+    }
+
+    /// Physical pixels of the window.
+    pub fn window_size(&self) -> [u32; 2] {
+        self.window_size
+    }
+
+    /// Something in the scene changed: the next frame draws it anew.
+    pub fn touch_scene(&mut self) {
+        self.scene_changed = true;
+    }
+
+    /// Something outside of the scene changed: the next frame lays the panels over the scene as it is.
+    pub fn touch_window(&mut self) {
+        self.window_changed = true;
+    }
+
+    /// Is there anything new to draw at `now`?
+    pub fn wants_frame(&self, now: Instant) -> bool {
+        let visible = !self.window_size.contains(&0) && self.mode != Mode::Nothing;
+        visible && (self.scene_changed || self.window_changed || self.moves(now))
+    }
+
+    /// Does the scene change by itself?
+    pub fn moves(&self, now: Instant) -> bool {
+        self.mode == Mode::All && self.scene.playback.moves(now) && self.scene.model().is_some()
+    }
+
+    /// Frames presented so far.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// What happened to the device since the last call.
+    pub fn take_events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.events)
+    }
+
+    /// Draws everything again after [`Event::Paused`].
+    pub fn resume(&mut self) {
+        self.device.forgive();
+        self.mode = Mode::All;
+        self.scene_changed = true;
+    }
+
+    /// Makes sure of the device, computes the scene for `now` and opens a frame.
+    pub fn open(&mut self, now: Instant) -> Opened {
+        self.frame = None;
+        match self.device.check_device_state(now) {
+            DeviceState::Working => {}
+            DeviceState::Reset { reason, patience } => self.after_reset(reason, patience),
+            DeviceState::Gone(error) => return Opened::Gone(error),
+        }
+        if self.mode == Mode::Nothing || self.window_size.contains(&0) {
+            return Opened::Nothing;
+        }
+        let draws_scene = self.mode == Mode::All && (self.scene_changed || self.moves(now));
+        if draws_scene {
+            self.scene.prepare(now);
+        }
+        match caught(|| self.open_frame(draws_scene)) {
+            Ok(true) => Opened::Frame,
+            Ok(false) => Opened::Nothing,
+            Err(panic) => {
+                self.device.assume_lost(&panic);
+                Opened::Nothing
+            }
+        }
+    }
+
+    /// Lets one pass draw. `false` when the frame is broken.
+    pub fn draw(&mut self, pass: &mut dyn Pass) -> bool {
+        let Some(mut frame) = self.frame.take() else { return false };
+        let drawn = caught(|| {
+            self.draw_pass(&mut frame, pass);
+            frame
+        });
+        self.keep(drawn.map(Some))
+    }
+
+    /// Ends the frame and shows it. `false` when it was broken.
+    pub fn present(&mut self) -> bool {
+        let Some(frame) = self.frame.take() else { return false };
+        let draws_scene = frame.draws_scene;
+        let presented = caught(|| {
+            let Frame { commands, pass, surface_texture, .. } = frame;
+            drop(pass);
+            let gpu = self.device.gpu();
+            gpu.queue.submit(commands.before.into_iter().chain([commands.encoder.finish()]));
+            if let Some(texture) = surface_texture {
+                if let Some((surface, gpu)) = self.device.surface() {
+                    surface.pre_present_notify();
+                    gpu.queue.present(texture);
+                }
+            }
+        });
+        let done = self.keep(presented.map(|()| None));
+        if done {
+            self.frames += 1;
+            self.window_changed = false;
+            self.scene_changed &= !draws_scene;
+        }
+        done
+    }
+
+    /// Opens, draws with every pass and presents: what the workers do in turn.
+    pub fn whole_frame(&mut self, now: Instant) -> Opened {
+        let opened = self.open(now);
+        if matches!(opened, Opened::Frame) {
+            for pass in self.passes.list.clone() {
+                if !self.draw(&mut *pass.borrow_mut()) {
+                    return Opened::Nothing;
+                }
+            }
+            if !self.present() {
+                return Opened::Nothing;
+            }
+        }
+        opened
+    }
+
+    /// The scene alone, as drawn last.
+    pub fn read_scene(&mut self) -> Result<RgbaImage, String> {
+        let Some(target) = &self.target else { return Err("there is no scene".to_owned()) };
+        let picture = caught(|| readback::read(self.device.gpu(), target.texture()));
+        picture.unwrap_or_else(|panic| {
+            self.device.assume_lost(&panic);
+            Err(panic)
+        })
+    }
+
+    /// The whole window at `now`, drawn once more into a texture: what a surface shows cannot be read everywhere.
+    pub fn capture(&mut self, now: Instant) -> Result<RgbaImage, String> {
+        let size = self.window_size.map(|side| side.min(self.device.gpu().max_side));
+        if size.contains(&0) {
+            return Err("the window has no size".to_owned());
+        }
+        let texture = caught(|| self.make_stand_in(size))?;
+        self.stand_in = Some(texture.clone());
+        self.window_changed = true;
+        let opened = self.whole_frame(now);
+        self.stand_in = None;
+        self.window_changed = true;
+        match opened {
+            Opened::Frame => caught(|| readback::read(self.device.gpu(), &texture)).and_then(|read| read),
+            Opened::Nothing => Err("nothing could be drawn".to_owned()),
+            Opened::Gone(error) => Err(error.to_string()),
+        }
+    }
+
+    fn after_reset(&mut self, reason: String, patience: Patience) {
+        self.target = None;
+        self.stand_in = None;
+        (self.scene_changed, self.window_changed) = (true, true);
+        if patience == Patience::Left {
+            self.events.push(Event::Recovered(reason));
+            return;
+        }
+        // First without the scene; when that does not help either, without anything.
+        self.device.forgive();
+        self.mode = if self.mode == Mode::All { Mode::PanelsOnly } else { Mode::Nothing };
+        self.events.push(Event::Paused(reason));
+    }
+
+    fn open_frame(&mut self, draws_scene: bool) -> bool {
+        let mut surface_texture = None;
+        let window = if let Some(texture) = &self.stand_in {
+            Some(texture.create_view(&Default::default()))
+        } else if let Some((surface, gpu)) = self.device.surface() {
+            match surface.acquire(gpu, self.window_size) {
+                Acquired::Frame(texture) => {
+                    let view = texture.texture.create_view(&Default::default());
+                    surface_texture = Some(texture);
+                    Some(view)
+                }
+                Acquired::Nothing => return false,
+                Acquired::DeviceLost => {
+                    self.device.assume_lost("the window's surface does not answer any more");
+                    return false;
+                }
+            }
+        } else {
+            None
+        };
+        let gpu = self.device.gpu();
+        if draws_scene {
+            let [_, _, width, height] = self.scene.look.viewport;
+            let size = [width, height].map(|side| side.min(gpu.max_side));
+            if size.contains(&0) {
+                self.target = None;
+            } else if self.target.as_ref().is_none_or(|target| target.size() != size) {
+                self.target = Some(SceneTarget::new(gpu, size));
+            }
+            gpu.write_frame(self.scene.uniform());
+        }
+        let encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut commands = Commands { encoder, before: Vec::new() };
+        let around = self.surroundings(window_extent(surface_texture.as_ref(), self.window_size));
+        for pass in &self.passes.list {
+            let mut pass = pass.borrow_mut();
+            let wanted = match pass.layer() {
+                Layer::Scene => draws_scene,
+                Layer::Window => window.is_some(),
+            };
+            if wanted {
+                pass.prepare(&around, &mut commands);
+            }
+        }
+        self.frame = Some(Frame { commands, pass: None, window, surface_texture, draws_scene });
+        true
+    }
+
+    fn draw_pass(&self, frame: &mut Frame, pass: &mut dyn Pass) {
+        let layer = pass.layer();
+        let begun = frame.pass.as_ref().is_some_and(|(begun, _)| *begun == layer);
+        if !begun {
+            // The pass before must end before its encoder can begin another.
+            frame.pass = None;
+            let encoder = &mut frame.commands.encoder;
+            let next = match (layer, &self.target, &frame.window) {
+                (Layer::Scene, Some(target), _) if frame.draws_scene => target.begin(encoder),
+                (Layer::Window, _, Some(window)) => begin_window(encoder, window),
+                _ => return,
+            };
+            frame.pass = Some((layer, next));
+        }
+        let extent = window_extent(frame.surface_texture.as_ref(), self.window_size);
+        let around = self.surroundings(extent);
+        if let Some((_, open)) = &mut frame.pass {
+            pass.draw(&around, open);
+        }
+    }
+
+    fn surroundings(&self, window_size: [u32; 2]) -> Surroundings<'_> {
+        Surroundings {
+            gpu: self.device.gpu(),
+            scene: &self.scene,
+            window_size,
+            scene_view: self.target.as_ref().map(SceneTarget::view),
+        }
+    }
+
+    fn make_stand_in(&self, [width, height]: [u32; 2]) -> wgpu::Texture {
+        let gpu = self.device.gpu();
+        gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("stand-in"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: gpu.window_format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        })
+    }
+
+    /// Keeps the frame of a step that went well; after a panic there is none, and no device either.
+    fn keep(&mut self, step: Result<Option<Frame>, String>) -> bool {
+        match step {
+            Ok(frame) => {
+                self.frame = frame;
+                true
+            }
+            Err(panic) => {
+                self.device.assume_lost(&panic);
+                false
+            }
+        }
+    }
+}
+
+/// The pixels there really are to draw into.
+fn window_extent(texture: Option<&wgpu::SurfaceTexture>, otherwise: [u32; 2]) -> [u32; 2] {
+    texture.map_or(otherwise, |texture| [texture.texture.width(), texture.texture.height()])
+}
+
+/// A pass as a listener: the list of passes and the list of listeners hold the same object under two names.
+struct ListeningPass(SharedPass);
+
+impl super::device::DeviceListener for ListeningPass {
+    fn on_lost(&mut self) {
+        self.0.borrow_mut().on_lost();
+    }
+
+    fn on_reset(&mut self, gpu: &super::gpu::Gpu) {
+        self.0.borrow_mut().on_reset(gpu);
+    }
+}

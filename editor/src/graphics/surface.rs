@@ -1,0 +1,124 @@
+//! The window's surface: configured when there is something to configure, never with a size of zero.
+
+use super::device::GraphicsError;
+use super::gpu::Gpu;
+use std::sync::Arc;
+use winit::event_loop::OwnedDisplayHandle;
+use winit::window::Window;
+
+/// What a surface is made from; kept, to make it anew.
+#[derive(Clone)]
+pub struct SurfaceSource {
+    /// The window.
+    pub window: Arc<Window>,
+    /// The connection to the window system.
+    pub display: OwnedDisplayHandle,
+}
+
+impl SurfaceSource {
+    /// Describes an instance that can draw into the window.
+    pub fn instance_descriptor(&self) -> wgpu::InstanceDescriptor {
+        wgpu::InstanceDescriptor::new_with_display_handle(Box::new(self.display.clone()))
+    }
+
+    /// A surface of the window.
+    pub fn surface(&self, instance: &wgpu::Instance) -> Result<WindowSurface, GraphicsError> {
+        let surface = instance
+            .create_surface(Arc::clone(&self.window))
+            .map_err(|error| GraphicsError::NoSurface(error.to_string()))?;
+        Ok(WindowSurface { surface, window: Arc::clone(&self.window), configured: None, refusals: 0 })
+    }
+}
+
+/// What came of asking for the next picture to draw into.
+pub enum Acquired {
+    /// Draw into this.
+    Frame(wgpu::SurfaceTexture),
+    /// Not now: minimised, hidden, or between two sizes.
+    Nothing,
+    /// The device behind it is gone.
+    DeviceLost,
+}
+
+/// A surface and its present configuration.
+pub struct WindowSurface {
+    surface: wgpu::Surface<'static>,
+    window: Arc<Window>,
+    configured: Option<wgpu::SurfaceConfiguration>,
+    /// "Validation" answers in a row.
+    refusals: u32,
+}
+
+impl WindowSurface {
+    /// The surface itself.
+    pub fn surface(&self) -> &wgpu::Surface<'static> {
+        &self.surface
+    }
+
+    /// The format to draw in: one that does not encode, because egui wants to do that itself.
+    pub fn format(&self, adapter: &wgpu::Adapter) -> Result<wgpu::TextureFormat, GraphicsError> {
+        let formats = self.surface.get_capabilities(adapter).formats;
+        egui_wgpu::preferred_framebuffer_format(&formats)
+            .map_err(|error| GraphicsError::NoSurface(error.to_string()))
+    }
+
+    /// The device it was configured for is gone.
+    pub fn forget_configuration(&mut self) {
+        self.configured = None;
+        self.refusals = 0;
+    }
+
+    /// Tells the window system that a picture comes.
+    pub fn pre_present_notify(&self) {
+        self.window.pre_present_notify();
+    }
+
+    /// The next picture of the window, which has `size` pixels.
+    pub fn acquire(&mut self, gpu: &Gpu, size: [u32; 2]) -> Acquired {
+        if size.contains(&0) {
+            return Acquired::Nothing;
+        }
+        let size = size.map(|side| side.min(gpu.max_side));
+        if self.configured.as_ref().is_none_or(|now| [now.width, now.height] != size) {
+            self.configure(gpu, size);
+        }
+        use wgpu::CurrentSurfaceTexture as Current;
+        for _ in 0..2 {
+            match self.surface.get_current_texture() {
+                // Shows what it should; the window's new size comes as a message and configures it anew.
+                Current::Success(texture) | Current::Suboptimal(texture) => {
+                    self.refusals = 0;
+                    return Acquired::Frame(texture);
+                }
+                Current::Outdated | Current::Lost => self.configure(gpu, size),
+                Current::Timeout | Current::Occluded => return Acquired::Nothing,
+                Current::Validation => {
+                    // What a lost device answers for ever, but a window in the middle of a change only once.
+                    self.refusals += 1;
+                    if self.refusals >= 2 {
+                        self.refusals = 0;
+                        return Acquired::DeviceLost;
+                    }
+                    self.configure(gpu, size);
+                }
+            }
+        }
+        Acquired::Nothing
+    }
+
+    fn configure(&mut self, gpu: &Gpu, [width, height]: [u32; 2]) {
+        let configuration = wgpu::SurfaceConfiguration {
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            format: gpu.window_format,
+            color_space: Default::default(),
+            width,
+            height,
+            present_mode: wgpu::PresentMode::AutoVsync,
+            desired_maximum_frame_latency: 2,
+            alpha_mode: wgpu::CompositeAlphaMode::Auto,
+            view_formats: Vec::new(),
+        };
+        self.surface.configure(&gpu.device, &configuration);
+        self.configured = Some(configuration);
+    }
+}

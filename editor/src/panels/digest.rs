@@ -1,0 +1,174 @@
+//! What panels need to know about a view, computed once when it changes and not every frame.
+
+use crate::document::{LoadedModel, View};
+use dragonfly_anim::data::BoneIndex;
+use std::sync::Arc;
+
+/// A line of the skeleton's tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// Which bone.
+    pub bone: BoneIndex,
+    /// Number of ancestors.
+    pub depth: u32,
+    /// Has it children?
+    pub parent: bool,
+    /// How many rows below belong to it.
+    pub below: u32,
+}
+
+/// A line of the list of takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TakeRow {
+    /// As in the file, or a stand-in.
+    pub name: String,
+    /// Seconds.
+    pub length: f32,
+    /// Keys of all channels.
+    pub keys: usize,
+    /// Tracks that move something.
+    pub tracks: usize,
+}
+
+/// Totals of a model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Totals {
+    /// Vertices of all primitives.
+    pub vertices: usize,
+    /// Triangles of all primitives.
+    pub triangles: usize,
+    /// Morph targets of all meshes.
+    pub morph_targets: usize,
+}
+
+/// Ascending key times of a lane of the timeline.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Lanes {
+    /// Of the selected bone: translation, rotation, scale. Empty without selection.
+    pub channels: [Arc<[f32]>; 3],
+    /// Of the selected bone, or of all bones without selection; each time once.
+    pub all: Vec<f32>,
+}
+
+/// Everything computed from a view.
+#[derive(Clone, Debug, Default)]
+pub struct Digest {
+    /// Depth first, as shown.
+    pub rows: Vec<Row>,
+    /// In file order.
+    pub takes: Vec<TakeRow>,
+    /// Totals.
+    pub totals: Totals,
+    /// Keys shown in the timeline.
+    pub lanes: Lanes,
+    generation: Option<u64>,
+    lanes_of: Option<(u64, Option<usize>, Option<BoneIndex>)>,
+}
+
+impl Digest {
+    /// Computes what changed since the last call.
+    pub fn update(&mut self, view: Option<&View>, take: Option<usize>, bone: Option<BoneIndex>) {
+        let Some(view) = view else {
+            *self = Self::default();
+            return;
+        };
+        if self.generation != Some(view.generation) {
+            let loaded = &view.loaded;
+            *self = Self {
+                rows: rows(loaded),
+                takes: takes(loaded),
+                totals: totals(loaded),
+                generation: Some(view.generation),
+                ..Self::default()
+            };
+        }
+        let key = (view.generation, take, bone);
+        if self.lanes_of != Some(key) {
+            self.lanes = lanes(&view.loaded, take, bone);
+            self.lanes_of = Some(key);
+        }
+    }
+}
+
+/// The tree in the order in which it is shown; without recursion, because files decide how deep it is.
+fn rows(loaded: &LoadedModel) -> Vec<Row> {
+    let bones = &loaded.model.animation.skeleton.bones;
+    let mut children: Vec<Vec<BoneIndex>> = vec![Vec::new(); bones.len()];
+    let mut roots = Vec::new();
+    for (index, bone) in bones.iter().enumerate() {
+        match bone.parent.and_then(|parent| children.get_mut(parent as usize)) {
+            Some(siblings) => siblings.push(index as BoneIndex),
+            None => roots.push(index as BoneIndex),
+        }
+    }
+    let mut rows: Vec<Row> = Vec::with_capacity(bones.len());
+    let mut stack: Vec<(BoneIndex, u32)> = roots.into_iter().rev().map(|bone| (bone, 0)).collect();
+    while let Some((bone, depth)) = stack.pop() {
+        let below = &children[bone as usize];
+        rows.push(Row { bone, depth, parent: !below.is_empty(), below: 0 });
+        stack.extend(below.iter().rev().map(|&child| (child, depth + 1)));
+    }
+    // From the end, each row adds itself and what is below it to its parent, which stands before it.
+    let mut place = vec![0; bones.len()];
+    for (index, row) in rows.iter().enumerate() {
+        place[row.bone as usize] = index;
+    }
+    for index in (0..rows.len()).rev() {
+        let parent = bones[rows[index].bone as usize].parent;
+        if let Some(&above) = parent.and_then(|parent| place.get(parent as usize)) {
+            rows[above].below += 1 + rows[index].below;
+        }
+    }
+    rows
+}
+
+fn takes(loaded: &LoadedModel) -> Vec<TakeRow> {
+    let takes = loaded.model.animation.takes.iter().enumerate();
+    takes
+        .map(|(index, take)| TakeRow {
+            name: if take.name.is_empty() { format!("Take {}", index + 1) } else { take.name.clone() },
+            length: take.length,
+            keys: take.keys(),
+            tracks: take.moving_tracks(),
+        })
+        .collect()
+}
+
+fn totals(loaded: &LoadedModel) -> Totals {
+    let mut totals = Totals::default();
+    for mesh in &loaded.model.meshes {
+        totals.morph_targets += mesh.morph_weights.len();
+        for primitive in &mesh.primitives {
+            totals.vertices += primitive.vertices.len();
+            totals.triangles += primitive.indices.len() / 3;
+        }
+    }
+    totals
+}
+
+fn lanes(loaded: &LoadedModel, take: Option<usize>, bone: Option<BoneIndex>) -> Lanes {
+    let Some(take) = take.and_then(|take| loaded.model.animation.takes.get(take)) else {
+        return Lanes::default();
+    };
+    match bone {
+        Some(bone) => match take.tracks.iter().find(|track| track.bone == bone) {
+            Some(track) => Lanes {
+                channels: [&track.translation.times, &track.rotation.times, &track.scale.times]
+                    .map(Arc::clone),
+                all: track.key_times(),
+            },
+            None => Lanes::default(),
+        },
+        None => {
+            let of_bones = take.tracks.iter().flat_map(|track| {
+                [&track.translation.times, &track.rotation.times, &track.scale.times].into_iter()
+            });
+            let of_morphs = take.morphs.iter().map(|morph| &morph.times);
+            let mut all: Vec<f32> =
+                of_bones.chain(of_morphs).flat_map(|times| times.iter().copied()).collect();
+            all.sort_by(f32::total_cmp);
+            all.dedup();
+            Lanes { all, ..Lanes::default() }
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! What requests and commands do to the state; what reaches beyond the panels comes back as effects.
+
+use super::commands::Id;
+use super::ruler;
+use super::settings::{SCALES, SPEEDS, ThemeChoice};
+use super::state::{Effect, Overlay, Request, State};
+use crate::camera::Side;
+use crate::document::Source;
+use crate::graphics::{BoneLook, Shading};
+use crate::playback::Repeat;
+
+impl State {
+    /// Does what a panel asked for.
+    pub fn execute(&mut self, request: Request) -> Option<Effect> {
+        match request {
+            Request::Command(id) => return self.command(id),
+            Request::Select(bone) => self.selected = bone,
+            Request::Hover(bone) => self.hovered = Some(bone),
+            Request::ShowTake(take) => self.show_take(take),
+            Request::Seek(time) => self.seek(time),
+            Request::Speed(speed) => self.set_speed(speed),
+            Request::Repeat(repeat) => self.set_repeat(repeat),
+            Request::FrameRate(rate) => self.settings.frame_rate = rate,
+            Request::Scale(scale) => self.set_scale(scale),
+            Request::Camera(camera) => self.camera = camera,
+            Request::Viewport(rect) => self.set_viewport(rect),
+            Request::Pick(position) => return Some(Effect::Pick(position)),
+            Request::Open(source) => return Some(Effect::Open(source)),
+            Request::Overlay(overlay) => self.overlay = overlay,
+            Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
+        }
+        None
+    }
+
+    fn command(&mut self, id: Id) -> Option<Effect> {
+        let look = &mut self.settings.look;
+        match id {
+            Id::Open => return Some(Effect::OpenDialog),
+            Id::OpenPath => self.overlay = Some(Overlay::OpenPath),
+            Id::OpenBuiltIn => return Some(Effect::Open(Source::BuiltIn)),
+            Id::CancelLoading => return Some(Effect::CancelLoading),
+            Id::Quit => return Some(Effect::Quit),
+
+            Id::PlayPause => self.play(1.0),
+            Id::PlayBackwards => self.play(-1.0),
+            Id::PreviousFrame => self.step_frame(-1),
+            Id::NextFrame => self.step_frame(1),
+            Id::PreviousKey => self.step_key(false),
+            Id::NextKey => self.step_key(true),
+            Id::Start => self.seek(self.playback.start),
+            Id::End => self.seek(self.playback.start + self.playback.length),
+            Id::BackOneSecond => self.stop_at(self.time() - 1.0),
+            Id::ForwardOneSecond => self.stop_at(self.time() + 1.0),
+            Id::CycleRepeat => self.set_repeat(match self.playback.repeat {
+                Repeat::Loop => Repeat::PingPong,
+                Repeat::PingPong => Repeat::Once,
+                Repeat::Once => Repeat::Loop,
+            }),
+            Id::PreviousTake => self.step_take(-1),
+            Id::NextTake => self.step_take(1),
+            Id::RestPose => self.show_take(None),
+
+            Id::ClearSelection => {
+                if self.overlay.take().is_none() {
+                    self.selected = None;
+                }
+            }
+            Id::SelectParent => self.select_parent(),
+            Id::SelectChild => self.select_child(),
+            Id::Find => self.find = true,
+
+            Id::FrameSelected => self.frame_selected(),
+            Id::FrameAll => self.frame_all(),
+            Id::ViewFront => self.camera.look_from(Side::Front),
+            Id::ViewBack => self.camera.look_from(Side::Back),
+            Id::ViewRight => self.camera.look_from(Side::Right),
+            Id::ViewLeft => self.camera.look_from(Side::Left),
+            Id::ViewTop => self.camera.look_from(Side::Top),
+            Id::ViewBottom => self.camera.look_from(Side::Bottom),
+            Id::ToggleProjection => self.camera.toggle_projection(),
+
+            Id::ToggleGrid => look.grid = !look.grid,
+            Id::ToggleSkeleton => look.skeleton = !look.skeleton,
+            Id::ToggleXRay => look.bones_in_front = !look.bones_in_front,
+            Id::ToggleSurface => look.surface = !look.surface,
+            Id::ShadeMaterial => look.shading = Shading::Material,
+            Id::ShadeClay => look.shading = Shading::Clay,
+            Id::ShadeUnlit => look.shading = Shading::Unlit,
+            Id::BonesOctahedra => look.bone_look = BoneLook::Octahedra,
+            Id::BonesSticks => look.bone_look = BoneLook::Sticks,
+            Id::BonesLines => look.bone_look = BoneLook::Lines,
+
+            Id::ThemeSystem => self.settings.theme = ThemeChoice::System,
+            Id::ThemeDark => self.settings.theme = ThemeChoice::Dark,
+            Id::ThemeLight => self.settings.theme = ThemeChoice::Light,
+            Id::ScaleUp => self.set_scale(self.settings.scale + 0.1),
+            Id::ScaleDown => self.set_scale(self.settings.scale - 0.1),
+            Id::ScaleReset => self.set_scale(1.0),
+            Id::FullScreen => return Some(Effect::FullScreen),
+            Id::ResetLayout => return Some(Effect::ResetLayout),
+            Id::RetryDevice => return Some(Effect::RetryDevice),
+
+            Id::Palette => self.toggle(Overlay::Palette),
+            Id::Shortcuts => self.toggle(Overlay::Shortcuts),
+            Id::About => self.toggle(Overlay::About),
+        }
+        None
+    }
+
+    fn toggle(&mut self, overlay: Overlay) {
+        self.overlay = if self.overlay == Some(overlay) { None } else { Some(overlay) };
+    }
+
+    /// Starts in `direction`, or stops when time already runs that way.
+    fn play(&mut self, direction: f32) {
+        let speed = self.settings.speed * direction;
+        let (now, repeat) = (self.now, self.playback.repeat);
+        if self.playback.playing && self.playback.speed == speed {
+            self.playback = self.playback.with(false, speed, repeat, now);
+            return;
+        }
+        self.playback = self.playback.with(true, speed, repeat, now);
+        // A take that arrived at its end starts again.
+        if repeat == Repeat::Once && self.playback.at_end(now) {
+            let begin = self.playback.start + if direction < 0.0 { self.playback.length } else { 0.0 };
+            self.playback = self.playback.seek(begin, now);
+        }
+    }
+
+    fn seek(&mut self, time: f32) {
+        self.playback = self.playback.seek(time, self.now);
+    }
+
+    /// Goes to `time` and stays there: who steps wants to look.
+    fn stop_at(&mut self, time: f32) {
+        let (speed, repeat) = (self.playback.speed, self.playback.repeat);
+        self.playback = self.playback.with(false, speed, repeat, self.now).seek(time, self.now);
+    }
+
+    fn step_frame(&mut self, direction: i64) {
+        self.stop_at(ruler::step_frame(self.time(), direction, self.settings.frame_rate));
+    }
+
+    fn step_key(&mut self, forward: bool) {
+        if let Some(time) = ruler::step_key(&self.digest.lanes.all, self.time(), forward) {
+            self.stop_at(time);
+        }
+    }
+
+    fn step_take(&mut self, direction: isize) {
+        let count = self.digest.takes.len() as isize;
+        if count > 0 {
+            let current =
+                self.playback.take.map_or(if direction > 0 { -1 } else { count }, |take| take as isize);
+            self.show_take(Some((current + direction).rem_euclid(count) as usize));
+        }
+    }
+
+    fn set_speed(&mut self, speed: f32) {
+        if !speed.is_finite() {
+            return;
+        }
+        self.settings.speed = speed.clamp(*SPEEDS.start(), *SPEEDS.end());
+        let signed = self.settings.speed * if self.playback.speed < 0.0 { -1.0 } else { 1.0 };
+        let (playing, repeat) = (self.playback.playing, self.playback.repeat);
+        self.playback = self.playback.with(playing, signed, repeat, self.now);
+    }
+
+    fn set_repeat(&mut self, repeat: Repeat) {
+        self.settings.repeat = repeat;
+        let (playing, speed) = (self.playback.playing, self.playback.speed);
+        self.playback = self.playback.with(playing, speed, repeat, self.now);
+    }
+
+    fn set_scale(&mut self, scale: f32) {
+        let steps = (scale * 20.0).round() / 20.0;
+        self.settings.scale = steps.clamp(*SCALES.start(), *SCALES.end());
+    }
+
+    fn set_viewport(&mut self, rect: egui::Rect) {
+        self.viewport = rect;
+        // The first model may arrive before the first layout; it is placed when its place is known.
+        if !self.framed && self.view.is_some() {
+            self.frame_all();
+            self.framed = true;
+        }
+    }
+
+    fn select_parent(&mut self) {
+        let Some(loaded) = self.loaded() else { return };
+        let bones = &loaded.model.animation.skeleton.bones;
+        match self.selected {
+            Some(bone) => {
+                if let Some(parent) = bones.get(bone as usize).and_then(|bone| bone.parent) {
+                    self.selected = Some(parent);
+                }
+            }
+            None => self.selected = (!bones.is_empty()).then_some(0),
+        }
+    }
+
+    fn select_child(&mut self) {
+        let Some(loaded) = self.loaded() else { return };
+        let child = loaded.model.animation.skeleton.children(self.selected).next();
+        self.selected = child.or(self.selected);
+    }
+}

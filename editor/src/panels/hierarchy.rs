@@ -1,0 +1,226 @@
+//! The skeleton as a tree, with a search field.
+
+use super::digest::Row;
+use super::icons::Icon;
+use super::state::{Request, State};
+use super::style::{GRID, ROW};
+use super::theme::Theme;
+use super::{Panel, Place, widgets};
+use dragonfly_anim::data::BoneIndex;
+use egui::{Rect, ScrollArea, Sense, TextEdit, TextStyle, Ui, pos2, vec2};
+use std::collections::HashSet;
+
+/// The skeleton as a tree.
+#[derive(Debug, Default)]
+pub struct Hierarchy {
+    query: String,
+    /// Bones whose children are hidden.
+    collapsed: HashSet<BoneIndex>,
+    /// The selection that was last scrolled to.
+    followed: Option<BoneIndex>,
+    generation: Option<u64>,
+}
+
+impl Panel for Hierarchy {
+    fn id(&self) -> &'static str {
+        "hierarchy"
+    }
+
+    fn title(&self) -> &'static str {
+        "Skeleton"
+    }
+
+    fn place(&self) -> Place {
+        Place::Left
+    }
+
+    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        let generation = state.view.as_ref().map(|view| view.generation);
+        if self.generation != generation {
+            *self = Self { generation, query: std::mem::take(&mut self.query), ..Self::default() };
+        }
+        if state.view.is_none() {
+            return widgets::empty(ui, "No model is open", "");
+        }
+        if state.digest.rows.is_empty() {
+            return widgets::empty(ui, "No bones", "This model has nothing that moves");
+        }
+        self.search(ui, state);
+        let rows = self.visible(state);
+        if rows.is_empty() {
+            return widgets::empty(ui, "No bone is called that", "");
+        }
+        self.tree(ui, state, &rows, requests);
+    }
+}
+
+impl Hierarchy {
+    fn search(&mut self, ui: &mut Ui, state: &State) {
+        let theme = Theme::of(ui);
+        ui.add_space(GRID);
+        ui.horizontal(|ui| {
+            ui.add_space(2.0 * GRID);
+            let width = ui.available_width() - 2.0 * GRID;
+            let field = TextEdit::singleline(&mut self.query)
+                .hint_text("Find a bone")
+                .desired_width(width)
+                .margin(egui::Margin { left: 26, right: 24, top: 4, bottom: 4 });
+            let response = ui.add(field).accessible_name("Find a bone");
+            let rect = response.rect;
+            let lens = Rect::from_center_size(pos2(rect.left() + 13.0, rect.center().y), vec2(16.0, 16.0));
+            Icon::Search.paint(ui.painter(), lens, theme.faint);
+            if state.find {
+                response.request_focus();
+            }
+            if !self.query.is_empty() {
+                let cross =
+                    Rect::from_center_size(pos2(rect.right() - 13.0, rect.center().y), vec2(20.0, 20.0));
+                let clear = ui.interact(cross, response.id.with("clear"), Sense::click());
+                clear.widget_info(|| {
+                    egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, "Clear search")
+                });
+                let color = if clear.hovered() { theme.text } else { theme.weak };
+                Icon::Close.paint(ui.painter(), cross, color);
+                if clear.clicked() {
+                    self.query.clear();
+                }
+            }
+        });
+        ui.add_space(GRID);
+    }
+
+    /// The rows to show: those that match and their ancestors, or those that no ancestor hides.
+    fn visible(&mut self, state: &State) -> Vec<(Row, bool)> {
+        let rows = &state.digest.rows;
+        let query = self.query.trim().to_lowercase();
+        if !query.is_empty() {
+            return matching(rows, |bone| state.bone_name(bone).to_lowercase().contains(&query));
+        }
+        // A selection made elsewhere is brought to light.
+        if state.selected != self.followed
+            && let (Some(selected), Some(loaded)) = (state.selected, state.loaded())
+        {
+            let bones = &loaded.model.animation.skeleton.bones;
+            let mut above = bones.get(selected as usize).and_then(|bone| bone.parent);
+            while let Some(bone) = above {
+                self.collapsed.remove(&bone);
+                above = bones.get(bone as usize).and_then(|bone| bone.parent);
+            }
+        }
+        let mut out = Vec::with_capacity(rows.len());
+        let mut index = 0;
+        while let Some(&row) = rows.get(index) {
+            out.push((row, true));
+            index += 1;
+            if self.collapsed.contains(&row.bone) {
+                index += row.below as usize;
+            }
+        }
+        out
+    }
+
+    fn tree(&mut self, ui: &mut Ui, state: &State, rows: &[(Row, bool)], requests: &mut Vec<Request>) {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let mut area = ScrollArea::vertical().auto_shrink(false);
+        if state.selected != self.followed {
+            self.followed = state.selected;
+            let place = rows.iter().position(|(row, _)| Some(row.bone) == state.selected);
+            if let Some(place) = place {
+                let middle = place as f32 * ROW - ui.available_height() / 2.0 + ROW / 2.0;
+                let tall = rows.len() as f32 * ROW - ui.available_height();
+                area = area.vertical_scroll_offset(middle.clamp(0.0, tall.max(0.0)));
+            }
+        }
+        area.show_rows(ui, ROW, rows.len(), |ui, range| {
+            for &(row, hit) in &rows[range] {
+                self.row(ui, state, row, hit, requests);
+            }
+        });
+    }
+
+    fn row(&mut self, ui: &mut Ui, state: &State, row: Row, hit: bool, requests: &mut Vec<Request>) {
+        let theme = Theme::of(ui);
+        let name = state.bone_name(row.bone);
+        let selected = state.selected == Some(row.bone);
+        let (rect, response) = widgets::row(ui, &name, selected, state.hovered == Some(row.bone));
+        // Very deep skeletons stay readable: the indentation ends, the order goes on.
+        let indent = 10.0 + (row.depth as f32 * 12.0).min(rect.width() * 0.5);
+        let color = match (selected, hit) {
+            (true, _) => theme.accent,
+            (false, true) => theme.text,
+            (false, false) => theme.faint,
+        };
+        let left = rect.left() + indent;
+        if row.parent && self.query.trim().is_empty() {
+            let mark = Rect::from_center_size(pos2(left + 6.0, rect.center().y), vec2(16.0, ROW));
+            let toggle = ui.interact(mark, response.id.with("fold"), Sense::click());
+            let folded = self.collapsed.contains(&row.bone);
+            let verb = if folded { "Expand" } else { "Collapse" };
+            toggle.widget_info(|| {
+                egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("{verb} {name}"))
+            });
+            let tone = if toggle.hovered() { theme.text } else { theme.weak };
+            fold_mark(ui, mark.center(), folded, tone);
+            if toggle.clicked() {
+                self.fold(row, state, ui.input(|input| input.modifiers.shift || input.modifiers.alt));
+            }
+        }
+        let text =
+            Rect::from_min_max(pos2(left + 18.0, rect.top()), pos2(rect.right() - 12.0, rect.bottom()));
+        widgets::text_in(ui, text, &name, &TextStyle::Body, color);
+        if response.hovered() {
+            requests.push(Request::Hover(row.bone));
+        }
+        if response.clicked() {
+            self.followed = Some(row.bone);
+            requests.push(Request::Select(Some(row.bone)));
+        }
+        if response.double_clicked() {
+            requests.push(Request::Command(super::commands::Id::FrameSelected));
+        }
+    }
+
+    /// Folds or unfolds one bone; with `all`, everything below it too.
+    fn fold(&mut self, row: Row, state: &State, all: bool) {
+        let fold = !self.collapsed.contains(&row.bone);
+        let count = if all { row.below as usize } else { 0 };
+        let start = state.digest.rows.iter().position(|other| other.bone == row.bone).unwrap_or(0);
+        for row in state.digest.rows.iter().skip(start).take(count + 1).filter(|row| row.parent) {
+            if fold {
+                self.collapsed.insert(row.bone);
+            } else {
+                self.collapsed.remove(&row.bone);
+            }
+        }
+    }
+}
+
+/// A small triangle: to the right when folded, down when not.
+fn fold_mark(ui: &Ui, center: egui::Pos2, folded: bool, color: egui::Color32) {
+    let points = if folded {
+        vec![center + vec2(-2.0, -4.0), center + vec2(3.0, 0.0), center + vec2(-2.0, 4.0)]
+    } else {
+        vec![center + vec2(-4.0, -2.0), center + vec2(4.0, -2.0), center + vec2(0.0, 3.0)]
+    };
+    ui.painter().add(egui::Shape::convex_polygon(points, color, egui::Stroke::NONE));
+}
+
+/// Rows whose bone satisfies `hit`, and all their ancestors, in order; the flag tells the first from the second.
+fn matching(rows: &[Row], hit: impl Fn(BoneIndex) -> bool) -> Vec<(Row, bool)> {
+    let hits: Vec<bool> = rows.iter().map(|row| hit(row.bone)).collect();
+    let mut kept = hits.clone();
+    // From the end: what keeps a row keeps the nearest shallower row before it.
+    let mut wanted: Option<u32> = None;
+    for index in (0..rows.len()).rev() {
+        let depth = rows[index].depth;
+        if wanted.is_some_and(|below| depth < below) {
+            kept[index] = true;
+        }
+        if kept[index] {
+            wanted = if depth == 0 { None } else { Some(wanted.map_or(depth, |below| below.min(depth))) };
+        } else if depth == 0 {
+            wanted = None;
+        }
+    }
+    rows.iter().zip(hits).zip(kept).filter(|(_, kept)| *kept).map(|((row, hit), _)| (*row, hit)).collect()
+}

@@ -1,0 +1,264 @@
+//! Icons as strokes on a grid of sixteen, so that no font can lack them and they follow the text's colour.
+
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+
+/// What can be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // The names say it.
+pub enum Icon {
+    Play,
+    Pause,
+    Reverse,
+    First,
+    Last,
+    FrameBack,
+    FrameForward,
+    KeyBack,
+    KeyForward,
+    Once,
+    Loop,
+    PingPong,
+    Search,
+    Close,
+    Bone,
+    Take,
+    Grid,
+    Material,
+    Clay,
+    Unlit,
+    XRay,
+    Surface,
+    Frame,
+    Perspective,
+    Orthographic,
+    View,
+    Open,
+    Warning,
+    Error,
+    Info,
+    Octahedra,
+    Sticks,
+    Lines,
+}
+
+impl Icon {
+    /// Every icon.
+    pub const ALL: &[Self] = &[
+        Self::Play,
+        Self::Pause,
+        Self::Reverse,
+        Self::First,
+        Self::Last,
+        Self::FrameBack,
+        Self::FrameForward,
+        Self::KeyBack,
+        Self::KeyForward,
+        Self::Once,
+        Self::Loop,
+        Self::PingPong,
+        Self::Search,
+        Self::Close,
+        Self::Bone,
+        Self::Take,
+        Self::Grid,
+        Self::Material,
+        Self::Clay,
+        Self::Unlit,
+        Self::XRay,
+        Self::Surface,
+        Self::Frame,
+        Self::Perspective,
+        Self::Orthographic,
+        Self::View,
+        Self::Open,
+        Self::Warning,
+        Self::Error,
+        Self::Info,
+        Self::Octahedra,
+        Self::Sticks,
+        Self::Lines,
+    ];
+
+    /// Draws it into the middle of `rect`, 16 points large.
+    pub fn paint(self, painter: &Painter, rect: Rect, color: Color32) {
+        let pen = Pen { painter, origin: rect.center() - vec2(8.0, 8.0), color };
+        match self {
+            Self::Play => pen.solid(&[(5.0, 3.0), (13.0, 8.0), (5.0, 13.0)]),
+            Self::Reverse => pen.solid(&[(11.0, 3.0), (3.0, 8.0), (11.0, 13.0)]),
+            Self::Pause => {
+                pen.bar(4.0, 3.0, 3.0, 10.0);
+                pen.bar(9.0, 3.0, 3.0, 10.0);
+            }
+            Self::First => {
+                pen.bar(3.0, 3.5, 1.6, 9.0);
+                pen.solid(&[(13.0, 3.5), (6.0, 8.0), (13.0, 12.5)]);
+            }
+            Self::Last => {
+                pen.bar(11.4, 3.5, 1.6, 9.0);
+                pen.solid(&[(3.0, 3.5), (10.0, 8.0), (3.0, 12.5)]);
+            }
+            Self::FrameBack => pen.line(&[(9.5, 4.0), (5.5, 8.0), (9.5, 12.0)]),
+            Self::FrameForward => pen.line(&[(6.5, 4.0), (10.5, 8.0), (6.5, 12.0)]),
+            Self::KeyBack => {
+                pen.line(&[(6.0, 4.5), (2.5, 8.0), (6.0, 11.5)]);
+                pen.diamond(10.5, 8.0, 3.4);
+            }
+            Self::KeyForward => {
+                pen.line(&[(10.0, 4.5), (13.5, 8.0), (10.0, 11.5)]);
+                pen.diamond(5.5, 8.0, 3.4);
+            }
+            Self::Once => {
+                pen.line(&[(2.5, 8.0), (11.0, 8.0)]);
+                pen.line(&[(8.0, 5.0), (11.0, 8.0), (8.0, 11.0)]);
+                pen.line(&[(13.5, 4.0), (13.5, 12.0)]);
+            }
+            Self::Loop => {
+                pen.line(&[(3.0, 9.0), (3.0, 5.0), (12.0, 5.0)]);
+                pen.line(&[(10.0, 3.0), (12.3, 5.0), (10.0, 7.0)]);
+                pen.line(&[(13.0, 7.0), (13.0, 11.0), (4.0, 11.0)]);
+                pen.line(&[(6.0, 9.0), (3.7, 11.0), (6.0, 13.0)]);
+            }
+            Self::PingPong => {
+                pen.line(&[(2.5, 8.0), (13.5, 8.0)]);
+                pen.line(&[(5.0, 5.0), (2.2, 8.0), (5.0, 11.0)]);
+                pen.line(&[(11.0, 5.0), (13.8, 8.0), (11.0, 11.0)]);
+            }
+            Self::Search => {
+                pen.ring(7.0, 7.0, 4.0);
+                pen.line(&[(10.0, 10.0), (13.5, 13.5)]);
+            }
+            Self::Close => {
+                pen.line(&[(4.5, 4.5), (11.5, 11.5)]);
+                pen.line(&[(11.5, 4.5), (4.5, 11.5)]);
+            }
+            Self::Bone | Self::Octahedra => {
+                pen.outline(&[(3.0, 13.0), (4.0, 8.0), (13.0, 3.0), (8.0, 12.0)]);
+                pen.line(&[(4.0, 8.0), (8.0, 12.0)]);
+            }
+            Self::Sticks => {
+                pen.ring(4.2, 11.8, 2.0);
+                pen.ring(11.8, 4.2, 2.0);
+                pen.line(&[(5.7, 10.3), (10.3, 5.7)]);
+            }
+            Self::Lines => pen.line(&[(3.0, 13.0), (8.0, 9.0), (9.5, 5.0), (13.0, 3.0)]),
+            Self::Take => {
+                pen.outline(&[(2.5, 4.0), (13.5, 4.0), (13.5, 12.0), (2.5, 12.0)]);
+                pen.solid(&[(6.5, 6.0), (10.5, 8.0), (6.5, 10.0)]);
+            }
+            Self::Grid => {
+                for at in [3.5, 8.0, 12.5] {
+                    pen.line(&[(at, 2.5), (at, 13.5)]);
+                    pen.line(&[(2.5, at), (13.5, at)]);
+                }
+            }
+            Self::Material => {
+                pen.ring(8.0, 8.0, 5.2);
+                pen.dot(6.2, 6.2, 1.7);
+            }
+            Self::Clay => pen.dot(8.0, 8.0, 5.2),
+            Self::Unlit => pen.ring(8.0, 8.0, 5.2),
+            Self::XRay => {
+                pen.outline(&[(2.5, 2.5), (10.5, 2.5), (10.5, 10.5), (2.5, 10.5)]);
+                pen.outline(&[(5.5, 5.5), (13.5, 5.5), (13.5, 13.5), (5.5, 13.5)]);
+            }
+            Self::Surface => {
+                pen.outline(&[(8.0, 2.0), (13.5, 5.0), (13.5, 11.0), (8.0, 14.0), (2.5, 11.0), (2.5, 5.0)]);
+                pen.line(&[(2.5, 5.0), (8.0, 8.0), (13.5, 5.0)]);
+                pen.line(&[(8.0, 8.0), (8.0, 14.0)]);
+            }
+            Self::Frame => {
+                pen.line(&[(2.5, 5.5), (2.5, 2.5), (5.5, 2.5)]);
+                pen.line(&[(10.5, 2.5), (13.5, 2.5), (13.5, 5.5)]);
+                pen.line(&[(13.5, 10.5), (13.5, 13.5), (10.5, 13.5)]);
+                pen.line(&[(5.5, 13.5), (2.5, 13.5), (2.5, 10.5)]);
+                pen.dot(8.0, 8.0, 1.8);
+            }
+            Self::Perspective => {
+                pen.outline(&[(5.0, 4.0), (11.0, 4.0), (14.0, 12.5), (2.0, 12.5)]);
+                pen.line(&[(8.0, 4.0), (8.0, 12.5)]);
+                pen.line(&[(3.8, 7.5), (12.2, 7.5)]);
+            }
+            Self::Orthographic => {
+                pen.outline(&[(3.0, 3.0), (13.0, 3.0), (13.0, 13.0), (3.0, 13.0)]);
+                pen.line(&[(8.0, 3.0), (8.0, 13.0)]);
+                pen.line(&[(3.0, 8.0), (13.0, 8.0)]);
+            }
+            Self::View => {
+                pen.line(&[(8.0, 8.5), (8.0, 2.5)]);
+                pen.line(&[(8.0, 8.5), (2.8, 12.0)]);
+                pen.line(&[(8.0, 8.5), (13.2, 12.0)]);
+                pen.dot(8.0, 2.8, 1.5);
+                pen.dot(3.0, 12.0, 1.5);
+                pen.dot(13.0, 12.0, 1.5);
+            }
+            Self::Open => {
+                pen.outline(&[(2.0, 12.5), (2.0, 3.5), (6.0, 3.5), (7.5, 5.5), (14.0, 5.5), (14.0, 12.5)]);
+            }
+            Self::Warning => {
+                pen.outline(&[(8.0, 2.5), (14.0, 13.0), (2.0, 13.0)]);
+                pen.line(&[(8.0, 6.5), (8.0, 9.5)]);
+                pen.dot(8.0, 11.3, 0.8);
+            }
+            Self::Error => {
+                pen.ring(8.0, 8.0, 5.5);
+                pen.line(&[(8.0, 5.0), (8.0, 8.8)]);
+                pen.dot(8.0, 10.8, 0.8);
+            }
+            Self::Info => {
+                pen.ring(8.0, 8.0, 5.5);
+                pen.dot(8.0, 5.2, 0.8);
+                pen.line(&[(8.0, 7.4), (8.0, 11.0)]);
+            }
+        }
+    }
+}
+
+/// Draws on the icon's own grid.
+struct Pen<'a> {
+    painter: &'a Painter,
+    origin: Pos2,
+    color: Color32,
+}
+
+impl Pen<'_> {
+    fn at(&self, x: f32, y: f32) -> Pos2 {
+        self.origin + vec2(x, y)
+    }
+
+    fn points(&self, points: &[(f32, f32)]) -> Vec<Pos2> {
+        points.iter().map(|&(x, y)| self.at(x, y)).collect()
+    }
+
+    fn stroke(&self) -> Stroke {
+        Stroke::new(1.3, self.color)
+    }
+
+    fn line(&self, points: &[(f32, f32)]) {
+        self.painter.add(Shape::line(self.points(points), self.stroke()));
+    }
+
+    fn outline(&self, points: &[(f32, f32)]) {
+        self.painter.add(Shape::closed_line(self.points(points), self.stroke()));
+    }
+
+    fn solid(&self, points: &[(f32, f32)]) {
+        self.painter.add(Shape::convex_polygon(self.points(points), self.color, Stroke::NONE));
+    }
+
+    fn bar(&self, x: f32, y: f32, width: f32, height: f32) {
+        let rect = Rect::from_min_size(pos2(self.origin.x + x, self.origin.y + y), vec2(width, height));
+        self.painter.rect_filled(rect, 0.5, self.color);
+    }
+
+    fn ring(&self, x: f32, y: f32, radius: f32) {
+        self.painter.circle_stroke(self.at(x, y), radius, self.stroke());
+    }
+
+    fn dot(&self, x: f32, y: f32, radius: f32) {
+        self.painter.circle_filled(self.at(x, y), radius, self.color);
+    }
+
+    fn diamond(&self, x: f32, y: f32, radius: f32) {
+        self.solid(&[(x, y - radius), (x + radius, y), (x, y + radius), (x - radius, y)]);
+    }
+}

@@ -1,0 +1,226 @@
+//! Where the panels stand: a tree of tiles, moved and resized by hand, remembered between runs.
+
+use super::state::{Request, State};
+use super::style::{self, GRID};
+use super::theme::Theme;
+use super::{Panel, Place, VIEWPORT, timeline};
+use egui::{Color32, Frame, Stroke, Ui, Visuals, WidgetText};
+use egui_tiles::{
+    Behavior, Container, Linear, LinearDir, ResizeState, SimplificationOptions, TabState, Tabs, Tile, TileId,
+    Tiles, Tree, UiResponse,
+};
+use serde::{Deserialize, Serialize};
+
+/// A panel's place in the tree: its name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Pane(String);
+
+/// Where the panels stand.
+#[derive(Debug)]
+pub struct Layout {
+    tree: Tree<Pane>,
+}
+
+/// Changes with the meaning of the stored tree.
+const VERSION: u32 = 1;
+
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    version: u32,
+    tree: Tree<Pane>,
+}
+
+impl Layout {
+    /// The usual places, as the panels say.
+    pub fn usual(panels: &[Box<dyn Panel>]) -> Self {
+        let mut tiles = Tiles::default();
+        let mut column = |place: Place| -> Vec<TileId> {
+            let panes = panels.iter().filter(|panel| panel.place() == place);
+            panes.map(|panel| tiles.insert_pane(Pane(panel.id().to_owned()))).collect()
+        };
+        let (left, left_below, middle, right, below) = (
+            column(Place::Left),
+            column(Place::LeftBelow),
+            column(Place::Middle),
+            column(Place::Right),
+            column(Place::Below),
+        );
+        let tabs = |tiles: &mut Tiles<Pane>, panes: Vec<TileId>| tiles.insert_tab_tile(panes);
+        let (upper, lower) = (tabs(&mut tiles, left), tabs(&mut tiles, left_below));
+        let left = tiles.insert_new(linear(LinearDir::Vertical, &[(upper, 0.68), (lower, 0.32)]));
+        let middle = tabs(&mut tiles, middle);
+        let right = tabs(&mut tiles, right);
+        let top =
+            tiles.insert_new(linear(LinearDir::Horizontal, &[(left, 0.19), (middle, 0.61), (right, 0.20)]));
+        let below = tabs(&mut tiles, below);
+        let share = timeline::HEIGHT / 664.0;
+        let root = tiles.insert_new(linear(LinearDir::Vertical, &[(top, 1.0 - share), (below, share)]));
+        Self { tree: Tree::new(egui::Id::unique("panels"), root, tiles) }
+    }
+
+    /// From the text of a layout file; a damaged one, or one that lacks a panel, gives the usual places.
+    pub fn parse(text: &str, panels: &[Box<dyn Panel>]) -> Self {
+        let stored = serde_json::from_str::<Stored>(text).ok().filter(|stored| stored.version == VERSION);
+        let tree = stored.map(|stored| stored.tree).filter(|tree| sound(tree, panels));
+        tree.map_or_else(|| Self::usual(panels), |tree| Self { tree })
+    }
+
+    /// As the text of a layout file.
+    pub fn to_text(&self) -> String {
+        // Plain data always has a text.
+        serde_json::to_string(&Stored { version: VERSION, tree: self.tree.clone() }).unwrap_or_default()
+    }
+
+    /// Is the panel shown?
+    pub fn is_shown(&self, id: &str) -> bool {
+        self.find(id).is_some_and(|tile| self.tree.is_visible(tile))
+    }
+
+    /// Shows or hides the panel.
+    pub fn toggle(&mut self, id: &str) {
+        if let Some(tile) = self.find(id) {
+            let shown = self.tree.is_visible(tile);
+            self.tree.set_visible(tile, !shown);
+        }
+    }
+
+    fn find(&self, id: &str) -> Option<TileId> {
+        self.tree.tiles.find_pane(&Pane(id.to_owned()))
+    }
+
+    /// Draws every panel in its place.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        panels: &mut [Box<dyn Panel>],
+        state: &State,
+        requests: &mut Vec<Request>,
+    ) {
+        let viewport = self.find(VIEWPORT);
+        let mut hand = Hand { panels, state, requests, viewport };
+        self.tree.ui(&mut hand, ui);
+    }
+}
+
+fn linear(direction: LinearDir, shares: &[(TileId, f32)]) -> Tile<Pane> {
+    let mut linear = Linear::new(direction, shares.iter().map(|&(tile, _)| tile).collect());
+    for &(tile, share) in shares {
+        linear.shares.set_share(tile, share);
+    }
+    Tile::Container(Container::Linear(linear))
+}
+
+/// Has the tree a root, every panel once, and no panel that is unknown?
+fn sound(tree: &Tree<Pane>, panels: &[Box<dyn Panel>]) -> bool {
+    let root = tree.root().and_then(|root| tree.tiles.get(root));
+    let panes: Vec<&str> = tree
+        .tiles
+        .tiles()
+        .filter_map(|tile| if let Tile::Pane(pane) = tile { Some(pane.0.as_str()) } else { None })
+        .collect();
+    root.is_some()
+        && panes.len() == panels.len()
+        && panels.iter().all(|panel| panes.iter().filter(|id| **id == panel.id()).count() == 1)
+}
+
+/// Draws the tiles for egui_tiles.
+struct Hand<'a> {
+    panels: &'a mut [Box<dyn Panel>],
+    state: &'a State,
+    requests: &'a mut Vec<Request>,
+    viewport: Option<TileId>,
+}
+
+impl Behavior<Pane> for Hand<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
+        let Some(panel) = self.panels.iter_mut().find(|panel| panel.id() == pane.0) else {
+            return UiResponse::None;
+        };
+        ui.set_clip_rect(ui.max_rect().intersect(ui.clip_rect()));
+        if pane.0 == VIEWPORT {
+            panel.show(ui, self.state, self.requests);
+        } else {
+            let fill = Theme::of(ui).panel;
+            ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
+            Frame::NONE.show(ui, |ui| panel.show(ui, self.state, self.requests));
+        }
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
+        self.panels.iter().find(|panel| panel.id() == pane.0).map_or("", |panel| panel.title()).into()
+    }
+
+    fn is_tab_bar_visible(&self, _tile: TileId, tabs: &Tabs) -> bool {
+        // The picture needs no title; with another panel beside it, it does.
+        !(tabs.children.len() == 1 && self.viewport == Some(tabs.children[0]))
+    }
+
+    fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
+        style::BAR
+    }
+
+    fn gap_width(&self, _style: &egui::Style) -> f32 {
+        2.0
+    }
+
+    fn min_size(&self) -> f32 {
+        96.0
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SimplificationOptions { all_panes_must_have_tabs: true, ..SimplificationOptions::default() }
+    }
+
+    fn resize_stroke(&self, style: &egui::Style, state: ResizeState) -> Stroke {
+        let theme = Theme::get(style.visuals.dark_mode);
+        match state {
+            ResizeState::Idle => Stroke::new(2.0, theme.gap),
+            ResizeState::Hovering | ResizeState::Dragging => Stroke::new(2.0, theme.accent),
+        }
+    }
+
+    fn tab_title_spacing(&self, _visuals: &Visuals) -> f32 {
+        3.0 * GRID
+    }
+
+    fn tab_bar_color(&self, visuals: &Visuals) -> Color32 {
+        Theme::get(visuals.dark_mode).bar
+    }
+
+    fn tab_bg_color(
+        &self,
+        visuals: &Visuals,
+        _tiles: &Tiles<Pane>,
+        _tile: TileId,
+        state: &TabState,
+    ) -> Color32 {
+        if state.active { Theme::get(visuals.dark_mode).panel } else { Color32::TRANSPARENT }
+    }
+
+    fn tab_outline_stroke(&self, _: &Visuals, _: &Tiles<Pane>, _: TileId, _: &TabState) -> Stroke {
+        Stroke::NONE
+    }
+
+    fn tab_bar_hline_stroke(&self, visuals: &Visuals) -> Stroke {
+        Stroke::new(1.0, Theme::get(visuals.dark_mode).panel)
+    }
+
+    fn tab_text_color(&self, visuals: &Visuals, _: &Tiles<Pane>, _: TileId, state: &TabState) -> Color32 {
+        let theme = Theme::get(visuals.dark_mode);
+        if state.active { theme.text } else { theme.weak }
+    }
+
+    fn drag_preview_stroke(&self, visuals: &Visuals) -> Stroke {
+        Stroke::new(1.0, Theme::get(visuals.dark_mode).accent)
+    }
+
+    fn drag_preview_color(&self, visuals: &Visuals) -> Color32 {
+        Theme::get(visuals.dark_mode).accent.gamma_multiply(0.2)
+    }
+
+    fn drag_ui(&mut self, tiles: &Tiles<Pane>, ui: &mut Ui, tile: TileId) {
+        let title = self.tab_title_for_tile(tiles, tile);
+        Frame::popup(ui.style()).show(ui, |ui| ui.label(title.color(Theme::of(ui).text)));
+    }
+}

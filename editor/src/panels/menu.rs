@@ -1,0 +1,138 @@
+//! The menu bar.
+
+use super::commands::{self, Category, Id};
+use super::settings::{SCALES, ThemeChoice};
+use super::state::{Request, State};
+use super::style::{self, GRID};
+use super::theme::Theme;
+use crate::document::Source;
+use crate::graphics::{BoneLook, Shading};
+use egui::{Align, Button, Layout, MenuBar, RichText, Slider, Ui};
+
+/// Draws the bar; `panels` are id, title and whether they are shown.
+pub fn show(
+    ui: &mut Ui,
+    state: &State,
+    panels: &[(&'static str, &'static str, bool)],
+    requests: &mut Vec<Request>,
+) {
+    MenuBar::new().ui(ui, |ui| {
+        ui.add_space(GRID);
+        ui.menu_button("File", |ui| file(ui, state, requests));
+        ui.menu_button("Edit", |ui| list(ui, &[Category::Selection], requests));
+        ui.menu_button("Play", |ui| list(ui, &[Category::Playback], requests));
+        ui.menu_button("View", |ui| view(ui, state, panels, requests));
+        ui.menu_button("Help", |ui| list(ui, &[Category::Help], requests));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.add_space(2.0 * GRID);
+            let hint = format!("Find a command  {}", commands::shortcut_text(Id::Palette));
+            let button =
+                Button::new(RichText::new(hint).size(style::SMALL).color(Theme::of(ui).faint)).frame(false);
+            if ui.add(button).on_hover_text(commands::tooltip(Id::Palette)).clicked() {
+                requests.push(Request::Command(Id::Palette));
+            }
+        });
+    });
+}
+
+/// One line: title, shortcut, a mark when `on`.
+pub(super) fn item(ui: &mut Ui, id: Id, on: bool, requests: &mut Vec<Request>) {
+    let command = commands::get(id);
+    let shortcut = RichText::new(commands::shortcut_text(id)).size(style::SMALL).color(Theme::of(ui).faint);
+    let title =
+        RichText::new(command.title).color(if on { Theme::of(ui).accent } else { Theme::of(ui).text });
+    let button = Button::new(title).shortcut_text(shortcut).frame_when_inactive(false);
+    if ui.add(button).on_hover_text(command.help).clicked() {
+        requests.push(Request::Command(id));
+        ui.close();
+    }
+}
+
+fn list(ui: &mut Ui, categories: &[Category], requests: &mut Vec<Request>) {
+    for command in commands::ALL.iter().filter(|command| categories.contains(&command.category)) {
+        item(ui, command.id, false, requests);
+    }
+}
+
+fn file(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    item(ui, Id::Open, false, requests);
+    item(ui, Id::OpenPath, false, requests);
+    ui.menu_button("Open recent", |ui| {
+        if state.settings.recent.is_empty() {
+            ui.add_enabled(false, Button::new("Nothing yet").frame(false));
+        }
+        for path in &state.settings.recent {
+            let name = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+            let button = Button::new(name).frame_when_inactive(false);
+            if ui.add(button).on_hover_text(path.display().to_string()).clicked() {
+                requests.push(Request::Open(Source::File(path.clone())));
+                ui.close();
+            }
+        }
+    });
+    item(ui, Id::OpenBuiltIn, false, requests);
+    if state.loading.is_some() {
+        item(ui, Id::CancelLoading, false, requests);
+    }
+    ui.separator();
+    item(ui, Id::Quit, false, requests);
+}
+
+fn view(
+    ui: &mut Ui,
+    state: &State,
+    panels: &[(&'static str, &'static str, bool)],
+    requests: &mut Vec<Request>,
+) {
+    ui.menu_button("Panels", |ui| {
+        for &(id, title, shown) in panels {
+            let title =
+                RichText::new(title).color(if shown { Theme::of(ui).accent } else { Theme::of(ui).text });
+            if ui.add(Button::new(title).frame_when_inactive(false)).clicked() {
+                requests.push(Request::TogglePanel(id));
+            }
+        }
+        ui.separator();
+        item(ui, Id::ResetLayout, false, requests);
+    });
+    ui.menu_button("Camera", |ui| list(ui, &[Category::Camera], requests));
+    ui.separator();
+    let look = &state.settings.look;
+    item(ui, Id::ToggleGrid, look.grid, requests);
+    item(ui, Id::ToggleSurface, look.surface, requests);
+    item(ui, Id::ToggleSkeleton, look.skeleton, requests);
+    item(ui, Id::ToggleXRay, look.bones_in_front, requests);
+    ui.menu_button("Bones", |ui| {
+        item(ui, Id::BonesOctahedra, look.bone_look == BoneLook::Octahedra, requests);
+        item(ui, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
+        item(ui, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
+    });
+    ui.menu_button("Shading", |ui| {
+        item(ui, Id::ShadeMaterial, look.shading == Shading::Material, requests);
+        item(ui, Id::ShadeClay, look.shading == Shading::Clay, requests);
+        item(ui, Id::ShadeUnlit, look.shading == Shading::Unlit, requests);
+    });
+    ui.separator();
+    ui.menu_button("Theme", |ui| {
+        let theme = state.settings.theme;
+        item(ui, Id::ThemeSystem, theme == ThemeChoice::System, requests);
+        item(ui, Id::ThemeDark, theme == ThemeChoice::Dark, requests);
+        item(ui, Id::ThemeLight, theme == ThemeChoice::Light, requests);
+    });
+    ui.menu_button("Size of everything", |ui| {
+        item(ui, Id::ScaleUp, false, requests);
+        item(ui, Id::ScaleDown, false, requests);
+        item(ui, Id::ScaleReset, false, requests);
+        let mut scale = state.settings.scale;
+        let slider = Slider::new(&mut scale, SCALES).step_by(0.05).update_while_editing(false);
+        let response = ui.add(slider).accessible_name("Scale");
+        // Not while dragging: the slider would slide away under the pointer.
+        if response.drag_stopped() || (response.changed() && !response.dragged()) {
+            requests.push(Request::Scale(scale));
+        }
+    });
+    item(ui, Id::FullScreen, state.full_screen, requests);
+    if matches!(state.device, super::state::Device::Paused { .. }) {
+        item(ui, Id::RetryDevice, false, requests);
+    }
+}

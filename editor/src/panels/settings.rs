@@ -1,0 +1,125 @@
+//! What the program remembers between runs.
+
+use crate::graphics::{BoneLook, Shading};
+use crate::playback::Repeat;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// Light, dark, or as the desktop says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ThemeChoice {
+    /// As the desktop says; dark where it says nothing.
+    #[default]
+    System,
+    /// For dim rooms.
+    Dark,
+    /// For bright rooms.
+    Light,
+}
+
+/// How the picture is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct LookSettings {
+    /// Ground grid.
+    pub grid: bool,
+    /// Bones.
+    pub skeleton: bool,
+    /// Form of bones.
+    pub bone_look: BoneLook,
+    /// Bones through the surface.
+    pub bones_in_front: bool,
+    /// How surfaces are drawn.
+    pub shading: Shading,
+    /// Is the surface drawn?
+    pub surface: bool,
+}
+
+impl Default for LookSettings {
+    fn default() -> Self {
+        Self {
+            grid: true,
+            skeleton: true,
+            bone_look: BoneLook::default(),
+            bones_in_front: true,
+            shading: Shading::default(),
+            surface: true,
+        }
+    }
+}
+
+/// Frame rates that can be chosen for the display of time.
+pub const FRAME_RATES: &[u32] = &[24, 25, 30, 60];
+/// Smallest and largest scale of the window's content.
+pub const SCALES: std::ops::RangeInclusive<f32> = 0.75..=2.0;
+/// Slowest and fastest playback.
+pub const SPEEDS: std::ops::RangeInclusive<f32> = 0.05..=8.0;
+/// How many files are remembered.
+pub const RECENT: usize = 10;
+
+/// Everything remembered, apart from the places of the panels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Light or dark.
+    pub theme: ThemeChoice,
+    /// 1 = usual size.
+    pub scale: f32,
+    /// How the picture is drawn.
+    pub look: LookSettings,
+    /// At the end of a take.
+    pub repeat: Repeat,
+    /// Take seconds a second.
+    pub speed: f32,
+    /// Frames a second, for display and stepping.
+    pub frame_rate: u32,
+    /// Newest first.
+    pub recent: Vec<PathBuf>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            theme: ThemeChoice::default(),
+            scale: 1.0,
+            look: LookSettings::default(),
+            repeat: Repeat::default(),
+            speed: 1.0,
+            frame_rate: 30,
+            recent: Vec::new(),
+        }
+    }
+}
+
+impl Settings {
+    /// From the text of a settings file; a damaged one gives the defaults, a wrong number the nearest right one.
+    pub fn parse(text: &str) -> Self {
+        serde_json::from_str::<Self>(text).unwrap_or_default().mended()
+    }
+
+    /// As the text of a settings file.
+    pub fn to_text(&self) -> String {
+        // Plain data of strings and finite numbers always has a text.
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+
+    fn mended(mut self) -> Self {
+        self.scale =
+            if self.scale.is_finite() { self.scale.clamp(*SCALES.start(), *SCALES.end()) } else { 1.0 };
+        self.speed =
+            if self.speed.is_finite() { self.speed.clamp(*SPEEDS.start(), *SPEEDS.end()) } else { 1.0 };
+        if !FRAME_RATES.contains(&self.frame_rate) {
+            self.frame_rate = 30;
+        }
+        self.recent.truncate(RECENT);
+        self
+    }
+
+    /// Remembers that `path` was opened.
+    pub fn remember(&mut self, path: &Path) {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        self.recent.retain(|other| *other != path);
+        self.recent.insert(0, path);
+        self.recent.truncate(RECENT);
+    }
+}

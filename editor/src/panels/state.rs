@@ -1,0 +1,323 @@
+//! What is shown and chosen right now. Panels read it and ask for changes; only [`super::execute`] makes them.
+
+use super::digest::Digest;
+use super::settings::Settings;
+use super::status::Status;
+use crate::camera::Camera;
+use crate::document::{LoadedModel, Progress, Source, View};
+use crate::playback::Playback;
+use dragonfly_anim::animation::Animation;
+use dragonfly_anim::data::{BoneIndex, Take};
+use glam::Vec3;
+use std::time::{Duration, Instant};
+
+use super::commands::Id;
+
+/// A model on its way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loading {
+    /// Its title.
+    pub title: String,
+    /// How far it is.
+    pub progress: Progress,
+}
+
+/// What is known of the graphics device.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Device {
+    /// It is being made.
+    #[default]
+    Starting,
+    /// It draws.
+    Ready {
+        /// Adapter, backend, driver.
+        adapter: String,
+    },
+    /// Lost too often; waits for the person.
+    Paused {
+        /// What the driver said.
+        reason: String,
+    },
+}
+
+/// What lies over the panels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Search for a command.
+    Palette,
+    /// Keys and mouse.
+    Shortcuts,
+    /// Version and licences.
+    About,
+    /// A field for a path.
+    OpenPath,
+}
+
+/// What a panel asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// Does a command of the table.
+    Command(Id),
+    /// Selects a bone, or none.
+    Select(Option<BoneIndex>),
+    /// The pointer is over this bone's row.
+    Hover(BoneIndex),
+    /// Shows a take, or the rest pose.
+    ShowTake(Option<usize>),
+    /// Goes to this time, seconds.
+    Seek(f32),
+    /// Take seconds a second.
+    Speed(f32),
+    /// At the end of the take.
+    Repeat(crate::playback::Repeat),
+    /// Frames a second for the display.
+    FrameRate(u32),
+    /// Scale of the window's content.
+    Scale(f32),
+    /// From where.
+    Camera(Camera),
+    /// Where the picture is, in points.
+    Viewport(egui::Rect),
+    /// Which bone lies under this place, in points?
+    Pick(egui::Pos2),
+    /// Opens a model.
+    Open(Source),
+    /// Shows an overlay, or none.
+    Overlay(Option<Overlay>),
+    /// Shows or hides the panel of this name.
+    TogglePanel(&'static str),
+}
+
+/// What only the surroundings of the panels can do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Shows the system's dialog for opening files.
+    OpenDialog,
+    /// Opens a model.
+    Open(Source),
+    /// Stops the job that loads.
+    CancelLoading,
+    /// Asks the graphics thread which bone lies there, in points.
+    Pick(egui::Pos2),
+    /// Uses the whole screen, or a window again.
+    FullScreen,
+    /// Shows or hides a panel.
+    TogglePanel(&'static str),
+    /// Puts every panel where it was at first.
+    ResetLayout,
+    /// Tries the device again.
+    RetryDevice,
+    /// Ends the program.
+    Quit,
+}
+
+/// Poses at the time shown, computed when somebody reads them.
+#[derive(Debug, Default)]
+pub struct Posed {
+    animation: Option<(u64, Animation)>,
+    at: Option<(Option<usize>, f32)>,
+}
+
+impl Posed {
+    /// The poses of `view` in `take` at `time`.
+    pub fn update(&mut self, view: &View, take: Option<usize>, time: f32) -> &Animation {
+        if self.animation.as_ref().is_none_or(|(generation, _)| *generation != view.generation) {
+            self.animation = None;
+            self.at = None;
+        }
+        let (_, animation) = self
+            .animation
+            .get_or_insert_with(|| (view.generation, Animation::new(view.loaded.model.animation.clone())));
+        if self.at != Some((take, time)) {
+            animation.to_root_bone_poses(take, time);
+            self.at = Some((take, time));
+        }
+        animation
+    }
+
+    /// The poses computed last, if there is a model.
+    pub fn animation(&self) -> Option<&Animation> {
+        self.animation.as_ref().map(|(_, animation)| animation)
+    }
+}
+
+/// Everything the panels show.
+pub struct State {
+    /// The newest document; none before the first model is there.
+    pub view: Option<View>,
+    /// What follows from it.
+    pub digest: Digest,
+    /// Poses at the time shown.
+    pub posed: Posed,
+    /// The selected bone.
+    pub selected: Option<BoneIndex>,
+    /// The bone under the pointer.
+    pub hovered: Option<BoneIndex>,
+    /// Which time of which take.
+    pub playback: Playback,
+    /// From where.
+    pub camera: Camera,
+    /// Has the camera been placed for the model that is open?
+    pub framed: bool,
+    /// What is remembered between runs.
+    pub settings: Settings,
+    /// Quiet lines.
+    pub status: Status,
+    /// A model on its way.
+    pub loading: Option<Loading>,
+    /// The graphics device.
+    pub device: Device,
+    /// How long the last frame took, milliseconds.
+    pub frame_time: Option<f32>,
+    /// What lies over the panels.
+    pub overlay: Option<Overlay>,
+    /// Is the cursor to be put into the search field?
+    pub find: bool,
+    /// Where the picture is, in points.
+    pub viewport: egui::Rect,
+    /// Does the window fill the screen?
+    pub full_screen: bool,
+    /// The moment this frame shows.
+    pub now: Instant,
+}
+
+impl State {
+    /// Nothing open.
+    pub fn new(settings: Settings, now: Instant) -> Self {
+        let playback = Playback::rest(now).with(false, settings.speed, settings.repeat, now);
+        Self {
+            view: None,
+            digest: Digest::default(),
+            posed: Posed::default(),
+            selected: None,
+            hovered: None,
+            playback,
+            camera: Camera::default(),
+            framed: false,
+            settings,
+            status: Status::default(),
+            loading: None,
+            device: Device::default(),
+            frame_time: None,
+            overlay: None,
+            find: false,
+            viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
+            full_screen: false,
+            now,
+        }
+    }
+
+    /// Begins a frame: computes what the panels read.
+    pub fn begin(&mut self, now: Instant) {
+        self.now = now;
+        // A take that plays once has arrived: the button shows it, and nothing needs to wake up any more.
+        if self.playback.playing
+            && self.playback.take.is_some()
+            && !self.playback.moves(now)
+            && self.playback.speed != 0.0
+        {
+            let time = self.playback.time_at(now);
+            self.playback.playing = false;
+            self.playback = self.playback.seek(time, now);
+        }
+        self.digest.update(self.view.as_ref(), self.playback.take, self.selected);
+        if let Some(view) = &self.view
+            && self.selected.is_some()
+        {
+            self.posed.update(view, self.playback.take, self.playback.time_at(now));
+        }
+    }
+
+    /// Shows another document: its first take, playing from the start.
+    pub fn show(&mut self, view: View) {
+        let fresh = self.view.as_ref().is_none_or(|old| !std::sync::Arc::ptr_eq(&old.loaded, &view.loaded));
+        self.view = Some(view);
+        if !fresh {
+            return;
+        }
+        self.selected = None;
+        self.hovered = None;
+        self.framed = false;
+        let has_takes = self.loaded().is_some_and(|loaded| !loaded.model.animation.takes.is_empty());
+        self.show_take(has_takes.then_some(0));
+        self.playback = self.playback.with(has_takes, self.settings.speed, self.settings.repeat, self.now);
+        self.frame_all();
+        self.framed = true;
+    }
+
+    /// Shows a take from its start; keeps playing or standing.
+    pub fn show_take(&mut self, index: Option<usize>) {
+        let bounds = self.take_of(index).map(|take| (take.start, take.length));
+        self.playback.take = bounds.and(index);
+        (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
+        self.playback = self.playback.seek(self.playback.start, self.now);
+    }
+
+    /// Puts everything into the middle of the picture.
+    pub fn frame_all(&mut self) {
+        let aspect = self.aspect();
+        if let Some(loaded) = self.loaded() {
+            let (min, max) = (loaded.bounds.min, loaded.bounds.max);
+            self.camera.frame_box(min, max, aspect);
+        }
+    }
+
+    /// Puts the selected bone and its children into the middle, or everything when none is selected.
+    pub fn frame_selected(&mut self) {
+        let (Some(view), Some(selected)) = (self.view.clone(), self.selected) else {
+            return self.frame_all();
+        };
+        let skeleton = &view.loaded.model.animation.skeleton;
+        let time = self.playback.time_at(self.now);
+        let to_root = self.posed.update(&view, self.playback.take, time).to_root();
+        let at = |bone: BoneIndex| to_root.get(bone as usize).map(|matrix| matrix.w_axis.truncate());
+        let Some(origin) = at(selected).filter(|origin| origin.is_finite()) else { return };
+        let (mut min, mut max) = (origin, origin);
+        for point in skeleton.children(Some(selected)).filter_map(at).filter(|point| point.is_finite()) {
+            min = min.min(point);
+            max = max.max(point);
+        }
+        // A bone without children has no size: a tenth of the model is seen around it.
+        let room = Vec3::splat((view.loaded.bounds.sphere.radius * 0.1).max(1e-4));
+        let aspect = self.aspect();
+        self.camera.frame_box(min - room, max + room, aspect);
+    }
+
+    /// The model that is open.
+    pub fn loaded(&self) -> Option<&LoadedModel> {
+        self.view.as_ref().map(|view| &*view.loaded)
+    }
+
+    /// The take that is shown.
+    pub fn take(&self) -> Option<&Take> {
+        self.take_of(self.playback.take)
+    }
+
+    fn take_of(&self, index: Option<usize>) -> Option<&Take> {
+        self.loaded()?.model.animation.takes.get(index?).map(|take| &**take)
+    }
+
+    /// Seconds in the take, now.
+    pub fn time(&self) -> f32 {
+        self.playback.time_at(self.now)
+    }
+
+    /// The name of a bone, or a stand-in.
+    pub fn bone_name(&self, bone: BoneIndex) -> String {
+        let name = self
+            .loaded()
+            .and_then(|loaded| loaded.model.animation.skeleton.bones.get(bone as usize))
+            .map_or("", |bone| bone.name.as_str());
+        if name.is_empty() { format!("Bone {bone}") } else { name.to_owned() }
+    }
+
+    /// Width over height of the picture.
+    pub fn aspect(&self) -> f32 {
+        (self.viewport.width() / self.viewport.height().max(1.0)).max(0.01)
+    }
+
+    /// When the panels have to be drawn again for the time display, if they have to.
+    pub fn next_display(&self) -> Option<Duration> {
+        self.playback.moves(self.now).then_some(Duration::from_millis(33))
+    }
+}

@@ -1,0 +1,93 @@
+//! The line at the bottom: the newest message, all of them on a click, the device in the corner.
+
+use super::icons::Icon;
+use super::state::{Device, Request, State};
+use super::status::{Level, Line};
+use super::style::{self, GRID};
+use super::theme::Theme;
+use super::widgets;
+use egui::{Align, Color32, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
+
+/// Draws the line.
+pub fn show(ui: &mut Ui, state: &State, _requests: &mut Vec<Request>) {
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.add_space(3.0 * GRID);
+        corner(ui, state);
+        ui.add_space(3.0 * GRID);
+        message(ui, state);
+    });
+}
+
+fn corner(ui: &mut Ui, state: &State) {
+    let theme = Theme::of(ui);
+    match &state.device {
+        Device::Starting => {
+            ui.label(RichText::new("Starting the graphics device…").small().color(theme.faint));
+        }
+        Device::Paused { .. } => {
+            ui.label(RichText::new("Viewport paused").small().color(theme.warning));
+        }
+        Device::Ready { adapter } => {
+            let time = state.frame_time.map_or(String::new(), |time| format!("{time:>5.1} ms"));
+            let font = egui::FontId::monospace(10.0);
+            let label = ui.label(RichText::new(time).font(font).color(theme.faint));
+            label.on_hover_text(format!("{adapter}\nTime that the last frame took"));
+            let name = adapter.split(['(', ',', '·']).next().unwrap_or(adapter).trim();
+            if ui.available_width() > 420.0 {
+                ui.label(RichText::new(name).small().color(theme.faint)).on_hover_text(adapter);
+            }
+        }
+    }
+}
+
+fn message(ui: &mut Ui, state: &State) {
+    let theme = Theme::of(ui);
+    let size = vec2(ui.available_width(), ui.available_height());
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let (text, level) = match (&state.loading, state.status.last()) {
+        (Some(loading), _) => {
+            let percent = (loading.progress.done * 100.0) as u32;
+            let text = format!("{} {}… {percent} %", loading.progress.stage.title(), loading.title);
+            (text, Level::Info)
+        }
+        (None, Some(line)) => (sentence(line), line.level),
+        (None, None) => ("Ready".to_owned(), Level::Info),
+    };
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Messages: {text}"))
+    });
+    let (icon, color) = tone(level, theme);
+    let mark = Rect::from_center_size(pos2(rect.left() + 18.0, rect.center().y), vec2(16.0, 16.0));
+    let color = if response.hovered() { theme.text } else { color };
+    icon.paint(ui.painter(), mark, if level == Level::Info { theme.faint } else { color });
+    let inside = Rect::from_min_max(pos2(rect.left() + 32.0, rect.top()), rect.max);
+    widgets::text_in(ui, inside, &text, &TextStyle::Small, color);
+    let response = response.on_hover_text("Shows all messages");
+    egui::Popup::menu(&response).show(|ui| {
+        ui.set_width(520.0);
+        ScrollArea::vertical().max_height(260.0).stick_to_bottom(true).show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            let mut any = false;
+            for line in state.status.lines() {
+                any = true;
+                let (_, color) = tone(line.level, Theme::of(ui));
+                ui.label(RichText::new(sentence(line)).size(style::SMALL).color(color));
+            }
+            if !any {
+                ui.label(RichText::new("No messages yet").color(Theme::of(ui).weak));
+            }
+        });
+    });
+}
+
+fn sentence(line: &Line) -> String {
+    if line.times > 1 { format!("{} ({} times)", line.text, line.times) } else { line.text.clone() }
+}
+
+fn tone(level: Level, theme: &Theme) -> (Icon, Color32) {
+    match level {
+        Level::Info => (Icon::Info, theme.weak),
+        Level::Warning => (Icon::Warning, theme.warning),
+        Level::Error => (Icon::Error, theme.error),
+    }
+}

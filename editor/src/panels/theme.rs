@@ -1,0 +1,143 @@
+//! Every colour of the program, light and dark. Nowhere else is a colour written down.
+
+use egui::Color32;
+
+/// The colours of one theme. One accent: the green of a dragonfly's thorax.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Theme {
+    /// Is it the dark one?
+    pub dark: bool,
+    /// Between panels.
+    pub gap: Color32,
+    /// Behind panels.
+    pub panel: Color32,
+    /// Menu bar, panel headers, status line.
+    pub bar: Color32,
+    /// Number fields, search fields, the timeline's bed.
+    pub sunken: Color32,
+    /// Menus, sheets, cards.
+    pub raised: Color32,
+    /// Fine lines.
+    pub line: Color32,
+    /// Buttons under the pointer, rows under the pointer.
+    pub hover: Color32,
+    /// Buttons being pressed.
+    pub pressed: Color32,
+    /// What is read.
+    pub text: Color32,
+    /// What is read second.
+    pub weak: Color32,
+    /// What is hardly read: hints, ticks.
+    pub faint: Color32,
+    /// Selection, playhead, focus.
+    pub accent: Color32,
+    /// Behind a selected row.
+    pub accent_soft: Color32,
+    /// On the accent.
+    pub on_accent: Color32,
+    /// Something is not quite right.
+    pub warning: Color32,
+    /// Something failed.
+    pub error: Color32,
+    /// Axis letters, keys of a channel: X, Y, Z.
+    pub axes: [Color32; 3],
+    /// A key in the timeline.
+    pub key: Color32,
+    /// Overlays on the picture.
+    pub glass: Color32,
+    /// Around an overlay on the picture.
+    pub glass_line: Color32,
+    /// Top and bottom of the picture's background.
+    pub sky: [Color32; 2],
+    /// The ground grid.
+    pub grid: Color32,
+    /// Bones that are not selected.
+    pub bone: Color32,
+    /// Shadow of cards.
+    pub shadow: Color32,
+}
+
+/// For dim rooms.
+pub const DARK: Theme = Theme {
+    dark: true,
+    gap: Color32::from_rgb(12, 15, 16),
+    panel: Color32::from_rgb(26, 30, 31),
+    bar: Color32::from_rgb(20, 24, 25),
+    sunken: Color32::from_rgb(16, 19, 20),
+    raised: Color32::from_rgb(35, 40, 42),
+    line: Color32::from_rgb(46, 53, 55),
+    hover: Color32::from_rgb(44, 51, 53),
+    pressed: Color32::from_rgb(56, 65, 67),
+    text: Color32::from_rgb(222, 229, 227),
+    weak: Color32::from_rgb(148, 160, 158),
+    faint: Color32::from_rgb(98, 110, 109),
+    accent: Color32::from_rgb(46, 201, 164),
+    accent_soft: Color32::from_rgb(24, 68, 60),
+    on_accent: Color32::from_rgb(4, 27, 22),
+    warning: Color32::from_rgb(232, 182, 84),
+    error: Color32::from_rgb(240, 113, 103),
+    axes: [
+        Color32::from_rgb(233, 113, 107),
+        Color32::from_rgb(140, 197, 98),
+        Color32::from_rgb(98, 160, 236),
+    ],
+    key: Color32::from_rgb(186, 199, 196),
+    glass: Color32::from_rgba_premultiplied(17, 20, 21, 226),
+    glass_line: Color32::from_rgba_premultiplied(60, 68, 70, 255),
+    sky: [Color32::from_rgb(60, 69, 72), Color32::from_rgb(27, 31, 33)],
+    grid: Color32::from_rgb(98, 110, 114),
+    bone: Color32::from_rgb(205, 212, 214),
+    shadow: Color32::from_rgba_premultiplied(0, 0, 0, 110),
+};
+
+/// For bright rooms.
+pub const LIGHT: Theme = Theme {
+    dark: false,
+    gap: Color32::from_rgb(207, 214, 212),
+    panel: Color32::from_rgb(246, 248, 247),
+    bar: Color32::from_rgb(233, 237, 236),
+    sunken: Color32::from_rgb(255, 255, 255),
+    raised: Color32::from_rgb(255, 255, 255),
+    line: Color32::from_rgb(211, 218, 216),
+    hover: Color32::from_rgb(222, 230, 227),
+    pressed: Color32::from_rgb(205, 216, 212),
+    text: Color32::from_rgb(27, 36, 34),
+    weak: Color32::from_rgb(90, 104, 101),
+    faint: Color32::from_rgb(138, 151, 148),
+    accent: Color32::from_rgb(10, 138, 110),
+    accent_soft: Color32::from_rgb(205, 236, 227),
+    on_accent: Color32::from_rgb(255, 255, 255),
+    warning: Color32::from_rgb(156, 101, 0),
+    error: Color32::from_rgb(190, 50, 44),
+    axes: [Color32::from_rgb(192, 57, 50), Color32::from_rgb(74, 132, 32), Color32::from_rgb(36, 104, 196)],
+    key: Color32::from_rgb(84, 100, 96),
+    glass: Color32::from_rgba_premultiplied(238, 241, 240, 240),
+    glass_line: Color32::from_rgba_premultiplied(200, 208, 206, 255),
+    sky: [Color32::from_rgb(232, 237, 238), Color32::from_rgb(190, 199, 201)],
+    grid: Color32::from_rgb(128, 140, 142),
+    bone: Color32::from_rgb(72, 82, 84),
+    shadow: Color32::from_rgba_premultiplied(0, 0, 0, 50),
+};
+
+impl Theme {
+    /// The theme that `ui` is drawn in.
+    pub fn of(ui: &egui::Ui) -> &'static Self {
+        Self::get(ui.visuals().dark_mode)
+    }
+
+    /// Letters on the ends of the axes.
+    pub fn on_axis(&self) -> Color32 {
+        if self.dark { Color32::from_rgb(20, 24, 25) } else { Color32::from_rgb(255, 255, 255) }
+    }
+
+    /// The dark or the light one.
+    pub fn get(dark: bool) -> &'static Self {
+        if dark { &DARK } else { &LIGHT }
+    }
+}
+
+/// A colour as the graphics thread takes it: linear RGB.
+pub fn linear(color: Color32) -> [f32; 3] {
+    let rgba = egui::Rgba::from(color.to_opaque());
+    [rgba.r(), rgba.g(), rgba.b()]
+}

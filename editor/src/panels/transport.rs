@@ -1,0 +1,126 @@
+//! The bar over the timeline: buttons, repeat, speed, time.
+
+use super::commands::{self, Id};
+use super::icons::Icon;
+use super::ruler;
+use super::settings::{FRAME_RATES, SPEEDS};
+use super::state::{Request, State};
+use super::style::{CONTROL, GRID};
+use super::theme::Theme;
+use super::widgets::{command_button, icon_button};
+use crate::playback::Repeat;
+use egui::{Align, Button, DragValue, Layout, RichText, Ui, vec2};
+
+/// Draws the bar.
+pub(super) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let able = state.playback.take.is_some() && state.playback.length > 0.0;
+    ui.horizontal(|ui| {
+        ui.set_height(32.0);
+        ui.add_space(2.0 * GRID);
+        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.add_enabled_ui(able, |ui| buttons(ui, state, requests));
+        divider(ui);
+        repeat(ui, state, requests);
+        divider(ui);
+        speed(ui, state, requests);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.add_space(2.0 * GRID);
+            ui.spacing_mut().item_spacing.x = GRID;
+            frame_rate(ui, state, requests);
+            ui.add_enabled_ui(able, |ui| time(ui, state, requests));
+        });
+    });
+}
+
+fn buttons(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let playing = state.playback.playing;
+    let (forward, backward) = (playing && state.playback.speed >= 0.0, playing && state.playback.speed < 0.0);
+    command_button(ui, Icon::First, Id::Start, false, requests);
+    command_button(ui, Icon::KeyBack, Id::PreviousKey, false, requests);
+    command_button(ui, Icon::FrameBack, Id::PreviousFrame, false, requests);
+    let icon = if backward { Icon::Pause } else { Icon::Reverse };
+    command_button(ui, icon, Id::PlayBackwards, backward, requests);
+    let icon = if forward { Icon::Pause } else { Icon::Play };
+    command_button(ui, icon, Id::PlayPause, forward, requests);
+    command_button(ui, Icon::FrameForward, Id::NextFrame, false, requests);
+    command_button(ui, Icon::KeyForward, Id::NextKey, false, requests);
+    command_button(ui, Icon::Last, Id::End, false, requests);
+}
+
+fn repeat(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let shortcut = commands::shortcut_text(Id::CycleRepeat);
+    for (icon, repeat, name) in [
+        (Icon::Loop, Repeat::Loop, "Loop"),
+        (Icon::PingPong, Repeat::PingPong, "Back and forth"),
+        (Icon::Once, Repeat::Once, "Once"),
+    ] {
+        let button = icon_button(ui, icon, name, state.playback.repeat == repeat);
+        if button.on_hover_text(format!("{name} ({shortcut} for the next)")).clicked() {
+            requests.push(Request::Repeat(repeat));
+        }
+    }
+}
+
+fn speed(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let mut speed = state.settings.speed;
+    let field = DragValue::new(&mut speed)
+        .range(SPEEDS)
+        .speed(0.01)
+        .fixed_decimals(2)
+        .suffix("×")
+        .update_while_editing(false);
+    let response = ui.add_sized(vec2(64.0, CONTROL), field).accessible_name("Speed");
+    if response.on_hover_text("Speed\nDrag, or click to type").changed() {
+        requests.push(Request::Speed(speed));
+    }
+}
+
+fn frame_rate(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let rate = state.settings.frame_rate;
+    let button = Button::new(RichText::new(format!("{rate} fps")).color(Theme::of(ui).weak)).frame(false);
+    let response = ui.add(button).on_hover_text("Frames a second, for display and stepping");
+    egui::Popup::menu(&response).show(|ui| {
+        ui.set_width(96.0);
+        for &choice in FRAME_RATES {
+            if ui.add(Button::selectable(choice == rate, format!("{choice} fps"))).clicked() {
+                requests.push(Request::FrameRate(choice));
+            }
+        }
+    });
+}
+
+/// Right to left: frames, seconds.
+fn time(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let theme = Theme::of(ui);
+    let rate = state.settings.frame_rate;
+    let (start, length) = (state.playback.start, state.playback.length);
+    let last = ruler::frame_of(start + length, rate);
+    ui.label(RichText::new(format!("/ {last}")).monospace().color(theme.weak));
+    let mut frame = ruler::frame_of(state.time(), rate);
+    let field = DragValue::new(&mut frame)
+        .range(ruler::frame_of(start, rate)..=last)
+        .speed(0.2)
+        .update_while_editing(false);
+    let response = ui.add_sized(vec2(56.0, CONTROL), field).accessible_name("Frame");
+    if response.on_hover_text("Frame\nDrag, or click to type").changed() {
+        requests.push(Request::Seek(ruler::time_of(frame, rate)));
+    }
+    ui.label(RichText::new("frame").color(theme.weak));
+    ui.add_space(GRID);
+    let mut seconds = state.time();
+    let field = DragValue::new(&mut seconds)
+        .range(start..=start + length)
+        .speed(0.005)
+        .fixed_decimals(3)
+        .suffix(" s")
+        .update_while_editing(false);
+    let response = ui.add_sized(vec2(80.0, CONTROL), field).accessible_name("Time");
+    if response.on_hover_text("Time in seconds\nDrag, or click to type").changed() {
+        requests.push(Request::Seek(seconds));
+    }
+}
+
+fn divider(ui: &mut Ui) {
+    let (rect, _) = ui.allocate_exact_size(vec2(13.0, 16.0), egui::Sense::hover());
+    ui.painter().vline(rect.center().x, rect.y_range(), egui::Stroke::new(1.0, Theme::of(ui).line));
+}

@@ -1,0 +1,154 @@
+//! Small pieces that several panels are made of.
+
+use super::commands::{self, Id};
+use super::icons::Icon;
+use super::state::Request;
+use super::style::{self, GRID, RADIUS, ROW};
+use super::theme::Theme;
+use egui::accesskit::Role;
+use egui::{
+    Align2, Color32, CornerRadius, FontId, Rect, Response, RichText, Sense, TextStyle, Ui, WidgetInfo, pos2,
+    vec2,
+};
+
+/// A square button with an icon that does a command; lit when `on`. Its tooltip names the shortcut.
+pub(super) fn command_button(
+    ui: &mut Ui,
+    icon: Icon,
+    id: Id,
+    on: bool,
+    requests: &mut Vec<Request>,
+) -> Response {
+    let response = icon_button(ui, icon, commands::get(id).title, on).on_hover_text(commands::tooltip(id));
+    if response.clicked() {
+        requests.push(Request::Command(id));
+    }
+    response
+}
+
+/// A square button with an icon; `name` is what a screen reader says.
+pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Response {
+    let (rect, response) = ui.allocate_exact_size(style::icon_size(), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, name));
+    if ui.is_rect_visible(rect) {
+        let theme = Theme::of(ui);
+        let (fill, color) = if response.is_pointer_button_down_on() {
+            (theme.pressed, theme.text)
+        } else if on {
+            (theme.accent_soft, theme.accent)
+        } else if response.hovered() {
+            (theme.hover, theme.text)
+        } else {
+            (Color32::TRANSPARENT, theme.weak)
+        };
+        let color = if ui.is_enabled() { color } else { color.gamma_multiply(0.4) };
+        ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), fill);
+        icon.paint(ui.painter(), rect, color);
+        focus_ring(ui, &response, rect);
+    }
+    response
+}
+
+/// Shows where the keyboard is.
+pub(super) fn focus_ring(ui: &Ui, response: &Response, rect: Rect) {
+    if response.has_focus() {
+        let stroke = egui::Stroke::new(1.0, Theme::of(ui).accent);
+        ui.painter().rect_stroke(rect, CornerRadius::same(RADIUS), stroke, egui::StrokeKind::Inside);
+    }
+}
+
+/// A row of a list over the whole width: painted background, the rest is up to the caller.
+///
+/// Returns the place and the answer; `name` is what a screen reader says.
+pub(super) fn row(ui: &mut Ui, name: &str, selected: bool, hovered: bool) -> (Rect, Response) {
+    let width = ui.available_width();
+    let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::ListItem, ui.is_enabled(), selected, name));
+    if ui.is_rect_visible(rect) {
+        let theme = Theme::of(ui);
+        let inside = rect.shrink2(vec2(GRID, 1.0));
+        let fill = if selected {
+            theme.accent_soft
+        } else if hovered || response.hovered() {
+            theme.hover
+        } else {
+            Color32::TRANSPARENT
+        };
+        ui.painter().rect_filled(inside, CornerRadius::same(RADIUS), fill);
+        focus_ring(ui, &response, inside);
+    }
+    (rect, response)
+}
+
+/// Text in the middle of `rect`'s height, cut off with dots at its right end; returns its right end.
+pub(super) fn text_in(ui: &Ui, rect: Rect, text: &str, style: &TextStyle, color: Color32) -> f32 {
+    let font = style.resolve(ui.style());
+    let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, color);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(rect.width().max(0.0));
+    let galley = ui.painter().layout_job(job);
+    let at = pos2(rect.left(), rect.center().y - galley.size().y / 2.0);
+    let right = at.x + galley.size().x;
+    ui.painter().galley(at, galley, color);
+    right
+}
+
+/// A number right-aligned at `right`, in digits of one width; returns its left end.
+pub(super) fn number_at(ui: &Ui, right: f32, y: f32, text: &str, color: Color32) -> f32 {
+    let rect =
+        ui.painter().text(pos2(right, y), Align2::RIGHT_CENTER, text, FontId::monospace(style::SMALL), color);
+    rect.left()
+}
+
+/// A caption over a group of properties.
+pub(super) fn caption(ui: &mut Ui, text: &str) {
+    ui.add_space(GRID);
+    ui.label(RichText::new(text).small().color(Theme::of(ui).weak));
+}
+
+/// A calm sentence where there is nothing to show.
+pub(super) fn empty(ui: &mut Ui, title: &str, hint: &str) {
+    let theme = Theme::of(ui);
+    ui.add_space((ui.available_height() * 0.3).min(72.0));
+    ui.vertical_centered(|ui| {
+        ui.label(RichText::new(title).color(theme.weak));
+        if !hint.is_empty() {
+            ui.label(RichText::new(hint).small().color(theme.faint));
+        }
+    });
+}
+
+/// A key as it looks on a keyboard.
+pub(super) fn key_cap(ui: &mut Ui, text: &str) {
+    let theme = Theme::of(ui);
+    let font = FontId::proportional(style::SMALL);
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, theme.text);
+    let size = vec2((galley.size().x + 12.0).max(20.0), 20.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    let stroke = egui::Stroke::new(1.0, theme.line);
+    ui.painter().rect(rect, CornerRadius::same(RADIUS), theme.sunken, stroke, egui::StrokeKind::Inside);
+    ui.painter().galley(rect.center() - galley.size() / 2.0, galley, theme.text);
+}
+
+/// A dot between facts on one line.
+pub(super) fn dot_separated(parts: &[String]) -> String {
+    parts.join("  ·  ")
+}
+
+/// `1 234 567`.
+pub(super) fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut out = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            out.push('\u{2009}');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// `1 bone`, `2 bones`.
+pub(super) fn count(number: usize, one: &str, many: &str) -> String {
+    format!("{} {}", grouped(number), if number == 1 { one } else { many })
+}

@@ -1,0 +1,94 @@
+// Morphing and skinning: the shader's side of anim::skin.
+
+// Affine matrix by rows. Rust twin: graphics::uniform::Affine
+struct Affine {
+    x: vec4f,
+    y: vec4f,
+    z: vec4f,
+}
+
+// Rust twin: graphics::uniform::DrawUniform
+struct Draw {
+    // First matrix of this instance in `palettes`.
+    palette: u32,
+    // 0 for an instance that one matrix carries, else 4 or 8.
+    influences: u32,
+    // Targets, and the first of their weights in `weights`.
+    morph_targets: u32,
+    morph_weights: u32,
+    vertices: u32,
+    // 1 when the back faces of a blended surface are drawn.
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+}
+
+@group(1) @binding(0) var<uniform> draw: Draw;
+@group(1) @binding(1) var<storage, read> palettes: array<Affine>;
+@group(1) @binding(2) var<storage, read> weights: array<f32>;
+// Nine numbers a vertex and target: position, normal, tangent; target after target.
+@group(1) @binding(3) var<storage, read> deltas: array<f32>;
+
+struct Posed {
+    position: vec3f,
+    normal: vec3f,
+    tangent: vec3f,
+}
+
+fn delta(at: u32) -> vec3f {
+    return vec3f(deltas[at], deltas[at + 1u], deltas[at + 2u]);
+}
+
+fn morphed(start: Posed, vertex: u32) -> Posed {
+    var posed = start;
+    for (var target_index = 0u; target_index < draw.morph_targets; target_index++) {
+        let weight = weights[draw.morph_weights + target_index];
+        if weight != 0.0 {
+            let at = (target_index * draw.vertices + vertex) * 9u;
+            posed.position += weight * delta(at);
+            posed.normal += weight * delta(at + 3u);
+            posed.tangent += weight * delta(at + 6u);
+        }
+    }
+    return posed;
+}
+
+fn add_share(sum: Affine, joint: u32, weight: f32) -> Affine {
+    let matrix = palettes[draw.palette + joint];
+    return Affine(sum.x + weight * matrix.x, sum.y + weight * matrix.y, sum.z + weight * matrix.z);
+}
+
+fn blended_matrix(joints0: vec4u, joints1: vec4u, weights0: vec4f, weights1: vec4f) -> Affine {
+    if draw.influences == 0u {
+        return palettes[draw.palette];
+    }
+    var sum = Affine(vec4f(0.0), vec4f(0.0), vec4f(0.0));
+    sum = add_share(sum, joints0.x, weights0.x);
+    sum = add_share(sum, joints0.y, weights0.y);
+    sum = add_share(sum, joints0.z, weights0.z);
+    sum = add_share(sum, joints0.w, weights0.w);
+    if draw.influences > 4u {
+        sum = add_share(sum, joints1.x, weights1.x);
+        sum = add_share(sum, joints1.y, weights1.y);
+        sum = add_share(sum, joints1.z, weights1.z);
+        sum = add_share(sum, joints1.w, weights1.w);
+    }
+    return sum;
+}
+
+fn moved(matrix: Affine, start: Posed) -> Posed {
+    let p = vec4f(start.position, 1.0);
+    let linear_x = matrix.x.xyz;
+    let linear_y = matrix.y.xyz;
+    let linear_z = matrix.z.xyz;
+    // Rows of the cofactor matrix: the inverse transpose times the determinant, whose sign must go.
+    let cofactor_x = cross(linear_y, linear_z);
+    let cofactor_y = cross(linear_z, linear_x);
+    let cofactor_z = cross(linear_x, linear_y);
+    let side = select(-1.0, 1.0, dot(linear_x, cofactor_x) >= 0.0);
+    let normal = side * vec3f(
+        dot(cofactor_x, start.normal), dot(cofactor_y, start.normal), dot(cofactor_z, start.normal));
+    let tangent = vec3f(
+        dot(linear_x, start.tangent), dot(linear_y, start.tangent), dot(linear_z, start.tangent));
+    return Posed(vec3f(dot(matrix.x, p), dot(matrix.y, p), dot(matrix.z, p)), normal, tangent);
+}

@@ -1,0 +1,57 @@
+// The ground: lines that keep about one pixel, two densities that change over into each other, fading into distance.
+
+struct Ground {
+    @builtin(position) position: vec4f,
+    // Scene units from the grid's centre.
+    @location(0) offset: vec2f,
+    @location(1) world: vec2f,
+}
+
+@vertex
+fn vs_grid(@builtin(vertex_index) index: u32) -> Ground {
+    let corner = vec2f(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
+    let offset = corner * frame.grid.z;
+    let world = frame.grid.xy + offset;
+    return Ground(frame.clip_from_world * vec4f(world.x, 0.0, world.y, 1.0), offset, world);
+}
+
+// 0..1: is there a line every `step` units here? `width` in pixels.
+fn lines(world: vec2f, footprint: vec2f, step: f32, width: f32) -> f32 {
+    let cell = abs(fract(world / step - 0.5) - 0.5) * step;
+    let covered = clamp(width * 0.5 + 0.5 - cell / footprint, vec2f(0.0), vec2f(1.0));
+    // Where lines come closer than some pixels they would flicker: let them go.
+    let dense = clamp((step / footprint - 3.0) / 9.0, vec2f(0.0), vec2f(1.0));
+    let strength = covered * dense;
+    return max(strength.x, strength.y);
+}
+
+@fragment
+fn fs_grid(in: Ground) -> @location(0) vec4f {
+    let footprint = max(fwidth(in.world), vec2f(1e-9));
+    let fine = frame.grid.w;
+    // 1 when the fine lines have just appeared, 0 when they are about to become the coarse ones.
+    let appearing = frame.grid_color.w;
+    let edge = length(in.offset) / frame.grid.z;
+    let fade = pow(clamp(1.0 - edge, 0.0, 1.0), 2.2);
+    let glance = abs(towards_viewer(vec3f(in.world.x, 0.0, in.world.y)).y);
+    let grazing = smoothstep(0.0, 0.16, glance);
+
+    let small = lines(in.world, footprint, fine, 1.0) * 0.11 * appearing;
+    let large = lines(in.world, footprint, fine * 10.0, 1.0) * mix(0.26, 0.11, 1.0 - appearing);
+    let larger = lines(in.world, footprint, fine * 100.0, 1.0) * 0.26;
+    var strength = max(max(small, large), larger);
+    var color = frame.grid_color.rgb;
+
+    let axis = clamp(1.1 - abs(in.world) / footprint, vec2f(0.0), vec2f(1.0));
+    // The line along X is where z is 0.
+    if axis.y > 0.0 {
+        color = mix(color, vec3f(0.58, 0.11, 0.12), axis.y);
+        strength = max(strength, axis.y * 0.5);
+    }
+    if axis.x > 0.0 {
+        color = mix(color, vec3f(0.10, 0.22, 0.62), axis.x);
+        strength = max(strength, axis.x * 0.5);
+    }
+    let alpha = strength * fade * grazing;
+    return vec4f(color * alpha, alpha);
+}

@@ -1,0 +1,239 @@
+// Surfaces: morphed, skinned, lit.
+
+struct VertexIn {
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    // Two texture coordinate sets.
+    @location(3) uv: vec4f,
+    @location(4) color: vec4f,
+    @location(5) joints0: vec4u,
+    @location(6) joints1: vec4u,
+    @location(7) weights0: vec4f,
+    @location(8) weights1: vec4f,
+}
+
+struct Surface {
+    @builtin(position) position: vec4f,
+    @location(0) world: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    @location(3) uv: vec4f,
+    @location(4) color: vec4f,
+}
+
+// Where a texture's coordinates come from. Rust twin: graphics::uniform::TextureUse
+struct TextureUse {
+    // First row of the transformation; w: which coordinate set.
+    u: vec4f,
+    // Second row; w: 1 when there is a texture.
+    v: vec4f,
+}
+
+// Rust twin: graphics::uniform::MaterialUniform
+struct Material {
+    base_color: vec4f,
+    // w: alpha below this is not drawn, for masked surfaces.
+    emissive: vec4f,
+    metallic: f32,
+    roughness: f32,
+    normal_scale: f32,
+    occlusion_strength: f32,
+    phong_ambient: vec4f,
+    phong_diffuse: vec4f,
+    // w: exponent.
+    phong_specular: vec4f,
+    use_phong: u32,
+    unlit: u32,
+    // 0 opaque, 1 mask, 2 blend.
+    alpha_mode: u32,
+    pad: u32,
+    base_color_use: TextureUse,
+    metallic_roughness_use: TextureUse,
+    normal_use: TextureUse,
+    occlusion_use: TextureUse,
+    emissive_use: TextureUse,
+}
+
+@group(2) @binding(0) var<uniform> material: Material;
+@group(2) @binding(1) var base_color_texture: texture_2d<f32>;
+@group(2) @binding(2) var metallic_roughness_texture: texture_2d<f32>;
+@group(2) @binding(3) var normal_texture: texture_2d<f32>;
+@group(2) @binding(4) var occlusion_texture: texture_2d<f32>;
+@group(2) @binding(5) var emissive_texture: texture_2d<f32>;
+@group(2) @binding(6) var base_color_sampler: sampler;
+@group(2) @binding(7) var metallic_roughness_sampler: sampler;
+@group(2) @binding(8) var normal_sampler: sampler;
+@group(2) @binding(9) var occlusion_sampler: sampler;
+@group(2) @binding(10) var emissive_sampler: sampler;
+
+@vertex
+fn vs_model(in: VertexIn, @builtin(vertex_index) index: u32) -> Surface {
+    let start = morphed(Posed(in.position, in.normal, in.tangent.xyz), index);
+    let matrix = blended_matrix(in.joints0, in.joints1, in.weights0, in.weights1);
+    let posed = moved(matrix, start);
+    return Surface(
+        frame.clip_from_world * vec4f(posed.position, 1.0),
+        posed.position, posed.normal, vec4f(posed.tangent, in.tangent.w), in.uv, in.color);
+}
+
+fn coordinates(use_of: TextureUse, uv: vec4f) -> vec2f {
+    let chosen = vec3f(select(uv.xy, uv.zw, use_of.u.w > 0.5), 1.0);
+    return vec2f(dot(use_of.u.xyz, chosen), dot(use_of.v.xyz, chosen));
+}
+
+fn has_texture(use_of: TextureUse) -> bool {
+    return use_of.v.w > 0.5;
+}
+
+// The surface's normal with its normal map. Without tangents in the file they follow from how position and texture
+// coordinates change from pixel to pixel.
+fn mapped_normal(in: Surface, smooth_normal: vec3f) -> vec3f {
+    let at = coordinates(material.normal_use, in.uv);
+    var texel = textureSample(normal_texture, normal_sampler, at).xyz * 2.0 - 1.0;
+    texel = vec3f(texel.xy * material.normal_scale, texel.z);
+    let dp_x = dpdx(in.world);
+    let dp_y = dpdy(in.world);
+    let dt_x = dpdx(at);
+    let dt_y = dpdy(at);
+    var tangent = in.tangent.xyz;
+    var bitangent = cross(smooth_normal, tangent) * in.tangent.w;
+    if dot(tangent, tangent) < 1e-12 {
+        let across = cross(dp_y, smooth_normal);
+        let up = cross(smooth_normal, dp_x);
+        tangent = across * dt_x.x + up * dt_y.x;
+        // Texture coordinates run downwards, the map's +Y upwards.
+        bitangent = -(across * dt_x.y + up * dt_y.y);
+        let longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
+        if longest < 1e-24 {
+            return smooth_normal;
+        }
+        tangent *= inverseSqrt(longest);
+        bitangent *= inverseSqrt(longest);
+    } else {
+        tangent = normalize(tangent);
+        bitangent = normalize(bitangent);
+    }
+    let mapped = tangent * texel.x + bitangent * texel.y + smooth_normal * texel.z;
+    if dot(mapped, mapped) < 1e-12 {
+        return smooth_normal;
+    }
+    return normalize(mapped);
+}
+
+fn lit_metallic(
+    base: vec3f, metallic: f32, roughness: f32, normal: vec3f, view: vec3f, occlusion: f32,
+) -> vec3f {
+    let diffuse = base * (1.0 - metallic);
+    let f0 = mix(vec3f(0.04), base, metallic);
+    let n_dot_v = clamp(dot(normal, view), 1e-3, 1.0);
+    let studio_normal = studio_from_world(normal);
+    let studio_view = studio_from_world(view);
+    var light = diffuse * studio_ambient(studio_normal) * occlusion;
+    for (var index = 0u; index < LIGHT_COUNT; index++) {
+        let lamp = studio_light(index);
+        let n_dot_l = max(dot(studio_normal, lamp.direction), 0.0);
+        light += diffuse * lamp.color * n_dot_l;
+        light += lamp.color * highlight(studio_normal, studio_view, lamp.direction, f0, roughness);
+    }
+    let along = reflect(-studio_view, studio_normal);
+    let share = mirrored_share(f0, roughness, n_dot_v);
+    // Hollows that see no light mirror none either.
+    let open = mix(1.0, occlusion, 0.8);
+    return light + studio_reflection(along, roughness) * share * open;
+}
+
+// Phong lighting as in thesis §2.1.6.2: ambient, diffuse, and a highlight around the mirrored light.
+fn lit_phong(base: vec3f, normal: vec3f, view: vec3f, occlusion: f32) -> vec3f {
+    let studio_normal = studio_from_world(normal);
+    let studio_view = studio_from_world(view);
+    var light = base * material.phong_ambient.rgb * studio_ambient(studio_normal) * 2.0 * occlusion;
+    for (var index = 0u; index < LIGHT_COUNT; index++) {
+        let lamp = studio_light(index);
+        let n_dot_l = max(dot(studio_normal, lamp.direction), 0.0);
+        light += base * material.phong_diffuse.rgb * lamp.color * n_dot_l;
+        let mirrored = reflect(-lamp.direction, studio_normal);
+        let cosine = max(dot(mirrored, studio_view), 0.0);
+        if n_dot_l > 0.0 {
+            light += material.phong_specular.rgb * lamp.color * pow(cosine, max(material.phong_specular.w, 1.0));
+        }
+    }
+    return light;
+}
+
+// How much of the texel counts, with an edge one pixel wide at the cut of a masked surface.
+fn mask_coverage(alpha: f32, cut: f32) -> f32 {
+    return clamp((alpha - cut) / max(fwidth(alpha), 1e-4) + 0.5, 0.0, 1.0);
+}
+
+@fragment
+fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    var base = material.base_color * in.color;
+    if has_texture(material.base_color_use) {
+        base *= textureSample(
+            base_color_texture, base_color_sampler, coordinates(material.base_color_use, in.uv));
+    }
+    let covered = mask_coverage(base.a, material.emissive.w);
+
+    var metallic = material.metallic;
+    var roughness = material.roughness;
+    if has_texture(material.metallic_roughness_use) {
+        let texel = textureSample(
+            metallic_roughness_texture, metallic_roughness_sampler,
+            coordinates(material.metallic_roughness_use, in.uv));
+        roughness *= texel.g;
+        metallic *= texel.b;
+    }
+    var smooth_normal = in.normal * inverseSqrt(max(dot(in.normal, in.normal), 1e-24));
+    var normal = smooth_normal;
+    if has_texture(material.normal_use) {
+        normal = mapped_normal(in, smooth_normal);
+    }
+    // Away from the viewer on back faces: both sides of a leaf are lit.
+    if !front {
+        normal = -normal;
+        smooth_normal = -smooth_normal;
+    }
+    var occlusion = 1.0;
+    if has_texture(material.occlusion_use) {
+        let texel = textureSample(
+            occlusion_texture, occlusion_sampler, coordinates(material.occlusion_use, in.uv)).r;
+        occlusion = 1.0 + material.occlusion_strength * (texel - 1.0);
+    }
+    var emissive = material.emissive.rgb;
+    if has_texture(material.emissive_use) {
+        emissive *= textureSample(
+            emissive_texture, emissive_sampler, coordinates(material.emissive_use, in.uv)).rgb;
+    }
+
+    let view = towards_viewer(in.world);
+    var alpha = 1.0;
+    if material.alpha_mode == 1u { alpha = covered; }
+    if material.alpha_mode == 2u { alpha = base.a; }
+
+    if frame.studio.z > 1.5 {
+        return shown(base.rgb, alpha);
+    }
+    if frame.studio.z > 0.5 {
+        let clay = lit_metallic(vec3f(0.50, 0.485, 0.47), 0.0, 0.62, smooth_normal, view, 1.0);
+        return shown(tone_map(clay), alpha);
+    }
+    if material.unlit == 1u {
+        return shown(base.rgb, alpha);
+    }
+    var light: vec3f;
+    if material.use_phong == 1u {
+        light = lit_phong(base.rgb, normal, view, occlusion);
+    } else {
+        light = lit_metallic(base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, view, occlusion);
+    }
+    return shown(tone_map(light + emissive), alpha);
+}
+
+// Colours are stored multiplied by alpha where they blend; a mask's alpha only chooses samples.
+fn shown(color: vec3f, alpha: f32) -> vec4f {
+    if material.alpha_mode == 2u {
+        return vec4f(color * alpha, alpha);
+    }
+    return vec4f(color, alpha);
+}

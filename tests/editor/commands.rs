@@ -1,0 +1,33 @@
+//! The table of commands is whole.
+
+use dragonfly::panels::commands::{self, ALL};
+use std::collections::HashMap;
+
+#[test]
+fn no_two_commands_share_a_shortcut() {
+    let mut seen = HashMap::new();
+    for command in ALL {
+        for shortcut in command.shortcuts {
+            let text = commands::text(shortcut);
+            if let Some(other) = seen.insert(text.clone(), command.title) {
+                panic!("{text} belongs to {other:?} and {:?}", command.title);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_name_has_one_line_and_words() {
+    let mut seen = HashMap::new();
+    for command in ALL {
+        assert!(seen.insert(command.id, ()).is_none(), "{:?} stands twice", command.id);
+        assert_eq!(commands::get(command.id).id, command.id);
+        assert!(!command.title.is_empty() && !command.help.is_empty(), "{:?}", command.id);
+    }
+}
+
+#[test]
+fn tooltips_name_the_shortcut() {
+    assert_eq!(commands::tooltip(commands::Id::PlayPause), "Play / pause (Space)\nStarts or stops time");
+    assert_eq!(commands::shortcut_text(commands::Id::OpenPath), "Ctrl+Shift+O");
+}

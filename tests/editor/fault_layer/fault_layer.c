@@ -1,0 +1,273 @@
+// A Vulkan layer that makes things go wrong: the n-th call of one kind returns an error of choice.
+//
+// A driver loses its device about once in a lifetime, and never while a test watches. With this layer between the
+// program and any driver, it happens on demand. Set by the environment:
+//
+//   FAULT_CALL    submit | wait | acquire | present | allocate
+//   FAULT_RESULT  the VkResult to return, as a number: -4 device lost, -2 no device memory, -1000000000 surface lost …
+//   FAULT_AT      the n-th call fails, counted from 1
+//   FAULT_CLIMB   1: calls are counted anew for each device, the first device fails at call n, the next one that was
+//                 used at call n + 1, and so on: every n in one run
+//   FAULT_EVERY   k: after that every k-th call fails too; 0 (usual): only the one
+//   FAULT_TIMES   so many faults, then none any more (usual: 1, or without end where FAULT_EVERY is set)
+//   FAULT_LOG     a file; a line "call n result" is added for each fault
+//
+// As with a real driver, a device that was lost stays lost: every later call on it says so.
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan.h>
+
+enum call { SUBMIT, WAIT, ACQUIRE, PRESENT, ALLOCATE, CALLS };
+static const char *const names[CALLS] = {"submit", "wait", "acquire", "present", "allocate"};
+
+static struct {
+    int call, result, at, climb, every, times;
+    const char *log;
+} wanted;
+
+struct device {
+    void *key; // what the loader stores in every handle of this device; null: a free place
+    int lost;
+    long calls;
+    PFN_vkGetDeviceProcAddr next;
+    PFN_vkDestroyDevice DestroyDevice;
+    PFN_vkQueueSubmit QueueSubmit;
+    PFN_vkQueueSubmit2 QueueSubmit2;
+    PFN_vkWaitSemaphores WaitSemaphores;
+    PFN_vkWaitForFences WaitForFences;
+    PFN_vkAllocateMemory AllocateMemory;
+    PFN_vkAcquireNextImageKHR AcquireNextImageKHR;
+    PFN_vkQueuePresentKHR QueuePresentKHR;
+};
+
+// One test process makes hundreds of devices, one after the other; a place is used again when its device is gone.
+static struct device devices[64];
+static struct {
+    void *key;
+    PFN_vkGetInstanceProcAddr next;
+} instances[64];
+static long calls;  // of all devices
+static int faults;  // so far
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static int number(const char *name, int usual) {
+    const char *text = getenv(name);
+    return text && *text ? atoi(text) : usual;
+}
+
+static void read_wishes(void) {
+    const char *call = getenv("FAULT_CALL");
+    wanted.call = -1;
+    for (int index = 0; call && index < CALLS; index++)
+        if (!strcmp(call, names[index])) wanted.call = index;
+    wanted.result = number("FAULT_RESULT", VK_ERROR_DEVICE_LOST);
+    wanted.at = number("FAULT_AT", 1);
+    wanted.climb = number("FAULT_CLIMB", 0);
+    wanted.every = number("FAULT_EVERY", 0);
+    wanted.times = number("FAULT_TIMES", wanted.every ? 0x7fffffff : 1);
+    wanted.log = getenv("FAULT_LOG");
+}
+
+// The first word of every dispatchable handle tells to which device (or instance) it belongs.
+static void *key_of(const void *handle) { return *(void *const *)handle; }
+
+static struct device *device_of(const void *handle) {
+    for (int index = 0; index < 64; index++)
+        if (devices[index].key == key_of(handle)) return &devices[index];
+    abort();
+}
+
+// Counts a call. Is it one that shall fail?
+static VkResult judge(struct device *device, int call) {
+    VkResult verdict = VK_SUCCESS;
+    pthread_mutex_lock(&lock);
+    if (device->lost) {
+        verdict = call == ALLOCATE ? VK_SUCCESS : VK_ERROR_DEVICE_LOST;
+    } else if (call == wanted.call && faults < wanted.times) {
+        long count = wanted.climb ? ++device->calls : ++calls;
+        long due = wanted.at + (wanted.climb ? faults : 0);
+        int hit = count == due || (!wanted.climb && wanted.every && count > due && (count - due) % wanted.every == 0);
+        if (hit) {
+            faults++;
+            verdict = wanted.result;
+            device->lost = verdict == VK_ERROR_DEVICE_LOST;
+            FILE *log = wanted.log ? fopen(wanted.log, "a") : NULL;
+            if (log) {
+                fprintf(log, "%s %ld %d\n", names[call], count, verdict);
+                fclose(log);
+            }
+        }
+    }
+    pthread_mutex_unlock(&lock);
+    return verdict;
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_QueueSubmit(VkQueue queue, uint32_t count, const VkSubmitInfo *infos, VkFence fence) {
+    struct device *device = device_of(queue);
+    VkResult verdict = judge(device, SUBMIT);
+    return verdict ? verdict : device->QueueSubmit(queue, count, infos, fence);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_QueueSubmit2(VkQueue queue, uint32_t count, const VkSubmitInfo2 *infos, VkFence fence) {
+    struct device *device = device_of(queue);
+    VkResult verdict = judge(device, SUBMIT);
+    return verdict ? verdict : device->QueueSubmit2(queue, count, infos, fence);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_WaitSemaphores(VkDevice handle, const VkSemaphoreWaitInfo *info, uint64_t timeout) {
+    struct device *device = device_of(handle);
+    VkResult verdict = judge(device, WAIT);
+    return verdict ? verdict : device->WaitSemaphores(handle, info, timeout);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_WaitForFences(VkDevice handle, uint32_t count, const VkFence *fences, VkBool32 all, uint64_t timeout) {
+    struct device *device = device_of(handle);
+    VkResult verdict = judge(device, WAIT);
+    return verdict ? verdict : device->WaitForFences(handle, count, fences, all, timeout);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_AllocateMemory(VkDevice handle, const VkMemoryAllocateInfo *info, const VkAllocationCallbacks *allocator, VkDeviceMemory *memory) {
+    struct device *device = device_of(handle);
+    VkResult verdict = judge(device, ALLOCATE);
+    return verdict ? verdict : device->AllocateMemory(handle, info, allocator, memory);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_AcquireNextImageKHR(VkDevice handle, VkSwapchainKHR swapchain, uint64_t timeout, VkSemaphore semaphore, VkFence fence, uint32_t *index) {
+    struct device *device = device_of(handle);
+    VkResult verdict = judge(device, ACQUIRE);
+    if (verdict < 0) return verdict;
+    // "Suboptimal" is a success: there is an image.
+    VkResult result = device->AcquireNextImageKHR(handle, swapchain, timeout, semaphore, fence, index);
+    return result == VK_SUCCESS ? verdict : result;
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_QueuePresentKHR(VkQueue queue, const VkPresentInfoKHR *info) {
+    struct device *device = device_of(queue);
+    VkResult verdict = judge(device, PRESENT);
+    if (verdict == VK_ERROR_DEVICE_LOST) return verdict;
+    // For all other errors the waits are still carried out, so the semaphores are free again.
+    VkResult result = device->QueuePresentKHR(queue, info);
+    if (!verdict) return result;
+    for (uint32_t index = 0; info->pResults && index < info->swapchainCount; index++) info->pResults[index] = verdict;
+    return verdict;
+}
+
+static VKAPI_ATTR void VKAPI_CALL fault_DestroyDevice(VkDevice handle, const VkAllocationCallbacks *allocator) {
+    if (!handle) return;
+    struct device *device = device_of(handle);
+    PFN_vkDestroyDevice destroy = device->DestroyDevice;
+    pthread_mutex_lock(&lock);
+    memset(device, 0, sizeof *device);
+    pthread_mutex_unlock(&lock);
+    destroy(handle, allocator);
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL fault_GetDeviceProcAddr(VkDevice handle, const char *name);
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_CreateDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo *info, const VkAllocationCallbacks *allocator, VkDevice *made) {
+    VkLayerDeviceCreateInfo *link = (VkLayerDeviceCreateInfo *)info->pNext;
+    while (link && !(link->sType == VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO && link->function == VK_LAYER_LINK_INFO))
+        link = (VkLayerDeviceCreateInfo *)link->pNext;
+    if (!link) return VK_ERROR_INITIALIZATION_FAILED;
+    PFN_vkGetInstanceProcAddr instance_next = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    PFN_vkGetDeviceProcAddr next = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    PFN_vkCreateDevice create = (PFN_vkCreateDevice)instance_next(NULL, "vkCreateDevice");
+    VkResult result = create ? create(physical, info, allocator, made) : VK_ERROR_INITIALIZATION_FAILED;
+    if (result != VK_SUCCESS) return result;
+
+    pthread_mutex_lock(&lock);
+    struct device *device = NULL;
+    for (int index = 0; index < 64 && !device; index++)
+        if (!devices[index].key) device = &devices[index];
+    if (!device) abort();
+#define NEXT(name) device->name = (PFN_vk##name)next(*made, "vk" #name)
+    device->key = key_of(*made);
+    device->next = next;
+    NEXT(DestroyDevice);
+    NEXT(QueueSubmit);
+    NEXT(QueueSubmit2);
+    if (!device->QueueSubmit2) device->QueueSubmit2 = (PFN_vkQueueSubmit2)next(*made, "vkQueueSubmit2KHR");
+    NEXT(WaitSemaphores);
+    if (!device->WaitSemaphores) device->WaitSemaphores = (PFN_vkWaitSemaphores)next(*made, "vkWaitSemaphoresKHR");
+    NEXT(WaitForFences);
+    NEXT(AllocateMemory);
+    NEXT(AcquireNextImageKHR);
+    NEXT(QueuePresentKHR);
+#undef NEXT
+    pthread_mutex_unlock(&lock);
+    return VK_SUCCESS;
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_CreateInstance(const VkInstanceCreateInfo *info, const VkAllocationCallbacks *allocator, VkInstance *made) {
+    VkLayerInstanceCreateInfo *link = (VkLayerInstanceCreateInfo *)info->pNext;
+    while (link && !(link->sType == VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO && link->function == VK_LAYER_LINK_INFO))
+        link = (VkLayerInstanceCreateInfo *)link->pNext;
+    if (!link) return VK_ERROR_INITIALIZATION_FAILED;
+    PFN_vkGetInstanceProcAddr next = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    PFN_vkCreateInstance create = (PFN_vkCreateInstance)next(NULL, "vkCreateInstance");
+    VkResult result = create ? create(info, allocator, made) : VK_ERROR_INITIALIZATION_FAILED;
+    if (result != VK_SUCCESS) return result;
+    pthread_mutex_lock(&lock);
+    if (!calls && !faults) read_wishes();
+    int index = 0;
+    while (index < 63 && instances[index].key && instances[index].key != key_of(*made)) index++;
+    instances[index].key = key_of(*made);
+    instances[index].next = next;
+    pthread_mutex_unlock(&lock);
+    return VK_SUCCESS;
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL fault_GetInstanceProcAddr(VkInstance handle, const char *name);
+
+#define OURS(function) \
+    if (!strcmp(name, "vk" #function)) return (PFN_vkVoidFunction)fault_##function
+#define OURS_ALSO(other, function) \
+    if (!strcmp(name, "vk" #other)) return (PFN_vkVoidFunction)fault_##function
+
+static PFN_vkVoidFunction ours_of_device(const char *name) {
+    OURS(GetDeviceProcAddr);
+    OURS(DestroyDevice);
+    OURS(QueueSubmit);
+    OURS(QueueSubmit2);
+    OURS_ALSO(QueueSubmit2KHR, QueueSubmit2);
+    OURS(WaitSemaphores);
+    OURS_ALSO(WaitSemaphoresKHR, WaitSemaphores);
+    OURS(WaitForFences);
+    OURS(AllocateMemory);
+    OURS(AcquireNextImageKHR);
+    OURS(QueuePresentKHR);
+    return NULL;
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL fault_GetDeviceProcAddr(VkDevice handle, const char *name) {
+    PFN_vkVoidFunction next = device_of(handle)->next(handle, name);
+    PFN_vkVoidFunction ours = ours_of_device(name);
+    // What the driver does not have, we do not have either.
+    return next && ours ? ours : next;
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL fault_GetInstanceProcAddr(VkInstance handle, const char *name) {
+    OURS(GetInstanceProcAddr);
+    OURS(CreateInstance);
+    OURS(CreateDevice);
+    PFN_vkVoidFunction ours = ours_of_device(name);
+    if (ours) return ours;
+    if (!handle) return NULL;
+    for (int index = 0; index < 64; index++)
+        if (instances[index].key == key_of(handle)) return instances[index].next(handle, name);
+    return NULL;
+}
+
+__attribute__((visibility("default"))) VKAPI_ATTR VkResult VKAPI_CALL vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface *version) {
+    if (version->loaderLayerInterfaceVersion > 2) version->loaderLayerInterfaceVersion = 2;
+    version->pfnGetInstanceProcAddr = fault_GetInstanceProcAddr;
+    version->pfnGetDeviceProcAddr = fault_GetDeviceProcAddr;
+    version->pfnGetPhysicalDeviceProcAddr = NULL;
+    return VK_SUCCESS;
+}

@@ -1,0 +1,237 @@
+//! Every panel draws every document, and what a person does in it asks for the right thing.
+
+use crate::fixture;
+use dragonfly::document::{Progress, Stage, View};
+use dragonfly::panels::state::{Device, Loading, Overlay};
+use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::time::Instant;
+
+/// The whole window without a window.
+pub struct Bench {
+    pub desk: Desk,
+    pub state: State,
+    pub effects: Vec<Effect>,
+}
+
+impl Bench {
+    pub fn new(view: Option<View>) -> Self {
+        let now = Instant::now();
+        let mut state = State::new(Settings::default(), now);
+        state.device = Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() };
+        if let Some(view) = view {
+            state.show(view);
+            state.playback.playing = false;
+        }
+        Self { desk: Desk::new(""), state, effects: Vec::new() }
+    }
+
+    fn frame(&mut self, ui: &mut egui::Ui) {
+        let mut requests = Vec::new();
+        self.state.begin(self.state.now);
+        for id in panels::commands::pressed(ui.ctx()) {
+            requests.push(Request::Command(id));
+        }
+        self.desk.show(ui, &self.state, &mut requests);
+        self.state.hovered = None;
+        self.state.find = false;
+        self.effects.extend(requests.into_iter().filter_map(|request| self.state.execute(request)));
+    }
+}
+
+fn harness(bench: Bench) -> Harness<'static, Bench> {
+    harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark)
+}
+
+pub fn harness_of(
+    bench: Bench,
+    size: egui::Vec2,
+    pixels_per_point: f32,
+    theme: egui::Theme,
+) -> Harness<'static, Bench> {
+    Harness::builder()
+        .with_size(size)
+        .with_pixels_per_point(pixels_per_point)
+        .with_theme(theme)
+        .with_max_steps(20)
+        .with_context_setup(style::install)
+        .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench)
+}
+
+/// Writes pictures of the panels to `$DRAGONFLY_SHOTS`, to be looked at; does nothing without it.
+#[test]
+fn pictures_of_the_panels() {
+    let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(std::path::PathBuf::from) else { return };
+    std::fs::create_dir_all(&folder).unwrap();
+    let mut shoot = |name: &str, bench: Bench, theme: egui::Theme, zoom: f32| {
+        let mut harness = Harness::builder()
+            .with_size(egui::vec2(1280.0, 720.0))
+            .with_pixels_per_point(zoom)
+            .with_theme(theme)
+            .with_max_steps(20)
+            .with_context_setup(style::install)
+            .wgpu()
+            .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench);
+        harness.run_steps(6);
+        harness.render().unwrap().save(folder.join(format!("{name}.png"))).unwrap();
+    };
+    let full = || Bench::new(Some(fixture::full()));
+    shoot("empty", Bench::new(None), egui::Theme::Dark, 1.0);
+    shoot("full_dark", full(), egui::Theme::Dark, 1.0);
+    shoot("full_light", full(), egui::Theme::Light, 1.0);
+    let mut bench = full();
+    bench.state.selected = Some(3);
+    bench.state.execute(Request::Seek(1.3));
+    shoot("bone_dark", bench, egui::Theme::Dark, 1.0);
+    let mut bench = full();
+    bench.state.selected = Some(0);
+    bench.state.execute(Request::Seek(1.3));
+    shoot("bone_light_2x", bench, egui::Theme::Light, 2.0);
+    for overlay in [Overlay::Palette, Overlay::Shortcuts, Overlay::About, Overlay::OpenPath] {
+        let mut bench = full();
+        bench.state.overlay = Some(overlay);
+        shoot(&format!("overlay_{overlay:?}"), bench, egui::Theme::Dark, 1.0);
+    }
+    let mut bench = Bench::new(None);
+    bench.state.loading = Some(Loading {
+        title: "Fox.glb".to_owned(),
+        progress: Progress { stage: Stage::Decoding, done: 0.6 },
+    });
+    shoot("loading", bench, egui::Theme::Dark, 1.0);
+}
+
+#[test]
+fn every_panel_draws_nothing_an_empty_file_and_a_full_one() {
+    for view in [None, Some(fixture::empty()), Some(fixture::full())] {
+        for theme in [egui::Theme::Dark, egui::Theme::Light] {
+            for size in [egui::vec2(1280.0, 720.0), egui::vec2(320.0, 240.0), egui::vec2(40.0, 30.0)] {
+                let mut harness = harness_of(Bench::new(view.clone()), size, 1.0, theme);
+                harness.run_steps(4);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_panel_is_named() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    for panel in panels::all().iter().filter(|panel| panel.id() != panels::VIEWPORT) {
+        assert!(harness.query_by_label(panel.title()).is_some(), "{} has no title", panel.id());
+    }
+    for label in [
+        "File",
+        "View",
+        "Find a bone",
+        "Play / pause",
+        "Time",
+        "Frame",
+        "Speed",
+        "Viewport",
+        "Walk",
+        "Rest pose",
+    ] {
+        assert!(harness.query_all_by_label(label).next().is_some(), "{label} is missing");
+    }
+}
+
+#[test]
+fn a_click_on_a_row_selects_the_bone_and_shows_its_numbers() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    harness.get_by_label("spine_00").click();
+    harness.run_steps(4);
+    assert_eq!(harness.state().state.selected, Some(1));
+    assert!(harness.query_by_label_contains("Translation: X 0.000, Y 0.100, Z 0.000").is_some());
+}
+
+#[test]
+fn a_click_on_a_take_shows_it() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    harness.get_by_label("Walk").click();
+    harness.run_steps(4);
+    assert_eq!(harness.state().state.playback.take, Some(1));
+    harness.get_by_label("Rest pose").click();
+    harness.run_steps(4);
+    assert_eq!(harness.state().state.playback.take, None);
+}
+
+#[test]
+fn the_search_finds_bones_and_shows_where_they_hang() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    harness.get_by_label("Find a bone").click();
+    harness.run_steps(2);
+    harness.get_by_label("Find a bone").type_text("08_LEFT_tip");
+    harness.run_steps(4);
+    assert!(harness.query_by_label("rib_08_left_tip").is_some());
+    assert!(harness.query_by_label("spine_08").is_some(), "its ancestors are shown");
+    assert!(harness.query_by_label("rib_00_left_tip").is_none(), "others are not");
+}
+
+#[test]
+fn keys_that_are_typed_do_not_play() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    harness.key_press(egui::Key::Space);
+    harness.run_steps(2);
+    assert!(harness.state().state.playback.playing);
+    harness.key_press(egui::Key::Space);
+    harness.run_steps(2);
+    assert!(!harness.state().state.playback.playing);
+    harness.get_by_label("Find a bone").click();
+    harness.run_steps(2);
+    harness.key_press(egui::Key::Space);
+    harness.run_steps(2);
+    assert!(!harness.state().state.playback.playing);
+}
+
+#[test]
+fn scrubbing_the_timeline_moves_the_time_and_gives_it_back() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    harness.key_press(egui::Key::Space);
+    harness.run_steps(2);
+    let track = harness.get_by_label("Timeline").rect();
+    let track = if track.height() > 40.0 {
+        track
+    } else {
+        harness.get_all_by_label("Timeline").last().unwrap().rect()
+    };
+    let middle = egui::pos2(track.left() + 8.0 + (track.width() - 28.0) / 2.0, track.top() + 12.0);
+    harness.drag_at(track.left_top() + egui::vec2(60.0, 12.0));
+    harness.run_steps(2);
+    harness.hover_at(middle);
+    harness.run_steps(3);
+    assert!(!harness.state().state.playback.playing, "time stands while it is held");
+    let time = harness.state().state.time();
+    assert!((time - 3.417 / 2.0).abs() < 0.02, "{time}");
+    harness.drop_at(middle);
+    harness.run_steps(3);
+    assert!(harness.state().state.playback.playing, "and goes on afterwards");
+}
+
+#[test]
+fn the_palette_runs_what_is_found() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    harness.key_press(egui::Key::F3);
+    harness.run_steps(4);
+    harness.get_by_label("Find a command").type_text("ground");
+    harness.run_steps(4);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(4);
+    assert!(!harness.state().state.settings.look.grid);
+    assert_eq!(harness.state().state.overlay, None);
+}
+
+#[test]
+fn what_reaches_beyond_the_panels_comes_back_as_an_effect() {
+    let mut harness = harness(Bench::new(None));
+    harness.run_steps(4);
+    harness.get_by_label("Open a model…").click();
+    harness.run_steps(4);
+    assert_eq!(harness.state().effects, [Effect::OpenDialog]);
+}

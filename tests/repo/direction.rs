@@ -1,0 +1,198 @@
+//! Which way dependencies point, and what each part does without.
+
+use crate::tree::{File, files, none, one};
+
+/// What a crate may depend on at run time.
+const DEPENDENCIES: &[(&str, &[&str])] = &[
+    ("anim", &["glam", "gltf", "serde_json", "thiserror"]),
+    ("runtime", &["flume", "loom", "shuttle", "tracing"]),
+];
+
+/// The entries of `[dependencies]` and of those for one platform or configuration, without development.
+fn dependencies(manifest: &str) -> Vec<String> {
+    let mut inside = false;
+    let mut found = Vec::new();
+    for line in manifest.lines().map(str::trim) {
+        if line.starts_with('[') {
+            inside =
+                line.trim_matches(['[', ']']).ends_with("dependencies") && !line.contains("dev-dependencies");
+        } else if inside && let Some(end) = line.find(['.', '=', ' ']) {
+            found.push(line[..end].to_owned());
+        }
+    }
+    found
+}
+
+fn depends_on_little(files: &[File]) -> Vec<String> {
+    let mut complaints = Vec::new();
+    for (name, allowed) in DEPENDENCIES {
+        let manifest = files.iter().find(|file| file.path == format!("{name}/Cargo.toml"));
+        for dependency in manifest.map(|file| dependencies(&file.text)).unwrap_or_default() {
+            if !allowed.contains(&dependency.as_str()) {
+                complaints.push(format!("{name} depends on {dependency}; it may on {}", allowed.join(", ")));
+            }
+        }
+    }
+    complaints
+}
+
+#[test]
+fn nothing_points_back_and_the_libraries_know_no_window_and_no_gpu() {
+    let files = files();
+    let found =
+        files.iter().filter(|file| file.path == "anim/Cargo.toml").flat_map(|file| dependencies(&file.text));
+    assert!(found.count() >= 3, "the dependencies of anim were not understood");
+    none(depends_on_little(&files));
+    let back = "[dependencies]\nglam.workspace = true\ndragonfly-runtime.workspace = true\n[dev-dependencies]\nwgpu.workspace = true";
+    one(depends_on_little(&[File::planted("anim/Cargo.toml", back)]));
+    let platform = "[target.'cfg(unix)'.dependencies]\nwgpu.workspace = true";
+    one(depends_on_little(&[File::planted("runtime/Cargo.toml", platform)]));
+}
+
+fn versions_are_chosen_at_the_root(files: &[File]) -> Vec<String> {
+    let mut complaints = Vec::new();
+    for file in files.iter().filter(|file| file.path.ends_with("/Cargo.toml")) {
+        let mut inside = false;
+        for line in file.text.lines().map(str::trim) {
+            if line.starts_with('[') {
+                inside = line.contains("dependencies");
+            } else if inside
+                && line.contains('=')
+                && !line.starts_with('#')
+                && !line.contains("workspace = true")
+            {
+                complaints
+                    .push(format!("{}: `{line}`: versions are chosen in the root Cargo.toml", file.path));
+            }
+        }
+    }
+    complaints
+}
+
+#[test]
+fn versions_are_chosen_once() {
+    none(versions_are_chosen_at_the_root(&files()));
+    one(versions_are_chosen_at_the_root(&[File::planted(
+        "anim/Cargo.toml",
+        "[dependencies]\nglam = \"0.34\"",
+    )]));
+}
+
+/// A part of the source, what may not be said in it, and why not.
+struct Absence {
+    within: &'static [&'static str],
+    except: &'static [&'static str],
+    words: &'static [&'static str],
+    because: &'static str,
+}
+
+/// What the architecture promises by absence.
+const ABSENCES: &[Absence] = &[
+    Absence {
+        within: &["anim/src/"],
+        except: &[],
+        words: &[
+            "std::fs",
+            "std::thread",
+            "std::net",
+            "std::process",
+            "std::env",
+            "std::io::std",
+            "println!",
+            "Instant::",
+        ],
+        because: "the library starts no thread, opens no file, and asks the machine nothing",
+    },
+    Absence {
+        within: &["anim/src/", "runtime/src/", "editor/src/"],
+        // The one place that chooses between the real primitives and those of the model checkers.
+        except: &["runtime/src/sync.rs"],
+        words: &["Mutex", "RwLock", "Condvar", "OnceLock", "LazyLock"],
+        because: "no lock is shared by two threads: one owner for everything, and messages between them",
+    },
+    Absence {
+        within: &["editor/src/panels/", "editor/src/control/"],
+        except: &[],
+        words: &[".recv(", "block_on(", "wait_for(", "std::fs", "wgpu"],
+        because: "a panel reads a view and sends edits; it waits for nothing and touches no disk and no device",
+    },
+    Absence {
+        within: &[
+            "editor/src/app/",
+            "editor/src/document/",
+            "editor/src/command/",
+            "editor/src/playback.rs",
+            "editor/src/camera.rs",
+        ],
+        except: &[],
+        words: &["wgpu::Device", "wgpu::Queue", "wgpu::Surface"],
+        because: "the graphics thread alone owns the device and the surface",
+    },
+    Absence {
+        within: &["runtime/src/"],
+        except: &[],
+        words: &["wgpu", "winit", "egui", "glam"],
+        because: "the runtime knows nothing of animation, windows or GPUs",
+    },
+];
+
+/// Files in which `unsafe` may be written, and why.
+const UNSAFE: &[(&str, &str)] =
+    &[("tests/kit/src/counting.rs", "an allocator that counts is an unsafe trait by definition")];
+
+fn says_no_such_word(files: &[File]) -> Vec<String> {
+    let mut complaints = Vec::new();
+    for absence in ABSENCES {
+        let inside = |path: &str| {
+            absence.within.iter().any(|part| path.starts_with(part)) && !absence.except.contains(&path)
+        };
+        for file in files.iter().filter(|file| file.is_rust() && inside(&file.path)) {
+            let code = file.code();
+            for word in absence.words.iter().filter(|word| code.contains(**word)) {
+                complaints.push(format!("{}: `{word}`: {}", file.path, absence.because));
+            }
+        }
+    }
+    complaints
+}
+
+#[test]
+fn what_the_architecture_promises_by_absence_is_absent() {
+    none(says_no_such_word(&files()));
+    one(says_no_such_word(&[File::planted("anim/src/format/obj.rs", "let text = std::fs::read(path)?;")]));
+    one(says_no_such_word(&[File::planted(
+        "editor/src/app/state.rs",
+        "state: Arc<Mutex<State>>, // shared",
+    )]));
+    one(says_no_such_word(&[File::planted("editor/src/panels/takes.rs", "let answer = receiver.recv();")]));
+    one(says_no_such_word(&[File::planted("editor/src/app/window.rs", "device: wgpu::Device,")]));
+    one(says_no_such_word(&[File::planted("runtime/src/thread.rs", "use winit::event_loop;")]));
+    none(says_no_such_word(&[File::planted("editor/src/app/state.rs", "// no Mutex here")]));
+}
+
+fn is_safe(files: &[File]) -> Vec<String> {
+    let mut complaints = Vec::new();
+    for file in files.iter().filter(|file| file.is_rust() && !file.path.starts_with("tests/repo/")) {
+        if UNSAFE.iter().any(|(allowed, _)| *allowed == file.path) {
+            continue;
+        }
+        let mut words = Vec::new();
+        for line in file.code().lines() {
+            words.extend(
+                line.split(|character: char| !character.is_alphanumeric() && character != '_')
+                    .map(str::to_owned),
+            );
+        }
+        if words.iter().any(|word| word == "unsafe") {
+            complaints.push(format!("{}: `unsafe` outside the files that may", file.path));
+        }
+    }
+    complaints
+}
+
+#[test]
+fn nothing_is_unsafe_outside_the_named_files() {
+    none(is_safe(&files()));
+    one(is_safe(&[File::planted("anim/src/fast.rs", "let x = unsafe { *pointer };")]));
+    none(is_safe(&[File::planted("anim/src/lib.rs", "#![forbid(unsafe_code)]")]));
+}

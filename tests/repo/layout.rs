@@ -1,0 +1,138 @@
+//! Where things are: nothing stands at the top that does not belong there, and no file is forgotten by its list.
+
+use crate::tree::{File, files, none, one, root};
+use std::collections::BTreeSet;
+
+/// Folders at the top.
+const FOLDERS: &[&str] = &["runtime", "anim", "editor", "shaders", "tests", "benches", ".ci"];
+
+/// Files at the top.
+const FILES: &[&str] = &[
+    ".gitignore",
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+    "Cargo.lock",
+    "Cargo.toml",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "README.md",
+    "clippy.toml",
+    "run",
+    "rustfmt.toml",
+    "test",
+];
+
+/// Longer files are read by nobody.
+const LONGEST: usize = 600;
+
+fn stands_at_the_top_by_right(files: &[File]) -> Vec<String> {
+    let allowed = |path: &str| match path.split_once('/') {
+        Some((folder, _)) => FOLDERS.contains(&folder),
+        None => FILES.contains(&path),
+    };
+    let strays: BTreeSet<&str> =
+        files.iter().map(|file| file.path.as_str()).filter(|path| !allowed(path)).collect();
+    strays.into_iter().map(|path| format!("{path}: does not belong at the top of the project")).collect()
+}
+
+#[test]
+fn only_what_belongs_there_stands_at_the_top() {
+    none(stands_at_the_top_by_right(&files()));
+    one(stands_at_the_top_by_right(&[File::planted("notes.txt", ""), File::planted("anim/src/lib.rs", "")]));
+    one(stands_at_the_top_by_right(&[File::planted("scripts/do.sh", "")]));
+}
+
+/// The file that must say `mod name;` for the module in `path`, and that name; `None` for the root of a crate.
+fn list_of(path: &str) -> Option<(Vec<String>, String)> {
+    let (folder, file) = path.rsplit_once('/')?;
+    let stem = file.strip_suffix(".rs")?;
+    let root = matches!(stem, "lib" | "main" | "build");
+    if root {
+        return None;
+    }
+    let (folder, name) = if stem == "mod" { folder.rsplit_once('/')? } else { (folder, stem) };
+    let lists = ["mod.rs", "lib.rs", "main.rs"].iter().map(|list| format!("{folder}/{list}"));
+    // `panels.rs` beside the folder `panels`.
+    let lists = lists.chain([format!("{folder}.rs")]).collect();
+    Some((lists, name.to_owned()))
+}
+
+fn is_named_in_its_list(files: &[File]) -> Vec<String> {
+    let mut complaints = Vec::new();
+    for file in files.iter().filter(|file| file.is_rust() && !file.path.contains("/bin/")) {
+        let Some((lists, name)) = list_of(&file.path) else { continue };
+        let named = files.iter().filter(|list| lists.contains(&list.path)).any(|list| {
+            list.code().lines().any(|line| {
+                line.trim_end().ends_with(&format!("mod {name};")) || line.contains(&format!("mod {name} {{"))
+            })
+        });
+        if !named {
+            complaints.push(format!("{}: nothing says `mod {name};`, so it is not compiled", file.path));
+        }
+    }
+    complaints
+}
+
+#[test]
+fn every_module_and_every_test_is_named_in_the_list_beside_it() {
+    none(is_named_in_its_list(&files()));
+    let main = || File::planted("tests/anim/main.rs", "mod poses;\n// mod forgotten;");
+    one(is_named_in_its_list(&[
+        main(),
+        File::planted("tests/anim/poses.rs", ""),
+        File::planted("tests/anim/forgotten.rs", ""),
+    ]));
+    one(is_named_in_its_list(&[
+        File::planted("editor/src/panels/mod.rs", ""),
+        File::planted("editor/src/panels/takes.rs", ""),
+    ]));
+}
+
+fn is_short_enough(files: &[File]) -> Vec<String> {
+    let long = |file: &&File| file.is_rust() && file.text.lines().count() > LONGEST;
+    let complain =
+        |file: &File| format!("{}: {} lines, at most {LONGEST}", file.path, file.text.lines().count());
+    files.iter().filter(long).map(complain).collect()
+}
+
+#[test]
+fn no_source_file_is_longer_than_one_reads() {
+    none(is_short_enough(&files()));
+    one(is_short_enough(&[File::planted("anim/src/long.rs", &"\n".repeat(LONGEST + 1))]));
+}
+
+#[test]
+fn the_readme_names_two_commands_and_both_can_be_run() {
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("README.md");
+    for command in ["run", "test"] {
+        assert!(readme.contains(&format!("./{command}")), "README.md does not name ./{command}");
+        let metadata = std::fs::metadata(root().join(command)).expect("the command");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            assert!(metadata.permissions().mode() & 0o111 == 0o111, "./{command} cannot be executed");
+        }
+        assert!(metadata.is_file());
+    }
+}
+
+fn points_at_something(path: &str, text: &str, exists: impl Fn(&str) -> bool) -> Vec<String> {
+    let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    let local = targets.filter(|target| !target.contains("://") && !target.starts_with('#'));
+    local
+        .map(|target| target.split('#').next().unwrap_or(target))
+        .filter(|target| !exists(target))
+        .map(|target| format!("{path}: links to {target}, which is not there"))
+        .collect()
+}
+
+#[test]
+fn every_link_in_the_documents_at_the_top_leads_somewhere() {
+    for document in ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"] {
+        let text = std::fs::read_to_string(root().join(document)).expect(document);
+        none(points_at_something(document, &text, |target| root().join(target).exists()));
+    }
+    one(points_at_something("README.md", "see [this](nowhere.md) and [that](https://example.org)", |_| {
+        false
+    }));
+}

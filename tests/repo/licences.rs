@@ -1,0 +1,142 @@
+//! Everything the program is made of may be given away with it, under terms as free as its own.
+
+use crate::tree::{none, one, root};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::process::Command;
+
+/// Terms that ask for no more than their own text.
+const PERMISSIVE: &[&str] = &[
+    "0BSD",
+    "Apache-2.0",
+    "Apache-2.0 WITH LLVM-exception",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "BSL-1.0",
+    "CC0-1.0",
+    "ISC",
+    "MIT",
+    "MIT-0",
+    "Unicode-3.0",
+    "Unlicense",
+    "Zlib",
+];
+
+/// Packages with other terms, and why they are taken all the same.
+const EXCEPTIONS: &[(&str, &str, &str)] = &[
+    ("epaint_default_fonts", "OFL-1.1", "fonts: may be embedded and given away with any program"),
+    ("epaint_default_fonts", "Ubuntu-font-1.0", "fonts: may be embedded and given away with any program"),
+    (
+        "option-ext",
+        "MPL-2.0",
+        "asks only that changes to its own files are published, and none are made; used by directories",
+    ),
+    (
+        "colored",
+        "MPL-2.0",
+        "the same; used by the schedule checker of the runtime's tests, not in the program",
+    ),
+];
+
+/// Does the expression leave a choice that only asks for terms in `allowed`?
+fn permits(expression: &str, allowed: &dyn Fn(&str) -> bool) -> bool {
+    let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
+    let tokens: Vec<&str> = spaced.split_whitespace().collect();
+    let mut position = 0;
+    let permitted = any(&tokens, &mut position, allowed);
+    permitted && position == tokens.len()
+}
+
+/// `A OR B`.
+fn any(tokens: &[&str], position: &mut usize, allowed: &dyn Fn(&str) -> bool) -> bool {
+    let mut permitted = all(tokens, position, allowed);
+    while tokens.get(*position) == Some(&"OR") {
+        *position += 1;
+        permitted |= all(tokens, position, allowed);
+    }
+    permitted
+}
+
+/// `A AND B`, which binds tighter.
+fn all(tokens: &[&str], position: &mut usize, allowed: &dyn Fn(&str) -> bool) -> bool {
+    let mut permitted = single(tokens, position, allowed);
+    while tokens.get(*position) == Some(&"AND") {
+        *position += 1;
+        permitted &= single(tokens, position, allowed);
+    }
+    permitted
+}
+
+/// A name, with its exception, or something in brackets.
+fn single(tokens: &[&str], position: &mut usize, allowed: &dyn Fn(&str) -> bool) -> bool {
+    let Some(token) = tokens.get(*position) else { return false };
+    *position += 1;
+    if *token == "(" {
+        let permitted = any(tokens, position, allowed);
+        *position += 1;
+        return permitted;
+    }
+    if tokens.get(*position) == Some(&"WITH") {
+        let name = format!("{token} WITH {}", tokens.get(*position + 1).unwrap_or(&""));
+        *position += 2;
+        return allowed(&name);
+    }
+    allowed(token)
+}
+
+/// Name and licence of every package that is built for this machine.
+fn packages() -> Vec<(String, String)> {
+    let version = Command::new("rustc").arg("-vV").output().expect("rustc -vV");
+    let version = String::from_utf8(version.stdout).expect("text");
+    let host = version.lines().find_map(|line| line.strip_prefix("host: ")).expect("a host");
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--format-version", "1", "--offline", "--filter-platform", host])
+        .current_dir(root())
+        .output()
+        .expect("cargo metadata");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let nodes = metadata["resolve"]["nodes"].as_array().expect("nodes");
+    let built: BTreeSet<&str> = nodes.iter().filter_map(|node| node["id"].as_str()).collect();
+    let packages = metadata["packages"].as_array().expect("packages").iter();
+    let text = |value: &Value| value.as_str().unwrap_or("").to_owned();
+    packages
+        .filter(|package| package["id"].as_str().is_some_and(|id| built.contains(id)))
+        .map(|package| (text(&package["name"]), text(&package["license"])))
+        .collect()
+}
+
+fn is_free(packages: &[(String, String)]) -> Vec<String> {
+    let mut complaints = Vec::new();
+    for (name, licence) in packages {
+        let excepted =
+            |term: &str| EXCEPTIONS.iter().any(|(package, other, _)| package == name && *other == term);
+        if !permits(licence, &|term| PERMISSIVE.contains(&term) || excepted(term)) {
+            complaints.push(format!("{name}: licence \"{licence}\" is neither permissive nor excepted"));
+        }
+    }
+    complaints
+}
+
+#[test]
+fn every_dependency_may_be_given_away_with_the_program() {
+    let packages = packages();
+    assert!(packages.len() > 100, "only {} packages found", packages.len());
+    none(is_free(&packages));
+    let planted = |licence: &str| vec![("planted".to_owned(), licence.to_owned())];
+    one(is_free(&planted("GPL-3.0-only")));
+    one(is_free(&planted("MIT AND GPL-3.0-only")));
+    one(is_free(&planted("(MIT OR Apache-2.0) AND MPL-2.0")));
+    one(is_free(&planted("")));
+    none(is_free(&planted("GPL-2.0-only OR Apache-2.0")));
+    none(is_free(&planted("MIT/Apache-2.0")));
+}
+
+#[test]
+fn no_exception_outlives_its_reason() {
+    let packages = packages();
+    for (name, term, _) in EXCEPTIONS.iter().filter(|(name, ..)| *name != "colored") {
+        let used = packages.iter().any(|(package, licence)| package == name && licence.contains(term));
+        assert!(used, "{name} ({term}) is excepted but not used");
+    }
+}
