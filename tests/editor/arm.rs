@@ -1,22 +1,25 @@
 //! A model made by code: a tube with three bones that bends, and a pane of glass that the last bone carries.
 
 use dragonfly::document::LoadedModel;
+use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::*;
 use glam::{Mat4, Quat, Vec3, Vec4};
 use std::sync::Arc;
 
 /// Bones from root to tip.
-pub const BONES: usize = 3;
+pub(crate) const BONES: usize = 3;
 /// Length of the take, seconds.
-pub const LENGTH: f32 = 1.0;
+pub(crate) const LENGTH: f32 = 1.0;
 
 /// The model as loaded.
-pub fn loaded() -> Arc<LoadedModel> {
+pub(crate) fn loaded() -> Arc<LoadedModel> {
+    let model = Arc::new(model());
     Arc::new(LoadedModel {
+        bounds: bounds_of_pose(&model, None, 0.0),
         title: "Arm".to_owned(),
         path: None,
         format: "code".to_owned(),
-        model: model(),
+        model,
         images: Vec::new(),
         warnings: Vec::new(),
     })
@@ -52,10 +55,7 @@ fn skeleton() -> Skeleton {
     let bone = |index: usize| Bone {
         name: format!("bone {index}"),
         parent: index.checked_sub(1).map(|parent| parent as u32),
-        rest: Transform {
-            translation: if index == 0 { Vec3::ZERO } else { Vec3::Y },
-            ..Transform::IDENTITY
-        },
+        rest: Transform { translation: if index == 0 { Vec3::ZERO } else { Vec3::Y }, ..Transform::IDENTITY },
         rest_matrix: None,
         offset: Mat4::from_translation(-Vec3::Y * index as f32),
         node: None,
@@ -123,7 +123,12 @@ fn pane() -> Mesh {
     let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
     let positions = vec![corner(-0.6, 0.6), corner(0.6, 0.6), corner(0.6, 1.4), corner(-0.6, 1.4)];
     let vertices = Vertices { normals: vec![Vec3::Z; 4], positions, ..Vertices::default() };
-    mesh(Primitive { vertices, indices: vec![0, 1, 2, 0, 2, 3], material: Some(1), morph_targets: Vec::new() })
+    mesh(Primitive {
+        vertices,
+        indices: vec![0, 1, 2, 0, 2, 3],
+        material: Some(1),
+        morph_targets: Vec::new(),
+    })
 }
 
 fn mesh(primitive: Primitive) -> Mesh {

@@ -96,7 +96,8 @@ fn framing_shows_the_whole_sphere_and_not_much_more() {
             for step in 0..64 {
                 let (sin, cos) = (step as f32 / 64.0 * std::f32::consts::TAU).sin_cos();
                 for tilt in [-0.5, -0.25, 0.0, 0.25, 0.5_f32] {
-                    let ring = (camera.right() * cos + camera.up() * sin) * tilt.cos() + camera.back() * tilt.sin();
+                    let ring =
+                        (camera.right() * cos + camera.up() * sin) * tilt.cos() + camera.back() * tilt.sin();
                     let clip = clip_from_world * (sphere.center + ring * sphere.radius).extend(1.0);
                     let place = clip.truncate() / clip.w;
                     widest = widest.max(place.x.abs()).max(place.y.abs());

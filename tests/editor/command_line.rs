@@ -16,7 +16,8 @@ fn info_says_what_is_in_a_file() {
     let info = run(["info", &fox(), "--json"]).expect(0).json();
     assert_eq!(info["file"], "Fox.glb");
     assert_eq!(info["format"], "glb");
-    let takes: Vec<&str> = info["takes"].as_array().expect("takes").iter().filter_map(|take| take["name"].as_str()).collect();
+    let takes: Vec<&str> =
+        info["takes"].as_array().expect("takes").iter().filter_map(|take| take["name"].as_str()).collect();
     assert_eq!(takes, ["Survey", "Walk", "Run"]);
     assert_eq!(info["takes"][0]["start"], 0.0);
     assert_eq!(info["meshes"][0]["vertices"], 1728);
@@ -24,7 +25,8 @@ fn info_says_what_is_in_a_file() {
     assert_eq!(info["meshes"][0]["skin"], 0);
     assert_eq!(info["meshes"][0]["influences"], 4);
     assert_eq!(info["skins"][0]["bones"].as_array().expect("joints").len(), 24);
-    let keys: u64 = info["takes"].as_array().expect("takes").iter().filter_map(|take| take["keys"].as_u64()).sum();
+    let keys: u64 =
+        info["takes"].as_array().expect("takes").iter().filter_map(|take| take["keys"].as_u64()).sum();
     assert_eq!(keys, 2646);
     for (index, bone) in info["bones"].as_array().expect("bones").iter().enumerate() {
         assert_eq!(bone["index"], index);
@@ -49,7 +51,8 @@ fn info_for_people_names_everything() {
 
 #[test]
 fn a_pose_agrees_with_what_others_computed() {
-    let text = std::fs::read(data("expected/gltf__SimpleSkin_embedded.gltf.unitquat.json")).expect("the expected values");
+    let text = std::fs::read(data("expected/gltf__SimpleSkin_embedded.gltf.unitquat.json"))
+        .expect("the expected values");
     let expected: Value = serde_json::from_slice(&text).expect("JSON");
     let samples = expected["clips"][0]["samples"].as_array().expect("samples");
     let mut arguments = vec!["pose".to_owned(), data("gltf/SimpleSkin_embedded.gltf").display().to_string()];
@@ -111,7 +114,9 @@ fn numbers_in_json_read_back_exactly() {
 #[test]
 fn a_take_is_found_by_name_or_number_and_a_name_wins() {
     for (wanted, found) in [("Walk", 1), ("2", 2), ("0", 0)] {
-        let pose = run(["pose", &fox(), "--take", wanted, "--time", "0", "--vertices", "0", "--json"]).expect(0).json();
+        let pose = run(["pose", &fox(), "--take", wanted, "--time", "0", "--vertices", "0", "--json"])
+            .expect(0)
+            .json();
         assert_eq!(pose["take"]["index"], found, "{wanted}");
     }
     let first = run(["pose", &fox(), "--time", "0", "--vertices", "0", "--json"]).expect(0).json();
@@ -138,7 +143,9 @@ fn a_take_is_found_by_name_or_number_and_a_name_wins() {
 
 #[test]
 fn times_outside_a_take_are_clamped_to_it() {
-    let pose = |time: &str| run(["pose", &fox(), "--take", "Run", "--time", time, "--vertices", "4", "--json"]).expect(0).json();
+    let pose = |time: &str| {
+        run(["pose", &fox(), "--take", "Run", "--time", time, "--vertices", "4", "--json"]).expect(0).json()
+    };
     let (before, first, last, after) = (pose("-5"), pose("0"), pose("1000"), pose("1e30"));
     assert_eq!(before["poses"], first["poses"]);
     assert_eq!(last["poses"], after["poses"]);
@@ -194,7 +201,8 @@ fn the_built_in_model_can_be_written_and_read_again() {
     let folder = Folder::new("demo");
     let file = folder.join("dragonfly.glb");
     run(["demo".as_ref(), "-o".as_ref(), file.as_os_str()]).expect(0);
-    let (written, built_in) = (run(["info".as_ref(), file.as_os_str(), "--json".as_ref()]), run(["info", "demo:", "--json"]));
+    let (written, built_in) =
+        (run(["info".as_ref(), file.as_os_str(), "--json".as_ref()]), run(["info", "demo:", "--json"]));
     let (written, built_in) = (written.expect(0).json(), built_in.expect(0).json());
     assert_eq!(written["bones"], built_in["bones"]);
     assert_eq!(written["takes"], built_in["takes"]);
@@ -227,8 +235,13 @@ fn a_reader_that_leaves_early_is_no_trouble() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_under_standard_output_is_told() {
-    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("the device that is always full");
-    let mut child = dragonfly(["info", "demo:", "--json"]).stdout(full).stderr(Stdio::piped()).spawn().expect("the program starts");
+    let full =
+        std::fs::OpenOptions::new().write(true).open("/dev/full").expect("the device that is always full");
+    let mut child = dragonfly(["info", "demo:", "--json"])
+        .stdout(full)
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
     let mut stderr = String::new();
     child.stderr.take().expect("piped").read_to_string(&mut stderr).expect("text");
     assert_eq!(child.wait().expect("our own child").code(), Some(3));
@@ -253,7 +266,19 @@ fn help_shows_every_command_and_how_to_begin() {
 fn a_picture_is_drawn_without_any_window() {
     let folder = Folder::new("render");
     let file = folder.join("fly.png");
-    let arguments = ["render", "demo:", "--take", "cruise", "--time", "0.4", "--size", "320x200", "--background", "00000000", "-o"];
+    let arguments = [
+        "render",
+        "demo:",
+        "--take",
+        "cruise",
+        "--time",
+        "0.4",
+        "--size",
+        "320x200",
+        "--background",
+        "00000000",
+        "-o",
+    ];
     run(arguments.iter().map(std::ffi::OsStr::new).chain([file.as_os_str()])).expect(0);
     let picture = image::open(&file).expect("a PNG file").into_rgba8();
     assert_eq!(picture.dimensions(), (320, 200));

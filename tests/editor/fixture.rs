@@ -46,7 +46,11 @@ pub fn take(name: &str, skeleton: &Skeleton, length: f32, keys: usize) -> Take {
     let times: Arc<[f32]> = (0..keys).map(|key| key as f32 * length / (keys - 1).max(1) as f32).collect();
     let tracks = (0..skeleton.len() as u32).map(|bone| {
         let turn = |time: &f32| Quat::from_rotation_z((time * 3.0 + bone as f32).sin() * 0.2);
-        let rotation = Channel::new(Arc::clone(&times), times.iter().map(turn).collect::<Vec<_>>(), Interpolation::Linear);
+        let rotation = Channel::new(
+            Arc::clone(&times),
+            times.iter().map(turn).collect::<Vec<_>>(),
+            Interpolation::Linear,
+        );
         let mut track = Track { bone, rotation, ..Track::default() };
         if bone == 0 {
             let few: Vec<f32> = times.iter().copied().step_by(5).collect();
@@ -65,7 +69,8 @@ pub fn full() -> View {
 
 /// A model of `skeleton` with takes of these names, lengths and numbers of keys.
 pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> View {
-    let takes = takes.iter().map(|(name, length, keys)| Arc::new(take(name, &skeleton, *length, *keys))).collect();
+    let takes =
+        takes.iter().map(|(name, length, keys)| Arc::new(take(name, &skeleton, *length, *keys))).collect();
     let model = Arc::new(ModelData {
         name: title.to_owned(),
         materials: vec![Material::default()],

@@ -176,7 +176,21 @@ fn hostile_names_of_files_are_refused_by_the_program_itself() {
 fn names_that_can_only_do_harm_are_refused_before_the_disk_is_asked() {
     let place = Place::new("names");
     let folder = place.folder();
-    for name in ["", ".", "..", "/", "a//b", "../secret.bin", "a/../../secret.bin", "\0", "a\nb", "c:x", "x\\y", "good.bin.", "good.bin "] {
+    for name in [
+        "",
+        ".",
+        "..",
+        "/",
+        "a//b",
+        "../secret.bin",
+        "a/../../secret.bin",
+        "\0",
+        "a\nb",
+        "c:x",
+        "x\\y",
+        "good.bin.",
+        "good.bin ",
+    ] {
         assert!(folder.read(name, LIMIT).is_err(), "{name:?}");
     }
     let deep = vec!["d"; 100].join("/");

@@ -120,7 +120,18 @@ fn every_panel_is_named() {
     for panel in panels::all().iter().filter(|panel| panel.id() != panels::VIEWPORT) {
         assert!(harness.query_by_label(panel.title()).is_some(), "{} has no title", panel.id());
     }
-    for label in ["File", "View", "Find a bone", "Play / pause", "Time", "Frame", "Speed", "Viewport", "Walk", "Rest pose"] {
+    for label in [
+        "File",
+        "View",
+        "Find a bone",
+        "Play / pause",
+        "Time",
+        "Frame",
+        "Speed",
+        "Viewport",
+        "Walk",
+        "Rest pose",
+    ] {
         assert!(harness.query_all_by_label(label).next().is_some(), "{label} is missing");
     }
 }
@@ -184,7 +195,11 @@ fn scrubbing_the_timeline_moves_the_time_and_gives_it_back() {
     harness.key_press(egui::Key::Space);
     harness.run_steps(2);
     let track = harness.get_by_label("Timeline").rect();
-    let track = if track.height() > 40.0 { track } else { harness.get_all_by_label("Timeline").last().unwrap().rect() };
+    let track = if track.height() > 40.0 {
+        track
+    } else {
+        harness.get_all_by_label("Timeline").last().unwrap().rect()
+    };
     let middle = egui::pos2(track.left() + 8.0 + (track.width() - 28.0) / 2.0, track.top() + 12.0);
     harness.drag_at(track.left_top() + egui::vec2(60.0, 12.0));
     harness.run_steps(2);

@@ -5,12 +5,12 @@ use dragonfly::graphics::PictureSettings;
 use image::RgbaImage;
 
 /// Small, because the processor draws it.
-pub fn settings() -> PictureSettings {
+pub(crate) fn settings() -> PictureSettings {
     PictureSettings { size: [160, 120], yaw: 0.0, pitch: 0.1, ..PictureSettings::default() }
 }
 
 /// Pixels that differ.
-pub fn difference(a: &RgbaImage, b: &RgbaImage) -> usize {
+pub(crate) fn difference(a: &RgbaImage, b: &RgbaImage) -> usize {
     a.pixels().zip(b.pixels()).filter(|(a, b)| a != b).count()
 }
 
@@ -59,7 +59,10 @@ fn every_look_draws_without_an_error() {
             let settings = PictureSettings { look, skeleton: true, ..settings() };
             let picture = studio.render(&loaded, &settings).unwrap();
             if let Some(before) = before.replace(picture.clone()) {
-                assert!(difference(&before, &picture) > 20, "{shading:?} with {bone_look:?} looks like the one before");
+                assert!(
+                    difference(&before, &picture) > 20,
+                    "{shading:?} with {bone_look:?} looks like the one before"
+                );
             }
         }
     }

@@ -22,7 +22,10 @@ fn every_file_is_in_the_list() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "wgsl") {
             let name = path.file_stem().unwrap().to_str().unwrap();
-            assert!(ALL.iter().any(|shader| shader.name == name), "{name}.wgsl is not in graphics/shaders.rs");
+            assert!(
+                ALL.iter().any(|shader| shader.name == name),
+                "{name}.wgsl is not in graphics/shaders.rs"
+            );
         }
     }
 }

@@ -3,7 +3,7 @@
 use dragonfly::graphics::{DeviceParameters, GraphicsError, Studio};
 
 /// A studio on the machine's adapter.
-pub fn studio() -> Option<Studio> {
+pub(crate) fn studio() -> Option<Studio> {
     match Studio::with(DeviceParameters::default()) {
         Ok(studio) => Some(studio),
         Err(GraphicsError::NoAdapter(reason)) => {

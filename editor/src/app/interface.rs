@@ -136,7 +136,9 @@ impl Interface {
                 self.tell_size();
                 self.redraw();
             }
-            WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => self.redraw(),
+            WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => {
+                self.redraw()
+            }
             _ if response.repaint => self.redraw(),
             _ => {}
         }
@@ -146,8 +148,12 @@ impl Interface {
     pub(super) fn accesskit_event(&mut self, event: accesskit_winit::WindowEvent) {
         match event {
             accesskit_winit::WindowEvent::InitialTreeRequested => self.egui.egui_ctx().enable_accesskit(),
-            accesskit_winit::WindowEvent::ActionRequested(request) => self.egui.on_accesskit_action_request(request),
-            accesskit_winit::WindowEvent::AccessibilityDeactivated => self.egui.egui_ctx().disable_accesskit(),
+            accesskit_winit::WindowEvent::ActionRequested(request) => {
+                self.egui.on_accesskit_action_request(request)
+            }
+            accesskit_winit::WindowEvent::AccessibilityDeactivated => {
+                self.egui.egui_ctx().disable_accesskit()
+            }
         }
         self.redraw();
     }
@@ -206,7 +212,8 @@ impl Interface {
         });
         self.egui.handle_platform_output(&self.window, output.platform_output);
 
-        let before = (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+        let before =
+            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
         let (overlay, viewport) = (self.state.overlay, self.state.viewport);
         self.state.hovered = None;
         self.state.find = false;
@@ -218,7 +225,8 @@ impl Interface {
             self.effects.extend(effect);
         }
         // What was asked for is seen in the next drawing.
-        let after = (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+        let after =
+            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
         let changed = before != after || overlay != self.state.overlay || viewport != self.state.viewport;
 
         let size = self.window.inner_size();
@@ -234,7 +242,8 @@ impl Interface {
         }
         self.drawn = now;
         self.due = None;
-        let egui_wants = output.viewport_output.get(&egui::ViewportId::ROOT).map(|output| output.repaint_delay);
+        let egui_wants =
+            output.viewport_output.get(&egui::ViewportId::ROOT).map(|output| output.repaint_delay);
         let wanted = [changed.then_some(Duration::ZERO), egui_wants, self.state.next_display()];
         if let Some(when) = wanted.into_iter().flatten().min().and_then(|delay| now.checked_add(delay)) {
             self.redraw_at(when);

@@ -79,7 +79,11 @@ impl Timeline {
     /// In debug builds, when a later step was reached before.
     pub fn reach(&mut self, step: Step) {
         tracing::info!(target: "dragonfly::timeline", step = step.number(), name = step.name());
-        debug_assert!(self.reached.last().is_none_or(|last| *last < step), "{step:?} after {:?}", self.reached);
+        debug_assert!(
+            self.reached.last().is_none_or(|last| *last < step),
+            "{step:?} after {:?}",
+            self.reached
+        );
         self.reached.push(step);
     }
 

@@ -160,6 +160,8 @@ impl Device {
     pub fn lose(&mut self) {
         self.losses.expect_one();
         self.gpu.device.destroy();
+        // The driver says so at some later poll; nothing can be drawn from now on, so it is said here.
+        self.faults.report_loss("Destroyed: on purpose");
     }
 
     /// Notes that the device is unusable although the driver has not said so (a panic inside wgpu, a surface that answers

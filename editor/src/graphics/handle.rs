@@ -4,52 +4,55 @@ use super::message::{GraphicsMessage, Look, PanelsFrame};
 use crate::camera::Camera;
 use crate::document::LoadedModel;
 use crate::playback::Playback;
-use dragonfly_runtime::Address;
+use dragonfly_runtime::{Address, Thread, ThreadHandle};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Cheap to clone; every method returns at once. What is sent to a thread that has stopped is dropped: there is nothing
-/// left to show it in.
-#[derive(Clone, Debug)]
+/// left to show it in. The thread stops when the last handle goes.
+#[derive(Clone)]
 pub struct GraphicsHandle {
+    thread: ThreadHandle,
     address: Address<GraphicsMessage>,
     /// Where the newest camera takes the place of one that waits; likewise the others.
     camera: Address<GraphicsMessage>,
     look: Address<GraphicsMessage>,
     playback: Address<GraphicsMessage>,
     size: Address<GraphicsMessage>,
+    /// `None` where somebody else owns the thread.
+    _owner: Option<Arc<Thread>>,
 }
 
 impl GraphicsHandle {
-    /// A handle of the graphics at `address`.
-    pub fn new(address: Address<GraphicsMessage>) -> Self {
-        let latest = || address.latest();
-        Self { camera: latest(), look: latest(), playback: latest(), size: latest(), address }
+    pub(super) fn new(
+        thread: ThreadHandle,
+        address: Address<GraphicsMessage>,
+        owner: Option<Thread>,
+    ) -> Self {
+        let [camera, look, playback, size] = [(); 4].map(|()| address.latest());
+        Self { thread, address, camera, look, playback, size, _owner: owner.map(Arc::new) }
     }
 
-    /// Shows `loaded` instead of what is shown.
-    pub fn show_model(&self, loaded: Arc<LoadedModel>) {
-        let _ = self.address.send(GraphicsMessage::ShowModel(loaded));
+    /// Its thread.
+    pub fn thread(&self) -> &ThreadHandle {
+        &self.thread
     }
 
-    /// Shows this time of this take.
-    pub fn play(&self, playback: Playback) {
-        let _ = self.playback.send(GraphicsMessage::Play(playback));
+    /// Ends the thread, after everything that was sent to it before.
+    pub fn stop(&self) {
+        self.thread.remote_stop();
     }
 
-    /// Looks from there.
-    pub fn set_camera(&self, camera: Camera) {
-        let _ = self.camera.send(GraphicsMessage::Camera(camera));
-    }
-
-    /// Draws like that.
-    pub fn set_look(&self, look: Look) {
-        let _ = self.look.send(GraphicsMessage::Look(Box::new(look)));
-    }
-
-    /// Shows these panels. All of them arrive: each may bring textures that come only once.
-    pub fn show_panels(&self, frame: PanelsFrame) {
-        if let Err(error) = self.address.send(GraphicsMessage::Panels(Box::new(frame)))
+    /// Sends a message; of cameras, looks, times and sizes that wait, the newest is enough.
+    pub fn send(&self, message: GraphicsMessage) {
+        let address = match &message {
+            GraphicsMessage::Camera(_) => &self.camera,
+            GraphicsMessage::Look(_) => &self.look,
+            GraphicsMessage::Play(_) => &self.playback,
+            GraphicsMessage::Resized(_) => &self.size,
+            _ => &self.address,
+        };
+        if let Err(error) = address.send(message)
             && let GraphicsMessage::Panels(mut frame) = error.into_inner()
         {
             // egui insists that textures are not forgotten by mistake; here it is on purpose.
@@ -57,28 +60,53 @@ impl GraphicsHandle {
         }
     }
 
+    /// Shows `loaded` instead of what is shown.
+    pub fn show_model(&self, loaded: Arc<LoadedModel>) {
+        self.send(GraphicsMessage::ShowModel(loaded));
+    }
+
+    /// Shows this time of this take.
+    pub fn play(&self, playback: Playback) {
+        self.send(GraphicsMessage::Play(playback));
+    }
+
+    /// Looks from there.
+    pub fn set_camera(&self, camera: Camera) {
+        self.send(GraphicsMessage::Camera(camera));
+    }
+
+    /// Draws like that.
+    pub fn set_look(&self, look: Look) {
+        self.send(GraphicsMessage::Look(Box::new(look)));
+    }
+
+    /// Shows these panels. All of them arrive: each may bring textures that come only once.
+    pub fn show_panels(&self, frame: PanelsFrame) {
+        self.send(GraphicsMessage::Panels(Box::new(frame)));
+    }
+
     /// The window has this many physical pixels.
     pub fn resize(&self, size: [u32; 2]) {
-        let _ = self.size.send(GraphicsMessage::Resized(size));
+        self.send(GraphicsMessage::Resized(size));
     }
 
     /// Asks which bone is at a pixel of the window.
     pub fn pick(&self, position: [f32; 2], ticket: u64) {
-        let _ = self.address.send(GraphicsMessage::Pick { position, ticket });
+        self.send(GraphicsMessage::Pick { position, ticket });
     }
 
     /// Loses the device on purpose.
     pub fn lose_device(&self) {
-        let _ = self.address.send(GraphicsMessage::LoseDevice);
+        self.send(GraphicsMessage::LoseDevice);
     }
 
     /// Draws the scene again after a pause.
     pub fn resume(&self) {
-        let _ = self.address.send(GraphicsMessage::Resume);
+        self.send(GraphicsMessage::Resume);
     }
 
     /// Writes the whole window as a PNG.
     pub fn capture(&self, path: PathBuf) {
-        let _ = self.address.send(GraphicsMessage::Capture(path));
+        self.send(GraphicsMessage::Capture(path));
     }
 }

@@ -6,6 +6,7 @@ use super::stage::{Opened, Stage};
 use crate::camera::Camera;
 use crate::document::LoadedModel;
 use crate::playback::Playback;
+use dragonfly_anim::bounds::bounds_of_pose;
 use glam::Vec3;
 use image::RgbaImage;
 use std::sync::Arc;
@@ -159,7 +160,12 @@ impl Studio {
         let mut camera = Camera { yaw: settings.yaw, pitch: settings.pitch, ..Camera::default() };
         let [width, height] = settings.size.map(|side| side.max(1) as f32);
         if let Some(model) = self.stage.scene.model() {
-            let bounds = if posed { model.bounds_now() } else { *model.bounds() };
+            let playback = &self.stage.scene.playback;
+            let bounds = if posed {
+                bounds_of_pose(&model.loaded().model, playback.take, playback.time_at(playback.anchor))
+            } else {
+                *model.bounds()
+            };
             let size = bounds.max - bounds.min;
             // A little air, more below where the eye expects ground.
             let air = Vec3::splat(size.max_element() * 0.04);

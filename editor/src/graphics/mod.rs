@@ -34,4 +34,5 @@ pub use device::{Device, DeviceListener, DeviceParameters, DeviceState, Graphics
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};
 pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading};
+pub use surface::SurfaceSource;
 pub use worker::{Drawer, Graphics, Present};

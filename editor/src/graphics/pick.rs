@@ -97,6 +97,7 @@ fn on_screen(clip_from_world: &Mat4, point: Vec3, size: Vec2) -> Option<Vec2> {
 fn to_segment(point: Vec2, a: Vec2, b: Vec2) -> f32 {
     let along = b - a;
     let length_squared = along.length_squared();
-    let share = if length_squared > 0.0 { ((point - a).dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+    let share =
+        if length_squared > 0.0 { ((point - a).dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
     point.distance(a + along * share)
 }

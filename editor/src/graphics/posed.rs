@@ -5,10 +5,10 @@ use super::shape::SkeletonShape;
 use super::uniform::{Affine, DrawUniform};
 use crate::document::LoadedModel;
 use dragonfly_anim::animation::{Animation, final_poses};
-use dragonfly_anim::bounds::{Bounds, bounds_of_bones};
+use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AlphaMode, ModelData, Primitive};
 use dragonfly_anim::sample::sample_morph_weights;
-use dragonfly_anim::skin::{Movement, rigid, skin_positions};
+use dragonfly_anim::skin::rigid;
 use glam::{Mat4, Vec3};
 use std::sync::Arc;
 
@@ -35,7 +35,6 @@ pub struct DrawItem {
 pub struct PosedModel {
     loaded: Arc<LoadedModel>,
     animation: Animation,
-    bounds: Bounds,
     /// One list for the device: all skins, then one matrix an instance.
     palettes: Vec<Affine>,
     /// First matrix of each skin.
@@ -76,7 +75,6 @@ impl PosedModel {
         let largest = model.skins.iter().map(|skin| skin.bones.len()).max().unwrap_or(0);
         let mut posed = Self {
             animation: Animation::of(model),
-            bounds: Bounds::default(),
             palettes: vec![Mat4::IDENTITY.into(); (rigid_start + model.instances.len()).max(1)],
             skin_starts,
             rigid_start,
@@ -91,7 +89,6 @@ impl PosedModel {
         posed.items = posed.draw_items();
         posed.back_to_front.reserve(posed.items.iter().filter(|item| item.blend).count());
         posed.pose(None, 0.0);
-        posed.bounds = posed.measure();
         posed
     }
 
@@ -100,9 +97,9 @@ impl PosedModel {
         &self.loaded
     }
 
-    /// Around the surface at rest; around the bones where there is no surface.
+    /// Around the model at rest.
     pub fn bounds(&self) -> &Bounds {
-        &self.bounds
+        &self.loaded.bounds
     }
 
     /// All matrices, ready for the device.
@@ -218,32 +215,6 @@ impl PosedModel {
             }
         }
         items
-    }
-
-    fn measure(&self) -> Bounds {
-        let model = &self.loaded.model;
-        let mut all = Vec::new();
-        for (instance, &(weights, count)) in model.instances.iter().zip(&self.weight_ranges) {
-            let finals = instance.skin.and_then(|skin| model.skins.get(skin as usize)).map(|skin| {
-                let mut finals = vec![Mat4::IDENTITY; skin.bones.len()];
-                final_poses(skin, self.to_root(), &mut finals);
-                finals
-            });
-            for primitive in primitives(model, instance.mesh) {
-                let movement =
-                    Movement::of(instance, primitive, self.to_root(), finals.as_deref().unwrap_or(&[]));
-                let start = all.len();
-                all.resize(start + primitive.vertices.len(), Vec3::ZERO);
-                let weights = &self.weights[weights..weights + count];
-                skin_positions(primitive, movement, weights, &mut all[start..]);
-            }
-        }
-        if all.is_empty() { bounds_of_bones(self.to_root()) } else { Bounds::of_points(&all) }
-    }
-
-    /// Bounds in the pose set last, for a single picture; looks at every vertex.
-    pub fn bounds_now(&self) -> Bounds {
-        self.measure()
     }
 }
 

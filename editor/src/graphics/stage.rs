@@ -307,14 +307,14 @@ impl Stage {
             None
         };
         let gpu = self.device.gpu();
-        let [_, _, width, height] = self.scene.look.viewport;
-        let size = [width, height].map(|side| side.min(gpu.max_side));
-        if size.contains(&0) {
-            self.target = None;
-        } else if self.target.as_ref().is_none_or(|target| target.size() != size) {
-            self.target = Some(SceneTarget::new(gpu, size));
-        }
         if draws_scene {
+            let [_, _, width, height] = self.scene.look.viewport;
+            let size = [width, height].map(|side| side.min(gpu.max_side));
+            if size.contains(&0) {
+                self.target = None;
+            } else if self.target.as_ref().is_none_or(|target| target.size() != size) {
+                self.target = Some(SceneTarget::new(gpu, size));
+            }
             gpu.write_frame(self.scene.uniform());
         }
         let encoder = gpu.device.create_command_encoder(&Default::default());

@@ -7,11 +7,12 @@ use super::message::{GraphicsMessage, GraphicsReply};
 use super::pass::SharedPass;
 use super::pick::pick;
 use super::stage::{Event, Opened, Stage};
+use super::surface::SurfaceSource;
 use super::{GraphicsHandle, Look};
 use crate::camera::Camera;
 use crate::document::LoadedModel;
 use crate::playback::Playback;
-use dragonfly_runtime::{Address, Context, Receiver, ThreadHandle, Worker};
+use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -47,36 +48,54 @@ struct Statistics {
 }
 
 impl Graphics {
-    /// Registers graphics in `thread`, whose answers go to `replies`: the device is created at the first call in that thread,
-    /// which answers [`GraphicsReply::Ready`] or [`GraphicsReply::Fatal`].
+    /// Starts the graphics thread (T-133), whose answers go to `replies`. The device for the window, which has `size`
+    /// physical pixels, is created at the first call in that thread, which answers [`GraphicsReply::Ready`] or
+    /// [`GraphicsReply::Fatal`].
     pub fn start(
-        thread: &ThreadHandle,
-        parameters: DeviceParameters,
+        source: SurfaceSource,
+        size: [u32; 2],
         replies: Address<GraphicsReply>,
-    ) -> GraphicsHandle {
-        let address = thread.reserve_address();
-        let own = address.clone();
-        // Fails only for a thread that has stopped, and then the handle says nothing to nobody.
-        let _ = thread.run(move |context| {
-            let graphics = Rc::new(RefCell::new(Self::new(parameters, replies)));
-            context.register_receiver_at(&own, Rc::clone(&graphics));
-            context.register_worker(graphics);
-            context.iterate_again();
-        });
-        GraphicsHandle::new(address)
+    ) -> std::io::Result<GraphicsHandle> {
+        let thread = Thread::start("graphics")?;
+        let parameters = DeviceParameters { source: Some(source), ..DeviceParameters::default() };
+        let address = Self::register(thread.handle(), parameters, size, replies);
+        Ok(GraphicsHandle::new(thread.handle().clone(), address, Some(thread)))
     }
 
-    /// Graphics without a device yet.
-    pub fn new(parameters: DeviceParameters, replies: Address<GraphicsReply>) -> Self {
-        Self {
-            parameters: Some(parameters),
-            replies,
-            stage: None,
-            waiting: Vec::new(),
-            captures: Vec::new(),
-            statistics: Rc::default(),
-            failed: false,
-        }
+    /// The same in a thread that somebody else owns and may turn by hand, with or without a window.
+    pub fn start_in(
+        thread: &ThreadHandle,
+        parameters: DeviceParameters,
+        size: [u32; 2],
+        replies: Address<GraphicsReply>,
+    ) -> GraphicsHandle {
+        let address = Self::register(thread, parameters, size, replies);
+        GraphicsHandle::new(thread.clone(), address, None)
+    }
+
+    fn register(
+        thread: &ThreadHandle,
+        parameters: DeviceParameters,
+        size: [u32; 2],
+        replies: Address<GraphicsReply>,
+    ) -> Address<GraphicsMessage> {
+        let address = thread.reserve_address();
+        let own = address.clone();
+        // Fails only for a thread that has stopped, and then there is nobody to hear of it.
+        let _ = thread.run(move |context| {
+            let graphics = Rc::new(RefCell::new(Self {
+                parameters: Some(parameters),
+                replies,
+                stage: None,
+                waiting: vec![GraphicsMessage::Resized(size)],
+                captures: Vec::new(),
+                statistics: Rc::default(),
+                failed: false,
+            }));
+            context.register_receiver_at(&own, Rc::clone(&graphics));
+            context.register_worker(graphics);
+        });
+        address
     }
 
     /// First call in the thread: makes the device and the workers that draw with it.
@@ -254,7 +273,9 @@ fn too_soon(opened: Option<Instant>, now: Instant, stage: &mut Stage) -> Option<
 }
 
 fn write(picture: &image::RgbaImage, path: &Path) -> Result<(), String> {
-    picture.save_with_format(path, image::ImageFormat::Png).map_err(|error| format!("{}: {error}", path.display()))
+    picture
+        .save_with_format(path, image::ImageFormat::Png)
+        .map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// Lets one pass draw.
