@@ -152,7 +152,9 @@ pub(crate) fn seeds() -> Vec<Seed> {
     let mut paths: Vec<_> =
         std::fs::read_dir(data().join("gltf")).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.sort();
-    for path in paths.into_iter().filter(|path| path.is_file()) {
+    let is_model =
+        |path: &std::path::Path| path.extension().is_some_and(|ending| ending == "gltf" || ending == "glb");
+    for path in paths.into_iter().filter(|path| is_model(path)) {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         seeds.push(Seed { name, bytes: std::fs::read(path).unwrap() });
     }

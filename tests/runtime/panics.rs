@@ -198,6 +198,43 @@ fn a_restartable_worker_keeps_its_place() {
 }
 
 #[test]
+fn objects_can_be_made_restartable_from_outside() {
+    let thread = Thread::start("outside").unwrap();
+    let (inside, outside) = std::sync::mpsc::channel();
+    let said = inside.clone();
+    let mut made = 0;
+    let address = thread.handle().register_restartable_receiver(move |_| {
+        made += 1;
+        let (said, made) = (said.clone(), made);
+        hear(move |message: u32, _: &mut Context| match message {
+            0 => panic_quietly("zero"),
+            _ => said.send((made, message)).unwrap(),
+        })
+    });
+    let mut turns = 0;
+    thread.handle().register_restartable_worker(move |_| {
+        turns += 1;
+        let (inside, turns) = (inside.clone(), turns);
+        work(move |_| match turns {
+            1 => panic_quietly("the first one"),
+            _ => inside.send((turns, 0)).is_ok(),
+        })
+    });
+    for message in [1, 0, 2] {
+        address.send(message).unwrap();
+    }
+    thread.handle().remote_sleep(Duration::ZERO); // Ends the batch: one more iteration.
+    address.send(3).unwrap();
+    let mut seen: Vec<(u32, u32)> = Vec::new();
+    while !(seen.contains(&(2, 3)) && seen.contains(&(2, 0))) {
+        address.send(4).unwrap();
+        seen.push(outside.recv_timeout(LIMIT).unwrap());
+    }
+    assert!(seen.contains(&(1, 1)) && seen.contains(&(2, 2)), "{seen:?}");
+    assert_eq!(thread.handle().counters().restarts, 2);
+}
+
+#[test]
 fn more_than_three_panics_in_ten_seconds_are_too_many() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("kitchen");
