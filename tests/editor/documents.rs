@@ -23,7 +23,8 @@ impl Receiver for Heard {
 #[test]
 fn the_built_in_model_opens_with_progress() {
     let mut steps = Vec::new();
-    let loaded = load_model(&Source::BuiltIn, &mut |progress| steps.push(progress.done), &Cancel::default()).unwrap();
+    let loaded =
+        load_model(&Source::BuiltIn, &mut |progress| steps.push(progress.done), &Cancel::default()).unwrap();
     assert_eq!(loaded.title, "Dragonfly");
     assert!(loaded.path.is_none());
     assert!(loaded.model.animation.takes.len() >= 3);
@@ -97,7 +98,11 @@ fn an_image_that_claims_too_much_costs_a_warning_and_nothing_else() {
         let decoded = images::decode_all(&[claims(width, height)], &Cancel::default(), |_| {});
         assert_eq!(decoded.images, [None]);
         assert_eq!(decoded.warnings.len(), 1);
-        assert!(decoded.warnings[0].starts_with("image 0 \"huge\" is not shown: "), "{}", decoded.warnings[0]);
+        assert!(
+            decoded.warnings[0].starts_with("image 0 \"huge\" is not shown: "),
+            "{}",
+            decoded.warnings[0]
+        );
     }
 }
 

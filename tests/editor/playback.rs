@@ -7,7 +7,15 @@ use std::time::{Duration, Instant};
 const REPEATS: [Repeat; 3] = [Repeat::Once, Repeat::Loop, Repeat::PingPong];
 
 fn playback(now: Instant, length: f32, repeat: Repeat) -> Playback {
-    Playback { take: Some(0), start: 1.0, length, anchor_time: 1.0, playing: true, repeat, ..Playback::rest(now) }
+    Playback {
+        take: Some(0),
+        start: 1.0,
+        length,
+        anchor_time: 1.0,
+        playing: true,
+        repeat,
+        ..Playback::rest(now)
+    }
 }
 
 fn later(now: Instant, seconds: f64) -> Instant {

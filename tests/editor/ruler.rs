@@ -32,7 +32,8 @@ fn ticks_can_be_read_at_any_length() {
             let ruler = Ruler { left: 0.0, width: 1000.0, start: 0.0, length };
             let ticks = ruler.ticks(rate);
             assert!(!ticks.is_empty() && ticks.len() <= 2001, "{length} s: {} ticks", ticks.len());
-            let majors: Vec<f32> = ticks.iter().filter(|tick| tick.major).map(|tick| ruler.x_of(tick.time)).collect();
+            let majors: Vec<f32> =
+                ticks.iter().filter(|tick| tick.major).map(|tick| ruler.x_of(tick.time)).collect();
             assert!(!majors.is_empty(), "{length} s at {rate} has no label");
             for pair in majors.windows(2) {
                 assert!(pair[1] - pair[0] > 50.0, "{length} s at {rate}: labels overlap");

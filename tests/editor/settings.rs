@@ -7,7 +7,8 @@ use std::path::Path;
 
 #[test]
 fn settings_come_back_as_they_went() {
-    let mut settings = Settings { theme: ThemeChoice::Light, scale: 1.5, frame_rate: 24, ..Settings::default() };
+    let mut settings =
+        Settings { theme: ThemeChoice::Light, scale: 1.5, frame_rate: 24, ..Settings::default() };
     settings.remember(Path::new("/models/fox.glb"));
     assert_eq!(Settings::parse(&settings.to_text()), settings);
 }
@@ -24,7 +25,11 @@ fn a_damaged_file_gives_the_defaults() {
 fn a_wrong_number_becomes_the_nearest_right_one() {
     let settings = Settings::parse("{\"scale\": 1000.0, \"speed\": -3.0, \"frame_rate\": 7}");
     assert_eq!((settings.scale, settings.speed, settings.frame_rate), (2.0, 0.05, 30));
-    assert_eq!(Settings::parse("{\"unknown\": 1, \"scale\": 1.25}").scale, 1.25, "what is unknown is left alone");
+    assert_eq!(
+        Settings::parse("{\"unknown\": 1, \"scale\": 1.25}").scale,
+        1.25,
+        "what is unknown is left alone"
+    );
 }
 
 #[test]

@@ -105,7 +105,8 @@ fn a_thousand_random_sequences_leave_nothing_stuck() {
         let (mut control, mut camera) = (ViewportControl::default(), Camera::default());
         for _ in 0..30 {
             let buttons = [Button::Left, Button::Middle, Button::Right];
-            let mut place = || if random.below(20) == 0 { random.choice(&odd) } else { random.unit() * 800.0 };
+            let mut place =
+                || if random.below(20) == 0 { random.choice(&odd) } else { random.unit() * 800.0 };
             let pointer = Vec2::new(place(), place());
             control.step(
                 &Input {

@@ -1,7 +1,7 @@
 //! The whole program as a person meets it: a real window on a screen of our own, driven by keys and mouse.
 
 use crate::program::{Folder, data, dragonfly, wait};
-use crate::screen::{Screen, Window, key};
+use crate::screen::{Screen, Window, key, pass};
 use image::RgbaImage;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, ExitStatus, Stdio};
@@ -117,14 +117,6 @@ impl Drop for Editor {
     }
 }
 
-/// A moment, where time itself is what is looked at.
-fn pass(time: Duration) {
-    let end = Instant::now() + time;
-    while let Some(left) = end.checked_duration_since(Instant::now()) {
-        std::thread::park_timeout(left);
-    }
-}
-
 /// What a part of the screen shows once it does not change any more.
 #[track_caller]
 pub(crate) fn settled(screen: &Screen, part: [u32; 4]) -> RgbaImage {
@@ -132,7 +124,10 @@ pub(crate) fn settled(screen: &Screen, part: [u32; 4]) -> RgbaImage {
     let mut last = screen.part(part);
     let mut since = Instant::now();
     while since.elapsed() < Duration::from_millis(900) {
-        assert!(Instant::now() < deadline, "the picture did not come to rest within {SOON:?}");
+        if Instant::now() > deadline {
+            screen.keep("restless");
+            panic!("the picture did not come to rest within {SOON:?}");
+        }
         pass(Duration::from_millis(100));
         let now = screen.part(part);
         if now != last {
@@ -151,7 +146,10 @@ fn colours(picture: &RgbaImage) -> usize {
 fn eventually_shows_something(screen: &Screen) {
     let deadline = Instant::now() + SOON;
     while colours(&screen.part(VIEWPORT)) < 200 {
-        assert!(Instant::now() < deadline, "the viewport shows nothing");
+        if Instant::now() > deadline {
+            screen.keep("nothing");
+            panic!("the viewport shows nothing");
+        }
         pass(Duration::from_millis(100));
     }
 }

@@ -1,6 +1,6 @@
 //! Addresses: typed, clonable, never waiting, and no message vanishes unseen.
 
-use crate::cast::{LIMIT, Log, deadline, hear, listen, outlet};
+use crate::cast::{LIMIT, Log, deadline, hear, listen, outlet, plain_thread};
 use dragonfly_kit::eventually;
 use dragonfly_runtime::{Address, SendError, Stage, Thread};
 use std::rc::Rc;
@@ -72,6 +72,7 @@ fn the_latest_message_takes_the_place_of_the_one_that_waits() {
         latest.clone().send(message).unwrap();
     }
     assert_eq!((latest.waiting(), latest.queue_len()), (1, 1));
+    assert_eq!(thread.counters().replaced, 4, "each as soon as the next was sent");
     stage.iterate(&thread);
     assert_eq!(log.take(), "m5");
     assert_eq!(thread.counters().replaced, 4);
@@ -145,7 +146,7 @@ fn each_message_that_was_accepted_is_counted_once() {
     let address = handle.register_receiver(|_| hear(|_: u32, _| ()));
     let senders: Vec<_> = [address.clone(), address.latest(), handle.reserve_address()]
         .into_iter()
-        .map(|address| std::thread::spawn(move || (0..).take_while(|n| address.send(*n).is_ok()).count()))
+        .map(|address| plain_thread(move || (0..).take_while(|n| address.send(*n).is_ok()).count()))
         .collect();
     eventually(LIMIT, || handle.counters().delivered > 1000);
     handle.remote_stop();

@@ -1,5 +1,6 @@
 //! Window, captured main thread, graphics thread: what every program of this kind has (thesis §3.2.4.1).
 
+use super::AppError;
 use super::base_runtime::Parts;
 use super::editor_runtime::report_faults;
 use super::event::UserEvent;
@@ -7,9 +8,7 @@ use super::init_manager::{InitManager, MakeRuntime};
 use super::interface::Interface;
 use super::store::Store;
 use super::timeline::{Step, Timeline};
-use super::AppError;
-use crate::graphics::surface::SurfaceSource;
-use crate::graphics::{DeviceParameters, Graphics};
+use crate::graphics::{Graphics, GraphicsHandle, SurfaceSource};
 use dragonfly_runtime::{Captured, Next, Thread};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -29,7 +28,7 @@ pub struct MainRuntime {
     window: Arc<Window>,
     interface: Rc<RefCell<Interface>>,
     init: Rc<RefCell<InitManager>>,
-    graphics: Thread,
+    graphics: GraphicsHandle,
     timeline: Rc<RefCell<Timeline>>,
 }
 
@@ -48,7 +47,8 @@ impl MainRuntime {
             .with_visible(false)
             .with_min_inner_size(LogicalSize::new(480.0, 320.0))
             .with_inner_size(LogicalSize::new(1280.0, 720.0));
-        let window = event_loop.create_window(attributes).map_err(|error| AppError::Window(error.to_string()))?;
+        let window =
+            event_loop.create_window(attributes).map_err(|error| AppError::Window(error.to_string()))?;
         let window = Arc::new(window);
         let context = egui::Context::default();
         let scale = window.scale_factor() as f32;
@@ -77,18 +77,17 @@ impl MainRuntime {
         main.context().register_restartable_worker(move |_| Rc::clone(&kept));
         timeline.borrow_mut().reach(Step::MainRuntime);
 
-        let source = SurfaceSource { window: Arc::clone(&window), display: event_loop.owned_display_handle() };
-        let graphics = Thread::start("graphics").map_err(|error| AppError::Thread(error.to_string()))?;
-        report_faults(graphics.handle(), &interface, main.context());
-        let parameters = DeviceParameters { source: Some(source), ..DeviceParameters::default() };
+        let source =
+            SurfaceSource { window: Arc::clone(&window), display: event_loop.owned_display_handle() };
         let size = window.inner_size();
-        let size = [size.width, size.height];
-        let drawing = Graphics::start_in(graphics.handle(), parameters, size, replies);
+        let graphics = Graphics::start(source, [size.width, size.height], replies)
+            .map_err(|error| AppError::Thread(error.to_string()))?;
         timeline.borrow_mut().reach(Step::Graphics);
+        report_faults(graphics.thread(), &interface, main.context());
         let handle = main.handle().clone();
         report_faults(&handle, &interface, main.context());
-        interface.borrow_mut().set_graphics(drawing.clone());
-        let parts = Parts { interface: Rc::clone(&interface), graphics: drawing };
+        interface.borrow_mut().set_graphics(graphics.clone());
+        let parts = Parts { interface: Rc::clone(&interface), graphics: graphics.clone() };
         init.borrow_mut().set_parts(parts);
         Ok(Self { main, window, interface, init, graphics, timeline })
     }
@@ -118,8 +117,8 @@ impl MainRuntime {
         let Self { mut main, window, interface, init, graphics, timeline } = self;
         interface.borrow_mut().close();
         init.borrow_mut().destroy(main.context());
-        graphics.handle().remote_stop();
-        match Thread::wait_for(std::slice::from_ref(graphics.handle()), Instant::now() + END) {
+        graphics.stop();
+        match Thread::wait_for(std::slice::from_ref(graphics.thread()), Instant::now() + END) {
             Ok(()) => timeline.borrow_mut().reach(Step::GraphicsDestruction),
             // The driver holds it. The process ends all the same, and nothing of the person's work is there.
             Err(late) => tracing::warn!(?late, "did not end in time"),
