@@ -5,16 +5,22 @@ mod camera;
 mod command_line;
 mod commands;
 mod device_loss;
+mod documents;
 mod fixture;
 mod folder;
+mod life;
 mod no_allocation;
 mod panels;
 mod picking;
 mod picture;
+mod playback;
 mod program;
+mod ruler;
 mod screen;
+mod settings;
 mod shaders;
 mod studio;
+mod viewport_control;
 
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

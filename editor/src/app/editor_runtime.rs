@@ -6,7 +6,7 @@ use super::open_dialog::{self, Answer};
 use super::options::Options;
 use crate::camera::Camera;
 use crate::document::{Document, DocumentHandle, DocumentReply, Source};
-use crate::graphics::{GraphicsHandle, GraphicsMessage, GraphicsReply, Look};
+use crate::graphics::{GraphicsHandle, GraphicsReply, Look};
 use crate::panels::state::{Device, Loading, Overlay};
 use crate::panels::status::Level;
 use crate::panels::theme::{Theme, linear};
@@ -91,12 +91,12 @@ impl EditorRuntime {
                 running.tickets += 1;
                 let scale = interface.pixels_per_point();
                 let position = [position.x * scale, position.y * scale];
-                graphics.send(GraphicsMessage::Pick { position, ticket: running.tickets });
+                graphics.pick(position, running.tickets);
             }
             Effect::FullScreen => interface.toggle_full_screen(),
             Effect::TogglePanel(id) => interface.toggle_panel(id),
             Effect::ResetLayout => interface.reset_layout(),
-            Effect::RetryDevice => graphics.send(GraphicsMessage::Resume),
+            Effect::RetryDevice => graphics.resume(),
             Effect::Quit => self.quit.set(true),
         }
         interface.redraw();
@@ -146,7 +146,7 @@ impl BaseRuntime for EditorRuntime {
                     && frames.saturating_sub(running.lost_at) >= u64::from(every.max(1))
                 {
                     running.lost_at = frames;
-                    running.parts.graphics.send(GraphicsMessage::LoseDevice);
+                    running.parts.graphics.lose_device();
                 }
             }
             GraphicsReply::Recovered { reason, losses } => {
@@ -154,7 +154,7 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.status.say(Level::Info, text);
             }
             GraphicsReply::Paused { .. } if self.options.never_pause => {
-                running.parts.graphics.send(GraphicsMessage::Resume);
+                running.parts.graphics.resume();
             }
             GraphicsReply::Paused { reason } => {
                 interface.state.status.say(Level::Warning, format!("The viewport is paused: {reason}"));
@@ -208,19 +208,19 @@ impl Sent {
             && self.generation != Some(view.generation)
         {
             self.generation = Some(view.generation);
-            graphics.send(GraphicsMessage::ShowModel(std::sync::Arc::clone(&view.loaded)));
+            graphics.show_model(std::sync::Arc::clone(&view.loaded));
         }
         if self.playback != Some(state.playback) {
             self.playback = Some(state.playback);
-            graphics.send(GraphicsMessage::Play(state.playback));
+            graphics.play(state.playback);
         }
         if self.camera != Some(state.camera) {
             self.camera = Some(state.camera);
-            graphics.send(GraphicsMessage::Camera(state.camera));
+            graphics.set_camera(state.camera);
         }
         let look = look(state, interface.pixels_per_point(), interface.is_dark());
         if self.look.as_ref() != Some(&look) {
-            graphics.send(GraphicsMessage::Look(Box::new(look.clone())));
+            graphics.set_look(look.clone());
             self.look = Some(look);
         }
     }

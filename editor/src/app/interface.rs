@@ -3,7 +3,7 @@
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
 use super::store::{self, Store};
-use crate::graphics::{GraphicsHandle, GraphicsMessage, PanelsFrame};
+use crate::graphics::{GraphicsHandle, PanelsFrame};
 use crate::panels::commands;
 use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;
@@ -62,6 +62,7 @@ impl Interface {
 
     /// From now on drawings have somewhere to go.
     pub(super) fn set_graphics(&mut self, graphics: GraphicsHandle) {
+        graphics.resize(self.window_size());
         self.graphics = Some(graphics);
     }
 
@@ -158,13 +159,8 @@ impl Interface {
     }
 
     fn tell_size(&self) {
-        let size = self.window_size();
-        self.send(GraphicsMessage::Resized(size));
-    }
-
-    fn send(&self, message: GraphicsMessage) {
         if let Some(graphics) = &self.graphics {
-            graphics.send(message);
+            graphics.resize(self.window_size());
         }
     }
 
@@ -235,12 +231,15 @@ impl Interface {
 
         let size = self.window.inner_size();
         let jobs = context.tessellate(output.shapes, output.pixels_per_point);
-        self.send(GraphicsMessage::Panels(Box::new(PanelsFrame {
+        let frame = PanelsFrame {
             size: [size.width, size.height],
             pixels_per_point: output.pixels_per_point,
             jobs,
             textures: output.textures_delta,
-        })));
+        };
+        if let Some(graphics) = &self.graphics {
+            graphics.show_panels(frame);
+        }
         self.drawn = now;
         self.due = None;
         let egui_wants =

@@ -1,9 +1,10 @@
 //! Bytes to data, by the library's importers.
 
-use super::folder::Folder;
-use super::load::{LoadError, Source};
+use super::load::{LoadError, file_name};
+use super::{Cancel, Folder};
+use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::ModelData;
-use dragonfly_anim::format::{AssetFs, NoFiles, ReadOptions, read};
+use dragonfly_anim::format::{self, AssetFs, ImportError, NoFiles, ReadOptions};
 use std::path::Path;
 
 /// What an importer made.
@@ -17,26 +18,38 @@ pub(super) struct Imported {
 }
 
 /// The model that is part of the program.
-pub(super) fn built_in(source: &Source) -> Result<Imported, LoadError> {
-    import("dragonfly.glb", &source.title(), crate::demo::DRAGONFLY_GLB, &NoFiles)
+pub(super) fn built_in(progress: &dyn Fn(f32), cancel: &Cancel) -> Result<Imported, LoadError> {
+    read("dragonfly.glb", DRAGONFLY_GLB, &NoFiles, progress, cancel)
 }
 
 /// The contents of the file at `path`; what it refers to is read from its folder.
-pub(super) fn file(path: &Path, bytes: &[u8]) -> Result<Imported, LoadError> {
-    let name = super::load::file_name(path);
-    match Folder::of(path) {
-        Ok(folder) => import(&name, &name, bytes, &folder),
-        // The folder went away after the file was read: what stands alone can still be opened.
-        Err(_) => import(&name, &name, bytes, &NoFiles),
-    }
+pub(super) fn file(
+    path: &Path,
+    bytes: &[u8],
+    progress: &dyn Fn(f32),
+    cancel: &Cancel,
+) -> Result<Imported, LoadError> {
+    let title = file_name(path);
+    let folder = Folder::of(path)
+        .map_err(|error| LoadError::Format { title: title.clone(), reason: error.to_string() })?;
+    read(&title, bytes, &folder, progress, cancel)
 }
 
-fn import(name: &str, title: &str, bytes: &[u8], door: &dyn AssetFs) -> Result<Imported, LoadError> {
-    let imported = read(name, bytes, door, &ReadOptions::default())
-        .map_err(|error| LoadError::Format { title: title.to_owned(), reason: error.to_string() })?;
-    Ok(Imported {
-        model: imported.model,
-        format: imported.format.to_owned(),
-        warnings: imported.warnings.iter().map(ToString::to_string).collect(),
-    })
+fn read(
+    title: &str,
+    bytes: &[u8],
+    door: &dyn AssetFs,
+    progress: &dyn Fn(f32),
+    cancel: &Cancel,
+) -> Result<Imported, LoadError> {
+    let options = ReadOptions { is_cancelled: &|| cancel.is_cancelled(), progress, ..ReadOptions::default() };
+    match format::read(title, bytes, door, &options) {
+        Ok(imported) => Ok(Imported {
+            model: imported.model,
+            format: imported.format.to_owned(),
+            warnings: imported.warnings.iter().map(ToString::to_string).collect(),
+        }),
+        Err(ImportError::Cancelled) => Err(LoadError::Cancelled),
+        Err(error) => Err(LoadError::Format { title: title.to_owned(), reason: error.to_string() }),
+    }
 }

@@ -1,10 +1,10 @@
 //! Opening a model: bytes, data, pixels; with progress, cancellable, the same for window and command line.
 
-use super::folder::{DoorError, read_file};
-use super::{Cancel, LoadedModel, Progress, Stage};
+use super::{Cancel, DoorError, LoadedModel, Progress, Stage, read_file};
 use super::{images, import};
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::limits::FILE_BYTES;
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
@@ -61,17 +61,21 @@ pub fn load_model(
     cancel: &Cancel,
 ) -> Result<LoadedModel, LoadError> {
     progress(Progress { stage: Stage::Reading, done: 0.0 });
-    let imported = match source {
-        Source::BuiltIn => {
-            progress(Progress { stage: Stage::Understanding, done: 0.2 });
-            import::built_in(source)?
-        }
-        Source::File(path) => {
-            let bytes = read_file(path, FILE_BYTES)
-                .map_err(|reason| LoadError::File { path: path.clone(), reason })?;
-            check(cancel)?;
-            progress(Progress { stage: Stage::Understanding, done: 0.2 });
-            import::file(path, &bytes)?
+    let imported = {
+        // The importer may only look at its listener, so the listener is lent to it inside a cell.
+        let progress = RefCell::new(&mut *progress);
+        let understanding = |done: f32| {
+            let done = 0.1 + 0.4 * done.clamp(0.0, 1.0);
+            (progress.borrow_mut())(Progress { stage: Stage::Understanding, done });
+        };
+        match source {
+            Source::BuiltIn => import::built_in(&understanding, cancel)?,
+            Source::File(path) => {
+                let bytes = read_file(path, FILE_BYTES)
+                    .map_err(|reason| LoadError::File { path: path.clone(), reason })?;
+                check(cancel)?;
+                import::file(path, &bytes, &understanding, cancel)?
+            }
         }
     };
     check(cancel)?;

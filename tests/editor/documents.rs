@@ -1,0 +1,119 @@
+//! The document thread opens, fails, gives up, and always says so.
+
+use dragonfly::document::{Cancel, Document, DocumentReply, LoadError, Source, images, load_model};
+use dragonfly_anim::data::Image;
+use dragonfly_kit::eventually;
+use dragonfly_runtime::{Context, Receiver, Thread};
+use std::cell::RefCell;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+#[derive(Clone, Default)]
+struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+
+impl Receiver for Heard {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
+        self.0.borrow_mut().push(reply);
+    }
+}
+
+#[test]
+fn the_built_in_model_opens_with_progress() {
+    let mut steps = Vec::new();
+    let loaded =
+        load_model(&Source::BuiltIn, &mut |progress| steps.push(progress.done), &Cancel::default()).unwrap();
+    assert_eq!(loaded.title, "Dragonfly");
+    assert!(loaded.path.is_none());
+    assert!(loaded.model.animation.takes.len() >= 3);
+    assert_eq!(loaded.images.len(), loaded.model.images.len());
+    assert!(loaded.images.iter().all(Option::is_some), "{:?}", loaded.warnings);
+    assert!(loaded.bounds.sphere.radius > 0.0);
+    assert!(steps.windows(2).all(|pair| pair[0] <= pair[1]), "{steps:?}");
+    assert_eq!(steps.last(), Some(&1.0));
+}
+
+#[test]
+fn a_cancelled_load_says_so() {
+    let cancel = Cancel::default();
+    cancel.cancel();
+    let result = load_model(&Source::BuiltIn, &mut |_| {}, &cancel);
+    assert!(matches!(result, Err(LoadError::Cancelled)));
+}
+
+#[test]
+fn a_file_that_does_not_exist_is_named_in_the_error() {
+    let source = Source::File(PathBuf::from("/nowhere/fox.glb"));
+    let error = load_model(&source, &mut |_| {}, &Cancel::default()).unwrap_err();
+    assert!(error.to_string().starts_with("/nowhere/fox.glb: "), "{error}");
+}
+
+#[test]
+fn what_is_open_stays_when_the_next_file_fails() {
+    let heard = Heard::default();
+    let mut main = Thread::capture("main", || {});
+    let replies = main.context().register_receiver(heard.clone());
+    let document = Document::start(replies).unwrap();
+    document.open(Source::BuiltIn);
+    let mut wait = |what: fn(&DocumentReply) -> bool| {
+        eventually(Duration::from_secs(30), || {
+            main.iterate();
+            heard.0.borrow().iter().any(what)
+        });
+    };
+    wait(|reply| matches!(reply, DocumentReply::View(_)));
+    wait(|reply| matches!(reply, DocumentReply::Loading { .. }));
+    document.open(Source::File(PathBuf::from("/nowhere/fox.glb")));
+    wait(|reply| matches!(reply, DocumentReply::Failed { .. }));
+    let views = heard.0.borrow().iter().filter(|reply| matches!(reply, DocumentReply::View(_))).count();
+    assert_eq!(views, 1, "nothing else was published");
+    document.stop();
+    Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
+}
+
+/// The head of a PNG that claims to be this large.
+fn claims(width: u32, height: u32) -> Image {
+    let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec();
+    bytes.extend(width.to_be_bytes());
+    bytes.extend(height.to_be_bytes());
+    bytes.extend([8, 6, 0, 0, 0]);
+    let checksum = crc(&bytes[12..]);
+    bytes.extend(checksum.to_be_bytes());
+    bytes.extend(b"\0\0\0\0IDAT");
+    bytes.extend(crc(b"IDAT").to_be_bytes());
+    Image { name: "huge".to_owned(), bytes: bytes.into(), ..Image::default() }
+}
+
+fn crc(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0, |sum, byte| {
+        (0..8).fold(sum ^ u32::from(*byte), |sum, _| (sum >> 1) ^ (0xEDB8_8320 & (sum & 1).wrapping_neg()))
+    })
+}
+
+#[test]
+fn an_image_that_claims_too_much_costs_a_warning_and_nothing_else() {
+    for (width, height) in [(60_000, 60_000), (16_385, 1), (12_000, 12_000), (u32::MAX, 1), (0, 0)] {
+        let decoded = images::decode_all(&[claims(width, height)], &Cancel::default(), |_| {});
+        assert_eq!(decoded.images, [None]);
+        assert_eq!(decoded.warnings.len(), 1);
+        assert!(
+            decoded.warnings[0].starts_with("image 0 \"huge\" is not shown: "),
+            "{}",
+            decoded.warnings[0]
+        );
+    }
+}
+
+#[test]
+fn images_of_one_source_are_decoded_once() {
+    let mut png = Vec::new();
+    let pixels = image::RgbaImage::from_pixel(3, 2, image::Rgba([1, 2, 3, 4]));
+    pixels.write_to(&mut std::io::Cursor::new(&mut png), image::ImageFormat::Png).unwrap();
+    let image = Image { bytes: png.into(), ..Image::default() };
+    let decoded = images::decode_all(&[image.clone(), image], &Cancel::default(), |_| {});
+    let [Some(first), Some(second)] = &decoded.images[..] else { panic!("{decoded:?}") };
+    assert!(std::sync::Arc::ptr_eq(first, second));
+    assert_eq!((first.width, first.height, first.pixels.len()), (3, 2, 24));
+}

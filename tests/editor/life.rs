@@ -1,0 +1,27 @@
+//! The order in which the program comes and goes.
+
+use dragonfly::app::timeline::{Step, Timeline};
+
+#[test]
+fn the_steps_are_the_eleven_of_the_thesis() {
+    let numbers: Vec<usize> = Step::ALL.iter().map(|step| step.number()).collect();
+    assert_eq!(numbers, (1..=11).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_start_that_fails_may_leave_steps_out() {
+    let mut timeline = Timeline::default();
+    timeline.reach(Step::MainFunction);
+    timeline.reach(Step::MainRuntime);
+    timeline.reach(Step::MainRuntimeDestruction);
+    assert_eq!(timeline.reached().len(), 3);
+}
+
+#[test]
+#[cfg(debug_assertions)]
+#[should_panic(expected = "GraphicsDestruction")]
+fn the_window_does_not_go_before_the_device() {
+    let mut timeline = Timeline::default();
+    timeline.reach(Step::GraphicsDestruction);
+    timeline.reach(Step::EditorRuntimeDestruction);
+}

@@ -1,0 +1,75 @@
+//! What is remembered between runs survives anything that happens to the files.
+
+use dragonfly::app::store::{self, Store};
+use dragonfly::panels::settings::{RECENT, ThemeChoice};
+use dragonfly::panels::{Layout, Settings, VIEWPORT, all};
+use std::path::Path;
+
+#[test]
+fn settings_come_back_as_they_went() {
+    let mut settings =
+        Settings { theme: ThemeChoice::Light, scale: 1.5, frame_rate: 24, ..Settings::default() };
+    settings.remember(Path::new("/models/fox.glb"));
+    assert_eq!(Settings::parse(&settings.to_text()), settings);
+}
+
+#[test]
+fn a_damaged_file_gives_the_defaults() {
+    let whole = Settings { scale: 1.5, ..Settings::default() }.to_text();
+    for text in ["", "{", "[]", "null", "{\"scale\": \"large\"}", "\u{0}\u{1}", &whole[..whole.len() / 2]] {
+        assert_eq!(Settings::parse(text), Settings::default(), "{text:?}");
+    }
+}
+
+#[test]
+fn a_wrong_number_becomes_the_nearest_right_one() {
+    let settings = Settings::parse("{\"scale\": 1000.0, \"speed\": -3.0, \"frame_rate\": 7}");
+    assert_eq!((settings.scale, settings.speed, settings.frame_rate), (2.0, 0.05, 30));
+    assert_eq!(
+        Settings::parse("{\"unknown\": 1, \"scale\": 1.25}").scale,
+        1.25,
+        "what is unknown is left alone"
+    );
+}
+
+#[test]
+fn recent_files_stand_newest_first_and_once() {
+    let mut settings = Settings::default();
+    for index in 0..30 {
+        settings.remember(Path::new(&format!("/models/{index}.glb")));
+    }
+    settings.remember(Path::new("/models/25.glb"));
+    assert_eq!(settings.recent.len(), RECENT);
+    assert_eq!(settings.recent[0], Path::new("/models/25.glb"));
+    assert_eq!(settings.recent.iter().filter(|path| path.ends_with("25.glb")).count(), 1);
+}
+
+#[test]
+fn panel_places_come_back_and_damaged_ones_do_not() {
+    let panels = all();
+    let usual = Layout::usual(&panels);
+    let text = usual.to_text();
+    assert_eq!(Layout::parse(&text, &panels).to_text(), text);
+    let mut hidden = Layout::usual(&panels);
+    hidden.toggle("takes");
+    assert!(!Layout::parse(&hidden.to_text(), &panels).is_shown("takes"));
+    let foreign = text.replace("\"takes\"", "\"unknown\"");
+    let newer = text.replace("\"version\":1", "\"version\":9");
+    for text in ["", "{}", "{\"version\":1}", &text[..text.len() / 3], &foreign, &newer] {
+        let layout = Layout::parse(text, &panels);
+        assert_eq!(layout.to_text(), usual.to_text());
+        assert!(layout.is_shown(VIEWPORT));
+    }
+}
+
+#[test]
+fn the_store_replaces_files_and_bears_what_is_not_there() {
+    let folder = std::env::temp_dir().join(format!("dragonfly-store-{}", std::process::id()));
+    let store = Store::new(Some(folder.clone()));
+    assert_eq!(store.read(store::SETTINGS), "");
+    store.write(store::SETTINGS, "one").unwrap();
+    store.write(store::SETTINGS, "two").unwrap();
+    assert_eq!(store.read(store::SETTINGS), "two");
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1, "nothing half written stays");
+    std::fs::remove_dir_all(folder).unwrap();
+}
