@@ -39,8 +39,7 @@ fn bone_color(state: u32) -> vec3f {
     }
 }
 
-@vertex
-fn vs_bone(corner: Corner, bone: Bone) -> Surface {
+fn placed(corner: Corner, bone: Bone) -> Surface {
     let along = bone.tail - bone.head;
     let length_along = max(length(along), 1e-12);
     let y = along / length_along;
@@ -54,6 +53,11 @@ fn vs_bone(corner: Corner, bone: Bone) -> Surface {
     let normal = x * corner.normal.x + y * corner.normal.y + z * corner.normal.z;
     return Surface(
         frame.clip_from_world * vec4f(world, 1.0), normal, world, corner.edges, bone.state, bone.strength);
+}
+
+@vertex
+fn vs_bone(corner: Corner, bone: Bone) -> Surface {
+    return placed(corner, bone);
 }
 
 @fragment
@@ -81,7 +85,7 @@ fn fs_bone(in: Surface) -> @location(0) vec4f {
 // little larger on the screen and a little further away.
 @vertex
 fn vs_outline(corner: Corner, bone: Bone) -> Surface {
-    var surface = vs_bone(corner, bone);
+    var surface = placed(corner, bone);
     let middle = mix(bone.head, bone.tail, 0.5 * f32(corner.place.w == 0.0));
     let center = frame.clip_from_world * vec4f(middle, 1.0);
     let here = surface.position.xy / max(surface.position.w, 1e-6);
