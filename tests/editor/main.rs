@@ -10,6 +10,7 @@ mod faults;
 mod fixture;
 mod fixture_layer;
 mod folder;
+mod graphics_thread;
 mod life;
 mod no_allocation;
 mod panels;

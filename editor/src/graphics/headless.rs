@@ -105,12 +105,16 @@ impl Studio {
         self.show(loaded);
         let now = Instant::now();
         self.arrange(settings, now);
+        let errors = self.stage.device().errors();
         let mut trouble = String::new();
         for _ in 0..3 {
             self.stage.touch_scene();
             match self.stage.whole_frame(now) {
                 Opened::Frame => match self.stage.read_scene() {
-                    Ok(picture) => return Ok(finish(picture)),
+                    Ok(picture) => {
+                        let new = self.stage.device().errors() - errors;
+                        return if new == 0 { Ok(finish(picture)) } else { Err(GraphicsError::Refused(new)) };
+                    }
                     Err(error) => trouble = error,
                 },
                 Opened::Nothing => trouble = "nothing could be drawn".to_owned(),

@@ -142,7 +142,8 @@ impl Stage {
     /// Is there anything new to draw at `now`?
     pub fn wants_frame(&self, now: Instant) -> bool {
         let visible = !self.window_size.contains(&0) && self.mode != Mode::Nothing;
-        visible && (self.scene_changed || self.window_changed || self.moves(now))
+        let scene_wants = self.mode == Mode::All && (self.scene_changed || self.moves(now));
+        visible && (scene_wants || self.window_changed)
     }
 
     /// Does the scene change by itself?
@@ -211,11 +212,11 @@ impl Stage {
             drop(pass);
             let gpu = self.device.gpu();
             gpu.queue.submit(commands.before.into_iter().chain([commands.encoder.finish()]));
-            if let Some(texture) = surface_texture {
-                if let Some((surface, gpu)) = self.device.surface() {
-                    surface.pre_present_notify();
-                    gpu.queue.present(texture);
-                }
+            if let Some(texture) = surface_texture
+                && let Some((surface, gpu)) = self.device.surface()
+            {
+                surface.pre_present_notify();
+                gpu.queue.present(texture);
             }
         });
         let done = self.keep(presented.map(|()| None));
