@@ -28,7 +28,7 @@ pub struct Interface {
     pub effects: Vec<Effect>,
     graphics: Option<GraphicsHandle>,
     store: Store,
-    saved: (Settings, String),
+    saved: Settings,
     /// When the panels are to be drawn.
     due: Option<Instant>,
     drawn: Instant,
@@ -43,7 +43,7 @@ impl Interface {
         let settings = Settings::parse(&store.read(store::SETTINGS));
         let desk = Desk::new(&store.read(store::LAYOUT));
         style::install(egui.egui_ctx());
-        let saved = (settings.clone(), desk.layout_text());
+        let saved = settings.clone();
         Self {
             window,
             egui,
@@ -173,14 +173,13 @@ impl Interface {
     }
 
     fn save(&mut self) {
-        let layout = self.desk.layout_text();
-        if self.state.settings != self.saved.0 {
+        if self.state.settings != self.saved {
             self.keep(store::SETTINGS, &self.state.settings.to_text());
+            self.saved = self.state.settings.clone();
         }
-        if layout != self.saved.1 {
+        if let Some(layout) = self.desk.changed_layout() {
             self.keep(store::LAYOUT, &layout);
         }
-        self.saved = (self.state.settings.clone(), layout);
     }
 
     fn keep(&mut self, name: &str, text: &str) {
