@@ -2,7 +2,8 @@
 
 struct Corner {
     @builtin(position) position: vec4f,
-    @location(0) height: f32,
+    // 0 at the bottom left, 1 at the top right.
+    @location(0) place: vec2f,
 }
 
 @vertex
@@ -10,7 +11,7 @@ fn vs_background(@builtin(vertex_index) index: u32) -> Corner {
     // One triangle that covers the viewport.
     let corner = vec2f(f32((index << 1u) & 2u), f32(index & 2u));
     // Depth 0 is the far end (reversed depth).
-    return Corner(vec4f(corner * 2.0 - 1.0, 0.0, 1.0), corner.y);
+    return Corner(vec4f(corner * 2.0 - 1.0, 0.0, 1.0), corner);
 }
 
 @fragment
@@ -18,8 +19,12 @@ fn fs_background(in: Corner) -> @location(0) vec4f {
     // Mixed as the eye sees steps, not as light adds, so that the middle is not too bright.
     let top = sqrt(frame.background_top);
     let bottom = sqrt(frame.background_bottom);
-    let color = mix(bottom, top, smoothstep(0.0, 1.0, in.height));
+    var color = mix(bottom, top, smoothstep(0.0, 1.0, in.place.y));
+    // The key light leaves a soft pool on the wall behind the model.
+    let aside = (in.place - vec2f(0.44, 0.6)) * vec2f(frame.size.x * frame.size.w, 1.0);
+    color = color * (1.0 + 0.22 * exp(-3.2 * dot(aside, aside)));
     let noise = dither(in.position.xy) / 255.0 * 0.5;
-    let open = color * color;
-    return vec4f((color.rgb + noise * open.a) * (color.rgb + noise * open.a), open.a);
+    let alpha = frame.background_top.a;
+    let noisy = color.rgb + noise * alpha;
+    return vec4f(noisy * noisy, alpha);
 }

@@ -32,25 +32,25 @@ fn fs_grid(in: Ground) -> @location(0) vec4f {
     // 1 when the fine lines have just appeared, 0 when they are about to become the coarse ones.
     let appearing = frame.grid_color.w;
     let edge = length(in.offset) / frame.grid.z;
-    let fade = pow(clamp(1.0 - edge, 0.0, 1.0), 1.6);
+    let fade = pow(clamp(1.0 - edge, 0.0, 1.0), 2.2);
     let glance = abs(towards_viewer(vec3f(in.world.x, 0.0, in.world.y)).y);
     let grazing = smoothstep(0.0, 0.16, glance);
 
-    let small = lines(in.world, footprint, fine, 1.0) * 0.24 * appearing;
-    let large = lines(in.world, footprint, fine * 10.0, 1.0) * mix(0.40, 0.24, 1.0 - appearing);
-    let larger = lines(in.world, footprint, fine * 100.0, 1.0) * 0.40;
+    let small = lines(in.world, footprint, fine, 1.0) * 0.11 * appearing;
+    let large = lines(in.world, footprint, fine * 10.0, 1.0) * mix(0.26, 0.11, 1.0 - appearing);
+    let larger = lines(in.world, footprint, fine * 100.0, 1.0) * 0.26;
     var strength = max(max(small, large), larger);
     var color = frame.grid_color.rgb;
 
-    let axis = clamp(1.25 - abs(in.world) / footprint, vec2f(0.0), vec2f(1.0));
+    let axis = clamp(1.1 - abs(in.world) / footprint, vec2f(0.0), vec2f(1.0));
     // The line along X is where z is 0.
     if axis.y > 0.0 {
-        color = mix(color, vec3f(0.62, 0.13, 0.14), axis.y);
-        strength = max(strength, axis.y * 0.62);
+        color = mix(color, vec3f(0.58, 0.11, 0.12), axis.y);
+        strength = max(strength, axis.y * 0.5);
     }
     if axis.x > 0.0 {
         color = mix(color, vec3f(0.10, 0.22, 0.62), axis.x);
-        strength = max(strength, axis.x * 0.62);
+        strength = max(strength, axis.x * 0.5);
     }
     let alpha = strength * fade * grazing;
     return vec4f(color * alpha, alpha);

@@ -39,8 +39,7 @@ fn bone_color(state: u32) -> vec3f {
     }
 }
 
-@vertex
-fn vs_bone(corner: Corner, bone: Bone) -> Surface {
+fn placed(corner: Corner, bone: Bone) -> Surface {
     let along = bone.tail - bone.head;
     let length_along = max(length(along), 1e-12);
     let y = along / length_along;
@@ -56,6 +55,11 @@ fn vs_bone(corner: Corner, bone: Bone) -> Surface {
         frame.clip_from_world * vec4f(world, 1.0), normal, world, corner.edges, bone.state, bone.strength);
 }
 
+@vertex
+fn vs_bone(corner: Corner, bone: Bone) -> Surface {
+    return placed(corner, bone);
+}
+
 @fragment
 fn fs_bone(in: Surface) -> @location(0) vec4f {
     let normal = normalize(in.normal);
@@ -64,7 +68,7 @@ fn fs_bone(in: Surface) -> @location(0) vec4f {
     let studio = studio_from_world(normal);
     let key = max(dot(studio, studio_light(0u).direction), 0.0);
     var color = bone_color(in.state);
-    color *= 0.30 + 0.50 * key + 0.24 * facing + 0.10 * max(normal.y, 0.0);
+    color *= 0.34 + 0.62 * key + 0.26 * facing + 0.10 * max(normal.y, 0.0);
     // A fine dark line along the edges of flat faces, about a pixel and a half.
     let width = fwidth(in.edges);
     let near = in.edges / max(width, vec3f(1e-6));
@@ -75,6 +79,29 @@ fn fs_bone(in: Surface) -> @location(0) vec4f {
     let round = f32(all(in.edges > vec3f(0.99)));
     color = mix(color, color * 0.35, round * (1.0 - smoothstep(0.18, 0.42, facing)));
     return vec4f(color, 1.0);
+}
+
+// A dark rim of fixed width around every bone, so that it stands out from light and dark surfaces alike: the same body, a
+// little larger on the screen and a little further away.
+@vertex
+fn vs_outline(corner: Corner, bone: Bone) -> Surface {
+    var surface = placed(corner, bone);
+    let middle = mix(bone.head, bone.tail, 0.5 * f32(corner.place.w == 0.0));
+    let center = frame.clip_from_world * vec4f(middle, 1.0);
+    let here = surface.position.xy / max(surface.position.w, 1e-6);
+    let outwards = (here - center.xy / max(center.w, 1e-6)) * frame.size.xy;
+    let width = select(1.3, 1.9, bone.state != 0u);
+    let shift = outwards / max(length(outwards), 1e-3) * width * 2.0 * frame.size.zw;
+    surface.position.x += shift.x * surface.position.w;
+    surface.position.y += shift.y * surface.position.w;
+    // Depth is reversed: smaller is further.
+    surface.position.z *= 0.9995;
+    return surface;
+}
+
+@fragment
+fn fs_outline(in: Surface) -> @location(0) vec4f {
+    return vec4f(bone_color(in.state) * 0.035, 1.0);
 }
 
 struct Line {

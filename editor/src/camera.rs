@@ -4,7 +4,7 @@
 //! distance, so the planes can be generous.
 
 use dragonfly_anim::bounds::Sphere;
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Mat3, Mat4, Vec2, Vec3, Vec4};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// Perspective or parallel.
@@ -208,28 +208,41 @@ impl Camera {
     /// Puts the middle of a box in the middle, as large as fits from this direction: closer than [`Self::frame`] for what
     /// is long and slim.
     pub fn frame_box(&mut self, min: Vec3, max: Vec3, aspect: f32) {
-        let center = (min + max) / 2.0;
+        let pick =
+            |index: usize, bit: usize, low: f32, high: f32| if index >> bit & 1 == 0 { low } else { high };
+        let corners: [Vec3; 8] = std::array::from_fn(|index| {
+            Vec3::new(
+                pick(index, 0, min.x, max.x),
+                pick(index, 1, min.y, max.y),
+                pick(index, 2, min.z, max.z),
+            )
+        });
+        self.frame_points(&corners, aspect);
+    }
+
+    /// Puts the finite ones of `points` in the middle, as large as fits from this direction. Without any, or without
+    /// extent: one unit around.
+    pub fn frame_points(&mut self, points: &[Vec3], aspect: f32) {
+        let axes = Mat3::from_cols(self.right(), self.up(), self.back());
+        let to_view = axes.transpose();
+        let seen = points.iter().filter(|point| point.is_finite()).map(|&point| to_view * point);
+        let around = |(low, high): (Vec3, Vec3), point: Vec3| (low.min(point), high.max(point));
+        let (low, high) = seen.clone().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), around);
+        if !low.is_finite() {
+            return;
+        }
+        let center = (low + high) / 2.0;
         let vertical = self.half_angle().tan();
         let horizontal = vertical * aspect.max(1e-3);
-        let (right, up, back) = (self.right(), self.up(), self.back());
-        let corner = |index: usize| {
-            let pick = |bit: usize, low: f32, high: f32| if index >> bit & 1 == 0 { low } else { high };
-            Vec3::new(pick(0, min.x, max.x), pick(1, min.y, max.y), pick(2, min.z, max.z)) - center
+        let reach = |point: Vec3| {
+            let point = point - center;
+            let across = (point.x.abs() / horizontal).max(point.y.abs() / vertical);
+            let towards = if self.projection == Projection::Perspective { point.z } else { 0.0 };
+            across * FRAME_MARGIN + towards
         };
-        let reach = (0..8)
-            .map(corner)
-            .map(|corner| {
-                let across = (corner.dot(right).abs() / horizontal).max(corner.dot(up).abs() / vertical);
-                let towards = match self.projection {
-                    Projection::Perspective => corner.dot(back),
-                    Projection::Orthographic => 0.0,
-                };
-                across * FRAME_MARGIN + towards
-            })
-            .fold(0.0, f32::max);
-        let reach = if reach > 0.0 { reach } else { 1.0 };
-        self.target = center;
-        self.distance = reach.clamp(*DISTANCE.start(), *DISTANCE.end());
+        let reach = seen.map(reach).fold(0.0, f32::max);
+        self.target = axes * center;
+        self.distance = if reach > 0.0 { reach } else { 1.0 }.clamp(*DISTANCE.start(), *DISTANCE.end());
     }
 
     /// Looks from `side`, at the same target from the same distance.

@@ -8,6 +8,7 @@ mod device_loss;
 mod documents;
 mod fixture;
 mod folder;
+mod graphics_thread;
 mod life;
 mod no_allocation;
 mod panels;

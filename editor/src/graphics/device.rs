@@ -37,6 +37,9 @@ pub enum GraphicsError {
         /// Longest side.
         limit: u32,
     },
+    /// The device refused something that this program asked of it.
+    #[error("{0} unexpected graphics errors; RUST_LOG=error tells which")]
+    Refused(u32),
     /// The device was lost while drawing and could not be made anew.
     #[error("the graphics device was lost: {0}")]
     Lost(String),

@@ -6,8 +6,7 @@ use super::stage::{Opened, Stage};
 use crate::camera::Camera;
 use crate::document::LoadedModel;
 use crate::playback::Playback;
-use dragonfly_anim::bounds::bounds_of_pose;
-use glam::Vec3;
+use dragonfly_anim::evaluator::Evaluator;
 use image::RgbaImage;
 use std::sync::Arc;
 use std::time::Instant;
@@ -106,12 +105,16 @@ impl Studio {
         self.show(loaded);
         let now = Instant::now();
         self.arrange(settings, now);
+        let errors = self.stage.device().errors();
         let mut trouble = String::new();
         for _ in 0..3 {
             self.stage.touch_scene();
             match self.stage.whole_frame(now) {
                 Opened::Frame => match self.stage.read_scene() {
-                    Ok(picture) => return Ok(finish(picture)),
+                    Ok(picture) => {
+                        let new = self.stage.device().errors() - errors;
+                        return if new == 0 { Ok(finish(picture)) } else { Err(GraphicsError::Refused(new)) };
+                    }
                     Err(error) => trouble = error,
                 },
                 Opened::Nothing => trouble = "nothing could be drawn".to_owned(),
@@ -160,16 +163,18 @@ impl Studio {
         let mut camera = Camera { yaw: settings.yaw, pitch: settings.pitch, ..Camera::default() };
         let [width, height] = settings.size.map(|side| side.max(1) as f32);
         if let Some(model) = self.stage.scene.model() {
+            let mut evaluator = Evaluator::new(Arc::clone(&model.loaded().model));
             let playback = &self.stage.scene.playback;
-            let bounds = if posed {
-                bounds_of_pose(&model.loaded().model, playback.take, playback.time_at(playback.anchor))
-            } else {
-                *model.bounds()
-            };
-            let size = bounds.max - bounds.min;
-            // A little air, more below where the eye expects ground.
-            let air = Vec3::splat(size.max_element() * 0.04);
-            camera.frame_box(bounds.min - air, bounds.max + air, width / height);
+            if posed {
+                evaluator.pose(playback.take, playback.time_at(playback.anchor));
+            }
+            let mut points = evaluator.all_positions();
+            if points.is_empty() {
+                points.extend(evaluator.to_root().iter().map(|to_root| to_root.w_axis.truncate()));
+            }
+            camera.frame_points(&points, width / height);
+            // Air around, so that nothing touches the edge of the picture.
+            camera.dolly(1.12);
         }
         camera
     }

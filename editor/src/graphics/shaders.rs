@@ -5,40 +5,52 @@ pub struct Shader {
     /// File name in `shaders/` without its ending.
     pub name: &'static str,
     /// Common parts, in order, then the file itself.
-    parts: &'static [&'static str],
+    parts: &'static [Part],
 }
 
-const FRAME: &str = include_str!("../../../shaders/common/frame.wgsl");
-const COLOR: &str = include_str!("../../../shaders/common/color.wgsl");
-const STUDIO: &str = include_str!("../../../shaders/common/studio.wgsl");
-const POSE: &str = include_str!("../../../shaders/common/pose.wgsl");
+/// A file of `shaders/`, and what it held when the program was built.
+type Part = (&'static str, &'static str);
+
+macro_rules! part {
+    ($path:literal) => {
+        ($path, include_str!(concat!("../../../shaders/", $path)))
+    };
+}
+
+const FRAME: Part = part!("common/frame.wgsl");
+const COLOR: Part = part!("common/color.wgsl");
+const STUDIO: Part = part!("common/studio.wgsl");
+const POSE: Part = part!("common/pose.wgsl");
 
 /// The gradient behind the scene.
 pub const BACKGROUND: Shader =
-    Shader { name: "background", parts: &[FRAME, COLOR, include_str!("../../../shaders/background.wgsl")] };
+    Shader { name: "background", parts: &[FRAME, COLOR, part!("background.wgsl")] };
 /// Skinned and lit surfaces.
-pub const MODEL: Shader = Shader {
-    name: "model",
-    parts: &[FRAME, COLOR, STUDIO, POSE, include_str!("../../../shaders/model.wgsl")],
-};
+pub const MODEL: Shader = Shader { name: "model", parts: &[FRAME, COLOR, STUDIO, POSE, part!("model.wgsl")] };
 /// The ground.
-pub const GRID: Shader = Shader { name: "grid", parts: &[FRAME, include_str!("../../../shaders/grid.wgsl")] };
+pub const GRID: Shader = Shader { name: "grid", parts: &[FRAME, part!("grid.wgsl")] };
 /// Bones.
-pub const SKELETON: Shader =
-    Shader { name: "skeleton", parts: &[FRAME, STUDIO, include_str!("../../../shaders/skeleton.wgsl")] };
+pub const SKELETON: Shader = Shader { name: "skeleton", parts: &[FRAME, STUDIO, part!("skeleton.wgsl")] };
 /// The scene into the window.
-pub const COMPOSITE: Shader =
-    Shader { name: "composite", parts: &[COLOR, include_str!("../../../shaders/composite.wgsl")] };
+pub const COMPOSITE: Shader = Shader { name: "composite", parts: &[COLOR, part!("composite.wgsl")] };
 /// Mip levels.
-pub const MIP: Shader = Shader { name: "mip", parts: &[include_str!("../../../shaders/mip.wgsl")] };
+pub const MIP: Shader = Shader { name: "mip", parts: &[part!("mip.wgsl")] };
 
 /// Every shader of the program.
 pub const ALL: &[Shader] = &[BACKGROUND, MODEL, GRID, SKELETON, COMPOSITE, MIP];
 
 impl Shader {
     /// The whole text.
+    ///
+    /// A build for development reads it anew from the folder that `DRAGONFLY_SHADERS` names, so that the look can be
+    /// worked on without building.
     pub fn source(&self) -> String {
-        self.parts.join("\n")
+        let folder = std::env::var_os("DRAGONFLY_SHADERS").filter(|_| cfg!(debug_assertions));
+        let text = |&(path, built): &Part| {
+            let newer = folder.as_ref().map(|folder| std::path::Path::new(folder).join(path));
+            newer.and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_else(|| built.to_owned())
+        };
+        self.parts.iter().map(text).collect::<Vec<_>>().join("\n")
     }
 
     /// The module on `device`.

@@ -10,9 +10,9 @@ use dragonfly_anim::data::{BoneIndex, ModelData};
 use glam::{Mat4, Vec3};
 
 /// Thickness over length of a bone.
-const SLIMNESS: f32 = 0.085;
+const SLIMNESS: f32 = 0.1;
 /// Thinnest and thickest bone, relative to the whole skeleton.
-const THICKNESS: [f32; 2] = [0.0028, 0.021];
+const THICKNESS: [f32; 2] = [0.0028, 0.024];
 /// A last bone is so long, relative to the bone before it.
 const LAST_BONE: f32 = 0.45;
 

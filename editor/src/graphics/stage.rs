@@ -142,7 +142,8 @@ impl Stage {
     /// Is there anything new to draw at `now`?
     pub fn wants_frame(&self, now: Instant) -> bool {
         let visible = !self.window_size.contains(&0) && self.mode != Mode::Nothing;
-        visible && (self.scene_changed || self.window_changed || self.moves(now))
+        let scene_wants = self.mode == Mode::All && (self.scene_changed || self.moves(now));
+        visible && (scene_wants || self.window_changed)
     }
 
     /// Does the scene change by itself?

@@ -18,6 +18,7 @@ pub(super) struct SkeletonPass {
 }
 
 struct Resources {
+    outline: wgpu::RenderPipeline,
     solid: wgpu::RenderPipeline,
     line: wgpu::RenderPipeline,
     /// In the order of [`Body::ALL`].
@@ -46,14 +47,9 @@ impl DeviceListener for SkeletonPass {
             ],
         };
         let list = wgpu::PrimitiveTopology::TriangleList;
-        let solid = scene_pipeline(
-            gpu,
-            &module,
-            ["vs_bone", "fs_bone"],
-            &[Some(corner), Some(bone.clone())],
-            list,
-            false,
-        );
+        let buffers = [Some(corner), Some(bone.clone())];
+        let outline = scene_pipeline(gpu, &module, ["vs_outline", "fs_outline"], &buffers, list, false);
+        let solid = scene_pipeline(gpu, &module, ["vs_bone", "fs_bone"], &buffers, list, false);
         let line = scene_pipeline(gpu, &module, ["vs_line", "fs_line"], &[Some(bone)], list, true);
         let bodies = Body::ALL.map(|body| {
             let corners = triangles(body);
@@ -64,7 +60,7 @@ impl DeviceListener for SkeletonPass {
             });
             (buffer, corners.len() as u32)
         });
-        self.resources = Some(Resources { solid, line, bodies, instances: [const { None }; 4] });
+        self.resources = Some(Resources { outline, solid, line, bodies, instances: [const { None }; 4] });
     }
 }
 
@@ -119,10 +115,12 @@ impl Pass for SkeletonPass {
                 pass.set_vertex_buffer(0, instances.slice(..));
                 pass.draw(0..6, 0..count);
             } else {
-                pass.set_pipeline(&resources.solid);
                 pass.set_vertex_buffer(0, corners.slice(..));
                 pass.set_vertex_buffer(1, instances.slice(..));
-                pass.draw(0..*corner_count, 0..count);
+                for pipeline in [&resources.outline, &resources.solid] {
+                    pass.set_pipeline(pipeline);
+                    pass.draw(0..*corner_count, 0..count);
+                }
             }
         }
         pass.set_viewport(0.0, 0.0, size.x, size.y, 0.0, 1.0);

@@ -1,0 +1,209 @@
+//! The graphics thread, turned by hand: it draws when something changed, answers what it is asked, and rests otherwise.
+
+use crate::arm;
+use dragonfly::camera::Camera;
+use dragonfly::graphics::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
+use dragonfly::playback::Playback;
+use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
+use glam::Vec3;
+use image::RgbaImage;
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+const SIZE: [u32; 2] = [320, 200];
+
+/// Keeps what the main thread is told.
+#[derive(Default)]
+struct Replies(Vec<GraphicsReply>);
+
+impl Receiver for Replies {
+    type Message = GraphicsReply;
+
+    fn receive(&mut self, message: GraphicsReply, _: &mut Context) {
+        self.0.push(message);
+    }
+}
+
+/// Both threads, in one.
+struct Bench {
+    main: Captured,
+    thread: Captured,
+    graphics: GraphicsHandle,
+    replies: Rc<RefCell<Replies>>,
+}
+
+impl Bench {
+    /// `None` without an adapter.
+    fn new() -> Option<Self> {
+        let mut main = Thread::capture("main", || {});
+        let thread = Thread::capture("graphics", || {});
+        let replies = Rc::new(RefCell::new(Replies::default()));
+        let address = main.context().register_receiver(Rc::clone(&replies));
+        let graphics = Graphics::start_in(thread.handle(), DeviceParameters::default(), SIZE, address);
+        let mut bench = Self { main, thread, graphics, replies };
+        bench.settle();
+        match &bench.take()[..] {
+            [GraphicsReply::Fatal(reason), ..] => {
+                eprintln!("skipped: {reason}");
+                None
+            }
+            [GraphicsReply::Ready { .. }, ..] => Some(bench),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Shows the arm.
+    fn with_arm() -> Option<Self> {
+        let mut bench = Self::new()?;
+        bench.graphics.show_model(arm::loaded());
+        bench.graphics.set_camera(Camera { target: Vec3::Y * 1.5, distance: 8.0, ..Camera::default() });
+        bench.graphics.set_look(Look { viewport: [20, 10, 280, 180], skeleton: true, ..Look::default() });
+        bench.settle();
+        Some(bench)
+    }
+
+    /// Turns the graphics thread until it rests, a little while at most.
+    fn settle(&mut self) {
+        let end = Instant::now() + Duration::from_secs(20);
+        while self.turn() != Next::OnMessage {
+            assert!(Instant::now() < end, "the graphics thread finds no rest");
+        }
+    }
+
+    /// One turn, when it is due.
+    fn turn(&mut self) -> Next {
+        let next = self.thread.iterate();
+        if let Next::At(when) = next {
+            std::thread::sleep(when.saturating_duration_since(Instant::now()));
+        }
+        next
+    }
+
+    fn take(&mut self) -> Vec<GraphicsReply> {
+        self.main.iterate();
+        std::mem::take(&mut self.replies.borrow_mut().0)
+    }
+
+    fn frames(&mut self) -> u64 {
+        let frames = self.take().into_iter().filter_map(|reply| match reply {
+            GraphicsReply::Statistics { frames, .. } => Some(frames),
+            _ => None,
+        });
+        frames.max().unwrap_or(0)
+    }
+
+    /// The whole window.
+    fn capture(&mut self, path: &Path) -> RgbaImage {
+        self.graphics.capture(path.to_owned());
+        self.settle();
+        let written = self.take().into_iter().find_map(|reply| match reply {
+            GraphicsReply::Captured(written) => Some(written),
+            _ => None,
+        });
+        image::open(written.unwrap().unwrap()).unwrap().into_rgba8()
+    }
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    folder.join(name)
+}
+
+/// Panels with a word on them, as egui paints them.
+fn panels(context: &egui::Context, word: &str) -> PanelsFrame {
+    let input = egui::RawInput {
+        screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(320.0, 200.0))),
+        ..egui::RawInput::default()
+    };
+    let output = context.run_ui(input, |ui| {
+        ui.heading(word);
+    });
+    PanelsFrame {
+        size: SIZE,
+        pixels_per_point: 1.0,
+        jobs: context.tessellate(output.shapes, 1.0),
+        textures: output.textures_delta,
+    }
+}
+
+#[test]
+fn a_frame_is_drawn_only_when_something_changes() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    assert_eq!(bench.turn(), Next::OnMessage, "nothing moves, so nothing wakes the thread");
+    let now = Instant::now();
+    let playing = Playback { take: Some(0), length: arm::LENGTH, playing: true, ..Playback::rest(now) };
+    bench.graphics.play(playing);
+    let end = now + Duration::from_millis(800);
+    while Instant::now() < end {
+        assert_ne!(bench.turn(), Next::OnMessage, "playing goes on by itself");
+    }
+    assert!(bench.frames() > 5);
+    bench.graphics.play(playing.with(false, 1.0, playing.repeat, Instant::now()));
+    bench.settle();
+}
+
+#[test]
+fn a_minimised_window_costs_nothing() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    bench.graphics.resize([0, 0]);
+    bench.graphics.play(Playback {
+        take: Some(0),
+        length: arm::LENGTH,
+        playing: true,
+        ..Playback::rest(Instant::now())
+    });
+    bench.settle();
+    bench.graphics.resize(SIZE);
+    assert_ne!(bench.turn(), Next::OnMessage, "it goes on where the window comes back");
+}
+
+#[test]
+fn panels_come_back_after_a_loss_with_everything_else() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    let context = egui::Context::default();
+    // The second frame brings no textures, and the first is never drawn: its textures must not be lost.
+    bench.graphics.show_panels(panels(&context, "first"));
+    bench.graphics.show_panels(panels(&context, "second"));
+    let before = bench.capture(&scratch("before-loss.png"));
+    assert!(before.pixels().any(|pixel| pixel.0[..3].iter().all(|&value| value > 200)), "there is text");
+    for _ in 0..3 {
+        bench.graphics.lose_device();
+        bench.settle();
+        let recovered = |reply: &GraphicsReply| matches!(reply, GraphicsReply::Recovered { .. });
+        assert!(bench.take().iter().any(recovered));
+    }
+    let after = bench.capture(&scratch("after-loss.png"));
+    assert_eq!(crate::picture::difference(&before, &after), 0);
+}
+
+#[test]
+fn a_question_gets_its_answer_and_the_newest_camera_wins() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    for distance in 1..50 {
+        let camera = Camera {
+            target: Vec3::Y * 1.5,
+            distance: distance as f32,
+            yaw: 0.0,
+            pitch: 0.0,
+            ..Camera::default()
+        };
+        bench.graphics.set_camera(camera);
+    }
+    bench.graphics.set_camera(Camera {
+        target: Vec3::Y * 1.5,
+        distance: 8.0,
+        yaw: 0.0,
+        pitch: 0.0,
+        ..Camera::default()
+    });
+    // The middle of the viewport is the middle of the second bone.
+    bench.graphics.pick([20.0 + 140.0, 10.0 + 90.0], 7);
+    bench.settle();
+    let picked = bench.take().into_iter().find_map(|reply| match reply {
+        GraphicsReply::Picked { bone, ticket } => Some((bone, ticket)),
+        _ => None,
+    });
+    assert_eq!(picked, Some((Some(1), 7)));
+}
