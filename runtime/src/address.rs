@@ -110,6 +110,12 @@ impl<M: Send + 'static> Address<M> {
         self.thread.mailbox.is_closed()
     }
 
+    /// A caller's mistake, not a thing that happens: addresses are not mixed up by chance.
+    pub(crate) fn check_thread(&self, thread: &Arc<Shared>) {
+        let (own, other) = (&self.thread.name, &thread.name);
+        assert!(Arc::ptr_eq(&self.thread, thread), "the address belongs to thread {own:?}, not to {other:?}");
+    }
+
     fn with(&self, flavour: Flavour<M>) -> Self {
         Self { thread: Arc::clone(&self.thread), receiver: self.receiver, flavour }
     }
@@ -194,12 +200,10 @@ impl<M> fmt::Display for SendError<M> {
     }
 }
 
+// By hand, because messages need not be `Debug`.
 impl<M> fmt::Debug for SendError<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Stopped(_) => "Stopped(..)",
-            Self::Full(_) => "Full(..)",
-        })
+        write!(f, "SendError({self})")
     }
 }
 
@@ -229,9 +233,9 @@ impl<M: Send> Slot<M> {
         let mut waiting = VecDeque::new();
         if planted("announced_too_long") {
             self.waiting.drain(&mut waiting);
-            self.announced.store(false, Ordering::SeqCst);
+            self.announced.swap(false, Ordering::SeqCst);
         } else {
-            self.announced.store(false, Ordering::SeqCst);
+            self.announced.swap(false, Ordering::SeqCst);
             self.waiting.drain(&mut waiting);
         }
         // Two senders at once may both have found it empty; then two are here.

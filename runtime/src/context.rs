@@ -95,21 +95,11 @@ impl Context {
     /// at most [`RESTARTS`](crate::RESTARTS) times in [`RESTART_WINDOW`](crate::RESTART_WINDOW).
     pub fn register_restartable_worker<W: Worker>(
         &mut self,
-        make: impl FnMut(&mut Context) -> W + 'static,
+        mut make: impl FnMut(&mut Context) -> W + 'static,
     ) -> WorkerId {
         let id = self.shared().new_id();
-        self.insert_restartable_worker(id, make);
+        self.insert_made::<dyn Worker>(id, Box::new(move |thread| Box::new(make(thread))));
         WorkerId(id)
-    }
-
-    pub(crate) fn insert_restartable_worker<W: Worker>(
-        &mut self,
-        id: u32,
-        mut make: impl FnMut(&mut Context) -> W + 'static,
-    ) {
-        let first = Box::new(make(self));
-        let factory: Factory<dyn Worker> = Box::new(move |thread| Box::new(make(thread)));
-        self.insert::<dyn Worker>(id, first, Some(factory));
     }
 
     /// Adds `receiver`.
@@ -125,7 +115,7 @@ impl Context {
     /// # Panics
     /// When the address belongs to another thread.
     pub fn register_receiver_at<R: Receiver>(&mut self, address: &Address<R::Message>, receiver: R) {
-        self.check_own(&address.thread);
+        address.check_thread(self.shared());
         self.insert::<dyn AnyReceiver>(address.receiver, Box::new(receiver), None);
     }
 
@@ -134,21 +124,18 @@ impl Context {
     /// [`RESTART_WINDOW`](crate::RESTART_WINDOW). Only the message that it panicked with is lost.
     pub fn register_restartable_receiver<R: Receiver>(
         &mut self,
-        make: impl FnMut(&mut Context) -> R + 'static,
+        mut make: impl FnMut(&mut Context) -> R + 'static,
     ) -> Address<R::Message> {
         let address = self.handle.reserve_address();
-        self.insert_restartable_receiver(address.receiver, make);
+        let factory = Box::new(move |thread: &mut Context| Box::new(make(thread)) as Box<dyn AnyReceiver>);
+        self.insert_made(address.receiver, factory);
         address
     }
 
-    pub(crate) fn insert_restartable_receiver<R: Receiver>(
-        &mut self,
-        id: u32,
-        mut make: impl FnMut(&mut Context) -> R + 'static,
-    ) {
-        let first = Box::new(make(self));
-        let factory: Factory<dyn AnyReceiver> = Box::new(move |thread| Box::new(make(thread)));
-        self.insert::<dyn AnyReceiver>(id, first, Some(factory));
+    /// Puts the object that `factory` makes in its place, with the factory beside it.
+    pub(crate) fn insert_made<T: Kind + ?Sized>(&mut self, id: u32, mut factory: Factory<T>) {
+        let first = factory(self);
+        self.insert(id, first, Some(factory));
     }
 
     /// Removes and drops a worker; `false` when there is none of that number.
@@ -162,8 +149,8 @@ impl Context {
     ///
     /// # Panics
     /// When the address belongs to another thread.
-    pub fn unregister_receiver<M>(&mut self, address: &Address<M>) -> bool {
-        self.check_own(&address.thread);
+    pub fn unregister_receiver<M: Send + 'static>(&mut self, address: &Address<M>) -> bool {
+        address.check_thread(self.shared());
         self.remove::<dyn AnyReceiver>(address.receiver)
     }
 
@@ -192,7 +179,8 @@ impl Context {
     }
 
     /// Asks for an iteration at `when` at the latest. Each object has one such alarm: a later call
-    /// replaces it, it is gone when it has rung, and when the object is removed.
+    /// replaces it, it is gone when it has rung, and when the object is removed. Outside of an object's
+    /// call, in a closure that makes or runs something, it is the one alarm of the thread itself.
     pub fn wake_at(&mut self, when: Instant) {
         let running = self.running;
         self.alarms.retain(|(id, _)| *id != running);
@@ -223,12 +211,9 @@ impl Context {
 
     /// Puts an object in its place in the register; one that was there is dropped.
     pub(crate) fn insert<T: Kind + ?Sized>(&mut self, id: u32, object: Box<T>, factory: Option<Factory<T>>) {
-        let name: Arc<str> = object.object_name().into();
-        for watcher in &self.watchers {
-            // A watcher that has stopped watches nobody.
-            let _ = watcher.send(Watched::new(&self.handle, id, &name, object.call_name()));
-        }
-        let slot = Slot { name, object: Some(object), factory, failures: Default::default() };
+        let (name, call): (Arc<str>, _) = (object.object_name().into(), object.call_name());
+        self.tell_watchers(id, Some((Arc::clone(&name), call)));
+        let slot = Slot { name, call, object: Some(object), factory, failures: Default::default() };
         let old = T::register(self).insert(id, slot);
         self.drop_slot(old);
     }
@@ -246,17 +231,13 @@ impl Context {
     /// What is kept of an object beside its slot.
     pub(crate) fn forget(&mut self, id: u32) {
         self.alarms.retain(|(owner, _)| *owner != id);
-        for watcher in &self.watchers {
-            let _ = watcher.send(Watched::removed(&self.handle, id));
-        }
+        self.tell_watchers(id, None);
     }
 
-    fn check_own(&self, thread: &Arc<Shared>) {
-        assert!(
-            Arc::ptr_eq(thread, self.shared()),
-            "the address belongs to thread {:?}, not to {:?}",
-            thread.name,
-            self.shared().name,
-        );
+    pub(crate) fn tell_watchers(&self, id: u32, object: Option<(Arc<str>, &'static str)>) {
+        for watcher in &self.watchers {
+            // A watcher that has stopped watches nobody.
+            let _ = watcher.send(Watched { thread: self.handle.clone(), id, object: object.clone() });
+        }
     }
 }

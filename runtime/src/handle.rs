@@ -1,6 +1,7 @@
 //! A thread, as other threads see it.
 
 use crate::mailbox::Content;
+use crate::object::AnyReceiver;
 use crate::register::{LAST, WorkerId};
 use crate::shared::{Counters, Shared};
 use crate::sync::atomic::Ordering;
@@ -76,10 +77,12 @@ impl ThreadHandle {
     /// [`Context::register_restartable_worker`].
     pub fn register_restartable_worker<W: Worker>(
         &self,
-        make: impl FnMut(&mut Context) -> W + Send + 'static,
+        mut make: impl FnMut(&mut Context) -> W + Send + 'static,
     ) -> WorkerId {
         let id = self.shared.new_id();
-        self.command(move |thread| thread.insert_restartable_worker(id, make));
+        self.command(move |thread| {
+            thread.insert_made::<dyn Worker>(id, Box::new(move |thread| Box::new(make(thread))));
+        });
         WorkerId(id)
     }
 
@@ -104,7 +107,7 @@ impl ThreadHandle {
         address: &Address<R::Message>,
         make: impl FnOnce(&mut Context) -> R + Send + 'static,
     ) {
-        self.check_own(address);
+        address.check_thread(&self.shared);
         let address = address.clone();
         self.command(move |thread| {
             let receiver = make(thread);
@@ -116,11 +119,13 @@ impl ThreadHandle {
     /// [`Context::register_restartable_receiver`].
     pub fn register_restartable_receiver<R: Receiver>(
         &self,
-        make: impl FnMut(&mut Context) -> R + Send + 'static,
+        mut make: impl FnMut(&mut Context) -> R + Send + 'static,
     ) -> Address<R::Message> {
         let address = self.reserve_address();
         let id = address.receiver;
-        self.command(move |thread| thread.insert_restartable_receiver(id, make));
+        self.command(move |thread| {
+            thread.insert_made::<dyn AnyReceiver>(id, Box::new(move |thread| Box::new(make(thread))));
+        });
         address
     }
 
@@ -142,7 +147,7 @@ impl ThreadHandle {
     /// # Panics
     /// When the address belongs to another thread.
     pub fn unregister_receiver<M: Send + 'static>(&self, address: &Address<M>) {
-        self.check_own(address);
+        address.check_thread(&self.shared);
         let address = address.clone();
         self.command(move |thread| {
             thread.unregister_receiver(&address);
@@ -233,15 +238,6 @@ impl ThreadHandle {
     /// A message that the thread itself understands; a stopped thread has no use for it.
     fn command(&self, job: impl FnOnce(&mut Context) + Send + 'static) {
         let _ = self.run(job);
-    }
-
-    fn check_own<M>(&self, address: &Address<M>) {
-        assert!(
-            Arc::ptr_eq(&address.thread, &self.shared),
-            "the address belongs to thread {:?}, not to {:?}",
-            address.thread.name,
-            self.shared.name,
-        );
     }
 }
 

@@ -29,12 +29,6 @@ pub enum Next {
     Stopped,
 }
 
-/// Why a call gave no answer.
-enum NoAnswer {
-    Gone,
-    Panicked,
-}
-
 impl Context {
     pub(crate) fn iterate(&mut self) -> Next {
         if self.finished {
@@ -63,7 +57,10 @@ impl Context {
             let Some(envelope) = self.batch.pop_front() else {
                 break;
             };
-            self.resolve_message(envelope);
+            // Calls are guarded themselves; this is for messages that panic when they are dropped.
+            if let Err(payload) = self.guarded(|thread| thread.resolve_message(envelope)) {
+                self.report("message", "drop", &*payload, Outcome::Removed);
+            }
         }
         // A flood must not hold its memory for ever.
         if self.batch.is_empty() && self.batch.capacity() > 4096 {
@@ -115,19 +112,21 @@ impl Context {
             let thread = &self.shared().name;
             tracing::debug!(%thread, receiver = to, message = type_name, "undeliverable");
         }
-        let name = self.traced_name::<dyn AnyReceiver>(to);
-        let begin = self.trace.is_some().then(|| self.now());
-        let answer = self.call::<dyn AnyReceiver, _>(to, type_name, |receiver, thread| {
-            receiver.receive_any(data, thread);
-            true
-        });
-        self.record(begin, |begin| Event::Message {
-            from: stamp.as_ref().map(|stamp| Arc::clone(&stamp.from)).unwrap_or_default(),
-            to: name,
-            message: type_name,
-            waited: stamp.map(|stamp| begin.saturating_duration_since(stamp.sent)),
-            end: end(&answer),
-        });
+        self.call::<dyn AnyReceiver>(
+            to,
+            type_name,
+            |receiver, thread| {
+                receiver.receive_any(data, thread);
+                true
+            },
+            |to, begin, end| Event::Message {
+                from: stamp.as_ref().map(|stamp| Arc::clone(&stamp.from)).unwrap_or_default(),
+                to,
+                message: type_name,
+                waited: stamp.map(|stamp| begin.saturating_duration_since(stamp.sent)),
+                end,
+            },
+        );
     }
 
     /// Calls the workers in order. Those registered meanwhile wait for the next iteration.
@@ -139,34 +138,48 @@ impl Context {
             let Some(id) = ahead.find(|id| id & !LAST < newcomers) else {
                 return;
             };
-            if !self.update_worker(id) {
+            let update = |worker: &mut dyn Worker, thread: &mut Context| worker.update(thread);
+            let end =
+                self.call::<dyn Worker>(id, "update", update, |name, _, end| Event::Worker { name, end });
+            // What a panicking worker should have done is not done: as if it had said so.
+            if end != End::Done(true) {
                 return;
             }
             from = id + 1;
         }
     }
 
-    fn update_worker(&mut self, id: u32) -> bool {
-        let name = self.traced_name::<dyn Worker>(id);
-        let begin = self.trace.is_some().then(|| self.now());
-        let answer = self.call::<dyn Worker, _>(id, "update", |worker, thread| worker.update(thread));
-        let end = end(&answer);
-        self.record(begin, |_| Event::Worker { name, end });
-        // What a panicking worker should have done is not done: as if it had said so.
-        end == End::Done(true)
-    }
-
-    /// Calls an object, with the register free for changes meanwhile.
-    fn call<T: Kind + ?Sized, A>(
+    /// Calls an object, with the register free for changes meanwhile, and traces that as `event`.
+    fn call<T: Kind + ?Sized>(
         &mut self,
         id: u32,
         what: &'static str,
-        call: impl FnOnce(&mut T, &mut Context) -> A,
-    ) -> Result<A, NoAnswer> {
-        let slot = T::register(self).get_mut(&id).ok_or(NoAnswer::Gone)?;
-        let mut object = slot.object.take().ok_or(NoAnswer::Gone)?;
-        let name = Arc::clone(&slot.name);
-        let sending = Sending::enter(&self.shared().name, &name);
+        call: impl FnOnce(&mut T, &mut Context) -> bool,
+        event: impl FnOnce(Arc<str>, Instant, End) -> Event,
+    ) -> End {
+        let begin = self.trace.is_some().then(|| self.now());
+        let slot = T::register(self).get_mut(&id);
+        let object = slot.and_then(|slot| Some((slot.object.take()?, Arc::clone(&slot.name))));
+        let (name, end) = match object {
+            Some((object, name)) => (Arc::clone(&name), self.call_object(id, what, call, object, &name)),
+            None => (Arc::default(), End::Undeliverable),
+        };
+        let now = begin.map(|_| self.now());
+        if let (Some(trace), Some(begin), Some(now)) = (&mut self.trace, begin, now) {
+            trace.add(begin, now.saturating_duration_since(begin), event(name, begin, end));
+        }
+        end
+    }
+
+    fn call_object<T: Kind + ?Sized>(
+        &mut self,
+        id: u32,
+        what: &'static str,
+        call: impl FnOnce(&mut T, &mut Context) -> bool,
+        mut object: Box<T>,
+        name: &str,
+    ) -> End {
+        let sending = Sending::enter(&self.shared().name, name);
         self.running = id;
         self.show_running(id);
         let answer = self.guarded(|thread| call(&mut object, thread));
@@ -177,15 +190,15 @@ impl Context {
             Ok(answer) => {
                 match T::register(self).get_mut(&id) {
                     Some(slot) if slot.object.is_none() => slot.object = Some(object),
-                    _ => self.drop_guarded(&name, object), // Unregistered or replaced by its call.
+                    _ => self.drop_guarded(name, object), // Unregistered or replaced by its call.
                 }
-                Ok(answer)
+                End::Done(answer)
             }
             Err(payload) => {
-                self.drop_guarded(&name, object);
+                self.drop_guarded(name, object);
                 let outcome = self.after_panic::<T>(id);
-                self.report(&name, what, &*payload, outcome);
-                Err(NoAnswer::Panicked)
+                self.report(name, what, &*payload, outcome);
+                End::Panicked
             }
         }
     }
@@ -198,12 +211,9 @@ impl Context {
             return Outcome::Removed; // It had removed itself before.
         };
         let allowed = slot.failures.allow_restart(now);
-        let Some(mut factory) = slot.factory.take() else {
-            T::register(self).remove(&id);
-            self.forget(id);
-            return Outcome::Removed;
-        };
-        if allowed {
+        let factory = slot.factory.take();
+        let outcome = if factory.is_some() { Outcome::GivenUp } else { Outcome::Removed };
+        if let Some(mut factory) = factory.filter(|_| allowed) {
             let made = self.guarded(|thread| factory(thread));
             if let (Ok(object), Some(slot)) = (made, T::register(self).get_mut(&id)) {
                 slot.object = Some(object);
@@ -214,7 +224,7 @@ impl Context {
         }
         T::register(self).remove(&id);
         self.forget(id);
-        Outcome::GivenUp
+        outcome
     }
 
     fn report(&mut self, object: &str, call: &'static str, payload: &(dyn Any + Send), outcome: Outcome) {
@@ -305,9 +315,7 @@ impl Context {
             self.shared().finish();
         }
         let mut left = self.shared().mailbox.close();
-        for envelope in std::mem::take(&mut self.batch) {
-            left += self.guarded(|_| envelope.discard()).unwrap_or(1);
-        }
+        left += std::mem::take(&mut self.batch).into_iter().map(Envelope::discard).sum::<usize>();
         self.shared().tallies.undelivered.add(left);
         while let Some((_, slot)) = self.workers.pop_last() {
             self.drop_slot(Some(slot));
@@ -326,29 +334,6 @@ impl Context {
         let call = u64::from(self.calls) << 32 | u64::from(id);
         let running = &self.shared().running;
         running.store(call, std::sync::atomic::Ordering::Relaxed);
-    }
-
-    fn traced_name<T: Kind + ?Sized>(&mut self, id: u32) -> Arc<str> {
-        if self.trace.is_none() {
-            return Arc::default();
-        }
-        let slot = T::register(self).get(&id);
-        slot.map(|slot| Arc::clone(&slot.name)).unwrap_or_default()
-    }
-
-    fn record(&mut self, begin: Option<Instant>, event: impl FnOnce(Instant) -> Event) {
-        let end = begin.map(|_| self.now());
-        if let (Some(trace), Some(begin), Some(end)) = (&mut self.trace, begin, end) {
-            trace.add(begin, end.saturating_duration_since(begin), event(begin));
-        }
-    }
-}
-
-fn end(answer: &Result<bool, NoAnswer>) -> End {
-    match answer {
-        Ok(answer) => End::Done(*answer),
-        Err(NoAnswer::Panicked) => End::Panicked,
-        Err(NoAnswer::Gone) => End::Undeliverable,
     }
 }
 

@@ -19,6 +19,7 @@ use crate::sync::{Queue, planted};
 use crate::{Context, address::Permit, trace::Stamp};
 use std::any::Any;
 use std::collections::VecDeque;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -168,11 +169,13 @@ impl Mailbox {
 
 impl Envelope {
     /// Drops it undelivered: how many messages of the program (not of the runtime) that was.
+    /// One that panics when it is dropped is dropped all the same.
     pub(crate) fn discard(self) -> usize {
-        match self.content {
+        let discard = || match self.content {
             Content::Message { .. } => 1,
             Content::Latest { slot, .. } => usize::from(slot.take().is_some()),
             Content::Run(_) | Content::Sleep(_) | Content::Stop => 0,
-        }
+        };
+        catch_unwind(AssertUnwindSafe(discard)).unwrap_or(1)
     }
 }

@@ -23,6 +23,8 @@ pub(crate) type Register<T> = BTreeMap<u32, Slot<T>>;
 /// The place of one object. It outlives the object when that is made anew.
 pub(crate) struct Slot<T: ?Sized> {
     pub(crate) name: Arc<str>,
+    /// What its calls are called in reports: the message type, or `"update"`.
+    pub(crate) call: &'static str,
     /// Taken out while it is called, so that the call may change the register it stands in.
     pub(crate) object: Option<Box<T>>,
     pub(crate) factory: Option<Factory<T>>,

@@ -96,20 +96,18 @@ impl Stage {
     pub fn waiting(&mut self, thread: &ThreadHandle) -> Vec<Waiting> {
         let context = self.context(thread);
         context.fetch_messages();
-        let name = |id: &u32| {
-            let slot = context.receivers.get(id);
-            slot.map(|slot| Arc::clone(&slot.name)).unwrap_or_default()
+        let describe = |content: &Content| {
+            let (to, message) = match content {
+                Content::Message { to, type_name, .. } => (to, *type_name),
+                Content::Latest { to, slot } => (to, slot.type_name()),
+                Content::Run(_) => (&0, "run"),
+                Content::Sleep(_) => (&0, "sleep"),
+                Content::Stop => (&0, "stop"),
+            };
+            let to = context.receivers.get(to).map(|slot| Arc::clone(&slot.name)).unwrap_or_default();
+            Waiting { to, message }
         };
-        let own = |message| Waiting { to: "".into(), message };
-        let describe = |content: &Content| match content {
-            Content::Message { to, type_name, .. } => Waiting { to: name(to), message: type_name },
-            Content::Latest { to, slot } => Waiting { to: name(to), message: slot.type_name() },
-            Content::Run(_) => own("run"),
-            Content::Sleep(_) => own("sleep"),
-            Content::Stop => own("stop"),
-        };
-        let batch = context.batch.iter();
-        batch.map(|envelope| describe(&envelope.content)).collect()
+        context.batch.iter().map(|envelope| describe(&envelope.content)).collect()
     }
 
     /// Delivers the message at `index` of [`waiting`](Self::waiting) before all others, and calls

@@ -12,13 +12,16 @@
 
 #[cfg(loom)]
 pub(crate) use loom::sync::atomic;
-#[cfg(loom)]
-#[path = "sync/loom_thread.rs"]
-pub mod thread;
 #[cfg(shuttle)]
 pub(crate) use shuttle::sync::atomic;
-#[cfg(shuttle)]
-pub use shuttle::thread;
+/// The checkers' queue, and threads that park as the standard library's do.
+#[cfg(any(loom, shuttle))]
+#[path = "../../tests/runtime/modelled.rs"]
+mod modelled;
+#[cfg(any(loom, shuttle))]
+pub use modelled::thread;
+#[cfg(any(loom, shuttle))]
+pub(crate) use modelled::{Queue, planted};
 #[cfg(not(any(loom, shuttle)))]
 pub(crate) use std::{sync::atomic, thread};
 
@@ -54,39 +57,6 @@ impl<T> Queue<T> {
     }
 }
 
-#[cfg(any(loom, shuttle))]
-mod modelled {
-    #[cfg(loom)]
-    use loom::sync::Mutex;
-    #[cfg(shuttle)]
-    use shuttle::sync::Mutex;
-    use std::collections::VecDeque;
-
-    pub(crate) struct Queue<T>(Mutex<VecDeque<T>>);
-
-    impl<T> Queue<T> {
-        pub(crate) fn new() -> Self {
-            Self(Mutex::new(VecDeque::new()))
-        }
-
-        pub(crate) fn push(&self, item: T) {
-            self.0.lock().expect("no panic under the lock").push_back(item);
-        }
-
-        pub(crate) fn drain(&self, into: &mut VecDeque<T>) {
-            let items = std::mem::take(&mut *self.0.lock().expect("no panic under the lock"));
-            // Outside the lock, as with flume.
-            into.extend(items);
-        }
-
-        pub(crate) fn len(&self) -> usize {
-            self.0.lock().expect("no panic under the lock").len()
-        }
-    }
-}
-#[cfg(any(loom, shuttle))]
-pub(crate) use modelled::Queue;
-
 /// Sleeps until somebody unparks this thread, or until `deadline`. May return early.
 /// The checkers know no time: there a deadline never comes, and a lost wake-up shows as a deadlock.
 pub(crate) fn park(deadline: Option<Instant>) {
@@ -106,12 +76,4 @@ pub(crate) fn park(deadline: Option<Instant>) {
 #[cfg(not(any(loom, shuttle)))]
 pub(crate) const fn planted(_bug: &str) -> bool {
     false
-}
-
-/// The planted bug that is on, from the environment, read anew each time: only models ask.
-#[cfg(any(loom, shuttle))]
-pub(crate) fn planted(bug: &str) -> bool {
-    static ON: std::sync::LazyLock<String> =
-        std::sync::LazyLock::new(|| std::env::var("PLANTED").unwrap_or_default());
-    *ON == bug
 }

@@ -72,40 +72,24 @@ impl Watchdog {
         let address = self.address.clone();
         // A stopped thread need not be watched.
         let _ = thread.run(move |thread| {
-            let handle = thread.handle().clone();
-            let tell = |id, name: &Arc<str>, call| {
-                // A watchdog that is gone has no use for it.
-                let _ = address.send(Watched::new(&handle, id, name, call));
-            };
-            tell(RUN, &"run".into(), "run");
-            for (id, slot) in &thread.workers {
-                tell(*id, &slot.name, "update");
-            }
-            for (id, slot) in &thread.receivers {
-                let call = slot.object.as_ref().map_or("", |object| object.message_name());
-                tell(*id, &slot.name, call);
-            }
             thread.watchers.push(address);
+            let workers = thread.workers.iter().map(|(id, slot)| (*id, Arc::clone(&slot.name), slot.call));
+            let receivers =
+                thread.receivers.iter().map(|(id, slot)| (*id, Arc::clone(&slot.name), slot.call));
+            let objects: Vec<_> = workers.chain(receivers).chain([(RUN, "run".into(), "run")]).collect();
+            for (id, name, call) in objects {
+                thread.tell_watchers(id, Some((name, call)));
+            }
         });
     }
 }
 
 /// An object that may stall, told by its thread when it is registered, and when it is removed.
 pub(crate) struct Watched {
-    thread: ThreadHandle,
-    id: u32,
+    pub(crate) thread: ThreadHandle,
+    pub(crate) id: u32,
     /// Its name, and what its calls are called; `None` when it is removed.
-    object: Option<(Arc<str>, &'static str)>,
-}
-
-impl Watched {
-    pub(crate) fn new(thread: &ThreadHandle, id: u32, name: &Arc<str>, call: &'static str) -> Self {
-        Self { thread: thread.clone(), id, object: Some((Arc::clone(name), call)) }
-    }
-
-    pub(crate) fn removed(thread: &ThreadHandle, id: u32) -> Self {
-        Self { thread: thread.clone(), id, object: None }
-    }
+    pub(crate) object: Option<(Arc<str>, &'static str)>,
 }
 
 struct Watch {
@@ -152,8 +136,7 @@ impl Worker for Watch {
         self.threads.retain(|look| !look.thread.is_stopped());
         for look in &mut self.threads {
             if let Some(stall) = look.again(now, self.limit) {
-                let Stall { thread, object, call, running } = &stall;
-                tracing::warn!(thread, %object, call, ?running, "stalled");
+                tracing::warn!(?stall, "stalled");
                 (self.report)(&stall);
             }
         }

@@ -23,13 +23,15 @@ struct Comparison {
 
 impl Comparison {
     fn compare(&mut self, got: &[f32], expected: &Value, place: impl Fn() -> String) {
-        let expected: Vec<f64> = expected.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect();
+        let expected: Vec<f64> =
+            expected.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect();
         assert_eq!(got.len(), expected.len(), "{}", place());
         let largest = expected.iter().copied().map(f64::abs).fold(1.0, f64::max);
         for (&got, expected) in got.iter().zip(expected) {
             self.numbers += 1;
             let off = (f64::from(got) - expected).abs() / (RELATIVE * largest);
-            if !(off <= self.worst) {
+            assert!(!off.is_nan(), "{}: {got}", place());
+            if off > self.worst {
                 (self.worst, self.place) = (off, format!("{}: {got} instead of {expected}", place()));
             }
         }
@@ -61,7 +63,8 @@ fn compare_pose(evaluator: &Evaluator, expected: &Value, place: &str, comparison
     }
     for (node, weights) in expected["weights"].as_object().into_iter().flatten() {
         let instance = instance_of(&model, node);
-        comparison.compare(evaluator.morph_weights(instance), weights, || format!("{place} weights of {node}"));
+        comparison
+            .compare(evaluator.morph_weights(instance), weights, || format!("{place} weights of {node}"));
     }
     for (skin, joints) in expected["skin"].as_array().into_iter().flatten().enumerate() {
         for (joint, matrix) in joints.as_array().unwrap().iter().enumerate() {
@@ -85,7 +88,11 @@ fn compare_pose(evaluator: &Evaluator, expected: &Value, place: &str, comparison
 /// The instance that a node is.
 fn instance_of(model: &ModelData, node: &str) -> usize {
     let number = Some(node.parse().unwrap());
-    model.instances.iter().position(|instance| instance.node == number).expect("every node with a mesh is shown")
+    model
+        .instances
+        .iter()
+        .position(|instance| instance.node == number)
+        .expect("every node with a mesh is shown")
 }
 
 /// A file against its expected poses: rest, and every sample of every clip there.
@@ -111,12 +118,16 @@ fn compare_file(model: &Path, expected: &Path) -> Comparison {
 /// Programs that do not make rotation keys unit give other answers for files that round them to three digits; for
 /// those a second answer was computed, from keys made unit.
 fn compare_folder(assets: &Path, expected: &Path) -> usize {
-    let mut names: Vec<String> =
-        std::fs::read_dir(expected).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let mut names: Vec<String> = std::fs::read_dir(expected)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
     names.sort();
     let (mut files, mut numbers, mut failures) = (0, 0, Vec::new());
     for name in &names {
-        let Some(file) = name.strip_prefix("gltf__").and_then(|name| name.strip_suffix(".json")) else { continue };
+        let Some(file) = name.strip_prefix("gltf__").and_then(|name| name.strip_suffix(".json")) else {
+            continue;
+        };
         let unit = format!("gltf__{file}.unitquat.json");
         if names.contains(&unit) {
             continue;
@@ -147,7 +158,8 @@ fn a_rig_of_67_joints_agrees_with_exact_poses() {
     let golden: Value = serde_json::from_slice(&golden).unwrap();
     let nodes: Vec<u32> =
         golden["joints"].as_array().unwrap().iter().map(|node| node.as_u64().unwrap() as u32).collect();
-    let bone_of = |node: u32| model.animation.skeleton.bones.iter().position(|bone| bone.node == Some(node)).unwrap();
+    let bone_of =
+        |node: u32| model.animation.skeleton.bones.iter().position(|bone| bone.node == Some(node)).unwrap();
     let bones: Vec<usize> = nodes.into_iter().map(bone_of).collect();
     let mut evaluator = Evaluator::new(model.clone());
     let mut comparison = Comparison::default();
@@ -166,7 +178,9 @@ fn a_rig_of_67_joints_agrees_with_exact_poses() {
             for vertex in pose["skinned"].as_array().unwrap() {
                 let index = vertex[0].as_u64().unwrap() as usize;
                 let expected = Value::Array(vertex.as_array().unwrap()[1..].to_vec());
-                comparison.compare(&positions[index].to_array(), &expected, || format!("{name} at {time} vertex {index}"));
+                comparison.compare(&positions[index].to_array(), &expected, || {
+                    format!("{name} at {time} vertex {index}")
+                });
             }
         }
     }

@@ -90,7 +90,8 @@ fn every_bad_file_is_answered_as_its_index_says() {
         files += 1;
         let (path, expected) = (folder.join(file), expected.to_owned());
         // A small stack: nothing may recurse as deep as a file says.
-        let thread = std::thread::Builder::new().stack_size(256 << 10).spawn(move || faults_of(path, &expected));
+        let thread =
+            std::thread::Builder::new().stack_size(256 << 10).spawn(move || faults_of(path, &expected));
         match thread.unwrap().join() {
             Ok(wrong) => failures.extend(wrong.into_iter().map(|wrong| format!("{file}: {wrong}"))),
             Err(_) => failures.push(format!("{file}: panicked")),

@@ -8,16 +8,53 @@ use dragonfly_kit::mutate::Mutator;
 use dragonfly_kit::random::seed;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// What means something in a glTF file.
 const WORDS: &[&[u8]] = &[
-    b"{}", b"[]", b"[[[[", b"}}", b"null", b"\"\"", b"-1", b"1e400", b"\\u0000", b"\"node\":0,", b"\"mesh\":0,",
-    b"\"skin\":0,", b"\"children\":[0,1],", b"\"matrix\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],", b"\"scale\":[0,0,0],",
-    b"\"count\":0,", b"\"byteOffset\":1,", b"\"byteStride\":4,", b"\"sparse\":{},", b"\"normalized\":true,",
-    b"\"interpolation\":\"CUBICSPLINE\",", b"\"path\":\"weights\",", b"5120", b"5121", b"5122", b"5123", b"5125",
-    b"5126", b"VEC3", b"VEC4", b"SCALAR", b"MAT4", b"JOINTS_1", b"WEIGHTS_1", b"\"targets\":[{}],", b"\"mode\":5,",
-    b"\x00\x00\xc0\x7f", b"\x00\x00\x80\x7f", b"\x00\x00\x00\x80", b"BIN\0", b"JSON", b"glTF",
+    b"{}",
+    b"[]",
+    b"[[[[",
+    b"}}",
+    b"null",
+    b"\"\"",
+    b"-1",
+    b"1e400",
+    b"\\u0000",
+    b"\"node\":0,",
+    b"\"mesh\":0,",
+    b"\"skin\":0,",
+    b"\"children\":[0,1],",
+    b"\"matrix\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],",
+    b"\"scale\":[0,0,0],",
+    b"\"count\":0,",
+    b"\"byteOffset\":1,",
+    b"\"byteStride\":4,",
+    b"\"sparse\":{},",
+    b"\"normalized\":true,",
+    b"\"interpolation\":\"CUBICSPLINE\",",
+    b"\"path\":\"weights\",",
+    b"5120",
+    b"5121",
+    b"5122",
+    b"5123",
+    b"5125",
+    b"5126",
+    b"VEC3",
+    b"VEC4",
+    b"SCALAR",
+    b"MAT4",
+    b"JOINTS_1",
+    b"WEIGHTS_1",
+    b"\"targets\":[{}],",
+    b"\"mode\":5,",
+    b"\x00\x00\xc0\x7f",
+    b"\x00\x00\x80\x7f",
+    b"\x00\x00\x00\x80",
+    b"BIN\0",
+    b"JSON",
+    b"glTF",
 ];
 
 /// A file that broke a promise.
@@ -50,9 +87,11 @@ fn two_hundred_thousand_mutants_do_no_harm() {
         Arc::new(seeds().into_iter().map(|seed| seed.bytes).filter(|bytes| bytes.len() <= 8 << 10).collect());
     let done = Arc::new(AtomicUsize::new(0));
     let read = Arc::new(AtomicUsize::new(0));
+    let (working, workers) = channel::<()>();
     let work = (0..THREADS).map(|thread| {
-        let (files, done, read) = (files.clone(), done.clone(), read.clone());
+        let (files, done, read, working) = (files.clone(), done.clone(), read.clone(), working.clone());
         on_small_stack(move || {
+            let _working = working;
             let mut mutator = Mutator::new(first_seed + thread as u64, WORDS);
             let door = MemoryFs::default();
             let mut broken = Vec::new();
@@ -71,22 +110,22 @@ fn two_hundred_thousand_mutants_do_no_harm() {
         })
     });
     let work: Vec<_> = work.collect();
-    watch(&done, || work.iter().all(std::thread::JoinHandle::is_finished));
+    drop(working);
+    watch(&done, &workers);
     let broken: Vec<Broken> = work.into_iter().flat_map(|thread| thread.join().unwrap()).collect();
     println!("{} mutants, {} of them read", done.load(Ordering::Relaxed), read.load(Ordering::Relaxed));
     report(broken);
     assert!(read.load(Ordering::Relaxed) > MUTANTS / 20, "too few mutants are read to test what comes after");
 }
 
-/// Waits until `is_over`; fails when nothing is done for a minute.
-fn watch(done: &AtomicUsize, is_over: impl Fn() -> bool) {
+/// Waits until every sender is gone; fails when nothing is done for a minute.
+fn watch(done: &AtomicUsize, workers: &Receiver<()>) {
     let (mut last, mut idle) = (0, 0);
-    while !is_over() {
-        std::thread::sleep(Duration::from_millis(20));
+    while workers.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
         let now = done.load(Ordering::Relaxed);
         idle = if now == last { idle + 1 } else { 0 };
         last = now;
-        assert!(idle < 3_000, "a file hangs: the one after {now}");
+        assert!(idle < 60, "a file hangs: the one after {now}");
     }
 }
 
@@ -111,16 +150,22 @@ fn damage_at_every_place_does_no_harm() {
     assert!(seeds.len() >= 30);
     let next = Arc::new(AtomicUsize::new(0));
     let done = Arc::new(AtomicUsize::new(0));
+    let (working, workers) = channel::<()>();
     let work = (0..2).map(|_| {
-        let (seeds, next, done) = (seeds.clone(), next.clone(), done.clone());
+        let (seeds, next, done, working) = (seeds.clone(), next.clone(), done.clone(), working.clone());
         on_small_stack(move || {
+            let _working = working;
             let mut broken = Vec::new();
             let door = MemoryFs::default();
             while let Some(Seed { name, bytes }) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
                 damaged(bytes, |bytes, damage| {
                     done.fetch_add(1, Ordering::Relaxed);
                     if let Err(what) = trial(name, bytes, &door) {
-                        broken.push(Broken { seed: name.clone(), what: format!("{damage}: {what}"), bytes: bytes.to_vec() });
+                        broken.push(Broken {
+                            seed: name.clone(),
+                            what: format!("{damage}: {what}"),
+                            bytes: bytes.to_vec(),
+                        });
                     }
                 });
             }
@@ -128,7 +173,8 @@ fn damage_at_every_place_does_no_harm() {
         })
     });
     let work: Vec<_> = work.collect();
-    watch(&done, || work.iter().all(std::thread::JoinHandle::is_finished));
+    drop(working);
+    watch(&done, &workers);
     let broken: Vec<Broken> = work.into_iter().flat_map(|thread| thread.join().unwrap()).collect();
     println!("{} seeds, {} damaged files", seeds.len(), done.load(Ordering::Relaxed));
     report(broken);

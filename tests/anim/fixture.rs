@@ -23,6 +23,7 @@ pub(crate) mod accessor {
     pub(crate) const TIMES: usize = 10;
     pub(crate) const TRANSLATIONS: usize = 11;
     pub(crate) const ROTATIONS: usize = 12;
+    pub(crate) const MORPH_WEIGHTS: usize = 13;
     pub(crate) const SPARSE: usize = 14;
     pub(crate) const CUBIC: usize = 15;
 }
@@ -31,7 +32,8 @@ impl Fixture {
     /// Four vertices, two joints, a skin, a morph target, a material with a texture, a take of five channels.
     pub(crate) fn new() -> Self {
         let mut fixture = Self { json: skeleton_of_json(), bin: Vec::new() };
-        let floats = |numbers: &[f32]| numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>();
+        let floats =
+            |numbers: &[f32]| numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>();
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let identity = glam::Mat4::IDENTITY.to_cols_array();
         let identities = [identity, identity].concat();
@@ -126,7 +128,8 @@ impl Fixture {
     /// As JSON with the buffer in it.
     pub(crate) fn gltf(&self) -> Vec<u8> {
         let mut json = self.json.clone();
-        json["buffers"][0]["uri"] = json!(format!("data:application/octet-stream;base64,{}", base64(&self.bin)));
+        json["buffers"][0]["uri"] =
+            json!(format!("data:application/octet-stream;base64,{}", base64(&self.bin)));
         json.to_string().into_bytes()
     }
 
@@ -219,7 +222,8 @@ mod base64_of {
         const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
         let mut text = String::new();
         for three in bytes.chunks(3) {
-            let bits = three.iter().fold(0u32, |bits, &byte| bits << 8 | u32::from(byte)) << (8 * (3 - three.len()));
+            let bits =
+                three.iter().fold(0u32, |bits, &byte| bits << 8 | u32::from(byte)) << (8 * (3 - three.len()));
             for digit in 0..4 {
                 let value = (bits >> (18 - 6 * digit)) as usize % 64;
                 text.push(if digit <= three.len() { char::from(DIGITS[value]) } else { '=' });
@@ -236,8 +240,11 @@ fn the_fixture_is_valid_in_each_form() {
     let fixture = Fixture::new();
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
     let read = |name, bytes: &[u8]| read(name, bytes, &door, &ReadOptions::default()).unwrap();
-    let [binary, embedded, beside] =
-        [read("a.glb", &fixture.glb()), read("a.gltf", &fixture.gltf()), read("a.gltf", &fixture.gltf_beside())];
+    let [binary, embedded, beside] = [
+        read("a.glb", &fixture.glb()),
+        read("a.gltf", &fixture.gltf()),
+        read("a.gltf", &fixture.gltf_beside()),
+    ];
     assert_eq!(binary.warnings, []);
     assert_eq!(binary.model, embedded.model);
     assert_eq!(binary.model, beside.model);
@@ -245,7 +252,10 @@ fn the_fixture_is_valid_in_each_form() {
     assert_eq!(door.asked(), ["all.bin"]);
     assert_eq!(crate::soundness::faults(&binary.model), [""; 0]);
     let model = binary.model;
-    assert_eq!(model.animation.skeleton.bones.iter().map(|bone| bone.name.as_str()).collect::<Vec<_>>(), ["hip", "knee", "body"]);
+    assert_eq!(
+        model.animation.skeleton.bones.iter().map(|bone| bone.name.as_str()).collect::<Vec<_>>(),
+        ["hip", "knee", "body"]
+    );
     assert_eq!(model.meshes[0].primitives[0].morph_targets[0].name, "up");
     assert_eq!(model.instances[0].morph_weights, [0.25]);
     assert_eq!(model.animation.takes[0].morphs[0].instance, 0);

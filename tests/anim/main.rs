@@ -2,12 +2,16 @@
 
 mod agreement;
 mod bad_files;
+mod bombs;
 mod bounds;
+mod budget;
 mod damage;
 mod degenerate;
+mod degenerate_import;
 mod determinism;
 mod doors;
 mod fixture;
+mod formats;
 mod hostile;
 mod poses;
 mod rules;
@@ -17,6 +21,7 @@ mod skinning;
 mod soundness;
 mod support;
 mod trial;
+mod uris;
 
 /// Counts what each thread allocates, for the promises that playing allocates nothing.
 #[global_allocator]

@@ -61,8 +61,11 @@ fn morphed() -> Fixture {
     let mut fixture = triangle(json!({"targets": [{"POSITION": 1}]}));
     let indices = fixture.view(&[2]);
     let values = fixture.view(&floats(&[1., 2., 3.]));
-    fixture.set("/accessors/1", json!({"componentType": 5126, "type": "VEC3", "count": 3, "sparse": {"count": 1,
-        "indices": {"bufferView": indices, "componentType": 5121}, "values": {"bufferView": values}}}));
+    fixture.set(
+        "/accessors/1",
+        json!({"componentType": 5126, "type": "VEC3", "count": 3, "sparse": {"count": 1,
+        "indices": {"bufferView": indices, "componentType": 5121}, "values": {"bufferView": values}}}),
+    );
     fixture.set("/meshes/0/weights", json!([0.5]));
     fixture
 }
@@ -72,8 +75,11 @@ fn quantized() -> Fixture {
     let shorts: Vec<u8> = [0i16, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0].map(i16::to_le_bytes).concat();
     let view = fixture.view(&shorts);
     fixture.set(&format!("/bufferViews/{view}/byteStride"), json!(8));
-    fixture.set("/accessors/0", json!({"bufferView": view, "componentType": 5122, "normalized": true,
-                                       "type": "VEC3", "count": 3}));
+    fixture.set(
+        "/accessors/0",
+        json!({"bufferView": view, "componentType": 5122, "normalized": true,
+                                       "type": "VEC3", "count": 3}),
+    );
     fixture.set("/extensionsRequired", json!(["KHR_mesh_quantization"]));
     fixture
 }
@@ -83,9 +89,12 @@ fn textured() -> Fixture {
     let view = fixture.view(&crate::fixture::png(1, 1));
     fixture.set("/images", json!([{"bufferView": view, "mimeType": "image/png"}]));
     fixture.set("/textures", json!([{"source": 0}]));
-    fixture.set("/materials", json!([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": {
+    fixture.set(
+        "/materials",
+        json!([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": {
         "KHR_texture_transform": {"offset": [0.5, 0], "rotation": 1, "scale": [2, 2], "texCoord": 1}}}},
-        "normalTexture": {"index": 0, "scale": 0.5}, "extensions": {"KHR_materials_unlit": {}}}]));
+        "normalTexture": {"index": 0, "scale": 0.5}, "extensions": {"KHR_materials_unlit": {}}}]),
+    );
     fixture
 }
 
@@ -104,7 +113,11 @@ fn fixtures() -> Vec<(&'static str, Fixture)> {
         ("all", Fixture::new()),
         ("nothing", bare(json!({"scenes": [], "nodes": []}))),
         ("triangle", triangle(json!({}))),
-        ("list", { let mut list = indexed(4); list.set("/accessors/1/count", json!(3)); list }),
+        ("list", {
+            let mut list = indexed(4);
+            list.set("/accessors/1/count", json!(3));
+            list
+        }),
         ("strip", indexed(5)),
         ("fan", indexed(6)),
         ("lines", indexed(1)),
@@ -115,11 +128,17 @@ fn fixtures() -> Vec<(&'static str, Fixture)> {
         ("turning", animated("rotation", "LINEAR", "VEC4", &turn)),
         ("stepping", animated("translation", "STEP", "VEC3", &TRIANGLE[..6])),
         ("growing", animated("scale", "CUBICSPLINE", "VEC3", &spline)),
-        ("pointing", { let mut odd = animated("pointer", "LINEAR", "VEC4", &turn);
-                       odd.remove("/animations/0/channels/0/target/node"); odd }),
-        ("tree", bare(json!({"scene": 1, "scenes": [{}, {"name": "b", "nodes": [0, 3]}], "nodes": [
+        ("pointing", {
+            let mut odd = animated("pointer", "LINEAR", "VEC4", &turn);
+            odd.remove("/animations/0/channels/0/target/node");
+            odd
+        }),
+        (
+            "tree",
+            bare(json!({"scene": 1, "scenes": [{}, {"name": "b", "nodes": [0, 3]}], "nodes": [
             {"children": [1, 2], "matrix": [0, 2, 0, 0, -2, 0, 0, 0, 0, 0, -2, 0, 1, 2, 3, 1]},
-            {"scale": [-1, 1, 1]}, {"rotation": [0, 0.6, 0, 0.8]}, {"translation": [1, 2, 3], "extras": {"a": [1]}}]}))),
+            {"scale": [-1, 1, 1]}, {"rotation": [0, 0.6, 0, 0.8]}, {"translation": [1, 2, 3], "extras": {"a": [1]}}]})),
+        ),
     ]
 }
 
@@ -130,9 +149,12 @@ pub(crate) fn seeds() -> Vec<Seed> {
         seeds.push(Seed { name: format!("{name}.glb"), bytes: fixture.glb() });
         seeds.push(Seed { name: format!("{name}.gltf"), bytes: fixture.gltf() });
     }
-    let mut paths: Vec<_> = std::fs::read_dir(data().join("gltf")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut paths: Vec<_> =
+        std::fs::read_dir(data().join("gltf")).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.sort();
-    for path in paths.into_iter().filter(|path| path.is_file()) {
+    let is_model =
+        |path: &std::path::Path| path.extension().is_some_and(|ending| ending == "gltf" || ending == "glb");
+    for path in paths.into_iter().filter(|path| is_model(path)) {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         seeds.push(Seed { name, bytes: std::fs::read(path).unwrap() });
     }

@@ -34,7 +34,10 @@ pub(crate) fn faults(model: &ModelData) -> Vec<String> {
             material.emissive_texture,
         ];
         for texture in textures.into_iter().flatten() {
-            check((texture.image as usize) < model.images.len() && texture.set < 2, "a texture names an image");
+            check(
+                (texture.image as usize) < model.images.len() && texture.set < 2,
+                "a texture names an image",
+            );
             check(texture.transform.to_matrix().is_finite(), "a texture transform is finite");
         }
         let numbers = [
@@ -65,7 +68,10 @@ pub(crate) fn faults(model: &ModelData) -> Vec<String> {
             continue;
         };
         let influences = mesh.primitives.iter().flat_map(|primitive| &primitive.vertices.influences);
-        check(influences.into_iter().all(|i| usize::from(i.joint) < skin.bones.len()), "an influence names a joint");
+        check(
+            influences.into_iter().all(|i| usize::from(i.joint) < skin.bones.len()),
+            "an influence names a joint",
+        );
     }
     for take in &model.animation.takes {
         check_take(take, model, &mut check);
@@ -73,9 +79,21 @@ pub(crate) fn faults(model: &ModelData) -> Vec<String> {
     faults
 }
 
-fn check_primitive(primitive: &Primitive, targets: usize, materials: usize, check: &mut impl FnMut(bool, &str)) {
-    let Vertices { positions, normals, tangents, texture_coordinates, colors, influences, influences_per_vertex } =
-        &primitive.vertices;
+fn check_primitive(
+    primitive: &Primitive,
+    targets: usize,
+    materials: usize,
+    check: &mut impl FnMut(bool, &str),
+) {
+    let Vertices {
+        positions,
+        normals,
+        tangents,
+        texture_coordinates,
+        colors,
+        influences,
+        influences_per_vertex,
+    } = &primitive.vertices;
     let count = positions.len();
     let fits = |length: usize| length == 0 || length == count;
     check(normals.len() == count, "every vertex has a normal");
@@ -91,9 +109,12 @@ fn check_primitive(primitive: &Primitive, targets: usize, materials: usize, chec
         let of = primitive.vertices.influences_of(vertex);
         let sum: f32 = of.iter().map(|influence| influence.weight).sum();
         check((sum - 1.0).abs() < 1e-5, "weights add up to one");
-        check(of.windows(2).all(|pair| pair[0].weight >= pair[1].weight), "the strongest influence comes first");
+        check(
+            of.windows(2).all(|pair| pair[0].weight >= pair[1].weight),
+            "the strongest influence comes first",
+        );
     }
-    check(primitive.indices.len() % 3 == 0, "whole triangles");
+    check(primitive.indices.len().is_multiple_of(3), "whole triangles");
     check(primitive.indices.iter().all(|&index| (index as usize) < count), "an index names a vertex");
     check(primitive.material.is_none_or(|material| (material as usize) < materials), "a material exists");
     check(primitive.morph_targets.len() == targets, "as many targets as the mesh has");
@@ -117,23 +138,37 @@ fn check_take(take: &Take, model: &ModelData, check: &mut impl FnMut(bool, &str)
     }
     for morph in &take.morphs {
         let per_key = if morph.interpolation == Interpolation::CubicSpline { 3 } else { 1 };
-        check(morph.weights.len() == morph.times.len() * per_key * morph.targets as usize, "weights for each key");
+        check(
+            morph.weights.len() == morph.times.len() * per_key * morph.targets as usize,
+            "weights for each key",
+        );
         check(morph.weights.iter().all(|weight| weight.is_finite()), "a weight is finite");
         check(morph.times.windows(2).all(|pair| pair[0] < pair[1]), "key times rise");
         let instance = model.instances.get(morph.instance as usize);
-        check(instance.is_some_and(|i| i.morph_weights.len() == morph.targets as usize), "a morph track fits");
+        check(
+            instance.is_some_and(|i| i.morph_weights.len() == morph.targets as usize),
+            "a morph track fits",
+        );
     }
 }
 
-fn check_channel<T: Copy>(channel: &Channel<T>, finite: impl Fn(&T) -> bool, check: &mut impl FnMut(bool, &str)) {
+fn check_channel<T: Copy>(
+    channel: &Channel<T>,
+    finite: impl Fn(&T) -> bool,
+    check: &mut impl FnMut(bool, &str),
+) {
     check(channel.times.len() * channel.values_per_key() == channel.values.len(), "values for each key");
     check(channel.times.windows(2).all(|pair| pair[0] < pair[1]), "key times rise");
-    check(channel.times.iter().all(|time| time.is_finite()) && channel.values.iter().all(finite), "keys are finite");
+    check(
+        channel.times.iter().all(|time| time.is_finite()) && channel.values.iter().all(finite),
+        "keys are finite",
+    );
 }
 
 /// Evaluates the rest pose and the start, middle and end of the first take; the poses' faults.
 pub(crate) fn faults_of_poses(model: ModelData) -> Vec<String> {
-    let times = model.animation.takes.first().map(|take| [take.start, take.start + take.length / 2.0, take.end()]);
+    let times =
+        model.animation.takes.first().map(|take| [take.start, take.start + take.length / 2.0, take.end()]);
     let mut evaluator = Evaluator::new(Arc::new(model));
     let mut faults = Vec::new();
     let poses = times.into_iter().flatten().map(|time| (Some(0), time)).chain([(None, 0.0)]);

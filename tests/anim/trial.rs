@@ -43,7 +43,9 @@ pub(crate) fn trial(name: &str, bytes: &[u8], door: &MemoryFs) -> Result<bool, S
 }
 
 /// Runs `work` on a thread with a small stack.
-pub(crate) fn on_small_stack<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> std::thread::JoinHandle<T> {
+pub(crate) fn on_small_stack<T: Send + 'static>(
+    work: impl FnOnce() -> T + Send + 'static,
+) -> std::thread::JoinHandle<T> {
     std::thread::Builder::new().stack_size(STACK).spawn(work).unwrap()
 }
 

@@ -72,6 +72,7 @@ fn the_latest_message_takes_the_place_of_the_one_that_waits() {
         latest.clone().send(message).unwrap();
     }
     assert_eq!((latest.waiting(), latest.queue_len()), (1, 1));
+    assert_eq!(thread.counters().replaced, 4, "each as soon as the next was sent");
     stage.iterate(&thread);
     assert_eq!(log.take(), "m5");
     assert_eq!(thread.counters().replaced, 4);

@@ -170,7 +170,8 @@ fn the_trace_feeds_tracing_and_trouble_is_told_even_when_it_is_off() {
         stage.iterate(&kitchen);
     });
     let lines = listener.0.lock().unwrap();
-    assert_eq!(lines.len(), 3, "{lines:#?}");
+    assert_eq!(lines.len(), 4, "{lines:#?}");
+    assert!(lines[3].starts_with("DEBUG message=stopped"), "{lines:#?}");
     assert!(
         lines[0].starts_with("DEBUG message=undeliverable") && lines[0].contains("kitchen"),
         "{lines:#?}"

@@ -70,6 +70,9 @@ fn the_limit_is_five_seconds_and_short_calls_are_none_of_its_business() {
     stage.advance(Duration::from_millis(1));
     stage.iterate(&tower);
     assert_eq!(reports.try_recv(), Ok(Duration::from_secs(5)));
+    stage.advance(STALL_LIMIT * 2);
+    stage.iterate(&tower);
+    assert!(reports.try_recv().is_err(), "once is enough");
     drop(let_go);
 }
 

@@ -137,7 +137,8 @@ pub(crate) fn one_line(text: &str) -> String {
 
 /// The character itself, or its escape when it would not show on one line.
 fn escape(character: char) -> impl Iterator<Item = char> {
-    let hidden = character.is_control() || matches!(character, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}');
+    let hidden =
+        character.is_control() || matches!(character, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}');
     let (shown, escaped) =
         if hidden { (None, Some(character.escape_unicode())) } else { (Some(character), None) };
     shown.into_iter().chain(escaped.into_iter().flatten())

@@ -34,12 +34,19 @@ impl<'a> Guard<'a> {
         let mut vec = Vec::new();
         match vec.try_reserve_exact(count) {
             Ok(()) => Ok(vec),
-            Err(_) => Err(too_large(place, OverBudget { needed: bytes, limit: self.options.budget.remaining() })),
+            Err(_) => {
+                Err(too_large(place, OverBudget { needed: bytes, limit: self.options.budget.remaining() }))
+            }
         }
     }
 
     /// A vector of `count` times `value`, charged to the budget.
-    pub(crate) fn filled<T: Clone>(&self, place: &Place, count: usize, value: T) -> Result<Vec<T>, ImportError> {
+    pub(crate) fn filled<T: Clone>(
+        &self,
+        place: &Place,
+        count: usize,
+        value: T,
+    ) -> Result<Vec<T>, ImportError> {
         let mut vec = self.vec(place, count)?;
         self.work(count)?;
         vec.resize(count, value);

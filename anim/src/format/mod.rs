@@ -10,6 +10,8 @@ mod door;
 mod error;
 #[cfg(feature = "gltf")]
 pub mod gltf;
+// Used by every importer, so by none where all are left out.
+#[cfg_attr(not(feature = "gltf"), allow(dead_code))]
 mod guard;
 mod options;
 pub mod uri;
@@ -31,7 +33,8 @@ pub struct Format {
     /// Do these bytes begin like such a file? Looks at the first few only.
     pub detect: fn(bytes: &[u8]) -> bool,
     /// Reads the whole file.
-    pub(crate) read: fn(bytes: &[u8], door: &dyn AssetFs, guard: &Guard<'_>) -> Result<ModelData, ImportError>,
+    pub(crate) read:
+        fn(bytes: &[u8], door: &dyn AssetFs, guard: &Guard<'_>) -> Result<ModelData, ImportError>,
 }
 
 /// Every format that can be read.
@@ -79,7 +82,8 @@ pub fn read(
         let size = bytes.len() as u64;
         return Err(ImportError::TooLarge { place: Place::File, what: "bytes", size, limit: FILE_BYTES });
     }
-    let format = format_of(name, bytes).ok_or_else(|| ImportError::UnknownFormat { name: name.to_owned() })?;
+    let format =
+        format_of(name, bytes).ok_or_else(|| ImportError::UnknownFormat { name: name.to_owned() })?;
     options.budget.input(bytes.len());
     let guard = Guard::new(options);
     guard.progress(0.0)?;

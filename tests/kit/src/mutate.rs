@@ -4,9 +4,25 @@ use crate::random::Random;
 
 /// Numbers that break arithmetic on sizes.
 const SPECIALS: [u32; 18] = [
-    0, 1, 2, 3, 4, 7, 8, 0x7f, 0xff, 0x7fff_ffff, 0x8000_0000, 0xffff_ffff, 0xffff_fffe,
+    0,
+    1,
+    2,
+    3,
+    4,
+    7,
+    8,
+    0x7f,
+    0xff,
+    0x7fff_ffff,
+    0x8000_0000,
+    0xffff_ffff,
+    0xffff_fffe,
     // As floats: infinity, NaN, nearly infinity, nearly nothing, a minus.
-    0x7f80_0000, 0x7fc0_0000, 0x7f7f_ffff, 0x0000_0001, 0xbf80_0000,
+    0x7f80_0000,
+    0x7fc0_0000,
+    0x7f7f_ffff,
+    0x0000_0001,
+    0xbf80_0000,
 ];
 
 /// Changes files: a few random steps each, all from one seed.
@@ -84,7 +100,14 @@ impl<'a> Mutator<'a> {
         match self.random.below(4) {
             0 => {
                 let number = self.random.choice(&[
-                    "-1", "4294967296", "18446744073709551615", "1e39", "1e-46", "65536", "0.5", "null",
+                    "-1",
+                    "4294967296",
+                    "18446744073709551615",
+                    "1e39",
+                    "1e-46",
+                    "65536",
+                    "0.5",
+                    "null",
                 ]);
                 bytes.splice(at..=at, number.bytes());
             }

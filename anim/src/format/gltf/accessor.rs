@@ -54,8 +54,13 @@ pub(super) struct Source<'a> {
 
 impl<'a> Document<'a> {
     /// Bytes of a buffer view and its stride. `from` is where the view is named.
-    pub(super) fn view(&self, index: Index<buffer::View>, from: &str) -> Result<(&[u8], Option<usize>), ImportError> {
-        let view = self.root.buffer_views.get(index.value()).ok_or_else(|| unresolved(from, index.value()))?;
+    pub(super) fn view(
+        &self,
+        index: Index<buffer::View>,
+        from: &str,
+    ) -> Result<(&[u8], Option<usize>), ImportError> {
+        let view =
+            self.root.buffer_views.get(index.value()).ok_or_else(|| unresolved(from, index.value()))?;
         let place = || format!("/bufferViews/{}", index.value());
         let buffer = self
             .buffers
@@ -79,7 +84,11 @@ impl<'a> Document<'a> {
             && (!(4..=252).contains(&stride.0) || stride.0 % 4 != 0)
         {
             let text = format!("the byte stride {} should be a multiple of 4, 4..252", stride.0);
-            self.guard.warn(Place::Pointer(place() + "/byteStride"), code::BUFFER_VIEW_INVALID_BYTE_STRIDE, text);
+            self.guard.warn(
+                Place::Pointer(place() + "/byteStride"),
+                code::BUFFER_VIEW_INVALID_BYTE_STRIDE,
+                text,
+            );
         }
         Ok((bytes, stride))
     }
@@ -123,12 +132,18 @@ impl<'a> Document<'a> {
             let reason = "none of the values allowed".to_owned();
             invalid(Place::Pointer(format!("{path}/{member}")), code::VALUE_NOT_IN_LIST, reason)
         };
-        let Checked::Valid(component) = &accessor.component_type else { return Err(not_in_list("componentType")) };
+        let Checked::Valid(component) = &accessor.component_type else {
+            return Err(not_in_list("componentType"));
+        };
         let Checked::Valid(shape) = accessor.type_ else { return Err(not_in_list("type")) };
         let mut normalized = accessor.normalized;
         if normalized && matches!(component.0, ComponentType::F32 | ComponentType::U32) {
             let place = Place::Pointer(format!("{path}/normalized"));
-            self.guard.warn(place, code::ACCESSOR_NORMALIZED_INVALID, "floats and 32-bit integers stay as they are");
+            self.guard.warn(
+                place,
+                code::ACCESSOR_NORMALIZED_INVALID,
+                "floats and 32-bit integers stay as they are",
+            );
             normalized = false;
         }
         Ok((component.0, shape, normalized))
@@ -149,14 +164,20 @@ impl<'a> Document<'a> {
     }
 
     fn check_alignment(&self, offset: USize64, component: ComponentType, path: &str) {
-        if offset.0 % component.size() as u64 != 0 {
+        if !offset.0.is_multiple_of(component.size() as u64) {
             let text = format!("the offset {} is no multiple of {}", offset.0, component.size());
             let place = Place::Pointer(format!("{path}/byteOffset"));
             self.guard.warn(place, code::ACCESSOR_OFFSET_ALIGNMENT, text);
         }
     }
 
-    fn sparse_of(&self, accessor: &Accessor, total: usize, size: usize, path: &str) -> Result<Sparse<'_>, ImportError> {
+    fn sparse_of(
+        &self,
+        accessor: &Accessor,
+        total: usize,
+        size: usize,
+        path: &str,
+    ) -> Result<Sparse<'_>, ImportError> {
         let sparse = accessor.sparse.as_ref().expect("the caller has looked");
         let path = format!("{path}/sparse");
         let count = to_usize(sparse.count.0).filter(|&count| count <= total).ok_or_else(|| {
@@ -200,7 +221,8 @@ fn strided<'a>(
         0 => Some(0),
         _ => (count - 1).checked_mul(stride).and_then(|length| length.checked_add(size)),
     };
-    let range = to_usize(offset.0).zip(length).and_then(|(from, length)| Some(from..from.checked_add(length)?));
+    let range =
+        to_usize(offset.0).zip(length).and_then(|(from, length)| Some(from..from.checked_add(length)?));
     let bytes_of = range.and_then(|range| bytes.get(range)).ok_or_else(|| {
         let reason = format!(
             "{count} elements of {size} bytes, {stride} apart from byte {}, do not fit the {} bytes there",
@@ -228,7 +250,9 @@ impl Source<'_> {
             (ComponentType::I16, true) => {
                 self.gather(|b| (f32::from(i16::from_le_bytes([b[0], b[1]])) / 32767.0).max(-1.0))
             }
-            (ComponentType::U16, true) => self.gather(|b| f32::from(u16::from_le_bytes([b[0], b[1]])) / 65535.0),
+            (ComponentType::U16, true) => {
+                self.gather(|b| f32::from(u16::from_le_bytes([b[0], b[1]])) / 65535.0)
+            }
         }
     }
 
@@ -261,7 +285,8 @@ impl Source<'_> {
     ) -> Result<Vec<[T; N]>, ImportError> {
         debug_assert_eq!(self.format.1.multiplicity(), N);
         let component = self.format.0.size();
-        let element = |bytes: &[u8]| std::array::from_fn::<T, N, _>(|i| number(&bytes[i * component..][..component]));
+        let element =
+            |bytes: &[u8]| std::array::from_fn::<T, N, _>(|i| number(&bytes[i * component..][..component]));
         let Some(base) = self.base else {
             let mut values = self.guard.filled(&self.place, self.count, [T::default(); N])?;
             self.replace(&mut values, element)?;

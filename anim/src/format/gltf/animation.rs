@@ -89,7 +89,8 @@ impl TakeReader<'_> {
         let ranges = take.tracks.iter().flat_map(|track| {
             [track.translation.range(), track.rotation.range(), track.scale.range()].into_iter().flatten()
         });
-        let morphs = take.morphs.iter().filter_map(|morph| Some((*morph.times.first()?, *morph.times.last()?)));
+        let morphs =
+            take.morphs.iter().filter_map(|morph| Some((*morph.times.first()?, *morph.times.last()?)));
         let range = ranges.chain(morphs).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         let (start, end) = range.unwrap_or((0.0, 0.0));
         (take.start, take.length) = (start, end - start);
@@ -120,7 +121,11 @@ impl TakeReader<'_> {
             }
         };
         if !moved.insert((node, property as u8)) {
-            guard.warn(target(), code::ANIMATION_DUPLICATE_TARGETS, "moved by an earlier channel already; left out");
+            guard.warn(
+                target(),
+                code::ANIMATION_DUPLICATE_TARGETS,
+                "moved by an earlier channel already; left out",
+            );
             return Ok(());
         }
         if self.document.root.nodes[node].matrix.is_some() && property != Property::MorphTargetWeights {
@@ -219,9 +224,17 @@ impl TakeReader<'_> {
     }
 }
 
-fn channel_of<T: Copy, const N: usize>(keys: Keys, column: Column<N>, value: fn([f32; N]) -> T) -> Channel<T> {
+fn channel_of<T: Copy, const N: usize>(
+    keys: Keys,
+    column: Column<N>,
+    value: fn([f32; N]) -> T,
+) -> Channel<T> {
     if keys.times.is_empty() {
-        return Channel { times: Default::default(), values: Vec::new().into(), interpolation: column.interpolation };
+        return Channel {
+            times: Default::default(),
+            values: Vec::new().into(),
+            interpolation: column.interpolation,
+        };
     }
     Channel {
         times: keys.times,

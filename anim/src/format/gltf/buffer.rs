@@ -129,7 +129,12 @@ pub(super) fn load<'a>(
 }
 
 /// The first `announced` bytes of a buffer.
-fn cut<'a>(buffer: Buffer<'a>, announced: u64, place: &Place, guard: &Guard<'_>) -> Result<Buffer<'a>, ImportError> {
+fn cut<'a>(
+    buffer: Buffer<'a>,
+    announced: u64,
+    place: &Place,
+    guard: &Guard<'_>,
+) -> Result<Buffer<'a>, ImportError> {
     let present = match &buffer {
         Buffer::Missing => 0,
         Buffer::Chunk(bytes) => bytes.len(),

@@ -88,7 +88,11 @@ fn placed(error: &json::Error, text: &str, at: u64) -> ImportError {
     let end = offset(text, error.line(), error.column());
     if !error.is_data() && reason != "number out of range" {
         let reason = if error.is_eof() { "the text ends too early".to_owned() } else { reason };
-        return ImportError::Invalid { place: Place::Byte(at + end as u64), code: code::INVALID_JSON, reason };
+        return ImportError::Invalid {
+            place: Place::Byte(at + end as u64),
+            code: code::INVALID_JSON,
+            reason,
+        };
     }
     let code = if reason.starts_with("missing field") {
         code::UNDEFINED_PROPERTY

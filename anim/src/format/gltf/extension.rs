@@ -5,8 +5,12 @@ use crate::format::{ImportError, Place, guard::Guard};
 use gltf::json;
 
 /// Extensions that are read in full.
-pub const SUPPORTED: &[&str] =
-    &["KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"];
+pub const SUPPORTED: &[&str] = &[
+    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
 
 /// Keeps the numbers of accessors elsewhere. Where an accessor has none of its own, the file needs the extension even
 /// though it does not say so.

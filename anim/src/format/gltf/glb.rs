@@ -43,7 +43,11 @@ pub(super) fn parse<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Glb<'a>, I
         at += CHUNK_HEADER + body.len();
     }
     let Some(json) = json else {
-        return Err(invalid(HEADER, code::GLB_UNEXPECTED_END_OF_CHUNK_HEADER, "there is no chunk".to_owned()));
+        return Err(invalid(
+            HEADER,
+            code::GLB_UNEXPECTED_END_OF_CHUNK_HEADER,
+            "there is no chunk".to_owned(),
+        ));
     };
     if json.is_empty() {
         return Err(invalid(HEADER, code::GLB_EMPTY_CHUNK, "the JSON chunk is empty".to_owned()));
@@ -92,7 +96,8 @@ fn chunk(bytes: &[u8], at: usize) -> Result<(u32, &[u8]), ImportError> {
     match rest[CHUNK_HEADER..].get(..length) {
         Some(body) => Ok((word(rest, 4), body)),
         None => {
-            let reason = format!("the chunk announces {length} bytes, {} are left", rest.len() - CHUNK_HEADER);
+            let reason =
+                format!("the chunk announces {length} bytes, {} are left", rest.len() - CHUNK_HEADER);
             Err(invalid(at, code::GLB_CHUNK_TOO_BIG, reason))
         }
     }

@@ -26,7 +26,9 @@ pub(super) fn graph(root: &json::Root, guard: &Guard<'_>) -> Result<Graph, Impor
     let parents = parents(root, guard, &place)?;
     let mut order = guard.vec(&place, count)?;
     let mut open: Vec<(u32, u32)> = guard.vec(&place, count)?;
-    open.extend((0..count as u32).rev().filter(|&node| parents[node as usize].is_none()).map(|node| (node, 1)));
+    open.extend(
+        (0..count as u32).rev().filter(|&node| parents[node as usize].is_none()).map(|node| (node, 1)),
+    );
     while let Some((node, depth)) = open.pop() {
         guard.work(1)?;
         if depth as usize > NODE_DEPTH {
@@ -35,7 +37,9 @@ pub(super) fn graph(root: &json::Root, guard: &Guard<'_>) -> Result<Graph, Impor
             return Err(ImportError::TooLarge { place, what: "nodes above each other", size, limit });
         }
         order.push(node);
-        open.extend(children(root, node as usize).iter().rev().map(|child| (child.value() as u32, depth + 1)));
+        open.extend(
+            children(root, node as usize).iter().rev().map(|child| (child.value() as u32, depth + 1)),
+        );
     }
     if order.len() < count {
         return Err(loop_error(&parents, &order));

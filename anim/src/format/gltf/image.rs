@@ -97,7 +97,11 @@ fn judge(image: &mut Image, pixels: &mut u64, path: &str, guard: &Guard<'_>) {
         return;
     };
     if !image.mime.is_empty() && image.mime != mime {
-        guard.warn(place(), code::IMAGE_MIME_TYPE_INVALID, format!("\"{}\" is said, {mime} it is", image.mime));
+        guard.warn(
+            place(),
+            code::IMAGE_MIME_TYPE_INVALID,
+            format!("\"{}\" is said, {mime} it is", image.mime),
+        );
     }
     image.mime = mime.to_owned();
     (image.width, image.height) = (width, height);

@@ -64,7 +64,7 @@ pub(super) fn influences(
     let mut found = Vec::with_capacity(sets.len() * 4);
     let coarse = sets.iter().map(|set| set.step).fold(0.0, f32::max);
     for vertex in 0..vertices {
-        guard.work(sets.len())?;
+        guard.work(4 * sets.len())?;
         gather(&sets, vertex, &mut found, &mut mended, coarse);
         found.truncate(MAX_INFLUENCES);
         share_out(&mut found, &mut mended);
@@ -79,7 +79,10 @@ pub(super) fn influences(
     if per_vertex < MAX_INFLUENCES {
         guard.work(vertices)?;
         for vertex in 1..vertices {
-            list.copy_within(vertex * MAX_INFLUENCES..vertex * MAX_INFLUENCES + per_vertex, vertex * per_vertex);
+            list.copy_within(
+                vertex * MAX_INFLUENCES..vertex * MAX_INFLUENCES + per_vertex,
+                vertex * per_vertex,
+            );
         }
         list.truncate(vertices * per_vertex);
         list.shrink_to_fit();
@@ -137,32 +140,36 @@ fn gather(sets: &[Set], vertex: usize, found: &mut Vec<Influence>, mended: &mut 
     let (mut is_negative, mut is_twice, mut sum, mut count) = (false, false, 0.0_f32, 0);
     for set in sets {
         for (&joint, &weight) in set.joints[vertex].iter().zip(&set.weights[vertex]) {
-            if !(weight > 0.0) || !weight.is_finite() {
+            let counts = weight > 0.0 && weight.is_finite();
+            if !counts {
                 is_negative |= weight != 0.0;
                 continue;
             }
             sum += weight;
             count += 1;
-            let joint = joint as u16;
-            match found.iter_mut().find(|influence| influence.joint == joint) {
-                Some(same) => {
-                    same.weight += weight;
-                    is_twice = true;
-                }
-                None => found.push(Influence { joint, weight }),
-            }
+            found.push(Influence { joint: joint as u16, weight });
         }
     }
+    // Sorted rather than searched: a file may have any number of sets.
+    found.sort_by_key(|influence| influence.joint);
+    found.dedup_by(|next, kept| {
+        let is_same = next.joint == kept.joint;
+        if is_same {
+            kept.weight = (kept.weight + next.weight).min(f32::MAX);
+            is_twice = true;
+        }
+        is_same
+    });
     mended.negative += usize::from(is_negative);
     mended.twice += usize::from(is_twice);
-    mended.sum += usize::from(count > 0 && !((sum - 1.0).abs() <= 2e-7 * count as f32 + coarse));
+    mended.sum += usize::from(count > 0 && (sum - 1.0).abs() > 2e-7 * count as f32 + coarse);
     found.sort_by(|a, b| b.weight.total_cmp(&a.weight));
 }
 
 /// Makes the weights add up to one; a vertex without any follows joint 0.
 fn share_out(found: &mut Vec<Influence>, mended: &mut Mended) {
     let sum: f64 = found.iter().map(|influence| f64::from(influence.weight)).sum();
-    if found.is_empty() || !(sum > 0.0) || !sum.is_finite() {
+    if found.is_empty() {
         mended.zero += 1;
         found.clear();
         found.push(Influence { joint: 0, weight: 1.0 });
@@ -179,8 +186,16 @@ fn report(mended: &Mended, place: &Place, document: &Document<'_>) {
             document.guard.warn(place.clone(), code, format!("{count} vertices {what}"));
         }
     };
-    warn(mended.negative, code::ACCESSOR_WEIGHTS_NEGATIVE, "had weights below zero or no numbers; those are left out");
+    warn(
+        mended.negative,
+        code::ACCESSOR_WEIGHTS_NEGATIVE,
+        "had weights below zero or no numbers; those are left out",
+    );
     warn(mended.twice, code::ACCESSOR_JOINTS_INDEX_DUPLICATE, "named a joint twice; its weights were added");
-    warn(mended.sum, code::ACCESSOR_WEIGHTS_NON_NORMALIZED, "had weights that do not add up to one; now they do");
+    warn(
+        mended.sum,
+        code::ACCESSOR_WEIGHTS_NON_NORMALIZED,
+        "had weights that do not add up to one; now they do",
+    );
     warn(mended.zero, code::ACCESSOR_WEIGHTS_ZERO, "had no weight; they follow joint 0");
 }

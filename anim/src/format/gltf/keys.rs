@@ -27,12 +27,21 @@ pub(super) struct Keys {
 
 impl Keys {
     /// Reads and sorts; of keys at the same time the last one counts.
-    pub(super) fn read(document: &Document<'_>, input: json::Index<Accessor>, path: &str) -> Result<Self, ImportError> {
+    pub(super) fn read(
+        document: &Document<'_>,
+        input: json::Index<Accessor>,
+        path: &str,
+    ) -> Result<Self, ImportError> {
         let guard = document.guard;
         let from = format!("{path}/input");
         let wrong = code::ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT;
         let source = document.source(input, &from, TIME, wrong)?;
-        let too_large = |what, size: u64, limit: u64| ImportError::TooLarge { place: source.place.clone(), what, size, limit };
+        let too_large = |what, size: u64, limit: u64| ImportError::TooLarge {
+            place: source.place.clone(),
+            what,
+            size,
+            limit,
+        };
         if source.count > KEYS_PER_CHANNEL {
             return Err(too_large("keys", source.count as u64, KEYS_PER_CHANNEL as u64));
         }
@@ -50,8 +59,9 @@ impl Keys {
             let text = "key times below zero are kept";
             guard.warn(source.place.clone(), code::ACCESSOR_ANIMATION_INPUT_NEGATIVE, text);
         }
-        // Written so that NaN would fail.
-        if times.windows(2).any(|pair| !(pair[1] > pair[0])) {
+        // Asked so that NaN would fail.
+        let rises = times.windows(2).all(|pair| pair[1] > pair[0]);
+        if !rises {
             return Self::sorted(&times, &source.place, guard);
         }
         Ok(Self { count: times.len(), times: times.into(), order: None })
@@ -124,7 +134,8 @@ impl<const N: usize> Column<N> {
         guard.work(self.values.len())?;
         guard.charge(&Place::File, (self.values.len() * size_of::<[f32; N]>()) as u64)?;
         let old = std::mem::take(&mut self.values);
-        self.values = order.iter().flat_map(|&key| &old[key as usize * per_key..][..per_key]).copied().collect();
+        self.values =
+            order.iter().flat_map(|&key| &old[key as usize * per_key..][..per_key]).copied().collect();
         Ok(())
     }
 }
@@ -170,7 +181,11 @@ pub(super) fn make_unit(column: &mut Column<4>, place: &str, guard: &Guard<'_>) 
 }
 
 /// How to mix; linear where the file says something unknown.
-pub(super) fn interpolation(sampler: &json::animation::Sampler, path: &str, guard: &Guard<'_>) -> Interpolation {
+pub(super) fn interpolation(
+    sampler: &json::animation::Sampler,
+    path: &str,
+    guard: &Guard<'_>,
+) -> Interpolation {
     match sampler.interpolation {
         Checked::Valid(json::animation::Interpolation::Step) => Interpolation::Step,
         Checked::Valid(json::animation::Interpolation::CubicSpline) => Interpolation::CubicSpline,

@@ -70,10 +70,13 @@ impl Reader<'_> {
         Ok(Material {
             name: material.name.clone().unwrap_or_default(),
             base_color,
-            base_color_texture: self.info(pbr.base_color_texture.as_ref(), "pbrMetallicRoughness/baseColorTexture")?,
+            base_color_texture: self
+                .info(pbr.base_color_texture.as_ref(), "pbrMetallicRoughness/baseColorTexture")?,
             metallic: Metallic { metallic, roughness },
-            metallic_roughness_texture: self
-                .info(pbr.metallic_roughness_texture.as_ref(), "pbrMetallicRoughness/metallicRoughnessTexture")?,
+            metallic_roughness_texture: self.info(
+                pbr.metallic_roughness_texture.as_ref(),
+                "pbrMetallicRoughness/metallicRoughnessTexture",
+            )?,
             phong: phong(base_color.truncate(), metallic, roughness),
             use_phong: false,
             normal_texture: match normal {
@@ -86,7 +89,8 @@ impl Reader<'_> {
                 None => None,
             },
             occlusion_strength: occlusion_strength.clamp(0.0, 1.0),
-            emissive: Vec3::from(material.emissive_factor.0).clamp(Vec3::ZERO, Vec3::ONE) * strength.clamp(0.0, 1e6),
+            emissive: Vec3::from(material.emissive_factor.0).clamp(Vec3::ZERO, Vec3::ONE)
+                * strength.clamp(0.0, 1e6),
             emissive_texture: self.info(material.emissive_texture.as_ref(), "emissiveTexture")?,
             alpha_mode: self.alpha_mode(material)?,
             double_sided: material.double_sided,
@@ -102,13 +106,21 @@ impl Reader<'_> {
             Checked::Valid(json::material::AlphaMode::Mask) => AlphaMode::Mask(cutoff.max(0.0)),
             Checked::Valid(json::material::AlphaMode::Blend) => AlphaMode::Blend,
             Checked::Invalid => {
-                self.guard.warn(self.at("alphaMode"), code::VALUE_NOT_IN_LIST, "unknown; opaque is taken instead");
+                self.guard.warn(
+                    self.at("alphaMode"),
+                    code::VALUE_NOT_IN_LIST,
+                    "unknown; opaque is taken instead",
+                );
                 AlphaMode::Opaque
             }
         })
     }
 
-    fn info(&self, info: Option<&json::texture::Info>, member: &str) -> Result<Option<TextureRef>, ImportError> {
+    fn info(
+        &self,
+        info: Option<&json::texture::Info>,
+        member: &str,
+    ) -> Result<Option<TextureRef>, ImportError> {
         let Some(info) = info else { return Ok(None) };
         let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
         self.texture(info.index, info.tex_coord, transform, member)
@@ -123,7 +135,8 @@ impl Reader<'_> {
         member: &str,
     ) -> Result<Option<TextureRef>, ImportError> {
         let texture = self.root.textures.get(index.value());
-        let texture = texture.ok_or_else(|| unresolved(&format!("{}/{member}/index", self.path), index.value()))?;
+        let texture =
+            texture.ok_or_else(|| unresolved(&format!("{}/{member}/index", self.path), index.value()))?;
         let path = format!("/textures/{}", index.value());
         let sampler = match texture.sampler {
             Some(sampler) => Some(
@@ -163,7 +176,11 @@ impl Reader<'_> {
         }))
     }
 
-    fn transform(&self, transform: Option<&JsonTransform>, member: &str) -> Result<TextureTransform, ImportError> {
+    fn transform(
+        &self,
+        transform: Option<&JsonTransform>,
+        member: &str,
+    ) -> Result<TextureTransform, ImportError> {
         let Some(transform) = transform else { return Ok(TextureTransform::IDENTITY) };
         let (offset, rotation, scale) = (transform.offset.0, transform.rotation.0, transform.scale.0);
         let numbers = [offset[0], offset[1], rotation, scale[0], scale[1]];
@@ -196,7 +213,9 @@ fn minify(sampler: Option<&json::texture::Sampler>) -> (Filter, bool) {
     match sampler.and_then(|sampler| sampler.min_filter.as_ref()) {
         Some(Checked::Valid(MinFilter::Nearest)) => (Filter::Nearest, false),
         Some(Checked::Valid(MinFilter::Linear)) => (Filter::Linear, false),
-        Some(Checked::Valid(MinFilter::NearestMipmapNearest | MinFilter::NearestMipmapLinear)) => (Filter::Nearest, true),
+        Some(Checked::Valid(MinFilter::NearestMipmapNearest | MinFilter::NearestMipmapLinear)) => {
+            (Filter::Nearest, true)
+        }
         _ => (Filter::Linear, true),
     }
 }

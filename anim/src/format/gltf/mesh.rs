@@ -38,13 +38,33 @@ use ComponentType::{F32, I8, I16, U8, U16};
 /// Every integer format of KHR_mesh_quantization, allowed whether or not a file asks for the extension.
 pub(super) const ANY_VEC3: &[ElementFormat] = &formats(
     Type::Vec3,
-    [(F32, false), (I8, false), (I8, true), (U8, false), (U8, true), (I16, false), (I16, true), (U16, false), (U16, true)],
+    [
+        (F32, false),
+        (I8, false),
+        (I8, true),
+        (U8, false),
+        (U8, true),
+        (I16, false),
+        (I16, true),
+        (U16, false),
+        (U16, true),
+    ],
 );
 pub(super) const UNIT_VEC3: &[ElementFormat] = &formats(Type::Vec3, [(F32, false), (I8, true), (I16, true)]);
 const TANGENT: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (I8, true), (I16, true)]);
 const COORDINATES: &[ElementFormat] = &formats(
     Type::Vec2,
-    [(F32, false), (I8, false), (I8, true), (U8, false), (U8, true), (I16, false), (I16, true), (U16, false), (U16, true)],
+    [
+        (F32, false),
+        (I8, false),
+        (I8, true),
+        (U8, false),
+        (U8, true),
+        (I16, false),
+        (I16, true),
+        (U16, false),
+        (U16, true),
+    ],
 );
 const COLOR_3: &[ElementFormat] = &formats(Type::Vec3, [(F32, false), (U8, true), (U16, true)]);
 const COLOR_4: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (U8, true), (U16, true)]);
@@ -117,7 +137,8 @@ fn read_primitive(
     }
     for set in 0..2_u32 {
         let read = column(document, primitive, Semantic::TexCoords(set), COORDINATES, count, path)?;
-        vertices.texture_coordinates[set as usize] = read.unwrap_or_default().into_iter().map(Vec2::from).collect();
+        vertices.texture_coordinates[set as usize] =
+            read.unwrap_or_default().into_iter().map(Vec2::from).collect();
     }
     vertices.colors = colors(document, primitive, count, path)?;
     vertices.normals = all_normals(document, primitive, &vertices.positions, &indices, path)?;
@@ -131,7 +152,10 @@ fn read_primitive(
 }
 
 /// The accessor of an attribute.
-pub(super) fn attribute(primitive: &json::mesh::Primitive, semantic: Semantic) -> Option<json::Index<Accessor>> {
+pub(super) fn attribute(
+    primitive: &json::mesh::Primitive,
+    semantic: Semantic,
+) -> Option<json::Index<Accessor>> {
     primitive.attributes.get(&Checked::Valid(semantic)).copied()
 }
 
@@ -187,18 +211,23 @@ fn all_normals(
 ) -> Result<Vec<Vec3>, ImportError> {
     let place = Place::Pointer(format!("{path}/attributes/NORMAL"));
     let guard = document.guard;
-    let Some(read) = column::<3>(document, primitive, Semantic::Normals, UNIT_VEC3, positions.len(), path)? else {
+    let Some(read) = column::<3>(document, primitive, Semantic::Normals, UNIT_VEC3, positions.len(), path)?
+    else {
         return normals(positions, indices, &place, guard);
     };
     guard.work(read.len())?;
     let mut odd = 0;
     let mut unit: Vec<Option<Vec3>> = guard.vec(&place, read.len())?;
     unit.extend(read.into_iter().map(Vec3::from).map(|normal| {
-        odd += usize::from(!((normal.length() - 1.0).abs() <= UNIT_TOLERANCE));
+        odd += usize::from((normal.length() - 1.0).abs() > UNIT_TOLERANCE);
         direction(normal)
     }));
     if odd > 0 {
-        guard.warn(place.clone(), code::ACCESSOR_VECTOR3_NON_UNIT, format!("{odd} normals are not of unit length"));
+        guard.warn(
+            place.clone(),
+            code::ACCESSOR_VECTOR3_NON_UNIT,
+            format!("{odd} normals are not of unit length"),
+        );
     }
     let made = if unit.contains(&None) { normals(positions, indices, &place, guard)? } else { Vec::new() };
     Ok(unit.into_iter().enumerate().map(|(vertex, normal)| normal.unwrap_or_else(|| made[vertex])).collect())
@@ -210,9 +239,13 @@ const UNIT_TOLERANCE: f32 = 0.00674 + 1.0 / 127.0;
 fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -> Vec<Vec4> {
     let place = Place::Pointer(format!("{path}/attributes/TANGENT"));
     if tangents.iter().any(|tangent| tangent[3].abs() != 1.0) {
-        document.guard.warn(place.clone(), code::ACCESSOR_INVALID_SIGN, "w should be 1 or -1; its sign is taken");
+        document.guard.warn(
+            place.clone(),
+            code::ACCESSOR_INVALID_SIGN,
+            "w should be 1 or -1; its sign is taken",
+        );
     }
-    if tangents.iter().any(|t| !((Vec3::new(t[0], t[1], t[2]).length() - 1.0).abs() <= UNIT_TOLERANCE)) {
+    if tangents.iter().any(|t| (Vec3::new(t[0], t[1], t[2]).length() - 1.0).abs() > UNIT_TOLERANCE) {
         let text = "tangents are not of unit length";
         document.guard.warn(place, code::ACCESSOR_VECTOR3_NON_UNIT, text);
     }
@@ -240,7 +273,11 @@ fn colors(
     document.guard.charge(&source.place, colors.len() as u64 * size_of::<Vec4>() as u64)?;
     let clamped = |color: &Vec4| color.clamp(Vec4::ZERO, Vec4::ONE);
     if colors.iter().any(|color| clamped(color) != *color) {
-        document.guard.warn(Place::Pointer(from), code::ACCESSOR_NON_CLAMPED, "colours outside 0..1 were clamped");
+        document.guard.warn(
+            Place::Pointer(from),
+            code::ACCESSOR_NON_CLAMPED,
+            "colours outside 0..1 were clamped",
+        );
     }
     Ok(colors.iter().map(clamped).collect())
 }
@@ -250,7 +287,9 @@ fn warn_unknown(document: &Document<'_>, primitive: &json::mesh::Primitive, path
     for semantic in primitive.attributes.keys() {
         let name = match semantic {
             Checked::Invalid => "an attribute of unknown name".to_owned(),
-            Checked::Valid(semantic @ (Semantic::Colors(1..) | Semantic::TexCoords(2..))) => semantic.to_string(),
+            Checked::Valid(semantic @ (Semantic::Colors(1..) | Semantic::TexCoords(2..))) => {
+                semantic.to_string()
+            }
             Checked::Valid(_) => continue,
         };
         let place = Place::Pointer(format!("{path}/attributes"));

@@ -2,7 +2,7 @@
 //!
 //! The JSON text becomes the `gltf` crate's document model and nothing more of that crate is used: its own checks,
 //! readers and file access panic, hang or take gigabytes on small files. What stands between the model and the bytes
-//! is here: [`accessor`] is the only module that looks into a buffer, `graph` the only one that walks the nodes.
+//! is here: `accessor` is the only module that looks into a buffer, `graph` the only one that walks the nodes.
 //!
 //! Reading order: `survey` and `document` (text → model), `buffer`, `accessor`, `graph`, `node`, `skin`, `mesh`,
 //! `animation`, `scene`. [`check`] lists every rule.
@@ -44,7 +44,8 @@ pub const GLB: Format =
     Format { name: "glb", extensions: &["glb"], detect: |bytes| bytes.starts_with(b"glTF"), read: read_glb };
 
 /// JSON text.
-pub const GLTF: Format = Format { name: "gltf", extensions: &["gltf"], detect: looks_like_json, read: read_gltf };
+pub const GLTF: Format =
+    Format { name: "gltf", extensions: &["gltf"], detect: looks_like_json, read: read_gltf };
 
 fn looks_like_json(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);

@@ -6,8 +6,8 @@ use super::graph::Graph;
 use crate::data::Transform;
 use crate::format::{ImportError, Place, guard::Guard};
 use crate::limits::HUGE;
-use gltf::json;
 use glam::{DMat4, Mat4, Quat, Vec3, Vec4};
+use gltf::json;
 
 /// A node's transform, taken apart and exact.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +64,11 @@ fn local(node: &json::Node, index: usize, guard: &Guard<'_>) -> Result<Local, Im
         local = taken_apart(Mat4::from_cols_array(&matrix), &at("matrix"), guard)?;
     }
     if local.parts.translation.abs().max_element() > HUGE {
-        guard.warn(at("translation"), code::HUGE_TRANSLATION, "the node is too far away for single precision");
+        guard.warn(
+            at("translation"),
+            code::HUGE_TRANSLATION,
+            "the node is too far away for single precision",
+        );
     }
     Ok(local)
 }
@@ -74,7 +78,11 @@ fn taken_apart(mut matrix: Mat4, place: &Place, guard: &Guard<'_>) -> Result<Loc
     if matrix.row(3).abs_diff_eq(Vec4::W, 1e-5) {
         set_last_row(&mut matrix);
     } else {
-        guard.warn(place.clone(), code::NODE_MATRIX_NON_TRS, "the last row should be 0 0 0 1 and is taken to be so");
+        guard.warn(
+            place.clone(),
+            code::NODE_MATRIX_NON_TRS,
+            "the last row should be 0 0 0 1 and is taken to be so",
+        );
         set_last_row(&mut matrix);
     }
     let parts = Transform::from_matrix(matrix);
@@ -88,7 +96,11 @@ fn taken_apart(mut matrix: Mat4, place: &Place, guard: &Guard<'_>) -> Result<Loc
     if parts.to_matrix().abs_diff_eq(matrix, tolerance) {
         return Ok(Local { parts, sheared: None });
     }
-    guard.warn(place.clone(), code::NODE_MATRIX_NON_TRS, "the matrix is sheared; it is shown, but cannot be edited");
+    guard.warn(
+        place.clone(),
+        code::NODE_MATRIX_NON_TRS,
+        "the matrix is sheared; it is shown, but cannot be edited",
+    );
     Ok(Local { parts, sheared: Some(matrix) })
 }
 
@@ -101,7 +113,11 @@ pub(super) fn unit_rotation(rotation: Quat, place: impl Fn() -> Place, guard: &G
     match unit(rotation) {
         Some((unit, error)) => {
             if error > ROTATION_TOLERANCE {
-                guard.warn(place(), code::ROTATION_NON_UNIT, "the rotation is not of unit length and was made so");
+                guard.warn(
+                    place(),
+                    code::ROTATION_NON_UNIT,
+                    "the rotation is not of unit length and was made so",
+                );
             }
             unit
         }
@@ -117,7 +133,7 @@ pub(super) fn unit(rotation: Quat) -> Option<(Quat, f32)> {
     // Double precision: the square of 1e-30 or 1e30 does not fit single.
     let wide = rotation.as_dquat();
     let length = wide.length();
-    if !(length > 0.0) {
+    if length == 0.0 || !length.is_finite() {
         return None;
     }
     // Already unit to the last bit that counts: kept as it is.

@@ -98,13 +98,15 @@ pub(super) fn stage(
     meshes: &[ReadMesh],
 ) -> Result<Stage, ImportError> {
     let is_shown = shown(document, graph)?;
+    let carriers = carriers(document, graph, locals, &bones)?;
     let mut instances = Vec::new();
     for (index, node) in document.root.nodes.iter().enumerate() {
         document.guard.work(1)?;
         check_references(document, index)?;
         let Some(mesh) = node.mesh else { continue };
         let path = format!("/nodes/{index}");
-        let read = meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
+        let read =
+            meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
         let skin = skin_of(document, index, read)?;
         if !is_shown[index] {
             let text = "the mesh stands outside the scene that is shown";
@@ -114,8 +116,9 @@ pub(super) fn stage(
         let place = Place::Pointer(format!("{path}/weights"));
         let defaults = &read.mesh.morph_weights;
         let weights = node.weights.as_deref();
-        let morph_weights = fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
-        let (bone, to_bone) = carrier(index, graph, locals, &bones);
+        let morph_weights =
+            fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
+        let (bone, to_bone) = carriers[index];
         document.guard.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
         let (mesh, node) = (mesh.value() as u32, Some(index as u32));
         instances.push(MeshInstance { mesh, node, skin, bone, to_bone, morph_weights });
@@ -128,7 +131,8 @@ pub(super) fn stage(
 fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
     let Some(skin) = document.root.nodes[index].skin else { return Ok(None) };
     let path = format!("/nodes/{index}/skin");
-    let joints = document.root.skins.get(skin.value()).ok_or_else(|| unresolved(&path, skin.value()))?.joints.len();
+    let joints =
+        document.root.skins.get(skin.value()).ok_or_else(|| unresolved(&path, skin.value()))?.joints.len();
     match read.largest_joint {
         None => {
             let text = "the mesh has no joints; the skin is left out";
@@ -143,18 +147,28 @@ fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Opt
     }
 }
 
-/// The bone that carries a node, and the way there: from the node up to the first bone, or to the scene.
-fn carrier(node: usize, graph: &Graph, locals: &[Local], bones: &[Option<BoneIndex>]) -> (Option<BoneIndex>, Mat4) {
-    let mut to_bone = Mat4::IDENTITY;
-    let mut at = Some(node as u32);
-    while let Some(node) = at {
-        if let Some(bone) = bones[node as usize] {
-            return (Some(bone), to_bone);
-        }
-        to_bone = locals[node as usize].matrix() * to_bone;
-        at = graph.parents[node as usize];
+/// For each node the bone that carries it, and the way there: from the node up to the first bone, or to the scene.
+fn carriers(
+    document: &Document<'_>,
+    graph: &Graph,
+    locals: &[Local],
+    bones: &[Option<BoneIndex>],
+) -> Result<Vec<(Option<BoneIndex>, Mat4)>, ImportError> {
+    let place = Place::Pointer("/nodes".to_owned());
+    let mut carriers = document.guard.filled(&place, bones.len(), (None, Mat4::IDENTITY))?;
+    for &node in &graph.order {
+        document.guard.work(1)?;
+        let node = node as usize;
+        carriers[node] = match (bones[node], graph.parents[node]) {
+            (Some(bone), _) => (Some(bone), Mat4::IDENTITY),
+            (None, None) => (None, locals[node].matrix()),
+            (None, Some(parent)) => {
+                let (bone, to_bone) = carriers[parent as usize];
+                (bone, to_bone * locals[node].matrix())
+            }
+        };
     }
-    (None, to_bone)
+    Ok(carriers)
 }
 
 /// Which nodes belong to the scene that is shown.

@@ -43,7 +43,9 @@ pub(super) fn skins(document: &Document<'_>, bones: &[Option<BoneIndex>]) -> Res
     for (index, skin) in document.root.skins.iter().enumerate() {
         let place = Place::Pointer(format!("/skins/{index}/joints"));
         let mut joints = guard.vec(&place, skin.joints.len())?;
-        joints.extend(skin.joints.iter().map(|joint| bones[joint.value()].expect("every joint was marked as a bone")));
+        joints.extend(
+            skin.joints.iter().map(|joint| bones[joint.value()].expect("every joint was marked as a bone")),
+        );
         let name = skin.name.clone().unwrap_or_default();
         skins.push(Skin { name, bones: joints, offsets: offsets(document, skin, index)? });
     }

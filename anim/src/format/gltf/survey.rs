@@ -33,7 +33,12 @@ pub(super) fn survey(text: &[u8], guard: &Guard<'_>) -> Result<Survey, ImportErr
         if depth > JSON_DEPTH {
             let place = Place::Pointer(walk.pointer(1));
             let (size, limit) = (depth as u64, JSON_DEPTH as u64);
-            return Err(ImportError::TooLarge { place, what: "arrays and objects inside each other", size, limit });
+            return Err(ImportError::TooLarge {
+                place,
+                what: "arrays and objects inside each other",
+                size,
+                limit,
+            });
         }
         if skipping.is_some_and(|outer| depth > outer) {
             continue;
@@ -105,7 +110,11 @@ impl Survey {
             }
         } else if text.len() > 9 && is_index(walk, last) && too_long(text) {
             let reason = format!("{} does not fit 32 bits", String::from_utf8_lossy(text));
-            return Err(ImportError::Invalid { place: Place::Pointer(walk.pointer(0)), code: code::INVALID_INDEX, reason });
+            return Err(ImportError::Invalid {
+                place: Place::Pointer(walk.pointer(0)),
+                code: code::INVALID_INDEX,
+                reason,
+            });
         }
         Ok(())
     }
@@ -134,8 +143,7 @@ struct Member {
 }
 
 /// No node: an extension says what is animated, if anything.
-const NODE: Member =
-    Member { name: b"node", alone: "\"node\":4294967295", followed: "\"node\":4294967295," };
+const NODE: Member = Member { name: b"node", alone: "\"node\":4294967295", followed: "\"node\":4294967295," };
 const NODES_OF_SCENE: Member = Member { name: b"nodes", alone: "\"nodes\":[]", followed: "\"nodes\":[]," };
 
 /// The member that the innermost object must have for the document model, and need not have for the specification.
@@ -182,9 +190,30 @@ fn element_bytes(key: &[u8], top: bool) -> usize {
 /// Does the number here become a 32-bit index or enumerated value?
 fn is_index(walk: &Walk<'_>, last: usize) -> bool {
     const NAMES: &[&[u8]] = &[
-        b"buffer", b"bufferView", b"camera", b"componentType", b"index", b"indices", b"input",
-        b"inverseBindMatrices", b"magFilter", b"material", b"mesh", b"minFilter", b"mode", b"node", b"output",
-        b"sampler", b"scene", b"skeleton", b"skin", b"source", b"target", b"texCoord", b"wrapS", b"wrapT",
+        b"buffer",
+        b"bufferView",
+        b"camera",
+        b"componentType",
+        b"index",
+        b"indices",
+        b"input",
+        b"inverseBindMatrices",
+        b"magFilter",
+        b"material",
+        b"mesh",
+        b"minFilter",
+        b"mode",
+        b"node",
+        b"output",
+        b"sampler",
+        b"scene",
+        b"skeleton",
+        b"skin",
+        b"source",
+        b"target",
+        b"texCoord",
+        b"wrapS",
+        b"wrapT",
     ];
     const LISTS: &[&[u8]] = &[b"attributes", b"children", b"joints", b"nodes"];
     let outer = last.checked_sub(1);

@@ -54,7 +54,12 @@ pub(super) fn triangles(
     }
 }
 
-fn check_indices(indices: &[[u32; 1]], vertices: usize, place: &Place, guard: &Guard<'_>) -> Result<(), ImportError> {
+fn check_indices(
+    indices: &[[u32; 1]],
+    vertices: usize,
+    place: &Place,
+    guard: &Guard<'_>,
+) -> Result<(), ImportError> {
     guard.work(indices.len())?;
     match indices.iter().position(|[index]| *index as usize >= vertices) {
         None => Ok(()),
@@ -66,8 +71,9 @@ fn check_indices(indices: &[[u32; 1]], vertices: usize, place: &Place, guard: &G
 }
 
 fn list(mut indices: Vec<u32>, place: &Place, guard: &Guard<'_>) -> Vec<u32> {
-    if indices.len() % 3 != 0 {
-        let text = format!("{} indices do not make whole triangles; the last ones are left out", indices.len());
+    if !indices.len().is_multiple_of(3) {
+        let text =
+            format!("{} indices do not make whole triangles; the last ones are left out", indices.len());
         guard.warn(place.clone(), code::MESH_PRIMITIVE_INCOMPATIBLE_MODE, text);
         indices.truncate(indices.len() / 3 * 3);
     }

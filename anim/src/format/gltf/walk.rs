@@ -120,7 +120,9 @@ impl<'a> Walk<'a> {
 
     fn word(&mut self) -> Step {
         let from = self.at;
-        let ends = |byte: &u8| matches!(byte, b' ' | b'\t' | b'\n' | b'\r' | b',' | b':' | b'[' | b']' | b'{' | b'}' | b'"');
+        let ends = |byte: &u8| {
+            matches!(byte, b' ' | b'\t' | b'\n' | b'\r' | b',' | b':' | b'[' | b']' | b'{' | b'}' | b'"')
+        };
         self.at = self.text[from..].iter().position(ends).map_or(self.text.len(), |length| from + length);
         self.value_begins();
         Step::Scalar(from, self.at)

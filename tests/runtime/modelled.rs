@@ -1,0 +1,137 @@
+//! What stands in for flume and for the system's threads while a model checker runs: compiled into the
+//! runtime's `sync` module, in builds with `--cfg loom` or `--cfg shuttle` only.
+
+#[cfg(loom)]
+use loom::sync::Mutex;
+#[cfg(shuttle)]
+use shuttle::sync::Mutex;
+use std::collections::VecDeque;
+
+/// The same methods as the queue over flume, over the checker's lock.
+pub(crate) struct Queue<T>(Mutex<VecDeque<T>>);
+
+impl<T> Queue<T> {
+    pub(crate) fn new() -> Self {
+        Self(Mutex::new(VecDeque::new()))
+    }
+
+    pub(crate) fn push(&self, item: T) {
+        self.0.lock().unwrap().push_back(item);
+    }
+
+    pub(crate) fn drain(&self, into: &mut VecDeque<T>) {
+        let items = std::mem::take(&mut *self.0.lock().unwrap());
+        // Outside the lock, as with flume.
+        into.extend(items);
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.0.lock().unwrap().len()
+    }
+}
+
+/// Is the planted bug of this name the one that the environment asks for?
+pub(crate) fn planted(bug: &str) -> bool {
+    static ON: std::sync::LazyLock<String> =
+        std::sync::LazyLock::new(|| std::env::var("PLANTED").unwrap_or_default());
+    *ON == bug
+}
+
+#[cfg(shuttle)]
+pub use shuttle::thread;
+
+/// loom's threads with a `park` that keeps the standard library's promise.
+///
+/// loom 0.7's own `unpark` also wakes a thread that is blocked in a lock or a join, which then
+/// panics inside loom. Here a token under loom's lock and condition is what wakes.
+#[cfg(loom)]
+pub mod thread {
+    use loom::sync::{Condvar, Mutex};
+    use std::cell::RefCell;
+    use std::io;
+    use std::sync::Arc;
+
+    #[derive(Clone)]
+    pub struct Thread(Arc<Token>);
+
+    struct Token {
+        given: Mutex<bool>,
+        changed: Condvar,
+    }
+
+    loom::thread_local! {
+        static CURRENT: RefCell<Option<Thread>> = RefCell::new(None);
+    }
+
+    impl Thread {
+        fn new() -> Self {
+            Self(Arc::new(Token { given: Mutex::new(false), changed: Condvar::new() }))
+        }
+
+        pub fn unpark(&self) {
+            *self.0.given.lock().unwrap() = true;
+            self.0.changed.notify_one();
+        }
+
+        pub fn id(&self) -> usize {
+            Arc::as_ptr(&self.0) as usize
+        }
+    }
+
+    pub fn current() -> Thread {
+        CURRENT.with(|current| current.borrow_mut().get_or_insert_with(Thread::new).clone())
+    }
+
+    pub fn park() {
+        let Thread(token) = current();
+        let mut given = token.given.lock().unwrap();
+        while !*given {
+            given = token.changed.wait(given).unwrap();
+        }
+        *given = false;
+    }
+
+    pub struct Builder;
+
+    impl Builder {
+        pub fn new() -> Self {
+            Self
+        }
+
+        pub fn name(self, _: String) -> Self {
+            self
+        }
+
+        pub fn spawn<T: 'static>(
+            self,
+            body: impl FnOnce() -> T + Send + 'static,
+        ) -> io::Result<JoinHandle<T>> {
+            let thread = Thread::new();
+            let theirs = thread.clone();
+            let join = loom::thread::spawn(move || {
+                CURRENT.with(|current| *current.borrow_mut() = Some(theirs));
+                body()
+            });
+            Ok(JoinHandle { thread, join })
+        }
+    }
+
+    pub struct JoinHandle<T> {
+        thread: Thread,
+        join: loom::thread::JoinHandle<T>,
+    }
+
+    impl<T> JoinHandle<T> {
+        pub fn thread(&self) -> &Thread {
+            &self.thread
+        }
+
+        pub fn join(self) -> std::thread::Result<T> {
+            self.join.join()
+        }
+    }
+
+    pub fn spawn<T: 'static>(body: impl FnOnce() -> T + Send + 'static) -> JoinHandle<T> {
+        Builder::new().spawn(body).unwrap()
+    }
+}
