@@ -21,7 +21,7 @@ fn bone(name: &str, parent: Option<u32>, offset: Vec3) -> Bone {
 }
 
 /// `spine` vertebrae, each with a pair of ribs of three bones.
-pub fn skeleton(spine: u32) -> Skeleton {
+pub(crate) fn skeleton(spine: u32) -> Skeleton {
     let mut bones = vec![bone("root", None, Vec3::ZERO)];
     let mut last = 0;
     for vertebra in 0..spine {
@@ -42,7 +42,7 @@ pub fn skeleton(spine: u32) -> Skeleton {
 }
 
 /// A take that turns every bone, with `keys` keys a bone.
-pub fn take(name: &str, skeleton: &Skeleton, length: f32, keys: usize) -> Take {
+pub(crate) fn take(name: &str, skeleton: &Skeleton, length: f32, keys: usize) -> Take {
     let times: Arc<[f32]> = (0..keys).map(|key| key as f32 * length / (keys - 1).max(1) as f32).collect();
     let tracks = (0..skeleton.len() as u32).map(|bone| {
         let turn = |time: &f32| Quat::from_rotation_z((time * 3.0 + bone as f32).sin() * 0.2);
@@ -63,12 +63,12 @@ pub fn take(name: &str, skeleton: &Skeleton, length: f32, keys: usize) -> Take {
 }
 
 /// Everything filled: bones, takes, a material, a warning.
-pub fn full() -> View {
+pub(crate) fn full() -> View {
     view("Fox.glb", skeleton(9), &[("Survey", 3.417, 41), ("Walk", 0.708, 18), ("Run", 1.158, 26)])
 }
 
 /// A model of `skeleton` with takes of these names, lengths and numbers of keys.
-pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> View {
+pub(crate) fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> View {
     let takes =
         takes.iter().map(|(name, length, keys)| Arc::new(take(name, &skeleton, *length, *keys))).collect();
     let model = Arc::new(ModelData {
@@ -91,7 +91,7 @@ pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> Vi
 }
 
 /// A file that was read and holds nothing.
-pub fn empty() -> View {
+pub(crate) fn empty() -> View {
     let mut view = view("empty.gltf", Skeleton::default(), &[]);
     view.generation = 2;
     view

@@ -9,14 +9,14 @@ use egui_kittest::kittest::Queryable;
 use std::time::Instant;
 
 /// The whole window without a window.
-pub struct Bench {
-    pub desk: Desk,
-    pub state: State,
-    pub effects: Vec<Effect>,
+pub(crate) struct Bench {
+    pub(crate) desk: Desk,
+    pub(crate) state: State,
+    pub(crate) effects: Vec<Effect>,
 }
 
 impl Bench {
-    pub fn new(view: Option<View>) -> Self {
+    pub(crate) fn new(view: Option<View>) -> Self {
         let now = Instant::now();
         let mut state = State::new(Settings::default(), now);
         state.device = Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() };
@@ -44,7 +44,7 @@ fn harness(bench: Bench) -> Harness<'static, Bench> {
     harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark)
 }
 
-pub fn harness_of(
+pub(crate) fn harness_of(
     bench: Bench,
     size: egui::Vec2,
     pixels_per_point: f32,
@@ -64,7 +64,7 @@ pub fn harness_of(
 fn pictures_of_the_panels() {
     let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(std::path::PathBuf::from) else { return };
     std::fs::create_dir_all(&folder).unwrap();
-    let mut shoot = |name: &str, bench: Bench, theme: egui::Theme, zoom: f32| {
+    let shoot = |name: &str, bench: Bench, theme: egui::Theme, zoom: f32| {
         let mut harness = Harness::builder()
             .with_size(egui::vec2(1280.0, 720.0))
             .with_pixels_per_point(zoom)
@@ -118,7 +118,7 @@ fn every_panel_is_named() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
     for panel in panels::all().iter().filter(|panel| panel.id() != panels::VIEWPORT) {
-        assert!(harness.query_by_label(panel.title()).is_some(), "{} has no title", panel.id());
+        assert!(harness.query_all_by_label(panel.title()).next().is_some(), "{} has no title", panel.id());
     }
     for label in [
         "File",
@@ -194,13 +194,9 @@ fn scrubbing_the_timeline_moves_the_time_and_gives_it_back() {
     harness.run_steps(4);
     harness.key_press(egui::Key::Space);
     harness.run_steps(2);
-    let track = harness.get_by_label("Timeline").rect();
-    let track = if track.height() > 40.0 {
-        track
-    } else {
-        harness.get_all_by_label("Timeline").last().unwrap().rect()
-    };
-    let middle = egui::pos2(track.left() + 8.0 + (track.width() - 28.0) / 2.0, track.top() + 12.0);
+    let track = harness.get_by_label("Time track").rect();
+    // The ruler begins 16 points and ends 20 points inside.
+    let middle = egui::pos2((track.left() + 16.0 + track.right() - 20.0) / 2.0, track.top() + 12.0);
     harness.drag_at(track.left_top() + egui::vec2(60.0, 12.0));
     harness.run_steps(2);
     harness.hover_at(middle);

@@ -243,7 +243,7 @@ fn look(state: &State, pixels_per_point: f32, dark: bool) -> Look {
         background: theme.sky.map(linear),
         grid: settings.grid,
         grid_color: linear(theme.grid),
-        skeleton: settings.skeleton,
+        skeleton: state.shows_skeleton(),
         bone_look: settings.bone_look,
         bones_in_front: settings.bones_in_front,
         selected: state.selected.into_iter().collect(),

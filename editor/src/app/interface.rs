@@ -28,7 +28,7 @@ pub struct Interface {
     pub effects: Vec<Effect>,
     graphics: Option<GraphicsHandle>,
     store: Store,
-    saved: (Settings, String),
+    saved: Settings,
     /// When the panels are to be drawn.
     due: Option<Instant>,
     drawn: Instant,
@@ -43,7 +43,7 @@ impl Interface {
         let settings = Settings::parse(&store.read(store::SETTINGS));
         let desk = Desk::new(&store.read(store::LAYOUT));
         style::install(egui.egui_ctx());
-        let saved = (settings.clone(), desk.layout_text());
+        let saved = settings.clone();
         Self {
             window,
             egui,
@@ -136,7 +136,9 @@ impl Interface {
                 self.tell_size();
                 self.redraw();
             }
-            WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => self.redraw(),
+            WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => {
+                self.redraw()
+            }
             _ if response.repaint => self.redraw(),
             _ => {}
         }
@@ -146,8 +148,12 @@ impl Interface {
     pub(super) fn accesskit_event(&mut self, event: accesskit_winit::WindowEvent) {
         match event {
             accesskit_winit::WindowEvent::InitialTreeRequested => self.egui.egui_ctx().enable_accesskit(),
-            accesskit_winit::WindowEvent::ActionRequested(request) => self.egui.on_accesskit_action_request(request),
-            accesskit_winit::WindowEvent::AccessibilityDeactivated => self.egui.egui_ctx().disable_accesskit(),
+            accesskit_winit::WindowEvent::ActionRequested(request) => {
+                self.egui.on_accesskit_action_request(request)
+            }
+            accesskit_winit::WindowEvent::AccessibilityDeactivated => {
+                self.egui.egui_ctx().disable_accesskit()
+            }
         }
         self.redraw();
     }
@@ -167,14 +173,13 @@ impl Interface {
     }
 
     fn save(&mut self) {
-        let layout = self.desk.layout_text();
-        if self.state.settings != self.saved.0 {
+        if self.state.settings != self.saved {
             self.keep(store::SETTINGS, &self.state.settings.to_text());
+            self.saved = self.state.settings.clone();
         }
-        if layout != self.saved.1 {
+        if let Some(layout) = self.desk.changed_layout() {
             self.keep(store::LAYOUT, &layout);
         }
-        self.saved = (self.state.settings.clone(), layout);
     }
 
     fn keep(&mut self, name: &str, text: &str) {
@@ -206,7 +211,8 @@ impl Interface {
         });
         self.egui.handle_platform_output(&self.window, output.platform_output);
 
-        let before = (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+        let before =
+            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
         let (overlay, viewport) = (self.state.overlay, self.state.viewport);
         self.state.hovered = None;
         self.state.find = false;
@@ -218,7 +224,8 @@ impl Interface {
             self.effects.extend(effect);
         }
         // What was asked for is seen in the next drawing.
-        let after = (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+        let after =
+            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
         let changed = before != after || overlay != self.state.overlay || viewport != self.state.viewport;
 
         let size = self.window.inner_size();
@@ -234,7 +241,8 @@ impl Interface {
         }
         self.drawn = now;
         self.due = None;
-        let egui_wants = output.viewport_output.get(&egui::ViewportId::ROOT).map(|output| output.repaint_delay);
+        let egui_wants =
+            output.viewport_output.get(&egui::ViewportId::ROOT).map(|output| output.repaint_delay);
         let wanted = [changed.then_some(Duration::ZERO), egui_wants, self.state.next_display()];
         if let Some(when) = wanted.into_iter().flatten().min().and_then(|delay| now.checked_add(delay)) {
             self.redraw_at(when);

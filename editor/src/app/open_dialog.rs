@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 /// What came of it.
 #[derive(Debug)]
-pub enum Answer {
+pub(super) enum Answer {
     /// A file.
     File(PathBuf),
     /// The person changed their mind, or there is no such dialog here: the system does not tell which. `quick` when the
@@ -20,7 +20,7 @@ pub enum Answer {
 const HUMAN: f32 = 0.25;
 
 /// Asks; the answer goes to `to`.
-pub fn ask(folder: Option<PathBuf>, to: Address<Answer>) -> std::io::Result<()> {
+pub(super) fn ask(folder: Option<PathBuf>, to: Address<Answer>) -> std::io::Result<()> {
     std::thread::Builder::new().name("open dialog".to_owned()).spawn(move || {
         let begun = std::time::Instant::now();
         let mut dialog = rfd::AsyncFileDialog::new()

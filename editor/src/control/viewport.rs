@@ -83,6 +83,8 @@ const ZOOM_WHEEL: f32 = 0.004;
 const ZOOM_DRAG: f32 = 0.008;
 /// A press that moves further than this is no click.
 const CLICK: f32 = 4.0;
+/// No screen is so large: a pointer reported there is a mistake of the driver.
+const FARTHEST: f32 = 1e5;
 
 impl ViewportControl {
     /// Is a drag going on?
@@ -95,14 +97,16 @@ impl ViewportControl {
     /// A drag ends where it is when its button comes up or the window loses the keyboard (the release would never be
     /// heard of), and is taken back by Escape.
     pub fn step(&mut self, input: &Input, camera: &mut Camera) -> Option<Outcome> {
-        self.zoom(input, camera);
+        let sound = |point: &Vec2| point.is_finite() && point.abs().max_element() < FARTHEST;
+        let pointer = input.pointer.filter(sound);
+        if let Some(pointer) = pointer {
+            zoom(input, pointer, camera);
+        }
         if !input.focused {
             self.mode = Mode::Idle;
             return None;
         }
-        let Some(pointer) = input.pointer.filter(|pointer| pointer.is_finite()) else {
-            return None;
-        };
+        let pointer = pointer?;
         match self.mode {
             Mode::Idle => {
                 if let Some(button) = input.pressed {
@@ -139,17 +143,14 @@ impl ViewportControl {
             }
         }
     }
+}
 
-    fn zoom(&self, input: &Input, camera: &mut Camera) {
-        let pinch = if input.pinch.is_finite() && input.pinch > 0.0 { 1.0 / input.pinch } else { 1.0 };
-        let wheel =
-            if input.wheel.is_finite() { (-input.wheel * ZOOM_WHEEL).clamp(-2.0, 2.0).exp() } else { 1.0 };
-        let factor = pinch.clamp(0.1, 10.0) * wheel;
-        if factor != 1.0
-            && let Some(pointer) = input.pointer
-        {
-            camera.zoom_to(pointer, input.size, factor);
-        }
+fn zoom(input: &Input, pointer: Vec2, camera: &mut Camera) {
+    let pinch = if input.pinch.is_finite() && input.pinch > 0.0 { 1.0 / input.pinch } else { 1.0 };
+    let wheel = if input.wheel.is_finite() { -input.wheel * ZOOM_WHEEL } else { 0.0 };
+    let factor = pinch.clamp(0.1, 10.0) * wheel.clamp(-2.0, 2.0).exp();
+    if factor != 1.0 {
+        camera.zoom_to(pointer, input.size, factor);
     }
 }
 

@@ -56,7 +56,8 @@ pub struct Document {
 }
 
 struct Running {
-    job: LoadJob,
+    /// Cancelled when this is dropped.
+    _job: LoadJob,
     ticket: u64,
     source: Source,
 }
@@ -93,7 +94,7 @@ impl Document {
             let _ = own.send(DocumentMessage::News(ticket, NewsBox(news)));
         };
         match LoadJob::start(source.clone(), tell) {
-            Ok(job) => self.job = Some(Running { job, ticket, source }),
+            Ok(job) => self.job = Some(Running { _job: job, ticket, source }),
             Err(error) => self.reply(DocumentReply::Failed { source, reason: error.to_string() }),
         }
     }

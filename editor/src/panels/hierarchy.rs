@@ -40,7 +40,7 @@ impl Panel for Hierarchy {
             *self = Self { generation, query: std::mem::take(&mut self.query), ..Self::default() };
         }
         if state.view.is_none() {
-            return widgets::empty(ui, "No model is open", "");
+            return widgets::empty(ui, "", "Bones appear here");
         }
         if state.digest.rows.is_empty() {
             return widgets::empty(ui, "No bones", "This model has nothing that moves");

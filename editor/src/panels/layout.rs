@@ -19,6 +19,7 @@ pub struct Pane(String);
 #[derive(Debug)]
 pub struct Layout {
     tree: Tree<Pane>,
+    changed: bool,
 }
 
 /// Changes with the meaning of the stored tree.
@@ -55,20 +56,22 @@ impl Layout {
         let below = tabs(&mut tiles, below);
         let share = timeline::HEIGHT / 664.0;
         let root = tiles.insert_new(linear(LinearDir::Vertical, &[(top, 1.0 - share), (below, share)]));
-        Self { tree: Tree::new(egui::Id::unique("panels"), root, tiles) }
+        Self { tree: Tree::new(egui::Id::unique("panels"), root, tiles), changed: true }
     }
 
     /// From the text of a layout file; a damaged one, or one that lacks a panel, gives the usual places.
     pub fn parse(text: &str, panels: &[Box<dyn Panel>]) -> Self {
         let stored = serde_json::from_str::<Stored>(text).ok().filter(|stored| stored.version == VERSION);
         let tree = stored.map(|stored| stored.tree).filter(|tree| sound(tree, panels));
-        tree.map_or_else(|| Self::usual(panels), |tree| Self { tree })
+        tree.map_or_else(|| Self::usual(panels), |tree| Self { tree, changed: false })
     }
 
     /// As the text of a layout file.
     pub fn to_text(&self) -> String {
         // Plain data always has a text.
-        serde_json::to_string(&Stored { version: VERSION, tree: self.tree.clone() }).unwrap_or_default()
+        // By way of a value, whose keys are sorted: the same places give the same text.
+        let stored = Stored { version: VERSION, tree: self.tree.clone() };
+        serde_json::to_value(stored).map(|value| value.to_string()).unwrap_or_default()
     }
 
     /// Is the panel shown?
@@ -81,7 +84,13 @@ impl Layout {
         if let Some(tile) = self.find(id) {
             let shown = self.tree.is_visible(tile);
             self.tree.set_visible(tile, !shown);
+            self.changed = true;
         }
+    }
+
+    /// Did anything change since the last call?
+    pub fn take_changed(&mut self) -> bool {
+        std::mem::take(&mut self.changed)
     }
 
     fn find(&self, id: &str) -> Option<TileId> {
@@ -97,8 +106,9 @@ impl Layout {
         requests: &mut Vec<Request>,
     ) {
         let viewport = self.find(VIEWPORT);
-        let mut hand = Hand { panels, state, requests, viewport };
+        let mut hand = Hand { panels, state, requests, viewport, changed: false };
         self.tree.ui(&mut hand, ui);
+        self.changed |= hand.changed;
     }
 }
 
@@ -129,6 +139,7 @@ struct Hand<'a> {
     state: &'a State,
     requests: &'a mut Vec<Request>,
     viewport: Option<TileId>,
+    changed: bool,
 }
 
 impl Behavior<Pane> for Hand<'_> {
@@ -154,6 +165,10 @@ impl Behavior<Pane> for Hand<'_> {
     fn is_tab_bar_visible(&self, _tile: TileId, tabs: &Tabs) -> bool {
         // The picture needs no title; with another panel beside it, it does.
         !(tabs.children.len() == 1 && self.viewport == Some(tabs.children[0]))
+    }
+
+    fn on_edit(&mut self, _action: egui_tiles::EditAction) {
+        self.changed = true;
     }
 
     fn tab_bar_height(&self, _style: &egui::Style) -> f32 {

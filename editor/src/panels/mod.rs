@@ -89,9 +89,9 @@ impl Desk {
         Self { panels, layout, overlays: overlays::Overlays::default() }
     }
 
-    /// The places, as the text of a layout file.
-    pub fn layout_text(&self) -> String {
-        self.layout.to_text()
+    /// The places, as the text of a layout file, when they changed since the last call.
+    pub fn changed_layout(&mut self) -> Option<String> {
+        self.layout.take_changed().then(|| self.layout.to_text())
     }
 
     /// Puts every panel where it was at first.

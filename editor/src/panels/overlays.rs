@@ -31,6 +31,8 @@ impl Overlays {
         let id = WidgetId::unique(("overlay", format!("{overlay:?}")));
         let mut modal = Modal::new(id)
             .backdrop_color(egui::Color32::from_black_alpha(if Theme::of(ui).dark { 120 } else { 60 }));
+        let margin = if overlay == Overlay::Palette { 8 } else { 20 };
+        modal = modal.frame(egui::Frame::popup(ui.style()).inner_margin(margin));
         if overlay == Overlay::Palette {
             modal = modal.area(Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, 72.0)));
         }
@@ -156,7 +158,8 @@ fn shortcuts(ui: &mut Ui, requests: &mut Vec<Request>) {
     let room = ui.ctx().content_rect();
     ui.set_width((room.width() - 96.0).clamp(320.0, 860.0));
     title(ui, "Keys and mouse", requests);
-    ScrollArea::vertical().max_height((room.height() - 180.0).max(160.0)).show(ui, |ui| {
+    let height = (room.height() - 160.0).max(160.0);
+    ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
         let columns = if ui.available_width() > 700.0 { 2 } else { 1 };
         ui.columns(columns, |columns| {
             let last = columns.len() - 1;

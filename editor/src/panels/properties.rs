@@ -27,7 +27,7 @@ impl Panel for Properties {
 
     fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         if state.view.is_none() {
-            return widgets::empty(ui, "No model is open", "");
+            return widgets::empty(ui, "", "Numbers appear here");
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::NONE.inner_margin(egui::Margin::symmetric(12, 8)).show(ui, |ui| {
@@ -120,8 +120,8 @@ fn show_model(ui: &mut Ui, state: &State) {
     fact(ui, "Materials", &widgets::grouped(model.materials.len()));
     fact(ui, "Images", &widgets::grouped(model.images.len()));
     let size = loaded.bounds.max - loaded.bounds.min;
-    widgets::caption(ui, "Extent");
-    axes(ui, "Size", &size.to_array().map(length));
+    widgets::caption(ui, "Size");
+    columns(ui, "Size", &letters(ui), &size.to_array().map(length));
     if !loaded.warnings.is_empty() {
         widgets::caption(ui, &widgets::count(loaded.warnings.len(), "warning", "warnings"));
         for warning in &loaded.warnings {
@@ -145,8 +145,12 @@ fn fact(ui: &mut Ui, name: &str, value: &str) {
 fn axes(ui: &mut Ui, name: &str, values: &[String; 3]) {
     ui.add_space(2.0);
     ui.label(RichText::new(name).color(Theme::of(ui).text));
-    let letters = Theme::of(ui).axes;
-    columns(ui, name, &[("X", letters[0]), ("Y", letters[1]), ("Z", letters[2])], values);
+    columns(ui, name, &letters(ui), values);
+}
+
+fn letters(ui: &Ui) -> [(&'static str, Color32); 3] {
+    let [x, y, z] = Theme::of(ui).axes;
+    [("X", x), ("Y", y), ("Z", z)]
 }
 
 fn quaternion(ui: &mut Ui, values: [f32; 4]) {
@@ -177,7 +181,7 @@ fn columns(ui: &mut Ui, name: &str, letters: &[(&str, Color32)], values: &[Strin
         }
         let clipped = ui.painter().with_clip_rect(field);
         let at = pos2(field.right() - 5.0, field.center().y);
-        clipped.text(at, Align2::RIGHT_CENTER, value, FontId::monospace(style::SMALL), theme.text);
+        clipped.text(at, Align2::RIGHT_CENTER, value, FontId::monospace(style::NUMBER), theme.text);
     }
 }
 

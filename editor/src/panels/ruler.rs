@@ -42,10 +42,7 @@ impl Ruler {
         if self.length <= 0.0 || self.width <= 0.0 || !self.length.is_finite() {
             return vec![Tick { time: self.start, major: true }];
         }
-        let points_a_second = self.width / self.length;
-        let minor = step(points_a_second, frame_rate, 7.0);
-        let major = step(points_a_second, frame_rate, 64.0);
-        let (minor, major) = (minor.max(f64::from(self.length) / 2000.0), major);
+        let (minor, major) = self.steps(frame_rate);
         let first = (f64::from(self.start) / minor).ceil() as i64;
         let last = ((f64::from(self.start) + f64::from(self.length)) / minor + 1e-6).floor() as i64;
         (first..=last)
@@ -59,29 +56,42 @@ impl Ruler {
 
     /// How many decimals the labels of [`Self::ticks`] need.
     pub fn decimals(&self, frame_rate: u32) -> usize {
-        if self.length <= 0.0 {
-            return 2;
-        }
-        let major = step(self.width / self.length, frame_rate, 64.0);
-        if major >= 1.0 {
-            0
-        } else if (major * 10.0).fract() < 1e-6 {
-            1
-        } else {
-            2
-        }
+        let whole = |step: f64| (step - step.round()).abs() < 1e-6;
+        let major = if self.length > 0.0 { self.steps(frame_rate).1 } else { 0.01 };
+        [1.0, 10.0, 100.0].into_iter().position(|factor| whole(major * factor)).unwrap_or(3)
+    }
+
+    /// Seconds between lines, and between lines with labels: pleasant numbers, whole frames apart.
+    fn steps(&self, frame_rate: u32) -> (f64, f64) {
+        let rate = f64::from(frame_rate.max(1));
+        let points_a_frame = f64::from(self.width / self.length) / rate;
+        let frames = |seconds: f64| (seconds * rate).round();
+        let whole = |seconds: &f64| (seconds * rate - frames(*seconds)).abs() < 1e-6;
+        let pleasant =
+            [0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0];
+        let seconds = pleasant.into_iter().filter(whole).map(frames);
+        // So long that not even hours are far enough apart, or so short that single frames are.
+        let hours = (LABEL / points_a_frame / (3600.0 * rate)).ceil().max(1.0) * 3600.0 * rate;
+        let major = [1.0, 2.0]
+            .into_iter()
+            .chain(seconds)
+            .find(|step| step * points_a_frame >= LABEL)
+            .unwrap_or(hours);
+        // The finest division of it that can still be seen.
+        let parts = [major, 30.0, 20.0, 15.0, 12.0, 10.0, 6.0, 5.0, 4.0, 3.0, 2.0];
+        let fits = |parts: &f64| {
+            let step = major / parts;
+            (step - step.round()).abs() < 1e-6 && step * points_a_frame >= LINE
+        };
+        let parts = parts.into_iter().find(fits).unwrap_or(1.0);
+        (major / parts / rate, major / rate)
     }
 }
 
-/// The smallest pleasant step, in seconds, that is at least `least` points wide.
-fn step(points_a_second: f32, frame_rate: u32, least: f32) -> f64 {
-    let frame = 1.0 / f64::from(frame_rate.max(1));
-    let least = f64::from(least / points_a_second);
-    let frames = [1.0, 2.0, 5.0, 10.0].map(|count| count * frame);
-    let seconds = [0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0];
-    let pleasant = frames.into_iter().filter(|&step| step < 0.5).chain(seconds);
-    pleasant.into_iter().find(|&step| step >= least).unwrap_or_else(|| (least / 3600.0).ceil() * 3600.0)
-}
+/// Least distance of lines, points.
+const LINE: f64 = 7.0;
+/// Least distance of labels, points.
+const LABEL: f64 = 64.0;
 
 /// The frame at `time`, counted from zero seconds.
 pub fn frame_of(time: f32, frame_rate: u32) -> i64 {

@@ -39,7 +39,8 @@ impl Default for LookSettings {
     fn default() -> Self {
         Self {
             grid: true,
-            skeleton: true,
+            // Off, so that the model is seen first; a selected bone shows its skeleton in any case.
+            skeleton: false,
             bone_look: BoneLook::default(),
             bones_in_front: true,
             shading: Shading::default(),

@@ -311,6 +311,12 @@ impl State {
         if name.is_empty() { format!("Bone {bone}") } else { name.to_owned() }
     }
 
+    /// Are bones drawn? Also when one is selected, and where there is nothing else to see.
+    pub fn shows_skeleton(&self) -> bool {
+        let bare = self.loaded().is_some_and(|loaded| loaded.model.instances.is_empty());
+        self.settings.look.skeleton || self.selected.is_some() || bare
+    }
+
     /// Width over height of the picture.
     pub fn aspect(&self) -> f32 {
         (self.viewport.width() / self.viewport.height().max(1.0)).max(0.01)

@@ -21,6 +21,8 @@ pub const CARD_RADIUS: u8 = 8;
 
 /// Size of ordinary text.
 pub const BODY: f32 = 13.0;
+/// Size of numbers in columns.
+pub const NUMBER: f32 = 12.0;
 /// Size of captions and ticks.
 pub const SMALL: f32 = 11.0;
 

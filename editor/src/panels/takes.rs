@@ -25,7 +25,7 @@ impl Panel for Takes {
 
     fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         if state.view.is_none() {
-            return widgets::empty(ui, "No model is open", "");
+            return widgets::empty(ui, "", "Takes appear here");
         }
         let takes = &state.digest.takes;
         ui.add_space(GRID);
@@ -66,8 +66,8 @@ fn line(ui: &mut Ui, name: &str, keys: &str, length: &str, selected: bool) -> eg
     let y = rect.center().y;
     let numbers = if selected { theme.accent } else { theme.weak };
     let right = widgets::number_at(ui, rect.right() - 12.0, y, length, numbers);
-    let column = (rect.right() - 68.0).min(right - 8.0);
-    let right = if rect.width() > 190.0 && !keys.is_empty() {
+    let column = (rect.right() - 76.0).min(right - 8.0);
+    let right = if rect.width() > 200.0 && !keys.is_empty() {
         widgets::number_at(ui, column, y, keys, theme.faint)
     } else {
         right

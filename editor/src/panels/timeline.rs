@@ -43,14 +43,14 @@ impl Panel for Timeline {
             return;
         }
         if state.take().is_none() {
-            let text = if state.view.is_none() { "No model is open" } else { "The rest pose does not move" };
+            let text = if state.view.is_none() { "Keys appear here" } else { "The rest pose does not move" };
             ui.painter().rect_filled(rect, CornerRadius::ZERO, Theme::of(ui).sunken);
             widgets::empty(ui, text, "");
             return;
         }
         let ruler = Ruler {
-            left: rect.left() + GUTTER,
-            width: (rect.width() - GUTTER - 20.0).max(1.0),
+            left: rect.left() + GUTTER + 8.0,
+            width: (rect.width() - GUTTER - 28.0).max(1.0),
             start: state.playback.start,
             length: state.playback.length,
         };
@@ -63,7 +63,7 @@ impl Timeline {
     fn scrub(&mut self, ui: &mut Ui, rect: Rect, ruler: &Ruler, state: &State, requests: &mut Vec<Request>) {
         let track = Rect::from_min_max(pos2(rect.left() + GUTTER - 8.0, rect.top()), rect.max);
         let response = ui.interact(track, ui.scope_id().with("track"), Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::slider(true, f64::from(state.time()), "Timeline"));
+        response.widget_info(|| WidgetInfo::slider(true, f64::from(state.time()), "Time track"));
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
         if response.drag_started_by(egui::PointerButton::Primary) && state.playback.playing {
             // Time stands while it is held, and goes on as it went before.
@@ -140,9 +140,9 @@ fn lanes(ui: &Ui, painter: &Painter, rect: Rect, head: Rect, ruler: &Ruler, stat
     let all: [(&str, &[f32], Color32); 1] = [("All bones", &lanes.all, theme.key)];
     let channels = &lanes.channels;
     let of_bone: [(&str, &[f32], Color32); 3] = [
-        ("Translation", &channels[0], theme.axes[0]),
-        ("Rotation", &channels[1], theme.axes[1]),
-        ("Scale", &channels[2], theme.axes[2]),
+        ("Translation", &channels[0], theme.key),
+        ("Rotation", &channels[1], theme.key),
+        ("Scale", &channels[2], theme.key),
     ];
     let shown: &[(&str, &[f32], Color32)] = if state.selected.is_some() { &of_bone } else { &all };
     let now = state.time();

@@ -27,6 +27,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
             ui.add_space(2.0 * GRID);
             ui.spacing_mut().item_spacing.x = GRID;
             frame_rate(ui, state, requests);
+            divider(ui);
             ui.add_enabled_ui(able, |ui| time(ui, state, requests));
         });
     });

@@ -94,8 +94,13 @@ pub(super) fn text_in(ui: &Ui, rect: Rect, text: &str, style: &TextStyle, color:
 
 /// A number right-aligned at `right`, in digits of one width; returns its left end.
 pub(super) fn number_at(ui: &Ui, right: f32, y: f32, text: &str, color: Color32) -> f32 {
-    let rect =
-        ui.painter().text(pos2(right, y), Align2::RIGHT_CENTER, text, FontId::monospace(style::SMALL), color);
+    let rect = ui.painter().text(
+        pos2(right, y),
+        Align2::RIGHT_CENTER,
+        text,
+        FontId::monospace(style::NUMBER),
+        color,
+    );
     rect.left()
 }
 
@@ -110,7 +115,9 @@ pub(super) fn empty(ui: &mut Ui, title: &str, hint: &str) {
     let theme = Theme::of(ui);
     ui.add_space((ui.available_height() * 0.3).min(72.0));
     ui.vertical_centered(|ui| {
-        ui.label(RichText::new(title).color(theme.weak));
+        if !title.is_empty() {
+            ui.label(RichText::new(title).color(theme.weak));
+        }
         if !hint.is_empty() {
             ui.label(RichText::new(hint).small().color(theme.faint));
         }
