@@ -4,7 +4,7 @@
 use crate::fixture_layer::{Layer, lines};
 use crate::program::{Folder, data, dragonfly, outcome};
 use crate::screen::Screen;
-use crate::window::{Editor, SOON, alone, rest};
+use crate::window::{Editor, SOON, alone, rest, same};
 use dragonfly::document::{Cancel, LoadedModel, Source, load_model};
 use dragonfly::graphics::{PictureSettings, Studio};
 use image::RgbaImage;

@@ -199,6 +199,8 @@ impl Interface {
             ThemeChoice::Dark => egui::ThemePreference::Dark,
             ThemeChoice::Light => egui::ThemePreference::Light,
         });
+        // Asked before there are textures to deliver: asking panics when the window was destroyed behind our back.
+        let size = self.window.inner_size();
         let input = self.egui.take_egui_input(&self.window);
         let dropped = input.dropped_files.first().map(|file| file.path().to_owned());
         let mut requests = Vec::new();
@@ -209,6 +211,17 @@ impl Interface {
             requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
             desk.show(ui, state, &mut requests);
         });
+        // Sent before anything else can go wrong: egui aborts when textures are lost on the way.
+        let jobs = context.tessellate(output.shapes, output.pixels_per_point);
+        let frame = PanelsFrame {
+            size: [size.width, size.height],
+            pixels_per_point: output.pixels_per_point,
+            jobs,
+            textures: output.textures_delta,
+        };
+        if let Some(graphics) = &self.graphics {
+            graphics.show_panels(frame);
+        }
         self.egui.handle_platform_output(&self.window, output.platform_output);
 
         let before =
@@ -228,17 +241,6 @@ impl Interface {
             (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
         let changed = before != after || overlay != self.state.overlay || viewport != self.state.viewport;
 
-        let size = self.window.inner_size();
-        let jobs = context.tessellate(output.shapes, output.pixels_per_point);
-        let frame = PanelsFrame {
-            size: [size.width, size.height],
-            pixels_per_point: output.pixels_per_point,
-            jobs,
-            textures: output.textures_delta,
-        };
-        if let Some(graphics) = &self.graphics {
-            graphics.show_panels(frame);
-        }
         self.drawn = now;
         self.due = None;
         let egui_wants =
