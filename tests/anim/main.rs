@@ -20,6 +20,7 @@ mod seeds;
 mod skinning;
 mod soundness;
 mod support;
+mod textures;
 mod trial;
 mod uris;
 

@@ -1,6 +1,6 @@
 //! Addresses: typed, clonable, never waiting, and no message vanishes unseen.
 
-use crate::cast::{LIMIT, Log, deadline, hear, listen, outlet};
+use crate::cast::{LIMIT, Log, deadline, hear, listen, outlet, plain_thread};
 use dragonfly_kit::eventually;
 use dragonfly_runtime::{Address, SendError, Stage, Thread};
 use std::rc::Rc;
@@ -146,7 +146,7 @@ fn each_message_that_was_accepted_is_counted_once() {
     let address = handle.register_receiver(|_| hear(|_: u32, _| ()));
     let senders: Vec<_> = [address.clone(), address.latest(), handle.reserve_address()]
         .into_iter()
-        .map(|address| std::thread::spawn(move || (0..).take_while(|n| address.send(*n).is_ok()).count()))
+        .map(|address| plain_thread(move || (0..).take_while(|n| address.send(*n).is_ok()).count()))
         .collect();
     eventually(LIMIT, || handle.counters().delivered > 1000);
     handle.remote_stop();

@@ -95,6 +95,14 @@ pub(crate) fn keep(farewell: Farewell) -> Work<impl FnMut(&mut Context) -> bool>
     })
 }
 
+/// A thread that the runtime knows nothing of: a sender from outside.
+#[allow(clippy::disallowed_methods)]
+pub(crate) fn plain_thread<T: Send + 'static>(
+    body: impl FnOnce() -> T + Send + 'static,
+) -> std::thread::JoinHandle<T> {
+    std::thread::spawn(body)
+}
+
 /// Panics without the usual report on the terminal, which a test of panics does not want.
 pub(crate) fn panic_quietly(reason: &str) -> ! {
     std::panic::resume_unwind(Box::new(reason.to_owned()))

@@ -1,7 +1,7 @@
 //! Stopping, pausing, waiting for threads; the order in which things end (thesis §2.2.6.3,
 //! §3.2.6.1).
 
-use crate::cast::{Farewell, LIMIT, Log, deadline, hear, keep, listen, note, outlet, work};
+use crate::cast::{Farewell, LIMIT, Log, deadline, hear, keep, listen, note, outlet, plain_thread, work};
 use dragonfly_runtime::{Context, Next, Stage, Thread};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -126,7 +126,7 @@ fn wait_for_waits_for_several_threads() {
     let threads: Vec<_> = (0..4).map(|_| Thread::start("several").unwrap()).collect();
     let handles: Vec<_> = threads.iter().map(|thread| thread.handle().clone()).collect();
     let stopper = handles.clone();
-    let stopper = std::thread::spawn(move || {
+    let stopper = plain_thread(move || {
         for handle in stopper {
             handle.remote_stop();
         }

@@ -1,6 +1,6 @@
 //! R3: real threads, many messages, nothing lost, doubled or out of order.
 
-use crate::cast::hear;
+use crate::cast::{hear, plain_thread};
 use dragonfly_kit::process::alone;
 use dragonfly_runtime::{Context, Thread};
 use std::time::{Duration, Instant};
@@ -40,7 +40,7 @@ fn ten_million_messages_arrive_once_each_and_in_order() {
         let senders: Vec<_> = (0..SENDERS as usize)
             .map(|sender| {
                 let addresses = addresses.clone();
-                std::thread::spawn(move || {
+                plain_thread(move || {
                     for number in 0..each {
                         for address in &addresses {
                             address.send((sender, number)).unwrap();

@@ -42,8 +42,7 @@ impl Skeleton {
 
     /// Children of `bone` in index order; of `None`: the roots.
     pub fn children(&self, bone: Option<BoneIndex>) -> impl Iterator<Item = BoneIndex> + '_ {
-        (0..self.bones.len() as BoneIndex)
-            .filter(move |&index| self.bones[index as usize].parent == bone)
+        (0..self.bones.len() as BoneIndex).filter(move |&index| self.bones[index as usize].parent == bone)
     }
 
     /// Number of bones.

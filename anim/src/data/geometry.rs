@@ -100,9 +100,8 @@ impl Primitive {
         Some(Vertex {
             position: *vertices.positions.get(index)?,
             normal: vertices.normals.get(index).copied().unwrap_or(Vec3::Y),
-            texture_coordinates: [0, 1].map(|set| {
-                vertices.texture_coordinates[set].get(index).copied().unwrap_or(Vec2::ZERO)
-            }),
+            texture_coordinates: [0, 1]
+                .map(|set| vertices.texture_coordinates[set].get(index).copied().unwrap_or(Vec2::ZERO)),
             influences: vertices.influences_of(index).to_vec(),
             material: self.material,
         })

@@ -12,12 +12,8 @@ mod transform;
 
 pub use bone::{Bone, BoneIndex, Skeleton, Skin};
 pub use channel::{Channel, Interpolation};
-pub use geometry::{
-    Influence, MAX_INFLUENCES, Mesh, MeshInstance, MorphTarget, Primitive, Vertex, Vertices,
-};
-pub use material::{
-    AlphaMode, Filter, Image, Material, Metallic, Phong, TextureRef, TextureTransform, Wrap,
-};
+pub use geometry::{Influence, MAX_INFLUENCES, Mesh, MeshInstance, MorphTarget, Primitive, Vertex, Vertices};
+pub use material::{AlphaMode, Filter, Image, Material, Metallic, Phong, TextureRef, TextureTransform, Wrap};
 pub use model::{AnimationData, ModelData};
 pub use take::{Keyframe, MorphTrack, Take, Track};
 pub use transform::Transform;

@@ -17,11 +17,7 @@ pub struct Transform {
 
 impl Transform {
     /// Changes nothing.
-    pub const IDENTITY: Self = Self {
-        translation: Vec3::ZERO,
-        rotation: Quat::IDENTITY,
-        scale: Vec3::ONE,
-    };
+    pub const IDENTITY: Self = Self { translation: Vec3::ZERO, rotation: Quat::IDENTITY, scale: Vec3::ONE };
 
     /// The affine matrix `T · R · S` for column vectors: bone space → parent space.
     pub fn to_matrix(self) -> Mat4 {

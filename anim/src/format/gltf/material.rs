@@ -80,12 +80,18 @@ impl Reader<'_> {
             phong: phong(base_color.truncate(), metallic, roughness),
             use_phong: false,
             normal_texture: match normal {
-                Some(texture) => self.texture(texture.index, texture.tex_coord, None, "normalTexture")?,
+                Some(texture) => {
+                    let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
+                    self.with_raw_transform(texture.index, texture.tex_coord, others, "normalTexture")?
+                }
                 None => None,
             },
             normal_scale,
             occlusion_texture: match occlusion {
-                Some(texture) => self.texture(texture.index, texture.tex_coord, None, "occlusionTexture")?,
+                Some(texture) => {
+                    let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
+                    self.with_raw_transform(texture.index, texture.tex_coord, others, "occlusionTexture")?
+                }
                 None => None,
             },
             occlusion_strength: occlusion_strength.clamp(0.0, 1.0),
@@ -124,6 +130,23 @@ impl Reader<'_> {
         let Some(info) = info else { return Ok(None) };
         let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
         self.texture(info.index, info.tex_coord, transform, member)
+    }
+
+    /// Normal and occlusion textures: there the document model leaves the transform unread.
+    fn with_raw_transform(
+        &self,
+        index: json::Index<json::Texture>,
+        set: u32,
+        others: Option<&serde_json::Map<String, serde_json::Value>>,
+        member: &str,
+    ) -> Result<Option<TextureRef>, ImportError> {
+        let raw = others.and_then(|others| others.get("KHR_texture_transform"));
+        let transform = raw.map(|raw| serde_json::from_value::<JsonTransform>(raw.clone())).transpose();
+        let transform = transform.map_err(|error| {
+            let at = self.at(&format!("{member}/extensions/KHR_texture_transform"));
+            invalid(at, code::TYPE_MISMATCH, error.to_string())
+        })?;
+        self.texture(index, set, transform.as_ref(), member)
     }
 
     /// A use of a texture; `None`, with a warning, where its image is in a format that is not shown.
