@@ -20,9 +20,10 @@ fn fs_background(in: Corner) -> @location(0) vec4f {
     let top = sqrt(frame.background_top);
     let bottom = sqrt(frame.background_bottom);
     var color = mix(bottom, top, smoothstep(0.0, 1.0, in.place.y));
-    // The key light leaves a soft pool on the wall behind the model.
+    // The key light leaves a soft pool on the wall behind the model; a plain colour stays plain.
     let aside = (in.place - vec2f(0.44, 0.6)) * vec2f(frame.size.x * frame.size.w, 1.0);
-    color = color * (1.0 + 0.22 * exp(-3.2 * dot(aside, aside)));
+    let pool = 0.22 * f32(any(frame.background_top != frame.background_bottom));
+    color = color * (1.0 + pool * exp(-3.2 * dot(aside, aside)));
     let noise = dither(in.position.xy) / 255.0 * 0.5;
     let alpha = frame.background_top.a;
     let noisy = color.rgb + noise * alpha;

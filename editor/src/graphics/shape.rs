@@ -130,7 +130,7 @@ impl SkeletonShape {
             };
             let length = head.distance(tail);
             // Too short to be seen, or a number out of range: the joint's ball alone stands for it.
-            if !(length > self.size * 1e-4) {
+            if length.is_nan() || length <= self.size * 1e-4 {
                 continue;
             }
             let body = match look.bone_look {
@@ -143,7 +143,7 @@ impl SkeletonShape {
             let radius = if body == Body::Stick { thickness * 0.34 } else { thickness };
             let thickest = &mut self.thickness[link.bone as usize];
             *thickest = thickest.max(thickness);
-            let strength = if link.is_joint { 1.0 } else { 0.45 };
+            let strength = if link.is_joint { 1.0 } else { 0.32 };
             let side = across(matrix, (tail - head) / length);
             let state = state(look, link.bone);
             self.add(body, link.bone, BoneInstance { head, radius, tail, state, side, strength });
@@ -205,15 +205,29 @@ fn state(look: &Look, bone: BoneIndex) -> u32 {
     u32::from(look.selected.contains(&bone)) + 2 * u32::from(look.hovered == Some(bone))
 }
 
-/// Which bones move a surface, by a skin or by carrying a mesh; without any such bone all count.
+/// Which bones move a surface: some vertex has weight for them, or they carry a mesh. What only steers others does not.
+/// Without any such bone all count.
 fn joints(model: &ModelData) -> Vec<bool> {
     let mut joints = vec![false; model.animation.skeleton.len()];
-    let carriers = model.instances.iter().filter(|instance| instance.skin.is_none());
-    let skinned = model.skins.iter().flat_map(|skin| skin.bones.iter().copied());
-    for bone in skinned.chain(carriers.filter_map(|instance| instance.bone)) {
+    let mut mark = |bone: BoneIndex| {
         if let Some(joint) = joints.get_mut(bone as usize) {
             *joint = true;
         }
+    };
+    for instance in &model.instances {
+        let Some(skin) = instance.skin.and_then(|skin| model.skins.get(skin as usize)) else {
+            instance.bone.into_iter().for_each(&mut mark);
+            continue;
+        };
+        let primitives = model.meshes.get(instance.mesh as usize).map_or(&[][..], |mesh| &mesh.primitives);
+        let influences = primitives.iter().flat_map(|primitive| &primitive.vertices.influences);
+        let mut used = vec![false; skin.bones.len()];
+        for influence in influences.filter(|influence| influence.weight > 0.0) {
+            if let Some(used) = used.get_mut(usize::from(influence.joint)) {
+                *used = true;
+            }
+        }
+        skin.bones.iter().zip(used).filter(|(_, used)| *used).for_each(|(&bone, _)| mark(bone));
     }
     if !joints.contains(&true) {
         joints.fill(true);

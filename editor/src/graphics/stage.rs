@@ -212,11 +212,11 @@ impl Stage {
             drop(pass);
             let gpu = self.device.gpu();
             gpu.queue.submit(commands.before.into_iter().chain([commands.encoder.finish()]));
-            if let Some(texture) = surface_texture {
-                if let Some((surface, gpu)) = self.device.surface() {
-                    surface.pre_present_notify();
-                    gpu.queue.present(texture);
-                }
+            if let Some(texture) = surface_texture
+                && let Some((surface, gpu)) = self.device.surface()
+            {
+                surface.pre_present_notify();
+                gpu.queue.present(texture);
             }
         });
         let done = self.keep(presented.map(|()| None));

@@ -19,9 +19,8 @@ impl DeviceListener for BackgroundPass {
     fn on_reset(&mut self, gpu: &Gpu) {
         let module = shaders::BACKGROUND.module(&gpu.device);
         let entries = ["vs_background", "fs_background"];
-        let triangles = wgpu::PrimitiveTopology::TriangleList;
         // Blended into the empty picture, so that it writes no depth.
-        self.pipeline = Some(scene_pipeline(gpu, &module, entries, &[], triangles, true));
+        self.pipeline = Some(scene_pipeline(gpu, &module, entries, &[], Default::default(), true));
     }
 }
 

@@ -18,7 +18,8 @@ impl DeviceListener for GridPass {
 
     fn on_reset(&mut self, gpu: &Gpu) {
         let module = shaders::GRID.module(&gpu.device);
-        let strip = wgpu::PrimitiveTopology::TriangleStrip;
+        let topology = wgpu::PrimitiveTopology::TriangleStrip;
+        let strip = wgpu::PrimitiveState { topology, ..Default::default() };
         self.pipeline = Some(scene_pipeline(gpu, &module, ["vs_grid", "fs_grid"], &[], strip, true));
     }
 }

@@ -100,7 +100,7 @@ fn scene_pipeline(
     module: &wgpu::ShaderModule,
     [vertex, fragment]: [&str; 2],
     buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
-    topology: wgpu::PrimitiveTopology,
+    primitive: wgpu::PrimitiveState,
     blend: bool,
 ) -> wgpu::RenderPipeline {
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -112,7 +112,7 @@ fn scene_pipeline(
             compilation_options: Default::default(),
             buffers,
         },
-        primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+        primitive,
         depth_stencil: Some(scene_depth(!blend)),
         multisample: scene_samples(false),
         fragment: Some(wgpu::FragmentState {

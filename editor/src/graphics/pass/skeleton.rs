@@ -46,11 +46,13 @@ impl DeviceListener for SkeletonPass {
                 3 => Float32x3, 4 => Float32, 5 => Float32x3, 6 => Uint32, 7 => Float32x3, 8 => Float32
             ],
         };
-        let list = wgpu::PrimitiveTopology::TriangleList;
+        let without = |face| wgpu::PrimitiveState { cull_mode: Some(face), ..Default::default() };
+        let (inside, outside) = (without(wgpu::Face::Front), without(wgpu::Face::Back));
         let buffers = [Some(corner), Some(bone.clone())];
-        let outline = scene_pipeline(gpu, &module, ["vs_outline", "fs_outline"], &buffers, list, false);
-        let solid = scene_pipeline(gpu, &module, ["vs_bone", "fs_bone"], &buffers, list, false);
-        let line = scene_pipeline(gpu, &module, ["vs_line", "fs_line"], &[Some(bone)], list, true);
+        let outline = scene_pipeline(gpu, &module, ["vs_outline", "fs_outline"], &buffers, inside, false);
+        let solid = scene_pipeline(gpu, &module, ["vs_bone", "fs_bone"], &buffers, outside, false);
+        let line =
+            scene_pipeline(gpu, &module, ["vs_line", "fs_line"], &[Some(bone)], Default::default(), true);
         let bodies = Body::ALL.map(|body| {
             let corners = triangles(body);
             let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
