@@ -6,7 +6,9 @@ mod command_line;
 mod commands;
 mod device_loss;
 mod documents;
+mod faults;
 mod fixture;
+mod fixture_layer;
 mod folder;
 mod graphics_thread;
 mod life;
@@ -22,6 +24,7 @@ mod settings;
 mod shaders;
 mod studio;
 mod viewport_control;
+mod window;
 
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

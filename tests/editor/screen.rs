@@ -13,6 +13,9 @@ use std::time::{Duration, Instant};
 /// Longer than Xvfb takes to start on a busy machine.
 const START: Duration = Duration::from_secs(30);
 
+/// Between two movements of a finger.
+const HAND: Duration = Duration::from_millis(60);
+
 /// A window as the X server numbers it.
 pub(crate) type Window = u32;
 
@@ -95,17 +98,29 @@ impl Screen {
         self.fake(6, 0, x, y);
     }
 
-    /// Presses and releases the left button at a place.
+    /// Presses and releases the left button at a place, as slowly as a quick hand.
     pub(crate) fn click(&mut self, x: i16, y: i16) {
         self.point(x, y);
+        pass(HAND);
         self.fake(4, 1, 0, 0);
+        pass(HAND);
         self.fake(5, 1, 0, 0);
+        pass(HAND);
     }
 
     /// Presses and releases a key.
     pub(crate) fn press(&mut self, key: u8) {
         self.fake(2, key, 0, 0);
+        pass(HAND);
         self.fake(3, key, 0, 0);
+        pass(HAND);
+    }
+
+    /// Gives the window the keyboard; without a window manager nobody else does.
+    pub(crate) fn focus(&mut self, window: Window) {
+        let mut request = vec![42, 2, 3, 0];
+        request.extend(words(&[window, 0]));
+        self.send(&request);
     }
 
     /// Asks the window to close, as a click on its cross does.
@@ -234,6 +249,14 @@ impl Drop for Screen {
             self.keep("last-screen");
         }
         self.kill();
+    }
+}
+
+/// A moment, where time itself is what is meant.
+pub(crate) fn pass(time: Duration) {
+    let end = Instant::now() + time;
+    while let Some(left) = end.checked_duration_since(Instant::now()) {
+        std::thread::park_timeout(left);
     }
 }
 

@@ -12,6 +12,7 @@ mod open;
 mod output;
 mod pose;
 mod progress;
+mod quiet;
 mod render;
 mod table;
 
@@ -47,8 +48,9 @@ Examples:
   dragonfly pose Fox.glb --time 0.5 --json
                                     exact numbers, for other programs
 
-FILE may be `demo:` for the built-in model. Exit codes: 0 done, 1 a difference was found, 2 wrong input,
-3 trouble of the machine. DRAGONFLY_LOG=info (or debug, trace) tells on stderr what the program does.";
+FILE may be `demo:` for the built-in model.
+Exit codes: 0 done, 1 a difference was found, 2 wrong input, 3 trouble of the machine.
+DRAGONFLY_LOG=info (or debug, trace) tells on stderr what the program does.";
 
 /// Opens an animated model, shows it moving, and lets you look inside.
 #[derive(Debug, Parser)]

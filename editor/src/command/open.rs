@@ -1,7 +1,7 @@
 //! `dragonfly [FILE…]`: the editor; where there is no display, a picture instead.
 
 use super::choice::{Size, load, source};
-use super::{Command, Failure, output, render, tell};
+use super::{Command, Failure, output, quiet, render, tell};
 use crate::app::{self, AppError, Options};
 use crate::document::Source;
 use std::env;
@@ -27,6 +27,7 @@ pub(super) struct Arguments {
 impl Command for Arguments {
     fn run(self) -> Result<(), Failure> {
         if !has_display() {
+            quiet::about_wayland();
             return self.draw("DISPLAY and WAYLAND_DISPLAY are not set");
         }
         match app::run(self.options()) {

@@ -170,9 +170,9 @@ impl Pose {
         for bone in &self.bones {
             let pose = Transform::from_matrix(Mat4::from_cols_array(&bone.to_root));
             let (x, y, z) = pose.rotation.to_euler(EulerRot::XYZ);
-            let numbers = pose.translation.to_array().map(|length| format!("{length:.4}"));
-            let angles = [x, y, z].map(|angle| format!("{:.2}°", angle.to_degrees()));
-            let scales = pose.scale.to_array().map(|factor| format!("{factor:.3}"));
+            let numbers = pose.translation.to_array().map(|length| fixed(length, 4));
+            let angles = [x, y, z].map(|angle| fixed(angle.to_degrees(), 2) + "°");
+            let scales = pose.scale.to_array().map(|factor| fixed(factor, 3));
             table.row(std::iter::once(named(&bone.name)).chain(numbers).chain(angles).chain(scales));
         }
         table.write(out)
@@ -192,9 +192,16 @@ impl MeshPose {
             ("z", Side::Right),
         ]);
         for (index, position) in self.positions.iter().enumerate() {
-            let numbers = position.map(|number| format!("{number:.4}"));
+            let numbers = position.map(|number| fixed(number, 4));
             table.row(std::iter::once(index.to_string()).chain(numbers));
         }
         table.write(out)
     }
+}
+
+/// A number with so many digits; a zero has no sign.
+fn fixed(number: f32, digits: usize) -> String {
+    let text = format!("{number:.digits$}");
+    let zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
+    if zero { text.trim_start_matches('-').to_owned() } else { text }
 }

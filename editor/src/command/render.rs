@@ -1,7 +1,7 @@
 //! `dragonfly render FILE -o out.png`: one picture, no window needed.
 
 use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
-use super::{Command, Failure, output, tell};
+use super::{Command, Failure, output, quiet, tell};
 use crate::document::LoadedModel;
 use crate::graphics::{GraphicsError, PictureSettings, render_picture};
 use std::io::Cursor;
@@ -63,6 +63,7 @@ impl Default for View {
 
 impl Command for Arguments {
     fn run(self) -> Result<(), Failure> {
+        quiet::about_wayland();
         let loaded = self.file.load()?;
         for warning in &loaded.warnings {
             tell(format_args!("{}: warning: {}", loaded.title, super::choice::plain(warning)));

@@ -1,0 +1,249 @@
+//! What a driver does once in years, done on purpose: a device lost at any call, memory that is not there, surfaces that
+//! change under us, no driver at all. A Vulkan layer between the program and the real driver does it (`fault_layer/`).
+
+use crate::fixture_layer::{Layer, lines};
+use crate::program::{Folder, data, dragonfly, outcome};
+use crate::screen::Screen;
+use crate::window::{Editor, SOON, alone, rest};
+use dragonfly::document::{Cancel, LoadedModel, Source, load_model};
+use dragonfly::graphics::{PictureSettings, Studio};
+use image::RgbaImage;
+use std::process::Command;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+const DEVICE_LOST: i32 = -4;
+const OUT_OF_HOST_MEMORY: i32 = -1;
+const OUT_OF_DEVICE_MEMORY: i32 = -2;
+const SURFACE_LOST: i32 = -1_000_000_000;
+const OUT_OF_DATE: i32 = -1_000_001_004;
+const SUBOPTIMAL: i32 = 1_000_001_003;
+
+/// Set in a child process of this test file: what it must draw to, and how many pictures.
+const CHILD: &str = "DRAGONFLY_FAULT_CHILD";
+
+fn fox() -> Arc<LoadedModel> {
+    let source = Source::File(data("gltf/Fox.glb"));
+    Arc::new(load_model(&source, &mut |_| (), &Cancel::default()).expect("a good model"))
+}
+
+fn settings() -> PictureSettings {
+    PictureSettings { size: [160, 120], time: 1.0, ..PictureSettings::default() }
+}
+
+/// Not a promise of its own: the part of the tests below that runs in another process, behind the layer.
+#[test]
+fn pictures_drawn_behind_the_layer() {
+    let Ok(reference) = std::env::var(CHILD) else { return };
+    let reference: RgbaImage = image::open(&reference).expect("the picture without faults").into_rgba8();
+    let loaded = fox();
+    let mut studio = Studio::new().expect("a device, also behind the layer");
+    let deadline = Instant::now() + 4 * SOON;
+    let wanted: usize =
+        std::env::var("FAULT_TIMES").ok().and_then(|times| times.parse().ok()).expect("how many faults");
+    let log = std::env::var("FAULT_LOG").expect("where the faults are told");
+    let (mut drawn, mut refused, mut slowest) = (0, 0, Duration::ZERO);
+    let mut since_fault = Instant::now();
+    // Some more after the last fault, to see that all is well again.
+    let mut after = 0;
+    while after < 3 {
+        assert!(Instant::now() < deadline, "{drawn} drawn, {refused} refused, {} faults", lines(&log));
+        studio.stage().resume();
+        match studio.render(&loaded, &settings()) {
+            Ok(picture) => {
+                assert!(picture == reference, "picture {drawn} is another than without faults");
+                slowest = slowest.max(since_fault.elapsed());
+                since_fault = Instant::now();
+                drawn += 1;
+            }
+            Err(error) => {
+                assert!(!error.to_string().is_empty());
+                refused += 1;
+            }
+        }
+        after = if lines(&log) >= wanted { after + 1 } else { 0 };
+    }
+    println!("{drawn} pictures, {refused} refused, longest wait for one {slowest:?}");
+    assert!(slowest < Duration::from_secs(2) * slowness(), "a picture came back only after {slowest:?}");
+}
+
+/// How much longer than on an idle machine things may take: tests share their two cores with each other.
+fn slowness() -> u32 {
+    5
+}
+
+/// Draws in a child process while the layer makes `call` return `result`.
+#[track_caller]
+fn draw_through(name: &str, call: &str, result: i32, times: usize, more: &[(&str, &str)]) {
+    let layer = Layer::new(name);
+    let reference = layer.folder.join("reference.png");
+    let mut studio = Studio::new().expect("a device");
+    studio.render(&fox(), &settings()).expect("a picture").save(&reference).expect("a file");
+    let output = Command::new(std::env::current_exe().expect("a running test has a file"))
+        .args(["faults::pictures_drawn_behind_the_layer", "--exact", "--nocapture", "--test-threads=1"])
+        .env(CHILD, &reference)
+        .envs(layer.environment(call, result, times))
+        .envs(more.iter().copied())
+        .output()
+        .expect("the test's own file can be started");
+    let said =
+        format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success() && said.contains("1 passed"),
+        "{call} {result}: {}\n{said}",
+        output.status
+    );
+    assert_eq!(layer.faults(), times, "{call}: as many faults as asked for\n{said}");
+    println!("{call} {result}: {}", said.lines().find(|line| line.contains("pictures")).unwrap_or(""));
+}
+
+#[test]
+fn a_device_lost_at_any_submit_gives_the_same_picture_again() {
+    let _one = alone();
+    draw_through("submit", "submit", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
+}
+
+#[test]
+fn a_device_lost_at_any_wait_gives_the_same_picture_again() {
+    let _one = alone();
+    draw_through("wait", "wait", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
+}
+
+#[test]
+fn memory_that_runs_out_is_an_error_and_no_crash() {
+    let _one = alone();
+    // The first allocation of a device, the second, … up to the hundredth, while there are so many.
+    let layer = Layer::new("memory");
+    let mut finished = false;
+    for (result, step) in [(OUT_OF_DEVICE_MEMORY, 1), (OUT_OF_HOST_MEMORY, 3)] {
+        for at in (1..=100).step_by(step) {
+            let file = layer.folder.join("picture.png");
+            let mut command = dragonfly(["render", "demo:", "--size", "64x64", "-o"]);
+            command.arg(&file).envs(layer.environment("allocate", result, 1)).env("FAULT_AT", at.to_string());
+            let outcome = outcome(&mut command);
+            assert!(
+                matches!(outcome.code, Some(0 | 3)),
+                "allocation {at}: {:?}\n{}",
+                outcome.code,
+                outcome.stderr
+            );
+            assert!(
+                !outcome.stderr.contains("a mistake in the program"),
+                "allocation {at}: {}",
+                outcome.stderr
+            );
+            if outcome.code == Some(0) {
+                image::open(&file).expect("what is written is a picture");
+            }
+            if layer.faults() == 0 {
+                // There is no such allocation any more: all of them were tried.
+                finished = true;
+                break;
+            }
+            layer.forget();
+        }
+    }
+    assert!(finished, "more than a hundred allocations");
+}
+
+/// The window program behind the layer, until all faults have come; then it must show what it shows without.
+#[track_caller]
+fn show_through(name: &str, cases: &[(&str, i32, usize, &str)]) {
+    const SIZE: (u32, u32) = (640, 480);
+    const PART: [u32; 4] = [250, 60, 180, 180];
+    let mut screen = Screen::new(name, SIZE.0, SIZE.1);
+    let whole = {
+        let mut editor = Editor::open(&mut screen, &[], &[]);
+        screen.resize(editor.window, SIZE.0, SIZE.1);
+        let whole = rest(&mut screen, PART);
+        screen.close(editor.window);
+        assert_eq!(editor.ends(SOON).code(), Some(0));
+        whole
+    };
+    for &(call, result, times, climb) in cases {
+        let layer = Layer::new(name);
+        let mut environment = layer.environment(call, result, times);
+        environment.push(("FAULT_CLIMB".to_owned(), climb.to_owned()));
+        let environment: Vec<(&str, &str)> =
+            environment.iter().map(|(name, value)| (&**name, &**value)).collect();
+        let began = Instant::now();
+        let mut editor = Editor::open(&mut screen, &["--never-pause"], &environment);
+        screen.resize(editor.window, SIZE.0, SIZE.1);
+        dragonfly_kit::eventually(5 * SOON, || layer.faults() >= times);
+        assert_eq!(
+            rest(&mut screen, PART),
+            whole,
+            "after {times} times {call} {result} the picture is another"
+        );
+        screen.close(editor.window);
+        assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+        println!("{call} {result} × {times}: {:?}", began.elapsed());
+    }
+}
+
+#[test]
+fn a_device_lost_while_an_image_of_the_window_is_asked_for_comes_back() {
+    let _one = alone();
+    show_through("acquire", &[("acquire", DEVICE_LOST, 50, "1")]);
+}
+
+#[test]
+fn a_device_lost_while_an_image_is_shown_comes_back() {
+    let _one = alone();
+    show_through("present", &[("present", DEVICE_LOST, 50, "1")]);
+}
+
+#[test]
+fn a_surface_that_is_lost_outdated_or_unfit_is_made_anew() {
+    let _one = alone();
+    let kinds: Vec<(&str, i32, usize, &str)> = ["acquire", "present"]
+        .into_iter()
+        .flat_map(|call| [SURFACE_LOST, OUT_OF_DATE, SUBOPTIMAL].map(|result| (call, result, 20, "0")))
+        .collect();
+    show_through("surface", &kinds);
+}
+
+#[test]
+fn without_any_driver_there_is_a_message_and_what_needs_none_works() {
+    let folder = Folder::new("driverless");
+    let without = |arguments: &[&str]| {
+        let mut command = dragonfly(arguments);
+        command.current_dir(folder.path());
+        for variable in ["VK_ICD_FILENAMES", "VK_DRIVER_FILES"] {
+            command.env(variable, "/nonexistent");
+        }
+        outcome(&mut command)
+    };
+    for arguments in [&["render", "demo:", "-o", "x.png"][..], &[][..]] {
+        let outcome = without(arguments).expect(3);
+        assert!(outcome.took < Duration::from_secs(3) * slowness(), "{:?}", outcome.took);
+        assert!(outcome.stderr.contains("mesa-vulkan-drivers"), "{}", outcome.stderr);
+    }
+    without(&["info", "demo:"]).expect(0);
+    without(&["pose", "demo:", "--time", "0.5", "--vertices", "1"]).expect(0);
+    without(&["demo", "-o", "model.glb"]).expect(0);
+}
+
+#[test]
+fn a_window_without_any_driver_says_so_and_ends() {
+    let _one = alone();
+    let screen = Screen::new("driverless-window", 640, 480);
+    let mut command = dragonfly(["demo:"]);
+    command
+        .env("DISPLAY", screen.display())
+        .env("VK_ICD_FILENAMES", "/nonexistent")
+        .env("VK_DRIVER_FILES", "/nonexistent");
+    let outcome = outcome(&mut command).expect(3);
+    assert!(outcome.stderr.contains("mesa-vulkan-drivers"), "{}", outcome.stderr);
+    assert!(outcome.took < Duration::from_secs(3) * slowness(), "{:?}", outcome.took);
+}
+
+#[test]
+fn a_display_that_does_not_answer_is_no_display() {
+    let folder = Folder::new("deaf");
+    let mut command = dragonfly::<&str>([]);
+    command.env("DISPLAY", ":65432").current_dir(folder.path());
+    let outcome = outcome(&mut command).expect(0);
+    assert!(outcome.stderr.contains("no display"), "{}", outcome.stderr);
+    assert!(folder.join("dragonfly.png").exists());
+}

@@ -1,0 +1,277 @@
+//! The whole program as a person meets it: a real window on a screen of our own, driven by keys and mouse.
+
+use crate::program::{Folder, data, dragonfly, wait};
+use crate::screen::{Screen, Window, key, pass};
+use image::RgbaImage;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Longer than anything takes on a busy machine whose processor draws.
+pub(crate) const SOON: Duration = Duration::from_secs(60);
+
+/// The middle of the viewport of a window of 1280 × 720: left, top, width, height.
+const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
+
+/// Where on the ruler of Fox's first take 0.67 and 2.00 seconds are, and the button that plays and pauses.
+const EARLY: (i16, i16) = (330, 604);
+const LATE: (i16, i16) = (780, 604);
+const PLAY: (i16, i16) = (124, 578);
+
+/// One window at a time: two of them on two cores only make each other late.
+static ONE: Mutex<()> = Mutex::new(());
+
+pub(crate) fn alone() -> MutexGuard<'static, ()> {
+    ONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The editor on a screen.
+pub(crate) struct Editor {
+    child: Child,
+    said: Receiver<String>,
+    pub(crate) lines: Vec<String>,
+    pub(crate) window: Window,
+    _settings: Folder,
+}
+
+impl Editor {
+    /// Starts it with Fox, and waits until the model is there.
+    pub(crate) fn open(screen: &mut Screen, arguments: &[&str], environment: &[(&str, &str)]) -> Self {
+        let settings = Folder::new(&format!("settings{}", screen.display().replace(':', "-")));
+        let mut child = dragonfly(arguments)
+            .arg("--settings")
+            .arg(settings.path())
+            .arg(data("gltf/Fox.glb"))
+            .env("DISPLAY", screen.display())
+            .env("XDG_RUNTIME_DIR", settings.path())
+            .env("DRAGONFLY_LOG", "error,dragonfly=info")
+            .envs(environment.iter().copied())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let (sender, said) = channel();
+        let stderr = BufReader::new(child.stderr.take().expect("piped"));
+        let read = move || stderr.lines().map_while(Result::ok).try_for_each(|line| sender.send(line));
+        std::thread::Builder::new().name("reader".to_owned()).spawn(read).expect("a thread");
+        let mut editor = Self { child, said, lines: Vec::new(), window: 0, _settings: settings };
+        editor.hears("Opened Fox.glb", 1, SOON);
+        editor.window = screen.window("Fox.glb", SOON);
+        screen.focus(editor.window);
+        editor
+    }
+
+    /// Waits until lines of its log held `word` so many times.
+    #[track_caller]
+    pub(crate) fn hears(&mut self, word: &str, times: usize, limit: Duration) {
+        let deadline = Instant::now() + limit;
+        loop {
+            let count = self.lines.iter().filter(|line| line.contains(word)).count();
+            if count >= times {
+                return;
+            }
+            match self.said.recv_timeout(deadline.saturating_duration_since(Instant::now())) {
+                Ok(line) => self.lines.push(line),
+                Err(RecvTimeoutError::Timeout) => {
+                    panic!("\"{word}\" was said {count} of {times} times within {limit:?}:\n{}", self.log());
+                }
+                Err(RecvTimeoutError::Disconnected) => panic!("the program ended:\n{}", self.log()),
+            }
+        }
+    }
+
+    pub(crate) fn log(&mut self) -> String {
+        self.lines.extend(self.said.try_iter());
+        self.lines.join("\n")
+    }
+
+    /// Waits for its end, by itself.
+    #[track_caller]
+    pub(crate) fn ends(&mut self, limit: Duration) -> ExitStatus {
+        let status = wait(&mut self.child, limit);
+        // Until the reader has read the last line.
+        while let Ok(line) = self.said.recv() {
+            self.lines.push(line);
+        }
+        status
+    }
+
+    /// Processor time used so far, in hundredths of a second.
+    fn processor_time(&self) -> u64 {
+        let stat =
+            std::fs::read_to_string(format!("/proc/{}/stat", self.child.id())).expect("a running process");
+        let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or("").split_whitespace().collect();
+        fields[11].parse::<u64>().expect("a number") + fields[12].parse::<u64>().expect("a number")
+    }
+}
+
+impl Drop for Editor {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        if std::thread::panicking() {
+            eprintln!("what the editor said:\n{}", self.log());
+        }
+    }
+}
+
+/// What a part of the screen shows once it does not change any more.
+#[track_caller]
+pub(crate) fn settled(screen: &Screen, part: [u32; 4]) -> RgbaImage {
+    let deadline = Instant::now() + SOON;
+    let mut last = screen.part(part);
+    let mut since = Instant::now();
+    while since.elapsed() < Duration::from_millis(900) {
+        if Instant::now() > deadline {
+            screen.keep("restless");
+            panic!("the picture did not come to rest within {SOON:?}");
+        }
+        pass(Duration::from_millis(100));
+        let now = screen.part(part);
+        if now != last {
+            (last, since) = (now, Instant::now());
+        }
+    }
+    last
+}
+
+/// How many different colours there are: a blank or broken picture has few.
+fn colours(picture: &RgbaImage) -> usize {
+    picture.pixels().collect::<std::collections::HashSet<_>>().len()
+}
+
+#[track_caller]
+fn eventually_shows_something(screen: &Screen) {
+    let deadline = Instant::now() + SOON;
+    while colours(&screen.part(VIEWPORT)) < 200 {
+        if Instant::now() > deadline {
+            screen.keep("nothing");
+            panic!("the viewport shows nothing");
+        }
+        pass(Duration::from_millis(100));
+    }
+}
+
+/// Pauses and goes to the first frame with the keyboard.
+pub(crate) fn rest(screen: &mut Screen, part: [u32; 4]) -> RgbaImage {
+    screen.press(key::SPACE);
+    screen.press(key::HOME);
+    settled(screen, part)
+}
+
+#[test]
+fn a_model_opens_moves_is_scrubbed_rests_and_closes_in_order() {
+    let _one = alone();
+    let mut screen = Screen::new("life", 1280, 800);
+    let mut editor = Editor::open(&mut screen, &[], &[]);
+    eventually_shows_something(&screen);
+
+    // It moves by itself.
+    let before = screen.part(VIEWPORT);
+    pass(Duration::from_millis(500));
+    assert_ne!(before, screen.part(VIEWPORT), "two pictures half a second apart are the same");
+
+    // A click on the timeline moves the pose, to the same one each time.
+    screen.click(PLAY.0, PLAY.1);
+    screen.click(LATE.0, LATE.1);
+    let late = settled(&screen, VIEWPORT);
+    screen.click(EARLY.0, EARLY.1);
+    let early = settled(&screen, VIEWPORT);
+    assert_ne!(late, early, "a click on the timeline did not move the pose");
+    screen.click(LATE.0, LATE.1);
+    assert_eq!(settled(&screen, VIEWPORT), late, "the same time shows another pose");
+
+    // At rest it costs nothing.
+    let used = editor.processor_time();
+    pass(Duration::from_secs(2));
+    let used = editor.processor_time() - used;
+    assert!(used < 10, "{used} hundredths of a second of work in two seconds of rest");
+
+    // It leaves when asked, quickly, in order, without complaint.
+    screen.close(editor.window);
+    let asked = Instant::now();
+    let status = editor.ends(Duration::from_secs(20));
+    assert!(asked.elapsed() < Duration::from_secs(2), "closing took {:?}", asked.elapsed());
+    assert_eq!(status.code(), Some(0), "{}", editor.log());
+    let log = editor.log();
+    let complaints: Vec<&str> =
+        log.lines().filter(|line| line.contains("WARN") || line.contains("ERROR")).collect();
+    assert!(complaints.is_empty(), "{complaints:?}");
+    let steps: Vec<usize> = log
+        .lines()
+        .filter(|line| line.contains("dragonfly::timeline"))
+        .filter_map(|line| line.split("step=").nth(1)?.split_whitespace().next()?.parse().ok())
+        .collect();
+    assert_eq!(steps, (1..=11).collect::<Vec<_>>(), "the steps of start and stop\n{log}");
+}
+
+#[test]
+fn a_hundred_losses_of_the_device_lose_nothing() {
+    let _one = alone();
+    let mut screen = Screen::new("losses", 1280, 800);
+    let whole = {
+        let mut editor = Editor::open(&mut screen, &[], &[]);
+        eventually_shows_something(&screen);
+        let whole = rest(&mut screen, VIEWPORT);
+        screen.close(editor.window);
+        assert_eq!(editor.ends(SOON).code(), Some(0));
+        whole
+    };
+    let mut editor = Editor::open(&mut screen, &["--lose-device", "1"], &[]);
+    editor.hears("the graphics device was lost", 100, 4 * SOON);
+    assert_eq!(rest(&mut screen, VIEWPORT), whole, "after a hundred losses the picture is another");
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+}
+
+#[test]
+fn a_window_of_any_size_hidden_and_shown_again_goes_on() {
+    let _one = alone();
+    let mut screen = Screen::new("sizes", 1280, 800);
+    let mut editor = Editor::open(&mut screen, &[], &[]);
+    eventually_shows_something(&screen);
+    let whole = rest(&mut screen, VIEWPORT);
+    let seed = dragonfly_kit::random::seed(7);
+    println!("DRAGONFLY_SEED={seed}");
+    let mut random = dragonfly_kit::random::Random::new(seed);
+    for step in 0..1000 {
+        let (width, height) = match step % 50 {
+            0 => (1, 1),
+            10 => (16_384, 2),
+            20 => (2, 16_384),
+            _ => (1 + random.below(1500) as u32, 1 + random.below(1000) as u32),
+        };
+        screen.resize(editor.window, width, height);
+        if step % 40 == 7 {
+            screen.show(editor.window, false);
+            screen.show(editor.window, true);
+        }
+        // Now and then it has the time to draw in the size it has.
+        if step % 20 == 19 {
+            pass(Duration::from_millis(60));
+        }
+    }
+    screen.show(editor.window, true);
+    screen.resize(editor.window, 1280, 720);
+    assert_eq!(settled(&screen, VIEWPORT), whole, "after many sizes the picture is another");
+    screen.focus(editor.window);
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+    assert!(!editor.log().contains("ERROR"), "{}", editor.log());
+}
+
+#[test]
+fn a_window_or_a_screen_that_goes_away_ends_the_program_and_does_not_crash_it() {
+    let _one = alone();
+    let mut screen = Screen::new("gone", 1280, 800);
+    let mut editor = Editor::open(&mut screen, &[], &[]);
+    screen.destroy(editor.window);
+    let status = editor.ends(SOON);
+    assert!(matches!(status.code(), Some(0 | 3)), "{status}: {}", editor.log());
+    let mut editor = Editor::open(&mut screen, &[], &[]);
+    screen.kill();
+    let status = editor.ends(SOON);
+    assert!(matches!(status.code(), Some(0 | 3)), "{status}: {}", editor.log());
+}
