@@ -11,10 +11,12 @@ use glam::{Mat4, Vec2, Vec3, Vec4Swizzles};
 /// A pointer may miss by so many pixels.
 const REACH: f32 = 10.0;
 
-/// The bone at a pixel of the window, in the pose that `scene` prepared last; `None` where bones are not shown.
+/// The bone at a pixel of the window, in the pose that `scene` prepared last.
+///
+/// Bones that are not drawn are met all the same: a click on a leg means the bone inside it.
 pub fn pick(scene: &Scene, position: [f32; 2]) -> Option<BoneIndex> {
     let (ray, pixel) = scene.ray(position)?;
-    let shape = scene.model().filter(|_| scene.look.skeleton)?.shape();
+    let shape = scene.model()?.shape();
     hit(shape, &ray).or_else(|| nearest(scene, shape, pixel))
 }
 

@@ -264,6 +264,8 @@ pub fn text(shortcut: &KeyboardShortcut) -> String {
 ///
 /// Held keys repeat only where that is wanted: stepping through time.
 pub fn pressed(context: &egui::Context) -> Vec<Id> {
+    // Escape closes what is open first.
+    let open = context.any_popup_open();
     let typing = context.text_edit_focused();
     let focused = context.memory(|memory| memory.focused().is_some());
     let mut found = Vec::new();
@@ -277,6 +279,9 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
                 && !(function || modifiers.command && matches!(key, Key::O | Key::P | Key::Q | Key::F)))
                 || (focused && plain && matches!(key, Key::Space | Key::Enter | Key::Tab | Key::Escape))
             {
+                return true;
+            }
+            if open && *key == Key::Escape {
                 return true;
             }
             let hit = ALL.iter().find(|command| {

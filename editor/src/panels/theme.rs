@@ -113,7 +113,7 @@ pub const LIGHT: Theme = Theme {
     key: Color32::from_rgb(84, 100, 96),
     glass: Color32::from_rgba_premultiplied(238, 241, 240, 240),
     glass_line: Color32::from_rgba_premultiplied(200, 208, 206, 255),
-    sky: [Color32::from_rgb(232, 237, 238), Color32::from_rgb(190, 199, 201)],
+    sky: [Color32::from_rgb(216, 223, 224), Color32::from_rgb(184, 194, 196)],
     grid: Color32::from_rgb(128, 140, 142),
     bone: Color32::from_rgb(72, 82, 84),
     shadow: Color32::from_rgba_premultiplied(0, 0, 0, 50),
