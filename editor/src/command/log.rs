@@ -6,8 +6,9 @@ use tracing_subscriber::EnvFilter;
 /// Chooses how much is told.
 const VARIABLE: &str = "DRAGONFLY_LOG";
 
-/// Warnings of this program; of the libraries below it only errors, as theirs mean little to a person.
-const USUAL: &str = "error,dragonfly=warn,dragonfly_runtime=warn,dragonfly_anim=warn";
+/// Warnings of this program; of the libraries below it only errors, as theirs mean little to a person. What the driver
+/// says comes back as errors of our own, with what to do about it.
+const USUAL: &str = "error,wgpu_hal=off,dragonfly=warn,dragonfly_runtime=warn,dragonfly_anim=warn";
 
 /// Sends what is traced to stderr. Does nothing when somebody already listens.
 pub(super) fn start() {

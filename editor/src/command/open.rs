@@ -33,10 +33,7 @@ impl Command for Arguments {
         match app::run(self.options()) {
             Ok(()) => Ok(()),
             Err(AppError::Display(reason)) => self.draw(&reason),
-            Err(error @ AppError::Graphics(_)) => {
-                let hint = "`dragonfly info` and `dragonfly pose` need no graphics";
-                Err(Failure::Machine(format!("{error}; {hint}")))
-            }
+            Err(AppError::Graphics(reason)) => Err(render::no_graphics(&reason)),
             Err(error) => Err(Failure::Machine(error.to_string())),
         }
     }

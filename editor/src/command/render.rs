@@ -100,7 +100,7 @@ pub(super) fn draw(
     };
     let picture = render_picture(&Arc::new(loaded), &settings).map_err(|error| match error {
         GraphicsError::PictureSize { .. } => Failure::input("--size", error),
-        other => machine(&other),
+        other => no_graphics(&other.to_string()),
     })?;
     let mut png = Vec::new();
     picture
@@ -110,7 +110,8 @@ pub(super) fn draw(
 }
 
 /// What a person without graphics can do about it.
-pub(super) fn machine(error: &GraphicsError) -> Failure {
-    let hint = "`dragonfly info` and `dragonfly pose` need no graphics";
-    Failure::Machine(format!("{error}; {hint}"))
+pub(super) fn no_graphics(reason: &str) -> Failure {
+    let driver = "a Vulkan driver (Debian: mesa-vulkan-drivers)";
+    let install = if reason.contains("driver") { String::new() } else { format!("; is there {driver}?") };
+    Failure::Machine(format!("{reason}{install}; `dragonfly info` and `dragonfly pose` need no graphics"))
 }
