@@ -12,7 +12,7 @@ use glam::{Mat4, Vec3};
 /// Thickness over length of a bone.
 const SLIMNESS: f32 = 0.1;
 /// Thinnest and thickest bone, relative to the whole skeleton.
-const THICKNESS: [f32; 2] = [0.0028, 0.024];
+const THICKNESS: [f32; 2] = [0.0028, 0.02];
 /// A last bone is so long, relative to the bone before it.
 const LAST_BONE: f32 = 0.45;
 
@@ -112,14 +112,11 @@ impl SkeletonShape {
         shape
     }
 
-    /// Places the bodies for a pose. Allocates nothing.
+    /// Places the bodies for a pose, shown or not: hidden bones can be picked too. Allocates nothing.
     pub fn place(&mut self, to_root: &[Mat4], look: &Look) {
         self.instances.iter_mut().for_each(Vec::clear);
         self.owners.iter_mut().for_each(Vec::clear);
         self.thickness.fill(0.0);
-        if !look.skeleton {
-            return;
-        }
         for index in 0..self.links.len() {
             let link = self.links[index];
             let Some(matrix) = to_root.get(link.bone as usize) else { continue };

@@ -76,7 +76,8 @@ impl Pass for SkeletonPass {
     }
 
     fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
-        let (Some(resources), Some(model)) = (&mut self.resources, around.scene.model()) else { return };
+        let model = around.scene.model().filter(|_| around.scene.look.skeleton);
+        let (Some(resources), Some(model)) = (&mut self.resources, model) else { return };
         for (body, buffer) in Body::ALL.into_iter().zip(&mut resources.instances) {
             let bytes: &[u8] = bytemuck::cast_slice(model.shape().instances(body));
             if bytes.is_empty() {
