@@ -59,6 +59,7 @@ impl Playback {
         };
         let (start, length) = (f64::from(self.start), f64::from(self.length));
         // Also catches a length that is not a number: nothing to move in.
+        #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "the negation is how NaN is caught")]
         if !(length > 0.0) {
             return self.start;
         }
