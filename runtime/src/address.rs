@@ -1,12 +1,11 @@
 //! Where to send a message: typed, cheap to clone, never waiting.
 
-use crate::mailbox::{Content, Latest};
+use crate::mailbox::Content;
 use crate::object::short_type_name;
+use crate::register::Data;
 use crate::shared::Shared;
 use crate::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use crate::sync::{Queue, planted};
-use std::any::Any;
-use std::collections::VecDeque;
 use std::fmt;
 use std::sync::Arc;
 
@@ -121,14 +120,8 @@ impl<M: Send + 'static> Address<M> {
     }
 
     fn post(&self, message: M, permit: Option<Permit>) -> Result<(), SendError<M>> {
-        let content = Content::Message {
-            to: self.receiver,
-            type_name: short_type_name::<M>(),
-            data: Box::new(message),
-            permit,
-        };
-        self.thread.send(content).map_err(|content| {
-            let Content::Message { data, .. } = content else {
+        self.put(Content::Message(Box::new(message), permit)).map_err(|content| {
+            let Content::Message(data, _) = content else {
                 unreachable!("what comes back is what was sent");
             };
             let message = data.downcast().expect("the type it had above");
@@ -136,16 +129,23 @@ impl<M: Send + 'static> Address<M> {
         })
     }
 
+    fn put(&self, content: Content) -> Result<(), Content> {
+        self.thread.send(self.receiver, short_type_name::<M>(), content)
+    }
+
     fn replace(&self, slot: &Arc<Slot<M>>, message: M) -> Result<(), SendError<M>> {
         if self.is_stopped() {
             return Err(SendError::Stopped(message));
         }
-        slot.put(message);
+        let old: Vec<M> = slot.waiting.drain().collect();
+        slot.waiting.push(message);
+        self.thread.tallies.replaced.add(old.len());
         if slot.announced.swap(true, Ordering::SeqCst) {
             return Ok(()); // A place in the queue is held already; the newest will be taken there.
         }
-        let place = Content::Latest { to: self.receiver, slot: Arc::clone(slot) as Arc<dyn Latest> };
-        match self.thread.send(place) {
+        let theirs = Arc::clone(slot);
+        let take = move || theirs.take_newest().map(|message| Box::new(message) as Data);
+        match self.put(Content::Latest(Box::new(take))) {
             Ok(()) => Ok(()),
             // When it is not there, a newer one replaced it, and that one's sender will be told.
             Err(_) => slot.take_newest().map_or(Ok(()), |newest| Err(SendError::Stopped(newest))),
@@ -218,40 +218,17 @@ struct Slot<M> {
     announced: AtomicBool,
 }
 
-impl<M: Send> Slot<M> {
-    /// Puts `message` in the place of what waits.
-    fn put(&self, message: M) {
-        let mut old = VecDeque::new();
-        self.waiting.drain(&mut old);
-        self.waiting.push(message);
-        self.thread.tallies.replaced.add(old.len());
-    }
-
+impl<M> Slot<M> {
     /// First the announcement is taken back, then the message: whoever puts one in between
     /// announces it anew. The other way round its message would wait for ever.
     fn take_newest(&self) -> Option<M> {
-        let mut waiting = VecDeque::new();
-        if planted("announced_too_long") {
-            self.waiting.drain(&mut waiting);
-            self.announced.swap(false, Ordering::SeqCst);
-        } else {
-            self.announced.swap(false, Ordering::SeqCst);
-            self.waiting.drain(&mut waiting);
-        }
+        let early = planted("announced_too_long").then(|| self.waiting.drain());
+        self.announced.swap(false, Ordering::SeqCst);
+        let mut waiting: Vec<M> = early.unwrap_or_else(|| self.waiting.drain()).collect();
         // Two senders at once may both have found it empty; then two are here.
-        let newest = waiting.pop_back();
+        let newest = waiting.pop();
         self.thread.tallies.replaced.add(waiting.len());
         newest
-    }
-}
-
-impl<M: Send + 'static> Latest for Slot<M> {
-    fn take(&self) -> Option<Box<dyn Any + Send>> {
-        self.take_newest().map(|message| Box::new(message) as Box<dyn Any + Send>)
-    }
-
-    fn type_name(&self) -> &'static str {
-        short_type_name::<M>()
     }
 }
 

@@ -10,31 +10,26 @@ pub(crate) enum Clock {
     /// The system's monotonic clock.
     Real,
     /// Stands still until a [`Stage`](crate::Stage) turns it.
-    Manual(Arc<Manual>),
-}
-
-pub(crate) struct Manual {
-    start: Instant,
-    nanos: AtomicU64,
+    Manual { start: Instant, nanos: Arc<AtomicU64> },
 }
 
 impl Clock {
     pub(crate) fn manual() -> Self {
-        Self::Manual(Arc::new(Manual { start: Instant::now(), nanos: AtomicU64::new(0) }))
+        Self::Manual { start: Instant::now(), nanos: Arc::default() }
     }
 
     pub(crate) fn now(&self) -> Instant {
         match self {
             Self::Real => Instant::now(),
-            Self::Manual(manual) => manual.start + Duration::from_nanos(manual.nanos.load(Ordering::Acquire)),
+            Self::Manual { start, nanos } => *start + Duration::from_nanos(nanos.load(Ordering::Acquire)),
         }
     }
 
     /// Turns a manual clock forward; a real one goes on by itself. 584 years at most.
     pub(crate) fn advance(&self, by: Duration) {
-        if let Self::Manual(manual) = self {
-            let nanos = u64::try_from(by.as_nanos()).unwrap_or(u64::MAX);
-            manual.nanos.fetch_add(nanos, Ordering::Release);
+        if let Self::Manual { nanos, .. } = self {
+            let by = u64::try_from(by.as_nanos()).unwrap_or(u64::MAX);
+            nanos.fetch_add(by, Ordering::Release);
         }
     }
 }

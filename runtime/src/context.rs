@@ -2,13 +2,12 @@
 
 use crate::handle::ThreadHandle;
 use crate::mailbox::Envelope;
-use crate::object::AnyReceiver;
-use crate::register::{Factory, Kind, LAST, Register, Slot, WorkerId};
+use crate::register::{Factory, LAST, Label, Object, RUN, Register, Slot, WORKER, WorkerId};
 use crate::shared::Shared;
-use crate::trace::{Record, Trace};
+use crate::trace::Trace;
 use crate::watchdog::Watched;
-use crate::{Address, Fault, Receiver, Timer, Worker};
-use std::collections::{BTreeMap, VecDeque};
+use crate::{Address, Fault, Receiver, Timer, TraceSnapshot, Worker};
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -20,19 +19,14 @@ use std::time::{Duration, Instant};
 /// iteration, so an iteration always ends.
 pub struct Context {
     pub(crate) handle: ThreadHandle,
-    pub(crate) workers: Register<dyn Worker>,
-    pub(crate) receivers: Register<dyn AnyReceiver>,
+    pub(crate) objects: Register,
     /// Taken from the mailbox, not yet delivered; rests here while the thread sleeps or pauses.
     pub(crate) batch: VecDeque<Envelope>,
-    /// The number of the object being called; 0 for none.
-    pub(crate) running: u32,
     pub(crate) again: bool,
     pub(crate) stopped: bool,
-    pub(crate) finished: bool,
     pub(crate) sleep_until: Option<Instant>,
     /// One for each object at most. Few, so a list is quicker than a map, and keeps its memory.
     pub(crate) alarms: Vec<(u32, Instant)>,
-    pub(crate) calls: u32,
     pub(crate) observer: Option<Observer>,
     pub(crate) trace: Option<Trace>,
     pub(crate) watchers: Vec<Address<Watched>>,
@@ -44,17 +38,13 @@ type Observer = Box<dyn FnMut(&Fault)>;
 impl Context {
     pub(crate) fn new(shared: Arc<Shared>) -> Self {
         Self {
-            handle: ThreadHandle::new(shared),
-            workers: BTreeMap::new(),
-            receivers: BTreeMap::new(),
+            handle: ThreadHandle { shared },
+            objects: Register::new(),
             batch: VecDeque::new(),
-            running: 0,
             again: false,
             stopped: false,
-            finished: false,
             sleep_until: None,
             alarms: Vec::new(),
-            calls: 0,
             observer: None,
             trace: None,
             watchers: Vec::new(),
@@ -78,8 +68,8 @@ impl Context {
 
     /// Adds `worker` behind the others, but before those that stay last.
     pub fn register_worker(&mut self, worker: impl Worker) -> WorkerId {
-        let id = self.shared().new_id();
-        self.insert::<dyn Worker>(id, Box::new(worker), None);
+        let id = self.shared().new_id() | WORKER;
+        self.insert(id, Object::worker(worker), None);
         WorkerId(id)
     }
 
@@ -87,7 +77,7 @@ impl Context {
     /// registration order counts.
     pub fn register_last_worker(&mut self, worker: impl Worker) -> WorkerId {
         let id = self.shared().new_id() | LAST;
-        self.insert::<dyn Worker>(id, Box::new(worker), None);
+        self.insert(id, Object::worker(worker), None);
         WorkerId(id)
     }
 
@@ -97,8 +87,8 @@ impl Context {
         &mut self,
         mut make: impl FnMut(&mut Context) -> W + 'static,
     ) -> WorkerId {
-        let id = self.shared().new_id();
-        self.insert_made::<dyn Worker>(id, Box::new(move |thread| Box::new(make(thread))));
+        let id = self.shared().new_id() | WORKER;
+        self.insert_made(id, move |thread| Object::worker(make(thread)));
         WorkerId(id)
     }
 
@@ -116,32 +106,28 @@ impl Context {
     /// When the address belongs to another thread.
     pub fn register_receiver_at<R: Receiver>(&mut self, address: &Address<R::Message>, receiver: R) {
         address.check_thread(self.shared());
-        self.insert::<dyn AnyReceiver>(address.receiver, Box::new(receiver), None);
+        self.insert(address.receiver, Object::receiver(receiver), None);
     }
 
-    /// Adds the receiver that `make` makes, and has it made anew, at the same address, when it
-    /// panics: at most [`RESTARTS`](crate::RESTARTS) times in
+    /// Adds the receiver that `make` makes at an address that was reserved before, and has it made
+    /// anew when it panics: at most [`RESTARTS`](crate::RESTARTS) times in
     /// [`RESTART_WINDOW`](crate::RESTART_WINDOW). Only the message that it panicked with is lost.
-    pub fn register_restartable_receiver<R: Receiver>(
+    ///
+    /// # Panics
+    /// When the address belongs to another thread.
+    pub fn register_restartable_receiver_at<R: Receiver>(
         &mut self,
+        address: &Address<R::Message>,
         mut make: impl FnMut(&mut Context) -> R + 'static,
-    ) -> Address<R::Message> {
-        let address = self.handle.reserve_address();
-        let factory = Box::new(move |thread: &mut Context| Box::new(make(thread)) as Box<dyn AnyReceiver>);
-        self.insert_made(address.receiver, factory);
-        address
-    }
-
-    /// Puts the object that `factory` makes in its place, with the factory beside it.
-    pub(crate) fn insert_made<T: Kind + ?Sized>(&mut self, id: u32, mut factory: Factory<T>) {
-        let first = factory(self);
-        self.insert(id, first, Some(factory));
+    ) {
+        address.check_thread(self.shared());
+        self.insert_made(address.receiver, move |thread| Object::receiver(make(thread)));
     }
 
     /// Removes and drops a worker; `false` when there is none of that number.
     /// A worker that removes itself is dropped when its call returns.
     pub fn unregister_worker(&mut self, id: WorkerId) -> bool {
-        self.remove::<dyn Worker>(id.0)
+        self.remove(id.0)
     }
 
     /// Removes and drops a receiver; `false` when there is none at that address. What is queued
@@ -151,7 +137,7 @@ impl Context {
     /// When the address belongs to another thread.
     pub fn unregister_receiver<M: Send + 'static>(&mut self, address: &Address<M>) -> bool {
         address.check_thread(self.shared());
-        self.remove::<dyn AnyReceiver>(address.receiver)
+        self.remove(address.receiver)
     }
 
     /// Ends the thread when the running call returns: nothing more is delivered or called. See
@@ -182,9 +168,12 @@ impl Context {
     /// replaces it, it is gone when it has rung, and when the object is removed. Outside of an object's
     /// call, in a closure that makes or runs something, it is the one alarm of the thread itself.
     pub fn wake_at(&mut self, when: Instant) {
-        let running = self.running;
-        self.alarms.retain(|(id, _)| *id != running);
-        self.alarms.push((running, when));
+        let owner = match self.shared().running() as u32 {
+            0 => RUN,
+            id => id,
+        };
+        self.alarms.retain(|(id, _)| *id != owner);
+        self.alarms.push((owner, when));
     }
 
     /// Tells `observer` of every panic in this thread from now on, in place of any earlier one.
@@ -200,44 +189,47 @@ impl Context {
         traced.store(capacity > 0, std::sync::atomic::Ordering::Relaxed);
     }
 
-    /// The records of the trace, oldest first; empty when it is off.
-    pub fn trace(&self) -> Vec<Record> {
-        self.trace.as_ref().map(Trace::records).unwrap_or_default()
+    /// The records of the trace; empty when it is off.
+    pub fn trace(&self) -> TraceSnapshot {
+        let records = self.trace.iter().flat_map(|trace| &trace.records).cloned().collect();
+        TraceSnapshot { thread: Arc::clone(&self.shared().name), taken: self.now(), records }
     }
 
     pub(crate) fn shared(&self) -> &Arc<Shared> {
-        self.handle.shared()
+        &self.handle.shared
     }
 
     /// Puts an object in its place in the register; one that was there is dropped.
-    pub(crate) fn insert<T: Kind + ?Sized>(&mut self, id: u32, object: Box<T>, factory: Option<Factory<T>>) {
-        let (name, call): (Arc<str>, _) = (object.object_name().into(), object.call_name());
-        self.tell_watchers(id, Some((Arc::clone(&name), call)));
-        let slot = Slot { name, call, object: Some(object), factory, failures: Default::default() };
-        let old = T::register(self).insert(id, slot);
-        self.drop_slot(old);
-    }
-
-    fn remove<T: Kind + ?Sized>(&mut self, id: u32) -> bool {
-        let slot = T::register(self).remove(&id);
-        let there = slot.is_some();
-        if there {
-            self.forget(id);
+    pub(crate) fn insert(&mut self, id: u32, object: Object, factory: Option<Factory>) {
+        let Object { label, call } = object;
+        self.tell_watchers(id, Some(&label));
+        let slot = Slot { label, call: Some(call), factory, failures: Vec::new() };
+        if let Some(old) = self.objects.insert(id, slot) {
+            self.drop_slot(old);
         }
-        self.drop_slot(slot);
-        there
     }
 
-    /// What is kept of an object beside its slot.
-    pub(crate) fn forget(&mut self, id: u32) {
+    /// Puts the object that `factory` makes in its place, with the factory beside it.
+    pub(crate) fn insert_made(&mut self, id: u32, mut factory: impl FnMut(&mut Self) -> Object + 'static) {
+        let first = factory(self);
+        self.insert(id, first, Some(Box::new(factory)));
+    }
+
+    /// Removes and drops an object, and what is kept of it elsewhere; `false` when there is none.
+    pub(crate) fn remove(&mut self, id: u32) -> bool {
+        let Some(slot) = self.objects.remove(&id) else {
+            return false;
+        };
         self.alarms.retain(|(owner, _)| *owner != id);
         self.tell_watchers(id, None);
+        self.drop_slot(slot);
+        true
     }
 
-    pub(crate) fn tell_watchers(&self, id: u32, object: Option<(Arc<str>, &'static str)>) {
+    pub(crate) fn tell_watchers(&self, id: u32, label: Option<&Label>) {
         for watcher in &self.watchers {
             // A watcher that has stopped watches nobody.
-            let _ = watcher.send(Watched { thread: self.handle.clone(), id, object: object.clone() });
+            let _ = watcher.send(Watched { thread: self.handle.clone(), id, label: label.cloned() });
         }
     }
 }

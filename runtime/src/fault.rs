@@ -1,7 +1,6 @@
 //! When a call panics: what is reported, and whether the object gets another chance.
 
 use std::any::Any;
-use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -40,17 +39,12 @@ pub const RESTARTS: usize = 3;
 /// See [`RESTARTS`].
 pub const RESTART_WINDOW: Duration = Duration::from_secs(10);
 
-/// The panics of one restartable object that still count.
-#[derive(Default)]
-pub(crate) struct Failures(VecDeque<Instant>);
-
-impl Failures {
-    /// Counts a panic at `now`: may the object be made anew?
-    pub(crate) fn allow_restart(&mut self, now: Instant) -> bool {
-        self.0.retain(|then| now.saturating_duration_since(*then) < RESTART_WINDOW);
-        self.0.push_back(now);
-        self.0.len() <= RESTARTS
-    }
+/// Counts a panic at `now` among those of one restartable object that still count: may the object be
+/// made anew?
+pub(crate) fn allow_restart(failures: &mut Vec<Instant>, now: Instant) -> bool {
+    failures.retain(|then| now.saturating_duration_since(*then) < RESTART_WINDOW);
+    failures.push(now);
+    failures.len() <= RESTARTS
 }
 
 /// The text of a panic, when it has one.

@@ -1,15 +1,19 @@
 //! A thread, as other threads see it.
 
 use crate::mailbox::Content;
-use crate::object::AnyReceiver;
-use crate::register::{LAST, WorkerId};
+use crate::register::{LAST, Object, WORKER, WorkerId};
 use crate::shared::{Counters, Shared};
 use crate::sync::atomic::Ordering;
 use crate::sync::planted;
-use crate::{Address, Context, Fault, Receiver, TraceSnapshot, Worker};
+use crate::{Address, Context, Fault, Receiver, SendError, TraceSnapshot, Worker};
 use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// What can be sent to a thread to be done there: any closure of this shape.
+pub trait Job<T = ()>: FnOnce(&mut Context) -> T + Send + 'static {}
+
+impl<T, F: FnOnce(&mut Context) -> T + Send + 'static> Job<T> for F {}
 
 /// A thread's remote control: cheap to clone, usable anywhere, never waiting.
 ///
@@ -17,33 +21,14 @@ use std::time::Duration;
 /// other messages of the same sender. Asking a stopped thread does nothing.
 ///
 /// Objects of a thread need not be [`Send`]; what is sent is a closure that makes the object
-/// there. A closure that panics is reported like an object that does.
+/// there. A closure that panics is reported like an object that does. Whatever has no method here,
+/// such as registering an object that is made anew when it panics, is done with [`run`](Self::run).
 #[derive(Clone)]
 pub struct ThreadHandle {
-    shared: Arc<Shared>,
+    pub(crate) shared: Arc<Shared>,
 }
-
-/// The thread has stopped, and nothing will ever be done there again.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stopped;
-
-impl fmt::Display for Stopped {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the thread has stopped")
-    }
-}
-
-impl std::error::Error for Stopped {}
 
 impl ThreadHandle {
-    pub(crate) fn new(shared: Arc<Shared>) -> Self {
-        Self { shared }
-    }
-
-    pub(crate) fn shared(&self) -> &Arc<Shared> {
-        &self.shared
-    }
-
     /// The name given at the start; also that of the OS thread, of which Linux shows 15 bytes.
     pub fn name(&self) -> &str {
         &self.shared.name
@@ -53,45 +38,27 @@ impl ThreadHandle {
     ///
     /// # Errors
     /// When the thread has stopped; `job` is dropped.
-    pub fn run(&self, job: impl FnOnce(&mut Context) + Send + 'static) -> Result<(), Stopped> {
-        self.shared.send(Content::Run(Box::new(job))).map_err(|_| Stopped)
+    pub fn run(&self, job: impl Job) -> Result<(), SendError<()>> {
+        self.ask("run", job).map_err(|_| SendError::Stopped(()))
     }
 
     /// Adds the worker that `make` makes behind the others; see [`Context::register_worker`].
-    pub fn register_worker<W: Worker>(
-        &self,
-        make: impl FnOnce(&mut Context) -> W + Send + 'static,
-    ) -> WorkerId {
-        self.send_worker(self.shared.new_id(), make)
+    pub fn register_worker<W: Worker>(&self, make: impl Job<W>) -> WorkerId {
+        let id = self.shared.new_id() | WORKER;
+        self.insert(id, |thread| Object::worker(make(thread)));
+        WorkerId(id)
     }
 
     /// Adds the worker that `make` makes behind all; see [`Context::register_last_worker`].
-    pub fn register_last_worker<W: Worker>(
-        &self,
-        make: impl FnOnce(&mut Context) -> W + Send + 'static,
-    ) -> WorkerId {
-        self.send_worker(self.shared.new_id() | LAST, make)
-    }
-
-    /// Adds a worker that is made anew when it panics; see
-    /// [`Context::register_restartable_worker`].
-    pub fn register_restartable_worker<W: Worker>(
-        &self,
-        mut make: impl FnMut(&mut Context) -> W + Send + 'static,
-    ) -> WorkerId {
-        let id = self.shared.new_id();
-        self.command(move |thread| {
-            thread.insert_made::<dyn Worker>(id, Box::new(move |thread| Box::new(make(thread))));
-        });
+    pub fn register_last_worker<W: Worker>(&self, make: impl Job<W>) -> WorkerId {
+        let id = self.shared.new_id() | LAST;
+        self.insert(id, |thread| Object::worker(make(thread)));
         WorkerId(id)
     }
 
     /// Adds the receiver that `make` makes. The address is good at once: what is sent to it after
     /// this call arrives after the receiver was made.
-    pub fn register_receiver<R: Receiver>(
-        &self,
-        make: impl FnOnce(&mut Context) -> R + Send + 'static,
-    ) -> Address<R::Message> {
+    pub fn register_receiver<R: Receiver>(&self, make: impl Job<R>) -> Address<R::Message> {
         let address = self.reserve_address();
         self.register_receiver_at(&address, make);
         address
@@ -102,31 +69,9 @@ impl ThreadHandle {
     ///
     /// # Panics
     /// When the address belongs to another thread.
-    pub fn register_receiver_at<R: Receiver>(
-        &self,
-        address: &Address<R::Message>,
-        make: impl FnOnce(&mut Context) -> R + Send + 'static,
-    ) {
+    pub fn register_receiver_at<R: Receiver>(&self, address: &Address<R::Message>, make: impl Job<R>) {
         address.check_thread(&self.shared);
-        let address = address.clone();
-        self.command(move |thread| {
-            let receiver = make(thread);
-            thread.register_receiver_at(&address, receiver);
-        });
-    }
-
-    /// Adds a receiver that is made anew when it panics; see
-    /// [`Context::register_restartable_receiver`].
-    pub fn register_restartable_receiver<R: Receiver>(
-        &self,
-        mut make: impl FnMut(&mut Context) -> R + Send + 'static,
-    ) -> Address<R::Message> {
-        let address = self.reserve_address();
-        let id = address.receiver;
-        self.command(move |thread| {
-            thread.insert_made::<dyn AnyReceiver>(id, Box::new(move |thread| Box::new(make(thread))));
-        });
-        address
+        self.insert(address.receiver, |thread| Object::receiver(make(thread)));
     }
 
     /// An address at which nobody is registered yet, for objects that need each other's address.
@@ -137,9 +82,7 @@ impl ThreadHandle {
 
     /// Removes and drops a worker, in its thread.
     pub fn unregister_worker(&self, id: WorkerId) {
-        self.command(move |thread| {
-            thread.unregister_worker(id);
-        });
+        self.remove(id.0);
     }
 
     /// Removes and drops a receiver, in its thread. What is queued behind this is undeliverable.
@@ -148,10 +91,7 @@ impl ThreadHandle {
     /// When the address belongs to another thread.
     pub fn unregister_receiver<M: Send + 'static>(&self, address: &Address<M>) {
         address.check_thread(&self.shared);
-        let address = address.clone();
-        self.command(move |thread| {
-            thread.unregister_receiver(&address);
-        });
+        self.remove(address.receiver);
     }
 
     /// Ends the thread behind all messages queued so far: they are delivered, later ones are not.
@@ -159,7 +99,7 @@ impl ThreadHandle {
     pub fn remote_stop(&self) {
         self.shared.stopping.store(true, Ordering::SeqCst);
         // Nothing to do when it has stopped already.
-        let _ = self.shared.send(Content::Stop);
+        let _ = self.ask("stop", Context::stop);
         self.shared.mailbox.wake_now();
     }
 
@@ -167,7 +107,7 @@ impl ThreadHandle {
     /// [`Context::sleep`].
     pub fn remote_sleep(&self, duration: Duration) {
         // A stopped thread sleeps well enough.
-        let _ = self.shared.send(Content::Sleep(duration));
+        let _ = self.ask("sleep", move |thread| thread.sleep(duration));
     }
 
     /// Lets the thread rest as soon as the call that is running there returns: it does not wait in
@@ -186,7 +126,7 @@ impl ThreadHandle {
 
     /// Has the loop ended, with every object of the thread dropped?
     pub fn is_stopped(&self) -> bool {
-        self.shared.is_finished()
+        self.shared.finished.load(Ordering::SeqCst)
     }
 
     /// How many messages are stored for the next iteration.
@@ -212,32 +152,28 @@ impl ThreadHandle {
     /// Asks for the records of the trace; they come as a message, like any answer.
     pub fn request_trace(&self, to: &Address<TraceSnapshot>) {
         let to = to.clone();
+        // Who has stopped does not want them any more.
+        self.command(move |thread| _ = to.send(thread.trace()));
+    }
+
+    fn insert(&self, id: u32, make: impl Job<Object>) {
         self.command(move |thread| {
-            let snapshot = TraceSnapshot {
-                thread: Arc::clone(&thread.shared().name),
-                taken: thread.now(),
-                records: thread.trace(),
-            };
-            // Who has stopped does not want it any more.
-            let _ = to.send(snapshot);
+            let object = make(thread);
+            thread.insert(id, object, None);
         });
     }
 
-    fn send_worker<W: Worker>(
-        &self,
-        id: u32,
-        make: impl FnOnce(&mut Context) -> W + Send + 'static,
-    ) -> WorkerId {
-        self.command(move |thread| {
-            let worker = Box::new(make(thread));
-            thread.insert::<dyn Worker>(id, worker, None);
-        });
-        WorkerId(id)
+    fn remove(&self, id: u32) {
+        self.command(move |thread| _ = thread.remove(id));
     }
 
-    /// A message that the thread itself understands; a stopped thread has no use for it.
-    fn command(&self, job: impl FnOnce(&mut Context) + Send + 'static) {
-        let _ = self.run(job);
+    /// A message that the thread itself understands. A stopped thread has no use for it.
+    fn command(&self, job: impl Job) {
+        let _ = self.ask("run", job);
+    }
+
+    fn ask(&self, what: &'static str, job: impl Job) -> Result<(), Content> {
+        self.shared.send(0, what, Content::Run(Box::new(job)))
     }
 }
 

@@ -16,46 +16,28 @@
 
 use crate::sync::atomic::{AtomicU8, Ordering};
 use crate::sync::{Queue, planted};
-use crate::{Context, address::Permit, trace::Stamp};
-use std::any::Any;
-use std::collections::VecDeque;
+use crate::{Context, address::Permit, register::Data, trace::Stamp};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
-use std::time::Duration;
 
-/// What is stored until the thread's next iteration.
+/// What is stored until the thread's next iteration: a message of the thesis (§3.2.6.4), that is whom
+/// it is for and data of any type; or one that the thread itself understands.
 pub(crate) struct Envelope {
+    /// The receiver's number; 0 for the thread itself.
+    pub(crate) to: u32,
+    /// The type of the message, or what is asked of the thread.
+    pub(crate) name: &'static str,
     pub(crate) content: Content,
     /// Who sent it and when; only when the thread that gets it is traced.
     pub(crate) stamp: Option<Box<Stamp>>,
 }
 
-/// A message of the thesis (§3.2.6.4): whom it is for, and data of any type; or one that the
-/// thread itself understands.
 pub(crate) enum Content {
-    /// For the receiver of that number.
-    Message {
-        to: u32,
-        type_name: &'static str,
-        data: Box<dyn Any + Send>,
-        /// Room in a bounded address, given back when the message leaves the queue.
-        permit: Option<Permit>,
-    },
-    /// For the receiver of that number: whatever is newest when its turn comes.
-    Latest { to: u32, slot: Arc<dyn Latest> },
-    /// For the thread itself: registers, observers, traces.
+    /// A message, and its room in a bounded address, given back when it leaves the queue.
+    Message(Data, Option<Permit>),
+    /// Takes whatever is newest when its turn comes, if that has not been taken yet.
+    Latest(Box<dyn FnOnce() -> Option<Data> + Send>),
+    /// For the thread itself: registers, observers, traces, sleep and stop.
     Run(Box<dyn FnOnce(&mut Context) + Send>),
-    /// For the thread itself: sleep this long.
-    Sleep(Duration),
-    /// For the thread itself: stop; nothing behind this is delivered.
-    Stop,
-}
-
-/// Where the newest message of a conflating address waits.
-pub(crate) trait Latest: Send + Sync {
-    /// Takes the newest message out, if it has not been taken yet.
-    fn take(&self) -> Option<Box<dyn Any + Send>>;
-    fn type_name(&self) -> &'static str;
 }
 
 const AWAKE: u8 = 0;
@@ -65,6 +47,8 @@ const CLOSED: u8 = 2;
 /// The queue of one thread. Any thread may [`send`](Self::send); everything else is the owner's.
 pub(crate) struct Mailbox {
     queue: Queue<Envelope>,
+    /// The owner changes it by swaps, not stores: they take their place behind what a sender
+    /// changed, and see it.
     state: AtomicU8,
     wake: Box<dyn Fn() + Send + Sync>,
 }
@@ -86,21 +70,15 @@ impl Mailbox {
         let early = planted("lost_notify").then(|| self.state.load(Ordering::SeqCst));
         self.queue.push(envelope);
         let state = early.unwrap_or_else(|| self.state.load(Ordering::SeqCst));
-        match state {
-            ASLEEP => self.wake_if_asleep(),
+        if state == CLOSED && !planted("late_send") {
             // It closed between the first look and the push: nobody else will empty the queue.
-            CLOSED if !planted("late_send") => return Ok(self.discard()),
-            _ => {}
+            return Ok(self.discard());
+        }
+        let woken = || self.state.compare_exchange(ASLEEP, AWAKE, Ordering::SeqCst, Ordering::SeqCst);
+        if state == ASLEEP && woken().is_ok() {
+            self.wake_now(); // Of many senders only the first pays for it.
         }
         Ok(0)
-    }
-
-    /// Wakes the owner if it said it would sleep; of many senders only the first pays for it.
-    fn wake_if_asleep(&self) {
-        let first = self.state.compare_exchange(ASLEEP, AWAKE, Ordering::SeqCst, Ordering::SeqCst);
-        if first.is_ok() {
-            (self.wake)();
-        }
     }
 
     /// Ends any sleep, also one that no message ends (paused, or told to sleep).
@@ -110,12 +88,12 @@ impl Mailbox {
 
     /// The owner is up: senders need not wake it.
     pub(crate) fn stay_awake(&self) {
-        self.enter(AWAKE);
+        self.state.swap(AWAKE, Ordering::SeqCst);
     }
 
     /// The owner wants to sleep until a message comes. `false`: one is here already.
     pub(crate) fn fall_asleep(&self) -> bool {
-        self.enter(ASLEEP);
+        self.state.swap(ASLEEP, Ordering::SeqCst);
         if self.queue.len() > 0 && !planted("unchecked_sleep") {
             self.stay_awake();
             return false;
@@ -124,22 +102,15 @@ impl Mailbox {
     }
 
     /// Takes everything stored so far, oldest first.
-    pub(crate) fn drain(&self, into: &mut VecDeque<Envelope>) {
-        self.queue.drain(into);
-        if planted("reversed_batch") {
-            into.make_contiguous().reverse();
-        }
+    pub(crate) fn drain(&self) -> impl Iterator<Item = Envelope> {
+        self.queue.drain()
     }
 
     /// Refuses what comes from now on, and throws away what is there: how many messages.
     pub(crate) fn close(&self) -> usize {
-        if planted("sweep_before_close") {
-            let count = self.discard();
-            self.enter(CLOSED);
-            return count;
-        }
-        self.enter(CLOSED);
-        self.discard()
+        let early = planted("sweep_before_close").then(|| self.discard());
+        self.state.swap(CLOSED, Ordering::SeqCst);
+        early.unwrap_or_else(|| self.discard())
     }
 
     /// Has nothing happened since [`fall_asleep`](Self::fall_asleep)?
@@ -155,15 +126,8 @@ impl Mailbox {
         self.queue.len()
     }
 
-    /// A swap, not a store: it takes its place behind what a sender changed, and sees it.
-    fn enter(&self, state: u8) {
-        self.state.swap(state, Ordering::SeqCst);
-    }
-
     fn discard(&self) -> usize {
-        let mut left = VecDeque::new();
-        self.queue.drain(&mut left);
-        left.into_iter().map(Envelope::discard).sum()
+        self.drain().map(Envelope::discard).sum()
     }
 }
 
@@ -172,9 +136,9 @@ impl Envelope {
     /// One that panics when it is dropped is dropped all the same.
     pub(crate) fn discard(self) -> usize {
         let discard = || match self.content {
-            Content::Message { .. } => 1,
-            Content::Latest { slot, .. } => usize::from(slot.take().is_some()),
-            Content::Run(_) | Content::Sleep(_) | Content::Stop => 0,
+            Content::Message(..) => 1,
+            Content::Latest(take) => usize::from(take().is_some()),
+            Content::Run(_) => 0,
         };
         catch_unwind(AssertUnwindSafe(discard)).unwrap_or(1)
     }

@@ -1,7 +1,7 @@
 //! What lives in a thread: workers and receivers (thesis §2.2.3.3, §3.2.6.2, §3.2.6.3).
 
 use crate::Context;
-use std::any::{Any, type_name};
+use std::any::type_name;
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -62,29 +62,6 @@ impl<R: Receiver> Receiver for Rc<RefCell<R>> {
 
     fn name(&self) -> &str {
         short_type_name::<R>()
-    }
-}
-
-/// A receiver whose message type has been forgotten, as it lies in a thread's register.
-pub(crate) trait AnyReceiver {
-    fn receive_any(&mut self, data: Box<dyn Any + Send>, thread: &mut Context);
-    fn name(&self) -> &str;
-    fn message_name(&self) -> &'static str;
-}
-
-impl<R: Receiver> AnyReceiver for R {
-    fn receive_any(&mut self, data: Box<dyn Any + Send>, thread: &mut Context) {
-        let message =
-            data.downcast().expect("an address is only made for a receiver of its own message type");
-        self.receive(*message, thread);
-    }
-
-    fn name(&self) -> &str {
-        Receiver::name(self)
-    }
-
-    fn message_name(&self) -> &'static str {
-        short_type_name::<R::Message>()
     }
 }
 

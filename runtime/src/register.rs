@@ -1,70 +1,78 @@
-//! The registers of a thread: which workers and receivers it has, in which order.
+//! The register of a thread: which workers and receivers it has, in which order.
 
-use crate::fault::Failures;
-use crate::object::AnyReceiver;
-use crate::{Context, Worker};
+use crate::object::short_type_name;
+use crate::{Context, Receiver, Worker};
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A worker's number in its thread's register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct WorkerId(pub(crate) u32);
 
+/// The bit that sorts workers behind receivers.
+pub(crate) const WORKER: u32 = 1 << 30;
+
 /// The bit that sorts the workers that stay last behind all others, also behind those that come
 /// later.
 pub(crate) const LAST: u32 = 1 << 31;
 
-/// Stands for a closure that was sent to the thread, where the running object's number is shown.
+/// Stands for a closure that was sent to the thread, where an object's number is expected.
 pub(crate) const RUN: u32 = u32::MAX;
 
-/// Objects by number. Numbers ascend, so the order of numbers is the order of registration.
-pub(crate) type Register<T> = BTreeMap<u32, Slot<T>>;
+/// Objects by number: receivers, then workers, then those that stay last. Otherwise numbers ascend,
+/// so the order of numbers is the order of registration.
+pub(crate) type Register = BTreeMap<u32, Slot>;
 
 /// The place of one object. It outlives the object when that is made anew.
-pub(crate) struct Slot<T: ?Sized> {
-    pub(crate) name: Arc<str>,
-    /// What its calls are called in reports: the message type, or `"update"`.
-    pub(crate) call: &'static str,
+pub(crate) struct Slot {
+    pub(crate) label: Label,
     /// Taken out while it is called, so that the call may change the register it stands in.
-    pub(crate) object: Option<Box<T>>,
-    pub(crate) factory: Option<Factory<T>>,
-    pub(crate) failures: Failures,
+    pub(crate) call: Option<Call>,
+    pub(crate) factory: Option<Factory>,
+    /// When it panicked lately.
+    pub(crate) failures: Vec<Instant>,
 }
+
+/// What an object is called in reports.
+#[derive(Clone, Default)]
+pub(crate) struct Label {
+    pub(crate) name: Arc<str>,
+    /// What its calls are called: the message type, or `"update"`.
+    pub(crate) call: &'static str,
+}
+
+/// A worker or receiver whose type has been forgotten: what is left is its label, and how to call it.
+pub(crate) struct Object {
+    pub(crate) label: Label,
+    pub(crate) call: Call,
+}
+
+/// Calls the object that it holds: a receiver with a message, a worker without. The answer is the
+/// worker's.
+pub(crate) type Call = Box<dyn FnMut(Option<Data>, &mut Context) -> bool>;
+
+/// A message whose type has been forgotten.
+pub(crate) type Data = Box<dyn Any + Send>;
 
 /// Makes an object, and makes it anew after a panic.
-pub(crate) type Factory<T> = Box<dyn FnMut(&mut Context) -> Box<T>>;
+pub(crate) type Factory = Box<dyn FnMut(&mut Context) -> Object>;
 
-/// The two kinds of objects, which are called, replaced and removed by the same code.
-pub(crate) trait Kind {
-    fn register(thread: &mut Context) -> &mut Register<Self>;
-    fn object_name(&self) -> &str;
-    /// What its calls are called in reports: the message type, or `"update"`.
-    fn call_name(&self) -> &'static str;
-}
-
-impl Kind for dyn Worker {
-    fn register(thread: &mut Context) -> &mut Register<Self> {
-        &mut thread.workers
+impl Object {
+    pub(crate) fn worker(mut worker: impl Worker) -> Self {
+        let label = Label { name: worker.name().into(), call: "update" };
+        Self { label, call: Box::new(move |_, thread| worker.update(thread)) }
     }
 
-    fn object_name(&self) -> &str {
-        self.name()
-    }
-
-    fn call_name(&self) -> &'static str {
-        "update"
-    }
-}
-
-impl Kind for dyn AnyReceiver {
-    fn register(thread: &mut Context) -> &mut Register<Self> {
-        &mut thread.receivers
-    }
-
-    fn object_name(&self) -> &str {
-        self.name()
-    }
-    fn call_name(&self) -> &'static str {
-        self.message_name()
+    pub(crate) fn receiver<R: Receiver>(mut receiver: R) -> Self {
+        let label = Label { name: receiver.name().into(), call: short_type_name::<R::Message>() };
+        let call = move |data: Option<Data>, thread: &mut Context| {
+            let message = data.and_then(|data| data.downcast().ok());
+            let message = message.expect("an address is only made for a receiver of its own message type");
+            receiver.receive(*message, thread);
+            true
+        };
+        Self { label, call: Box::new(call) }
     }
 }

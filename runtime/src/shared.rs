@@ -3,11 +3,10 @@
 use crate::clock::Clock;
 use crate::mailbox::{Content, Envelope, Mailbox};
 use crate::sync::atomic::{AtomicBool, Ordering};
-use crate::sync::{Queue, park, planted, thread};
+use crate::sync::{Queue, planted, thread};
 use crate::trace;
 use std::sync::Arc;
 use std::sync::atomic::{self as std_atomic, AtomicU32, AtomicU64, AtomicUsize};
-use std::time::Instant;
 
 /// Shared by a thread's loop, its handles and the addresses of its receivers.
 pub(crate) struct Shared {
@@ -19,14 +18,14 @@ pub(crate) struct Shared {
     /// A stop is in the queue: no sleep and no pause may keep the thread from reaching it.
     pub(crate) stopping: AtomicBool,
     /// The loop has ended and every object of the thread is dropped.
-    finished: AtomicBool,
-    waiters: Queue<thread::Thread>,
+    pub(crate) finished: AtomicBool,
+    /// Woken when the loop has ended.
+    pub(crate) waiters: Queue<thread::Thread>,
     next_id: AtomicU32,
-    /// What is running: number of the call above, number of the object below; 0 = nothing.
-    pub(crate) running: AtomicU64,
+    running: AtomicU64,
     /// Do senders stamp what they send here?
     pub(crate) traced: std_atomic::AtomicBool,
-    pub(crate) tallies: Tallies,
+    pub(crate) tallies: Counters<Tally>,
 }
 
 impl Shared {
@@ -42,7 +41,7 @@ impl Shared {
             next_id: AtomicU32::new(1),
             running: AtomicU64::new(0),
             traced: std_atomic::AtomicBool::new(false),
-            tallies: Tallies::default(),
+            tallies: Counters::default(),
         })
     }
 
@@ -57,59 +56,31 @@ impl Shared {
     }
 
     /// Stores `content` for the next iteration; gives it back when the thread has stopped.
-    pub(crate) fn send(&self, content: Content) -> Result<(), Content> {
+    pub(crate) fn send(&self, to: u32, name: &'static str, content: Content) -> Result<(), Content> {
         let traced = self.traced.load(std_atomic::Ordering::Relaxed);
         let stamp = traced.then(|| Box::new(trace::Stamp::now(&self.clock)));
-        match self.mailbox.send(Envelope { content, stamp }) {
-            Ok(discarded) => {
-                self.tallies.undelivered.add(discarded);
-                Ok(())
-            }
-            Err(envelope) => Err(envelope.content),
-        }
+        let sent = self.mailbox.send(Envelope { to, name, content, stamp });
+        let discarded = sent.map_err(|envelope| envelope.content)?;
+        self.tallies.undelivered.add(discarded);
+        Ok(())
     }
 
     /// Says that the loop has ended and all objects are dropped, and wakes who waits for it.
     pub(crate) fn finish(&self) {
-        self.finished
-            .store(true, if planted("relaxed_finish") { Ordering::Relaxed } else { Ordering::SeqCst });
-        let mut waiters = std::collections::VecDeque::new();
-        self.waiters.drain(&mut waiters);
-        for waiter in waiters {
-            waiter.unpark();
-        }
+        let order = if planted("relaxed_finish") { Ordering::Relaxed } else { Ordering::SeqCst };
+        self.finished.store(true, order);
+        self.waiters.drain().for_each(|waiter| waiter.unpark());
     }
 
-    pub(crate) fn is_finished(&self) -> bool {
-        self.finished.load(Ordering::SeqCst)
+    /// Lets the watchdog see which object is running, and that it is another call than before.
+    pub(crate) fn show_running(&self, id: u32) {
+        let calls = (self.running() >> 32) + 1;
+        self.running.store(calls << 32 | u64::from(id), std_atomic::Ordering::Relaxed);
     }
 
-    /// Waits until all of `threads` have finished: the names of those that have not by `deadline`.
-    ///
-    /// First said, then looked: a thread that finishes in between either sees the waiter or is
-    /// seen as finished.
-    pub(crate) fn wait_for(threads: &[Arc<Self>], deadline: Instant) -> Result<(), Vec<String>> {
-        let early: Vec<bool> = threads.iter().map(|shared| shared.is_finished()).collect();
-        for shared in threads {
-            shared.waiters.push(thread::current());
-        }
-        if planted("unchecked_wait") && early.contains(&false) {
-            park(Some(deadline));
-        }
-        loop {
-            let running: Vec<String> = threads
-                .iter()
-                .filter(|shared| !shared.is_finished())
-                .map(|shared| shared.name.to_string())
-                .collect();
-            if running.is_empty() {
-                return Ok(());
-            }
-            if Instant::now() >= deadline {
-                return Err(running);
-            }
-            park(Some(deadline));
-        }
+    /// The number of the object being called, 0 for none; above it the number of the call.
+    pub(crate) fn running(&self) -> u64 {
+        self.running.load(std_atomic::Ordering::Relaxed)
     }
 }
 
@@ -124,46 +95,36 @@ impl Tally {
         }
     }
 
-    fn get(&self) -> u64 {
+    pub(crate) fn get(&self) -> u64 {
         self.0.load(std_atomic::Ordering::Relaxed) as u64
     }
 }
 
-#[derive(Default)]
-pub(crate) struct Tallies {
-    pub(crate) iterations: Tally,
-    pub(crate) delivered: Tally,
-    pub(crate) undeliverable: Tally,
-    pub(crate) undelivered: Tally,
-    pub(crate) replaced: Tally,
-    pub(crate) refused: Tally,
-    pub(crate) panics: Tally,
-    pub(crate) restarts: Tally,
-}
-
 /// What happened in a thread since its start. Every message that was accepted is counted in
 /// exactly one of the first four, once the thread has stopped.
+///
+/// What others get are plain numbers; the thread itself counts in the same fields with atomic ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
+pub struct Counters<N = u64> {
     /// Messages handed to their receiver, also when it panicked with them.
-    pub delivered: u64,
+    pub delivered: N,
     /// Messages to a receiver that was not, or no longer, registered.
-    pub undeliverable: u64,
+    pub undeliverable: N,
     /// Messages still queued when the thread stopped.
-    pub undelivered: u64,
+    pub undelivered: N,
     /// Messages whose place a newer one took ([`Address::latest`](crate::Address::latest)).
-    pub replaced: u64,
+    pub replaced: N,
     /// Messages given back because the address was full: not accepted.
-    pub refused: u64,
+    pub refused: N,
     /// Turns of the loop.
-    pub iterations: u64,
+    pub iterations: N,
     /// Calls that ended in a panic.
-    pub panics: u64,
+    pub panics: N,
     /// Objects made anew after a panic.
-    pub restarts: u64,
+    pub restarts: N,
 }
 
-impl Tallies {
+impl Counters<Tally> {
     pub(crate) fn read(&self) -> Counters {
         Counters {
             delivered: self.delivered.get(),

@@ -1,9 +1,8 @@
 //! Threads on a test's strings: iterations, clock and message order are stepped by hand.
 
 use crate::clock::Clock;
-use crate::mailbox::Content;
+use crate::mailbox::Envelope;
 use crate::shared::Shared;
-use crate::thread::Captured;
 use crate::{Context, Next, ThreadHandle};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -36,7 +35,7 @@ use std::time::{Duration, Instant};
 /// ```
 pub struct Stage {
     clock: Clock,
-    threads: Vec<Captured>,
+    threads: Vec<Context>,
 }
 
 /// A message that waits for delivery.
@@ -62,8 +61,7 @@ impl Stage {
 
     /// Puts a thread on the stage. It does nothing until told to.
     pub fn start(&mut self, name: &str) -> ThreadHandle {
-        let shared = Shared::new(name, self.clock.clone(), Box::new(|| {}));
-        let thread = Captured::new(shared);
+        let thread = Context::new(Shared::new(name, self.clock.clone(), Box::new(|| {})));
         let handle = thread.handle().clone();
         self.threads.push(thread);
         handle
@@ -84,30 +82,25 @@ impl Stage {
     /// # Panics
     /// Like all methods that name a thread, when it is not on this stage.
     pub fn iterate(&mut self, thread: &ThreadHandle) -> Next {
-        self.captured(thread).iterate()
+        self.context(thread).iterate()
     }
 
     /// The inside of `thread`, for registering objects directly.
     pub fn context(&mut self, thread: &ThreadHandle) -> &mut Context {
-        self.captured(thread).context()
+        let found = self.threads.iter_mut().find(|one| one.handle() == thread);
+        found.unwrap_or_else(|| panic!("thread {:?} is not on this stage", thread.name()))
     }
 
     /// What waits for `thread`, in the order in which it would be delivered.
     pub fn waiting(&mut self, thread: &ThreadHandle) -> Vec<Waiting> {
         let context = self.context(thread);
         context.fetch_messages();
-        let describe = |content: &Content| {
-            let (to, message) = match content {
-                Content::Message { to, type_name, .. } => (to, *type_name),
-                Content::Latest { to, slot } => (to, slot.type_name()),
-                Content::Run(_) => (&0, "run"),
-                Content::Sleep(_) => (&0, "sleep"),
-                Content::Stop => (&0, "stop"),
-            };
-            let to = context.receivers.get(to).map(|slot| Arc::clone(&slot.name)).unwrap_or_default();
-            Waiting { to, message }
+        let describe = |envelope: &Envelope| {
+            let slot = context.objects.get(&envelope.to);
+            let to = slot.map(|slot| Arc::clone(&slot.label.name)).unwrap_or_default();
+            Waiting { to, message: envelope.name }
         };
-        context.batch.iter().map(|envelope| describe(&envelope.content)).collect()
+        context.batch.iter().map(describe).collect()
     }
 
     /// Delivers the message at `index` of [`waiting`](Self::waiting) before all others, and calls
@@ -126,27 +119,15 @@ impl Stage {
         for _ in 0..limit {
             let mut busy = false;
             for thread in &mut self.threads {
-                busy |= match thread.iterate() {
-                    Next::Now => true,
-                    Next::At(when) => when <= self.clock.now(),
-                    // Somebody may have sent to one that had its turn in this round.
-                    Next::OnMessage | Next::Stopped => false,
-                };
+                let next = thread.iterate();
+                busy |= next == Next::Now || matches!(next, Next::At(when) if when <= self.clock.now());
             }
-            if !busy && !self.threads.iter_mut().any(has_mail) {
+            // Somebody may have sent to one that had its turn in this round.
+            let mut mail = self.threads.iter_mut();
+            if !busy && !mail.any(|thread| thread.handle.queue_len() > 0 && !thread.halted()) {
                 return true;
             }
         }
         false
     }
-
-    fn captured(&mut self, thread: &ThreadHandle) -> &mut Captured {
-        let found = self.threads.iter_mut().find(|one| one.handle() == thread);
-        found.unwrap_or_else(|| panic!("thread {:?} is not on this stage", thread.name()))
-    }
-}
-
-/// Would an iteration deliver something?
-fn has_mail(thread: &mut Captured) -> bool {
-    thread.handle().queue_len() > 0 && !thread.context().halted()
 }

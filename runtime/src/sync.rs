@@ -10,50 +10,50 @@
 //! Statistics (counters, what is running) stay with `std`: nothing waits for them, and each
 //! further atomic multiplies what a checker has to try.
 
-#[cfg(loom)]
-pub(crate) use loom::sync::atomic;
-#[cfg(shuttle)]
-pub(crate) use shuttle::sync::atomic;
-/// The checkers' queue, and threads that park as the standard library's do.
+/// The checkers' queue and atomics, and threads that park as the standard library's do.
 #[cfg(any(loom, shuttle))]
-#[path = "../../tests/runtime/modelled.rs"]
-mod modelled;
-#[cfg(any(loom, shuttle))]
-pub use modelled::thread;
-#[cfg(any(loom, shuttle))]
-pub(crate) use modelled::{Queue, planted};
-#[cfg(not(any(loom, shuttle)))]
-pub(crate) use std::{sync::atomic, thread};
-
-#[cfg(not(any(loom, shuttle)))]
-use std::collections::VecDeque;
+use crate::modelled as parts;
+pub(crate) use parts::{Queue, atomic, planted, thread};
 use std::time::Instant;
 
-/// An unbounded queue that many threads fill and one empties. Held for a push or a drain, no longer.
 #[cfg(not(any(loom, shuttle)))]
-pub(crate) struct Queue<T> {
-    enter: flume::Sender<T>,
-    leave: flume::Receiver<T>,
-}
+mod parts {
+    pub(crate) use std::{sync::atomic, thread};
 
-#[cfg(not(any(loom, shuttle)))]
-impl<T> Queue<T> {
-    pub(crate) fn new() -> Self {
-        let (enter, leave) = flume::unbounded();
-        Self { enter, leave }
+    /// An unbounded queue that many threads fill and one empties. Held for a push or a drain, no
+    /// longer.
+    pub(crate) struct Queue<T> {
+        enter: flume::Sender<T>,
+        leave: flume::Receiver<T>,
     }
 
-    pub(crate) fn push(&self, item: T) {
-        self.enter.send(item).expect("both ends of the channel live in this struct");
+    impl<T> Queue<T> {
+        pub(crate) fn new() -> Self {
+            let (enter, leave) = flume::unbounded();
+            Self { enter, leave }
+        }
+
+        pub(crate) fn push(&self, item: T) {
+            self.enter.send(item).expect("both ends of the channel live in this struct");
+        }
+
+        /// Takes everything that is there at the moment of the call, oldest first, under one lock.
+        pub(crate) fn drain(&self) -> impl Iterator<Item = T> {
+            self.leave.drain()
+        }
+
+        pub(crate) fn len(&self) -> usize {
+            self.leave.len()
+        }
     }
 
-    /// Moves everything that is there now to the end of `into`, oldest first, under one lock.
-    pub(crate) fn drain(&self, into: &mut VecDeque<T>) {
-        into.extend(self.leave.drain());
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.leave.len()
+    /// Is the planted bug of this name on? Never, in a normal build: the question compiles to
+    /// nothing.
+    ///
+    /// A model that cannot fail proves nothing. `.ci/models` turns each bug on in turn and demands
+    /// that a checker finds it.
+    pub(crate) const fn planted(_bug: &str) -> bool {
+        false
     }
 }
 
@@ -67,13 +67,4 @@ pub(crate) fn park(deadline: Option<Instant>) {
         }
         _ => thread::park(),
     }
-}
-
-/// Is the planted bug of this name on? Never, in a normal build: the question compiles to nothing.
-///
-/// A model that cannot fail proves nothing. `.ci/models` turns each bug on in turn and demands
-/// that a checker finds it.
-#[cfg(not(any(loom, shuttle)))]
-pub(crate) const fn planted(_bug: &str) -> bool {
-    false
 }

@@ -2,9 +2,8 @@
 
 use crate::clock::Clock;
 use crate::shared::Shared;
-use crate::sync::{Queue, park, thread};
+use crate::sync::{Queue, park, planted, thread};
 use crate::{Context, Next, ThreadHandle};
-use std::collections::VecDeque;
 use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -35,15 +34,13 @@ impl Thread {
         // started first, and waits until its mailbox is laid in the cradle.
         let cradle = Arc::new(Queue::new());
         let theirs = Arc::clone(&cradle);
-        let os_thread = thread::Builder::new()
-            .name(name.to_owned())
-            .spawn(move || thread_proc(Context::new(wait_for_cradle(&theirs))))?;
+        let os_thread = thread::Builder::new().name(name.to_owned()).spawn(move || thread_proc(&theirs))?;
         let sleeper = os_thread.thread().clone();
         let wake = Box::new(move || sleeper.unpark());
         let shared = Shared::new(name, Clock::Real, wake);
         cradle.push(Arc::clone(&shared));
         os_thread.thread().unpark();
-        Ok(Self { handle: ThreadHandle::new(shared), os_thread: Some(os_thread) })
+        Ok(Self { handle: ThreadHandle { shared }, os_thread: Some(os_thread) })
     }
 
     /// Makes a thread of the caller's: there is no OS thread, the caller's loop calls
@@ -54,7 +51,7 @@ impl Thread {
     /// [`remote_stop`](ThreadHandle::remote_stop). It must be quick and make the caller's loop
     /// call `iterate` soon; once too often does no harm.
     pub fn capture(name: &str, wake: impl Fn() + Send + Sync + 'static) -> Captured {
-        Captured::new(Shared::new(name, Clock::Real, Box::new(wake)))
+        Captured { context: Context::new(Shared::new(name, Clock::Real, Box::new(wake))) }
     }
 
     /// Its remote control.
@@ -69,8 +66,23 @@ impl Thread {
     /// # Errors
     /// The names of those that still run at `deadline`.
     pub fn wait_for(threads: &[ThreadHandle], deadline: Instant) -> Result<(), Vec<String>> {
-        let threads: Vec<_> = threads.iter().map(|one| Arc::clone(one.shared())).collect();
-        Shared::wait_for(&threads, deadline)
+        let names = || -> Vec<String> {
+            let running = threads.iter().filter(|one| !one.is_stopped());
+            running.map(|one| one.name().to_owned()).collect()
+        };
+        let early = planted("unchecked_wait").then(names);
+        // First said, then looked: a thread that finishes in between either sees who waits or is
+        // seen as finished.
+        threads.iter().for_each(|one| one.shared.waiters.push(thread::current()));
+        let mut running = early.unwrap_or_else(names);
+        while !running.is_empty() {
+            if Instant::now() >= deadline {
+                return Err(running);
+            }
+            park(Some(deadline));
+            running = names();
+        }
+        Ok(())
     }
 }
 
@@ -95,38 +107,26 @@ impl Drop for Thread {
 }
 
 /// The loop of a thread of its own (thesis §3.2.6.1).
-fn thread_proc(mut context: Context) {
+fn thread_proc(cradle: &Queue<Arc<Shared>>) {
+    while cradle.len() == 0 {
+        park(None);
+    }
+    let shared = cradle.drain().next().expect("it is laid there once");
+    let mut context = Context::new(shared);
     tracing::debug!(thread = context.handle().name(), "started");
     loop {
-        match context.iterate() {
-            Next::Now => {}
-            Next::At(deadline) => rest(&context, Some(deadline)),
-            Next::OnMessage => rest(&context, None),
+        let deadline = match context.iterate() {
+            Next::Now => continue,
+            Next::At(deadline) => Some(deadline),
+            Next::OnMessage => None,
             Next::Stopped => return,
-        }
-    }
-}
-
-/// Sleeps until a message wakes the thread, or until `deadline`. A wake-up that nobody meant, which
-/// the system allows itself, is slept through.
-fn rest(context: &Context, deadline: Option<Instant>) {
-    let due = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
-    loop {
+        };
+        let due = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
         park(deadline);
-        if due() || !context.shared().mailbox.is_asleep() {
-            return;
+        // A wake-up that nobody meant, which the system allows itself, is slept through.
+        while !due() && context.shared().mailbox.is_asleep() {
+            park(deadline);
         }
-    }
-}
-
-fn wait_for_cradle(cradle: &Queue<Arc<Shared>>) -> Arc<Shared> {
-    let mut found = VecDeque::new();
-    loop {
-        cradle.drain(&mut found);
-        if let Some(shared) = found.pop_front() {
-            return shared;
-        }
-        park(None);
     }
 }
 
@@ -138,11 +138,6 @@ pub struct Captured {
 }
 
 impl Captured {
-    pub(crate) fn new(shared: Arc<Shared>) -> Self {
-        let context = Context::new(shared);
-        Self { context }
-    }
-
     /// Its remote control.
     pub fn handle(&self) -> &ThreadHandle {
         self.context.handle()

@@ -1,8 +1,8 @@
 //! Who sent what to whom, when, how long it waited and how long it took.
 //!
-//! Off, it costs one relaxed load for each message sent and one comparison for each call. On, each message
-//! and each worker call becomes a [`Record`] in a ring that belongs to the traced thread, and an
-//! event of the `tracing` crate at level TRACE, target `dragonfly_runtime::trace`.
+//! Off, it costs one relaxed load for each message sent, and next to nothing for each call. On, each
+//! message and each worker call becomes a [`Record`] in a ring that belongs to the traced thread,
+//! and an event of the `tracing` crate at level TRACE, target `dragonfly_runtime::trace`.
 
 use crate::clock::Clock;
 use std::cell::RefCell;
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// One message delivered, or one worker called.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// The iteration it happened in, counted from 1.
+    /// The iteration it happened in, counted from 1 since the thread's start.
     pub iteration: u64,
     /// When the call began.
     pub at: Instant,
@@ -72,11 +72,10 @@ pub struct TraceSnapshot {
     pub records: Vec<Record>,
 }
 
-/// The ring, and the current iteration.
+/// The ring.
 pub(crate) struct Trace {
-    pub(crate) iteration: u64,
     capacity: usize,
-    records: VecDeque<Record>,
+    pub(crate) records: VecDeque<Record>,
 }
 
 /// How many threads are traced. While it is 0 nobody keeps track of who is sending.
@@ -85,11 +84,12 @@ static TRACED_THREADS: AtomicUsize = AtomicUsize::new(0);
 impl Trace {
     pub(crate) fn new(capacity: usize) -> Self {
         TRACED_THREADS.fetch_add(1, Ordering::Relaxed);
-        Self { iteration: 0, capacity, records: VecDeque::with_capacity(capacity) }
+        Self { capacity, records: VecDeque::with_capacity(capacity) }
     }
 
-    pub(crate) fn add(&mut self, at: Instant, took: Duration, event: Event) {
-        match &event {
+    pub(crate) fn add(&mut self, record: Record) {
+        let took = record.took;
+        match &record.event {
             Event::Message { from, to, message, waited, end } => {
                 tracing::trace!(%from, %to, message, ?waited, ?took, ?end, "message")
             }
@@ -98,11 +98,7 @@ impl Trace {
         if self.records.len() == self.capacity {
             self.records.pop_front();
         }
-        self.records.push_back(Record { iteration: self.iteration, at, took, event });
-    }
-
-    pub(crate) fn records(&self) -> Vec<Record> {
-        self.records.iter().cloned().collect()
+        self.records.push_back(record);
     }
 }
 
@@ -131,21 +127,12 @@ impl Stamp {
     }
 }
 
-/// While this lives, messages are stamped as sent by that object.
-pub(crate) struct Sending(Option<Arc<str>>);
-
-impl Sending {
-    /// `None`, and next to free, while no thread is traced.
-    pub(crate) fn enter(thread: &str, object: &str) -> Option<Self> {
-        (TRACED_THREADS.load(Ordering::Relaxed) > 0).then(|| {
-            let name = format!("{thread}/{object}").into();
-            Self(SENDER.replace(Some(name)))
-        })
-    }
+/// The name of an object as a sender. `None`, and next to free, while no thread is traced.
+pub(crate) fn sender(thread: &str, object: &str) -> Option<Arc<str>> {
+    (TRACED_THREADS.load(Ordering::Relaxed) > 0).then(|| format!("{thread}/{object}").into())
 }
 
-impl Drop for Sending {
-    fn drop(&mut self) {
-        SENDER.set(self.0.take());
-    }
+/// From now on what this OS thread sends is stamped with `sender`; returns who it was before.
+pub(crate) fn send_as(sender: Option<Arc<str>>) -> Option<Arc<str>> {
+    SENDER.replace(sender)
 }

@@ -1,13 +1,12 @@
 //! Says which object of which thread does not come back, and with which type of message.
 
-use crate::register::RUN;
+use crate::register::{Label, RUN};
 use crate::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::io;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 /// How long a call may take before the watchdog speaks, unless another time is given.
@@ -73,13 +72,10 @@ impl Watchdog {
         // A stopped thread need not be watched.
         let _ = thread.run(move |thread| {
             thread.watchers.push(address);
-            let workers = thread.workers.iter().map(|(id, slot)| (*id, Arc::clone(&slot.name), slot.call));
-            let receivers =
-                thread.receivers.iter().map(|(id, slot)| (*id, Arc::clone(&slot.name), slot.call));
-            let objects: Vec<_> = workers.chain(receivers).chain([(RUN, "run".into(), "run")]).collect();
-            for (id, name, call) in objects {
-                thread.tell_watchers(id, Some((name, call)));
+            for (id, slot) in &thread.objects {
+                thread.tell_watchers(*id, Some(&slot.label));
             }
+            thread.tell_watchers(RUN, Some(&Label { name: "run".into(), call: "run" }));
         });
     }
 }
@@ -88,8 +84,8 @@ impl Watchdog {
 pub(crate) struct Watched {
     pub(crate) thread: ThreadHandle,
     pub(crate) id: u32,
-    /// Its name, and what its calls are called; `None` when it is removed.
-    pub(crate) object: Option<(Arc<str>, &'static str)>,
+    /// `None` when it is removed.
+    pub(crate) label: Option<Label>,
 }
 
 struct Watch {
@@ -101,31 +97,27 @@ struct Watch {
 /// What was seen of a thread.
 struct Look {
     thread: ThreadHandle,
-    objects: HashMap<u32, (Arc<str>, &'static str)>,
+    labels: HashMap<u32, Label>,
+    /// The call that was running.
     running: u64,
-    since: Instant,
-    reported: bool,
+    /// When it was seen first; `None` when it was reported.
+    since: Option<Instant>,
 }
 
 impl Receiver for Watch {
     type Message = Watched;
 
-    fn receive(&mut self, watched: Watched, thread: &mut Context) {
+    fn receive(&mut self, watched: Watched, _: &mut Context) {
         let known = |look: &Look| look.thread == watched.thread;
         let index = self.threads.iter().position(known).unwrap_or_else(|| {
-            self.threads.push(Look {
-                thread: watched.thread.clone(),
-                objects: HashMap::new(),
-                running: 0,
-                since: thread.now(),
-                reported: false,
-            });
+            let thread = watched.thread.clone();
+            self.threads.push(Look { thread, labels: HashMap::new(), running: 0, since: None });
             self.threads.len() - 1
         });
-        let objects = &mut self.threads[index].objects;
-        match watched.object {
-            Some(object) => objects.insert(watched.id, object),
-            None => objects.remove(&watched.id),
+        let labels = &mut self.threads[index].labels;
+        match watched.label {
+            Some(label) => labels.insert(watched.id, label),
+            None => labels.remove(&watched.id),
         };
     }
 }
@@ -149,20 +141,18 @@ impl Worker for Watch {
 
 impl Look {
     fn again(&mut self, now: Instant, limit: Duration) -> Option<Stall> {
-        let running = self.thread.shared().running.load(Ordering::Relaxed);
-        let id = running as u32; // The upper half numbers the calls.
-        if running != self.running || id == 0 {
+        let running = self.thread.shared.running();
+        if running != self.running {
             self.running = running;
-            self.since = now;
-            self.reported = false;
+            self.since = Some(now);
+        }
+        let id = running as u32; // The upper half numbers the calls.
+        let time = now.saturating_duration_since(self.since?);
+        if id == 0 || time < limit {
             return None;
         }
-        let time = now.saturating_duration_since(self.since);
-        if self.reported || time < limit {
-            return None;
-        }
-        self.reported = true;
-        let (object, call) = self.objects.get(&id).cloned().unwrap_or_default();
+        self.since = None;
+        let Label { name: object, call } = self.labels.get(&id).cloned().unwrap_or_default();
         Some(Stall { thread: self.thread.name().to_owned(), object, call, running: time })
     }
 }

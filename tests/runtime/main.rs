@@ -10,6 +10,7 @@ mod overload;
 mod panics;
 mod registers;
 mod shutdown;
+mod size;
 mod stage;
 mod stop_and_pause;
 mod stress;

@@ -3,8 +3,12 @@
 
 #[cfg(loom)]
 use loom::sync::Mutex;
+#[cfg(loom)]
+pub(crate) use loom::sync::atomic;
 #[cfg(shuttle)]
 use shuttle::sync::Mutex;
+#[cfg(shuttle)]
+pub(crate) use shuttle::sync::atomic;
 use std::collections::VecDeque;
 
 /// The same methods as the queue over flume, over the checker's lock.
@@ -19,10 +23,9 @@ impl<T> Queue<T> {
         self.0.lock().unwrap().push_back(item);
     }
 
-    pub(crate) fn drain(&self, into: &mut VecDeque<T>) {
-        let items = std::mem::take(&mut *self.0.lock().unwrap());
-        // Outside the lock, as with flume.
-        into.extend(items);
+    pub(crate) fn drain(&self) -> impl Iterator<Item = T> {
+        // What is done with them is done outside the lock, as with flume.
+        std::mem::take(&mut *self.0.lock().unwrap()).into_iter()
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -21,7 +21,7 @@ fn main() {
 /// The models that both checkers run. In each, `check(f)` runs `f` under every schedule.
 #[cfg(any(loom, shuttle))]
 mod models {
-    use dragonfly_runtime::sync::thread;
+    use dragonfly_runtime::modelled::thread;
     use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::sync::{Arc, mpsc};

@@ -164,7 +164,8 @@ fn a_restartable_receiver_comes_back_fresh_and_loses_only_that_message() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("kitchen");
     let seen = faults(stage.context(&thread));
-    let address = stage.context(&thread).register_restartable_receiver(trapped(3, &log));
+    let address = thread.reserve_address();
+    stage.context(&thread).register_restartable_receiver_at(&address, trapped(3, &log));
     for message in 1..=8 {
         address.send(message).unwrap();
     }
@@ -203,23 +204,30 @@ fn objects_can_be_made_restartable_from_outside() {
     let (inside, outside) = std::sync::mpsc::channel();
     let said = inside.clone();
     let mut made = 0;
-    let address = thread.handle().register_restartable_receiver(move |_| {
+    let receiver = move |_: &mut Context| {
         made += 1;
         let (said, made) = (said.clone(), made);
         hear(move |message: u32, _: &mut Context| match message {
             0 => panic_quietly("zero"),
             _ => said.send((made, message)).unwrap(),
         })
-    });
+    };
     let mut turns = 0;
-    thread.handle().register_restartable_worker(move |_| {
+    let worker = move |_: &mut Context| {
         turns += 1;
         let (inside, turns) = (inside.clone(), turns);
-        work(move |_| match turns {
+        work(move |_: &mut Context| match turns {
             1 => panic_quietly("the first one"),
             _ => inside.send((turns, 0)).is_ok(),
         })
-    });
+    };
+    let address = thread.handle().reserve_address();
+    let own = address.clone();
+    let register = move |thread: &mut Context| {
+        thread.register_restartable_receiver_at(&own, receiver);
+        thread.register_restartable_worker(worker);
+    };
+    thread.handle().run(register).unwrap();
     for message in [1, 0, 2] {
         address.send(message).unwrap();
     }
@@ -239,7 +247,8 @@ fn more_than_three_panics_in_ten_seconds_are_too_many() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("kitchen");
     let seen = faults(stage.context(&thread));
-    let address = stage.context(&thread).register_restartable_receiver(trapped(1, &log));
+    let address = thread.reserve_address();
+    stage.context(&thread).register_restartable_receiver_at(&address, trapped(1, &log));
     // Spread out: a thousand are allowed.
     for _ in 0..1000 {
         stage.advance(Duration::from_secs(4));

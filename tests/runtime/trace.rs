@@ -48,7 +48,7 @@ fn the_trace_says_who_sent_what_to_whom_and_how_long_it_waited() {
     stage.advance(MS * 7);
     address.send(Order).unwrap();
     stage.iterate(&kitchen);
-    let lines: Vec<_> = stage.context(&kitchen).trace().iter().map(line).collect();
+    let lines: Vec<_> = stage.context(&kitchen).trace().records.iter().map(line).collect();
     assert_eq!(lines[0], "1: hall/Waiter -Order-> chef waited Some(7ms) Done(true)");
     assert_eq!(lines[1], "1:  -Order-> chef waited Some(0ns) Done(true)", "sent by no thread of ours");
     assert!(lines[2].ends_with("Done(false)"), "{}", lines[2]);
@@ -89,7 +89,7 @@ fn the_trace_shows_what_went_wrong() {
     let end = |record: &Record| match record.event {
         Event::Message { end, .. } | Event::Worker { end, .. } => end,
     };
-    let ends: Vec<_> = stage.context(&thread).trace().iter().map(end).collect();
+    let ends: Vec<_> = stage.context(&thread).trace().records.iter().map(end).collect();
     assert_eq!(ends, [End::Undeliverable, End::Panicked]);
 }
 
@@ -98,17 +98,18 @@ fn the_ring_keeps_the_newest() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     stage.context(&thread).register_worker(note(&log, "work"));
-    assert!(stage.context(&thread).trace().is_empty(), "off unless asked for");
+    assert!(stage.context(&thread).trace().records.is_empty(), "off unless asked for");
     thread.set_trace(3);
     for _ in 0..10 {
         stage.iterate(&thread);
     }
-    let turns: Vec<_> = stage.context(&thread).trace().iter().map(|record| record.iteration).collect();
+    let turns: Vec<_> =
+        stage.context(&thread).trace().records.iter().map(|record| record.iteration).collect();
     assert_eq!(turns.len(), 3);
     assert_eq!(turns[2] - turns[0], 2);
     thread.set_trace(0);
     stage.iterate(&thread);
-    assert!(stage.context(&thread).trace().is_empty());
+    assert!(stage.context(&thread).trace().records.is_empty());
 }
 
 #[test]
