@@ -1,5 +1,6 @@
 //! What the tests of all crates share. Small on purpose: a test should show what it does.
 
+pub mod bench;
 pub mod counting;
 mod eventually;
 pub mod mutate;
