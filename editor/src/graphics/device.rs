@@ -102,7 +102,16 @@ impl Device {
     pub fn new(parameters: DeviceParameters) -> Result<Self, GraphicsError> {
         let faults = Faults::default();
         let instance = instance(&parameters);
-        let mut surface = parameters.source.as_ref().map(|source| source.surface(&instance)).transpose()?;
+        let surface = parameters.source.as_ref().map(|source| source.surface(&instance)).transpose();
+        // Without a driver there is no surface either; the driver is what a person has to hear of.
+        let mut surface = surface.map_err(|error| {
+            let adapters = pollster::block_on(instance.enumerate_adapters(parameters.backends));
+            if adapters.is_empty() {
+                GraphicsError::NoAdapter("no driver was found".to_owned())
+            } else {
+                error
+            }
+        })?;
         let (adapter, gpu) = make(&instance, &parameters, surface.as_mut(), &faults)?;
         let losses = LossRecord::default();
         Ok(Self { parameters, instance, adapter, gpu, surface, listeners: Vec::new(), faults, losses })

@@ -83,7 +83,7 @@ impl Stage {
         // The model first: passes draw with it.
         device.add_listener(Rc::clone(&passes.model) as _);
         for pass in &passes.list {
-            device.add_listener(Rc::new(RefCell::new(ListeningPass(Rc::clone(pass)))));
+            device.add_listener(pass::listener(pass));
         }
         Ok(Self {
             device,
@@ -397,17 +397,4 @@ impl Stage {
 /// The pixels there really are to draw into.
 fn window_extent(texture: Option<&wgpu::SurfaceTexture>, otherwise: [u32; 2]) -> [u32; 2] {
     texture.map_or(otherwise, |texture| [texture.texture.width(), texture.texture.height()])
-}
-
-/// A pass as a listener: the list of passes and the list of listeners hold the same object under two names.
-struct ListeningPass(SharedPass);
-
-impl super::device::DeviceListener for ListeningPass {
-    fn on_lost(&mut self) {
-        self.0.borrow_mut().on_lost();
-    }
-
-    fn on_reset(&mut self, gpu: &super::gpu::Gpu) {
-        self.0.borrow_mut().on_reset(gpu);
-    }
 }

@@ -90,6 +90,23 @@ pub fn all() -> Passes {
     Passes { list, model, panels }
 }
 
+/// A pass as a listener: the list of passes and the list of listeners hold the same object under two names.
+pub fn listener(pass: &SharedPass) -> Rc<RefCell<dyn DeviceListener>> {
+    Rc::new(RefCell::new(ListeningPass(Rc::clone(pass))))
+}
+
+struct ListeningPass(SharedPass);
+
+impl DeviceListener for ListeningPass {
+    fn on_lost(&mut self) {
+        self.0.borrow_mut().on_lost();
+    }
+
+    fn on_reset(&mut self, gpu: &Gpu) {
+        self.0.borrow_mut().on_reset(gpu);
+    }
+}
+
 fn shared(pass: impl Pass + 'static) -> SharedPass {
     Rc::new(RefCell::new(pass))
 }
