@@ -175,7 +175,7 @@ fn columns(ui: &mut Ui, name: &str, letters: &[(&str, Color32)], values: &[Strin
         let left = rect.left() + index as f32 * (width + gap);
         let field = egui::Rect::from_min_size(pos2(left, rect.top()), vec2(width, rect.height()));
         ui.painter().rect_filled(field, CornerRadius::same(style::RADIUS), theme.sunken);
-        if width > 54.0 {
+        if width > 64.0 {
             let at = pos2(field.left() + 6.0, field.center().y);
             ui.painter().text(at, Align2::LEFT_CENTER, letter, FontId::proportional(10.0), *color);
         }

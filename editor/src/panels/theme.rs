@@ -115,7 +115,7 @@ pub const LIGHT: Theme = Theme {
     glass_line: Color32::from_rgba_premultiplied(200, 208, 206, 255),
     sky: [Color32::from_rgb(216, 223, 224), Color32::from_rgb(184, 194, 196)],
     grid: Color32::from_rgb(128, 140, 142),
-    bone: Color32::from_rgb(72, 82, 84),
+    bone: Color32::from_rgb(150, 160, 163),
     shadow: Color32::from_rgba_premultiplied(0, 0, 0, 50),
 };
 
