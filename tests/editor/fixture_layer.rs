@@ -35,7 +35,7 @@ impl Layer {
 
     /// Faults so far.
     pub(crate) fn faults(&self) -> usize {
-        lines(&self.log())
+        lines(self.log())
     }
 
     /// Begins to count anew.

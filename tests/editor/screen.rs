@@ -88,11 +88,6 @@ impl Screen {
         }
     }
 
-    /// Is the window still there?
-    pub(crate) fn has(&mut self, window: Window) -> bool {
-        self.children().contains(&window)
-    }
-
     /// Moves the pointer.
     pub(crate) fn point(&mut self, x: i16, y: i16) {
         self.fake(6, 0, x, y);

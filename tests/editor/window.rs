@@ -276,17 +276,30 @@ fn a_window_of_any_size_hidden_and_shown_again_goes_on() {
 }
 
 #[test]
-fn a_window_or_a_screen_that_goes_away_ends_the_program_and_does_not_crash_it() {
+fn a_window_that_is_destroyed_from_outside_ends_the_program_and_does_not_crash_it() {
+    let _one = alone();
+    let mut screen = Screen::new("destroyed", 1280, 800);
+    // Before anything was drawn, and after.
+    for shown in [false, true] {
+        let mut editor = Editor::open(&mut screen, &[], &[]);
+        if shown {
+            eventually_shows_something(&screen);
+        }
+        screen.destroy(editor.window);
+        let status = editor.ends(SOON);
+        assert!(matches!(status.code(), Some(0 | 3)), "{status}: {}", editor.log());
+    }
+}
+
+/// Only that it ends: Xlib itself ends a program whose server is gone, in the middle of whatever its threads do, and below
+/// anything that safe code can set. Mostly that is exit code 1; a driver that still draws can make it a signal.
+#[test]
+fn the_program_does_not_outlive_its_screen() {
     let _one = alone();
     let mut screen = Screen::new("gone", 1280, 800);
-    let mut editor = Editor::open(&mut screen, &[], &[]);
-    screen.destroy(editor.window);
-    let status = editor.ends(SOON);
-    assert!(matches!(status.code(), Some(0 | 3)), "{status}: {}", editor.log());
     let mut editor = Editor::open(&mut screen, &[], &[]);
     eventually_shows_something(&screen);
     screen.kill();
     let status = editor.ends(SOON);
-    // Xlib itself ends a program whose server is gone, with code 1; winit uses it, and it cannot be talked out of it.
-    assert!(matches!(status.code(), Some(0 | 1 | 3)), "{status}: {}", editor.log());
+    assert_ne!(status.code(), Some(0), "a screen that is gone is no orderly end");
 }
