@@ -58,9 +58,12 @@ fn two_threads() {
     measure("runtime/message/round_trip_between_threads", 20, || {
         let before = home.counters().delivered;
         address.send(1).expect("the thread lives");
-        // Delivered before the look, or woken after it: the wake-up leaves a token that ends the next park.
-        while answers.iterate() == Next::Now || home.counters().delivered == before {
-            if home.counters().delivered == before {
+        loop {
+            let next = answers.iterate();
+            if home.counters().delivered != before {
+                return;
+            }
+            if next != Next::Now {
                 std::thread::park();
             }
         }
