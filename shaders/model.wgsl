@@ -121,19 +121,21 @@ fn mapped_normal(in: Surface, smooth_normal: vec3f) -> vec3f {
     return normalize(mapped);
 }
 
+// `thin` of the light that falls on the other side comes through: wings, leaves, cloth.
 fn lit_metallic(
-    base: vec3f, metallic: f32, roughness: f32, normal: vec3f, view: vec3f, occlusion: f32,
+    base: vec3f, metallic: f32, roughness: f32, normal: vec3f, view: vec3f, occlusion: f32, thin: f32,
 ) -> vec3f {
     let diffuse = base * (1.0 - metallic);
     let f0 = mix(vec3f(0.04), base, metallic);
     let n_dot_v = clamp(dot(normal, view), 1e-3, 1.0);
     let studio_normal = studio_from_world(normal);
     let studio_view = studio_from_world(view);
-    var light = diffuse * studio_ambient(studio_normal) * occlusion;
+    let ambient = mix(studio_ambient(studio_normal), studio_ambient(-studio_normal), 0.5 * thin);
+    var light = diffuse * ambient * occlusion;
     for (var index = 0u; index < LIGHT_COUNT; index++) {
         let lamp = studio_light(index);
-        let n_dot_l = max(dot(studio_normal, lamp.direction), 0.0);
-        light += diffuse * lamp.color * n_dot_l;
+        let facing = dot(studio_normal, lamp.direction);
+        light += diffuse * lamp.color * max(facing, -facing * thin);
         light += lamp.color * highlight(studio_normal, studio_view, lamp.direction, f0, roughness);
     }
     let along = reflect(-studio_view, studio_normal);
@@ -215,7 +217,7 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
         return shown(base.rgb, alpha);
     }
     if frame.studio.z > 0.5 {
-        let clay = lit_metallic(vec3f(0.50, 0.485, 0.47), 0.0, 0.62, smooth_normal, view, 1.0);
+        let clay = lit_metallic(vec3f(0.50, 0.485, 0.47), 0.0, 0.62, smooth_normal, view, 1.0, 0.0);
         return shown(tone_map(clay), alpha);
     }
     if material.unlit == 1u {
@@ -225,7 +227,9 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
     if material.use_phong == 1u {
         light = lit_phong(base.rgb, normal, view, occlusion);
     } else {
-        light = lit_metallic(base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, view, occlusion);
+        // What lets the background through lets light through.
+        let thin = select(0.0, 0.8, material.alpha_mode == 2u);
+        light = lit_metallic(base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, view, occlusion, thin);
     }
     return shown(tone_map(light + emissive), alpha);
 }
