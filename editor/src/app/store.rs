@@ -1,5 +1,6 @@
 //! Settings and panel places on the disk. Failing to keep them is worth a line, never a stop.
 
+use etcetera::{AppStrategy, AppStrategyArgs, choose_app_strategy};
 use std::path::{Path, PathBuf};
 
 /// A folder with small text files.
@@ -19,8 +20,8 @@ impl Store {
     /// In `folder`, or where the system keeps such things; nowhere when it has no such place.
     pub fn new(folder: Option<PathBuf>) -> Self {
         let usual = || {
-            let folders = directories::ProjectDirs::from("", "", "dragonfly")?;
-            Some(folders.config_dir().to_owned())
+            let app = AppStrategyArgs { app_name: "dragonfly".to_owned(), ..Default::default() };
+            Some(choose_app_strategy(app).ok()?.config_dir())
         };
         Self { folder: folder.or_else(usual) }
     }
