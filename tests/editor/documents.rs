@@ -1,6 +1,8 @@
 //! The document thread opens, fails, gives up, and always says so.
 
-use dragonfly::document::{Cancel, Document, DocumentReply, LoadError, Source, images, load_model};
+use dragonfly::document::{
+    Cancel, Document, DocumentReply, LoadError, LoadedModel, Progress, Source, images, load_model,
+};
 use dragonfly_anim::data::Image;
 use dragonfly_kit::eventually;
 use dragonfly_runtime::{Context, Receiver, Thread};
@@ -116,4 +118,51 @@ fn images_of_one_source_are_decoded_once() {
     let [Some(first), Some(second)] = &decoded.images[..] else { panic!("{decoded:?}") };
     assert!(std::sync::Arc::ptr_eq(first, second));
     assert_eq!((first.width, first.height, first.pixels.len()), (3, 2, 24));
+}
+
+/// Panics in one of three ways on every file, and opens the built-in model.
+fn panics_on_files(
+    source: &Source,
+    progress: &mut dyn FnMut(Progress),
+    cancel: &Cancel,
+) -> Result<LoadedModel, LoadError> {
+    match source {
+        Source::BuiltIn => load_model(source, progress, cancel),
+        Source::File(path) => match path.as_os_str().len() % 3 {
+            0 => panic!("a text without numbers"),
+            1 => panic!("a text about {}", path.display()),
+            _ => std::panic::panic_any(path.clone()),
+        },
+    }
+}
+
+#[test]
+fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays() {
+    let heard = Heard::default();
+    let mut main = Thread::capture("main", || {});
+    let replies = main.context().register_receiver(heard.clone());
+    let document = Document::start_with(panics_on_files, replies).unwrap();
+    let mut wait = |what: &dyn Fn(&[DocumentReply]) -> bool| {
+        eventually(Duration::from_secs(30), || {
+            main.iterate();
+            what(&heard.0.borrow())
+        });
+    };
+    let views = |heard: &[DocumentReply]| {
+        heard.iter().filter(|reply| matches!(reply, DocumentReply::View(_))).count()
+    };
+    document.open(Source::BuiltIn);
+    wait(&|heard| views(heard) == 1);
+    for number in 1..=100 {
+        document.open(Source::File("x".repeat(number).into()));
+        wait(&|heard| {
+            let failed = |reply: &&DocumentReply| matches!(reply, DocumentReply::Failed { reason, .. } if reason.contains("the importer failed"));
+            heard.iter().filter(failed).count() == number
+        });
+    }
+    // It still opens what can be opened.
+    document.open(Source::BuiltIn);
+    wait(&|heard| views(heard) == 2);
+    document.stop();
+    Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
 }

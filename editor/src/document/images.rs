@@ -35,7 +35,7 @@ pub fn decode_all(images: &[Image], cancel: &Cancel, mut done: impl FnMut(usize)
         } else if let Some(twin) = twin {
             decoded.images[twin].clone()
         } else {
-            match decode(image, budget) {
+            match decode_guarded(image, budget) {
                 Ok(pixels) => {
                     budget -= u64::from(pixels.width) * u64::from(pixels.height);
                     Some(Arc::new(pixels))
@@ -50,6 +50,12 @@ pub fn decode_all(images: &[Image], cancel: &Cancel, mut done: impl FnMut(usize)
         done(index + 1);
     }
     decoded
+}
+
+/// The last line: a decoder that panics costs its image, like one that fails.
+fn decode_guarded(image: &Image, budget: u64) -> Result<DecodedImage, String> {
+    std::panic::catch_unwind(|| decode(image, budget))
+        .unwrap_or_else(|_| Err("the decoder failed on it".to_owned()))
 }
 
 /// Decodes one image of at most `budget` pixels to RGBA.

@@ -1,6 +1,6 @@
 //! Loading in a thread of its own: the document goes on while a file is read, and outlives an importer that panics.
 
-use super::{Cancel, LoadError, LoadedModel, Progress, Source, load_model};
+use super::{Cancel, LoadError, LoadedModel, Loader, Progress, Source};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::JoinHandle;
 
@@ -20,8 +20,12 @@ pub(super) struct LoadJob {
 }
 
 impl LoadJob {
-    /// Starts loading; `tell` is called from the job's thread.
-    pub(super) fn start(source: Source, tell: impl Fn(JobNews) + Send + 'static) -> std::io::Result<Self> {
+    /// Starts loading; `load` and `tell` are called in the job's thread.
+    pub(super) fn start(
+        source: Source,
+        load: Loader,
+        tell: impl Fn(JobNews) + Send + 'static,
+    ) -> std::io::Result<Self> {
         let cancel = Cancel::default();
         let seen = cancel.clone();
         let thread = std::thread::Builder::new().name("load".to_owned()).spawn(move || {
@@ -35,7 +39,7 @@ impl LoadJob {
                 }
             };
             // Nothing of a failed job is kept, so nothing half done can be seen.
-            let loaded = catch_unwind(AssertUnwindSafe(|| load_model(&source, &mut progress, &seen)));
+            let loaded = catch_unwind(AssertUnwindSafe(|| load(&source, &mut progress, &seen)));
             tell(JobNews::Done(loaded.unwrap_or_else(|panic| {
                 let reason = format!("the importer failed: {}", panic_text(&*panic));
                 Err(LoadError::Format { title, reason })

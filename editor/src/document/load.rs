@@ -52,6 +52,9 @@ pub enum LoadError {
     Cancelled,
 }
 
+/// A way to open a model, such as [`load_model`].
+pub type Loader = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<LoadedModel, LoadError>;
+
 /// Opens `source`. `progress` hears how far it is; raising `cancel` ends it at the next step.
 ///
 /// What is wrong but bearable becomes a warning of the model.

@@ -11,6 +11,6 @@ mod view;
 
 pub use cancel::{Cancel, Progress, Stage};
 pub use folder::{DoorError, Folder, read_file};
-pub use load::{LoadError, Source, load_model};
+pub use load::{LoadError, Loader, Source, load_model};
 pub use owner::{Document, DocumentHandle, DocumentMessage, DocumentReply};
 pub use view::{DecodedImage, LoadedModel, View};

@@ -1,7 +1,7 @@
 //! The document thread: owns what is open, loads in jobs, publishes the newest view.
 
 use super::job::{JobNews, LoadJob};
-use super::{LoadError, LoadedModel, Progress, Source, View};
+use super::{LoadError, LoadedModel, Loader, Progress, Source, View, load_model};
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle};
 use std::sync::Arc;
 
@@ -50,6 +50,7 @@ pub struct Document {
     generation: u64,
     job: Option<Running>,
     tickets: u64,
+    load: Loader,
     replies: Address<DocumentReply>,
     /// Jobs send here.
     own: Address<DocumentMessage>,
@@ -71,6 +72,11 @@ pub struct DocumentHandle {
 impl Document {
     /// Starts the document thread; it answers to `replies`.
     pub fn start(replies: Address<DocumentReply>) -> std::io::Result<DocumentHandle> {
+        Self::start_with(load_model, replies)
+    }
+
+    /// The same, with another way to open a model: one that fails as a test wants it to.
+    pub fn start_with(load: Loader, replies: Address<DocumentReply>) -> std::io::Result<DocumentHandle> {
         let thread = Thread::start("document")?;
         let handle = thread.handle();
         let address = handle.reserve_address();
@@ -80,6 +86,7 @@ impl Document {
             generation: 0,
             job: None,
             tickets: 0,
+            load,
             replies,
             own,
         });
@@ -93,7 +100,7 @@ impl Document {
             // A document that has stopped does not want it any more.
             let _ = own.send(DocumentMessage::News(ticket, NewsBox(news)));
         };
-        match LoadJob::start(source.clone(), tell) {
+        match LoadJob::start(source.clone(), self.load, tell) {
             Ok(job) => self.job = Some(Running { _job: job, ticket, source }),
             Err(error) => self.reply(DocumentReply::Failed { source, reason: error.to_string() }),
         }
