@@ -25,6 +25,7 @@ mod settings;
 mod shaders;
 mod skinning_on_device;
 mod studio;
+mod surfaces;
 mod viewport_control;
 mod window;
 
