@@ -69,12 +69,12 @@ struct Material {
 
 @vertex
 fn vs_model(in: VertexIn, @builtin(vertex_index) index: u32) -> Surface {
-    let start = morphed(Posed(in.position, in.normal, in.tangent.xyz), index);
+    let start = morphed(Posed(in.position, in.normal, in.tangent), index);
     let matrix = blended_matrix(in.joints0, in.joints1, in.weights0, in.weights1);
     let posed = moved(matrix, start);
     return Surface(
         frame.clip_from_world * vec4f(posed.position, 1.0),
-        posed.position, posed.normal, vec4f(posed.tangent, in.tangent.w), in.uv, in.color);
+        posed.position, posed.normal, posed.tangent, in.uv, in.color);
 }
 
 fn coordinates(use_of: TextureUse, uv: vec4f) -> vec2f {
@@ -101,9 +101,11 @@ fn mapped_normal(in: Surface, smooth_normal: vec3f) -> vec3f {
     if dot(tangent, tangent) < 1e-12 {
         let across = cross(dp_y, smooth_normal);
         let up = cross(smooth_normal, dp_x);
-        tangent = across * dt_x.x + up * dt_y.x;
+        // Pixels run downwards, so on front faces both point the wrong way.
+        let turn = select(-1.0, 1.0, dot(across, dp_x) >= 0.0);
+        tangent = turn * (across * dt_x.x + up * dt_y.x);
         // Texture coordinates run downwards, the map's +Y upwards.
-        bitangent = -(across * dt_x.y + up * dt_y.y);
+        bitangent = -turn * (across * dt_x.y + up * dt_y.y);
         let longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
         if longest < 1e-24 {
             return smooth_normal;

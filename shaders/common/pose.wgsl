@@ -32,7 +32,8 @@ struct Draw {
 struct Posed {
     position: vec3f,
     normal: vec3f,
-    tangent: vec3f,
+    // w: the side of the bitangent.
+    tangent: vec4f,
 }
 
 fn delta(at: u32) -> vec3f {
@@ -47,7 +48,7 @@ fn morphed(start: Posed, vertex: u32) -> Posed {
             let at = (target_index * draw.vertices + vertex) * 9u;
             posed.position += weight * delta(at);
             posed.normal += weight * delta(at + 3u);
-            posed.tangent += weight * delta(at + 6u);
+            posed.tangent += vec4f(weight * delta(at + 6u), 0.0);
         }
     }
     return posed;
@@ -76,19 +77,43 @@ fn blended_matrix(joints0: vec4u, joints1: vec4u, weights0: vec4f, weights1: vec
     return sum;
 }
 
+fn largest_of(v: vec3f) -> f32 {
+    return max(abs(v.x), max(abs(v.y), abs(v.z)));
+}
+
+// Unit length, however short or long `v` is; `otherwise` where it has no direction.
+fn unit_or(v: vec3f, otherwise: vec3f) -> vec3f {
+    let largest = largest_of(v);
+    if !(largest > 0.0) {
+        return otherwise;
+    }
+    let near_one = v / largest;
+    return near_one * inverseSqrt(dot(near_one, near_one));
+}
+
+// Directions get unit length here, not between the vertices: else the longer one would pull the others its way.
 fn moved(matrix: Affine, start: Posed) -> Posed {
     let p = vec4f(start.position, 1.0);
-    let linear_x = matrix.x.xyz;
-    let linear_y = matrix.y.xyz;
-    let linear_z = matrix.z.xyz;
+    // Divided by its largest number, so that products of three neither vanish nor overflow.
+    let largest = max(largest_of(matrix.x.xyz), max(largest_of(matrix.y.xyz), largest_of(matrix.z.xyz)));
+    let scale = select(1.0, 1.0 / largest, largest > 0.0);
+    let linear_x = matrix.x.xyz * scale;
+    let linear_y = matrix.y.xyz * scale;
+    let linear_z = matrix.z.xyz * scale;
     // Rows of the cofactor matrix: the inverse transpose times the determinant, whose sign must go.
     let cofactor_x = cross(linear_y, linear_z);
     let cofactor_y = cross(linear_z, linear_x);
     let cofactor_z = cross(linear_x, linear_y);
     let side = select(-1.0, 1.0, dot(linear_x, cofactor_x) >= 0.0);
-    let normal = side * vec3f(
+    let tilted = side * vec3f(
         dot(cofactor_x, start.normal), dot(cofactor_y, start.normal), dot(cofactor_z, start.normal));
-    let tangent = vec3f(
-        dot(linear_x, start.tangent), dot(linear_y, start.tangent), dot(linear_z, start.tangent));
-    return Posed(vec3f(dot(matrix.x, p), dot(matrix.y, p), dot(matrix.z, p)), normal, tangent);
+    let along = vec3f(
+        dot(linear_x, start.normal), dot(linear_y, start.normal), dot(linear_z, start.normal));
+    let normal = unit_or(tilted, unit_or(along, unit_or(start.normal, vec3f(0.0, 1.0, 0.0))));
+    let flat = start.tangent.xyz;
+    let tangent = unit_or(vec3f(dot(linear_x, flat), dot(linear_y, flat), dot(linear_z, flat)), flat);
+    // Where the matrix mirrors, the bitangent lies on the other side.
+    return Posed(
+        vec3f(dot(matrix.x, p), dot(matrix.y, p), dot(matrix.z, p)),
+        normal, vec4f(tangent, side * start.tangent.w));
 }

@@ -13,6 +13,7 @@ mod folder;
 mod graphics_thread;
 mod images;
 mod life;
+mod made;
 mod no_allocation;
 mod panels;
 mod picking;
@@ -23,7 +24,9 @@ mod ruler;
 mod screen;
 mod settings;
 mod shaders;
+mod skinning_on_device;
 mod studio;
+mod surfaces;
 mod viewport_control;
 mod window;
 
