@@ -34,7 +34,7 @@ fn bone_color(state: u32) -> vec3f {
     switch state {
         case 0u: { return frame.bone_color.rgb; }
         case 1u: { return frame.accent.rgb; }
-        case 2u: { return mix(frame.bone_color.rgb, vec3f(1.0), 0.65); }
+        case 2u: { return mix(frame.bone_color.rgb, frame.accent.rgb, 0.45); }
         default: { return mix(frame.accent.rgb, vec3f(1.0, 0.9, 0.8), 0.4); }
     }
 }

@@ -11,6 +11,7 @@ mod fixture;
 mod fixture_layer;
 mod folder;
 mod graphics_thread;
+mod hover;
 mod images;
 mod life;
 mod made;

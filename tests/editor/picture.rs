@@ -1,8 +1,13 @@
 //! A picture without a window shows the model, at the time asked for, over the background asked for.
 
+use crate::program::data;
 use crate::{arm, studio};
+use dragonfly::document::{Cancel, Source, View, load_model};
 use dragonfly::graphics::PictureSettings;
+use dragonfly::panels::{Settings, State};
 use image::RgbaImage;
+use std::sync::Arc;
+use std::time::Instant;
 
 /// Small, because the processor draws it.
 pub(crate) fn settings() -> PictureSettings {
@@ -76,5 +81,35 @@ fn a_picture_of_impossible_size_is_refused() {
     for size in [[0, 10], [10, 0], [1 << 20, 4]] {
         assert!(studio.render(&loaded, &PictureSettings { size, ..settings() }).is_err());
     }
+    assert_eq!(studio.stage().device().errors(), 0);
+}
+
+#[test]
+fn a_skeleton_without_any_surface_is_seen() {
+    let source = Source::File(data("gltf/Fox_skeleton.glb"));
+    let loaded = Arc::new(load_model(&source, &mut |_| {}, &Cancel::default()).unwrap());
+    let (animation, warnings) = (&loaded.model.animation, &loaded.warnings);
+    assert_eq!((animation.skeleton.bones.len(), animation.takes.len()), (25, 3));
+    assert!(loaded.model.instances.is_empty() && warnings.is_empty(), "{warnings:?}");
+
+    // The editor shows the bones, although its settings do not ask for them.
+    let mut state = State::new(Settings::default(), Instant::now());
+    assert!(!state.settings.look.skeleton && !state.shows_skeleton());
+    state.show(View { generation: 1, loaded: Arc::clone(&loaded) });
+    assert!(state.shows_skeleton());
+
+    let Some(mut studio) = studio::studio() else { return };
+    let mut with = |skeleton| {
+        let settings = PictureSettings { skeleton, grid: false, ..settings() };
+        studio.render(&loaded, &settings).unwrap()
+    };
+    let (bones, empty) = (with(true), with(false));
+    let seen = difference(&bones, &empty);
+    assert!(seen > 500, "only {seen} pixels show a bone");
+    // Framed: the bones reach over much of the picture and stay away from its edges.
+    let columns: Vec<u32> =
+        (0..160).filter(|&x| (0..120).any(|y| bones.get_pixel(x, y) != empty.get_pixel(x, y))).collect();
+    let (first, last) = (columns[0], columns[columns.len() - 1]);
+    assert!(first > 2 && last < 157, "columns {first} to {last}");
     assert_eq!(studio.stage().device().errors(), 0);
 }

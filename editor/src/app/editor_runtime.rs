@@ -1,13 +1,15 @@
 //! The editor: opens models, and carries what the person does to the threads that can do it (thesis §3.2.4.5).
 
+use super::answers::{Answers, Replies};
 use super::base_runtime::{BaseRuntime, Parts};
+use super::hover::{Hover, Place};
 use super::interface::Interface;
 use super::open_dialog::{self, Answer};
 use super::options::Options;
 use crate::camera::Camera;
 use crate::document::{Document, DocumentHandle, DocumentReply, Source};
 use crate::graphics::{GraphicsHandle, GraphicsReply, Look};
-use crate::panels::state::{Device, Loading, Overlay};
+use crate::panels::state::Device;
 use crate::panels::status::Level;
 use crate::panels::theme::{Theme, linear};
 use crate::panels::{Effect, State};
@@ -34,7 +36,11 @@ struct Running {
     replies: Address<DocumentReply>,
     answers: Address<Answer>,
     sent: Sent,
+    /// Questions asked so far.
     tickets: u64,
+    /// The newest question of a click.
+    click: u64,
+    hover: Hover,
     /// Frames drawn when the device was last lost on purpose.
     lost_at: u64,
 }
@@ -89,6 +95,7 @@ impl EditorRuntime {
             }
             Effect::Pick(position) => {
                 running.tickets += 1;
+                running.click = running.tickets;
                 let scale = interface.pixels_per_point();
                 let position = [position.x * scale, position.y * scale];
                 graphics.pick(position, running.tickets);
@@ -105,7 +112,10 @@ impl EditorRuntime {
 
 impl BaseRuntime for EditorRuntime {
     fn initialize(&mut self, parts: Parts, main: &mut Context) {
-        let replies = main.register_receiver(Replies(Rc::clone(&parts.interface)));
+        let replies = main.register_receiver(Replies {
+            interface: Rc::clone(&parts.interface),
+            passed_over: self.options.passed_over,
+        });
         let answers = main.register_receiver(Answers(Rc::clone(&parts.interface)));
         let document = match Document::start(replies.clone()) {
             Ok(document) => {
@@ -121,8 +131,17 @@ impl BaseRuntime for EditorRuntime {
                 None
             }
         };
-        let sent = Sent::default();
-        self.running = Some(Running { parts, document, replies, answers, sent, tickets: 0, lost_at: 0 });
+        self.running = Some(Running {
+            parts,
+            document,
+            replies,
+            answers,
+            sent: Sent::default(),
+            tickets: 0,
+            click: 0,
+            hover: Hover::default(),
+            lost_at: 0,
+        });
         self.open_model(self.options.source.clone());
     }
 
@@ -135,8 +154,14 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.device = Device::Ready { adapter };
             }
             GraphicsReply::Picked { bone, ticket } => {
+                if running.hover.answered(ticket) {
+                    // A pointer that stays on its bone changes nothing, so nothing is drawn.
+                    if interface.state.pointed == bone || interface.state.pointer.is_none() {
+                        return;
+                    }
+                    interface.state.pointed = bone;
                 // An answer to an older question is not what the person points at now.
-                if ticket == running.tickets {
+                } else if ticket == running.click {
                     interface.state.selected = bone;
                 }
             }
@@ -182,8 +207,8 @@ impl BaseRuntime for EditorRuntime {
             self.effect(effect);
         }
         if let Some(running) = &mut self.running {
-            let interface = running.parts.interface.borrow();
-            running.sent.update(&running.parts.graphics, &interface);
+            running.sent.update(&running.parts.graphics, &running.parts.interface.borrow());
+            running.ask_under_pointer();
         }
     }
 
@@ -197,6 +222,24 @@ impl BaseRuntime for EditorRuntime {
             }
         }
         main.unregister_receiver(&running.replies);
+    }
+}
+
+impl Running {
+    /// Asks which bone is under the pointer, when that may have changed and no answer is on its way.
+    fn ask_under_pointer(&mut self) {
+        let interface = self.parts.interface.borrow();
+        let (state, scale) = (&interface.state, interface.pixels_per_point());
+        let place = state.pointer.zip(state.view.as_ref()).map(|(pointer, view)| Place {
+            position: [pointer.x * scale, pointer.y * scale],
+            camera: state.camera,
+            generation: view.generation,
+        });
+        let asks = self.hover.asks(place, self.tickets + 1);
+        if let Some(asked) = place.filter(|_| asks) {
+            self.tickets += 1;
+            self.parts.graphics.pick(asked.position, self.tickets);
+        }
     }
 }
 
@@ -247,7 +290,7 @@ fn look(state: &State, pixels_per_point: f32, dark: bool) -> Look {
         bone_look: settings.bone_look,
         bones_in_front: settings.bones_in_front,
         selected: state.selected.into_iter().collect(),
-        hovered: state.hovered,
+        hovered: state.bright(),
         shading: settings.shading,
         surface: settings.surface,
         bone_color: linear(theme.bone),
@@ -277,66 +320,6 @@ impl Receiver for Faults {
     fn receive(&mut self, text: String, _main: &mut Context) {
         let mut interface = self.0.borrow_mut();
         interface.state.status.say(Level::Error, text);
-        interface.redraw();
-    }
-}
-
-struct Replies(Rc<RefCell<Interface>>);
-
-impl Receiver for Replies {
-    type Message = DocumentReply;
-
-    fn receive(&mut self, reply: DocumentReply, _main: &mut Context) {
-        let mut interface = self.0.borrow_mut();
-        let state = &mut interface.state;
-        match reply {
-            DocumentReply::Loading { title, progress } => state.loading = Some(Loading { title, progress }),
-            DocumentReply::Cancelled => {
-                state.loading = None;
-                state.status.say(Level::Info, "Stopped loading");
-            }
-            DocumentReply::Failed { source, reason } => {
-                state.loading = None;
-                if let Source::File(path) = source {
-                    state.settings.recent.retain(|other| *other != path || path.exists());
-                }
-                state.status.say(Level::Error, reason);
-            }
-            DocumentReply::View(view) => {
-                state.loading = None;
-                if let Some(path) = &view.loaded.path {
-                    state.settings.remember(path);
-                }
-                for warning in &view.loaded.warnings {
-                    state.status.say(Level::Warning, format!("{}: {warning}", view.loaded.title));
-                }
-                let title = view.loaded.title.clone();
-                state.now = Instant::now();
-                state.show(view);
-                state.status.say(Level::Info, format!("Opened {title}"));
-                interface.set_title(&title);
-            }
-        }
-        interface.redraw();
-    }
-}
-
-struct Answers(Rc<RefCell<Interface>>);
-
-impl Receiver for Answers {
-    type Message = Answer;
-
-    fn receive(&mut self, answer: Answer, _main: &mut Context) {
-        let mut interface = self.0.borrow_mut();
-        match answer {
-            Answer::File(path) => interface.effects.push(Effect::Open(Source::File(path))),
-            Answer::Nothing { quick: true } => {
-                let text = "This desktop has no dialog for opening files; type the path instead";
-                interface.state.status.say(Level::Warning, text);
-                interface.state.overlay = Some(Overlay::OpenPath);
-            }
-            Answer::Nothing { quick: false } => {}
-        }
         interface.redraw();
     }
 }

@@ -225,7 +225,7 @@ impl Interface {
         self.egui.handle_platform_output(&self.window, output.platform_output);
 
         let before =
-            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+            (self.state.playback, self.state.selected, self.state.bright(), self.state.settings.clone());
         let (overlay, viewport) = (self.state.overlay, self.state.viewport);
         self.state.hovered = None;
         self.state.find = false;
@@ -238,7 +238,7 @@ impl Interface {
         }
         // What was asked for is seen in the next drawing.
         let after =
-            (self.state.playback, self.state.selected, self.state.hovered, self.state.settings.clone());
+            (self.state.playback, self.state.selected, self.state.bright(), self.state.settings.clone());
         let changed = before != after || overlay != self.state.overlay || viewport != self.state.viewport;
 
         self.drawn = now;

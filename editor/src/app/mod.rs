@@ -7,9 +7,11 @@
 //!
 //! [`timeline`] has the order in which all of this comes and goes.
 
+mod answers;
 mod base_runtime;
 mod editor_runtime;
 mod event;
+pub mod hover;
 mod init_manager;
 mod interface;
 mod main_runtime;

@@ -8,6 +8,8 @@ use std::path::PathBuf;
 pub struct Options {
     /// What to open first.
     pub source: Source,
+    /// How many more files were asked for: one is open at a time, and the person is told.
+    pub passed_over: usize,
     /// Loses the graphics device after every so many drawn frames, to show that nothing is lost with it.
     pub lose_device_every: Option<u32>,
     /// Draws on however often the device is lost, where the editor would pause: for tests of just that.
@@ -19,6 +21,12 @@ pub struct Options {
 impl Default for Options {
     /// The built-in model.
     fn default() -> Self {
-        Self { source: Source::BuiltIn, lose_device_every: None, never_pause: false, settings_folder: None }
+        Self {
+            source: Source::BuiltIn,
+            passed_over: 0,
+            lose_device_every: None,
+            never_pause: false,
+            settings_folder: None,
+        }
     }
 }

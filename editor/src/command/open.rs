@@ -51,6 +51,7 @@ impl Arguments {
         let built_in = Source::BuiltIn;
         Options {
             source: self.files.first().map_or(built_in, |file| source(file)),
+            passed_over: self.files.len().saturating_sub(1),
             lose_device_every: self.lose_device,
             never_pause: self.never_pause,
             settings_folder: self.settings.clone(),

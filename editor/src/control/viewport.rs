@@ -79,7 +79,7 @@ pub struct ViewportControl {
 /// Radians a point.
 const ORBIT: f32 = 0.008;
 /// Change of the logarithm of the distance a point of wheel or drag.
-const ZOOM_WHEEL: f32 = 0.004;
+const ZOOM_WHEEL: f32 = 0.002;
 const ZOOM_DRAG: f32 = 0.008;
 /// A press that moves further than this is no click.
 const CLICK: f32 = 4.0;

@@ -183,7 +183,7 @@ pub const ALL: &[Command] = {
         command(Id::ThemeSystem, C::Window, "Theme of the system", &[], "Light or dark, as the desktop says"),
         command(Id::ThemeDark, C::Window, "Dark theme", &[], "For dim rooms"),
         command(Id::ThemeLight, C::Window, "Light theme", &[], "For bright rooms"),
-        command(Id::ScaleUp, C::Window, "Larger", &[key(CTRL, Key::Plus), key(CTRL, Key::Equals)], "Everything in the window larger"),
+        command(Id::ScaleUp, C::Window, "Larger", &[key(CTRL, Key::Plus), key(CTRL, Key::Equals), key(CTRL.plus(SHIFT), Key::Plus), key(CTRL.plus(SHIFT), Key::Equals)], "Everything in the window larger"),
         command(Id::ScaleDown, C::Window, "Smaller", &[key(CTRL, Key::Minus)], "Everything in the window smaller"),
         command(Id::ScaleReset, C::Window, "Usual size", &[key(CTRL, Key::Num0)], "Everything in the window as large as usual"),
         command(Id::FullScreen, C::Window, "Full screen", &[key(NONE, Key::F11)], "Uses the whole screen, or a window again"),

@@ -25,11 +25,20 @@ impl State {
             Request::Camera(camera) => self.camera = camera,
             Request::Viewport(rect) => self.set_viewport(rect),
             Request::Pick(position) => return Some(Effect::Pick(position)),
+            Request::Point(pointer) => self.point(pointer),
             Request::Open(source) => return Some(Effect::Open(source)),
             Request::Overlay(overlay) => self.overlay = overlay,
             Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
         }
         None
+    }
+
+    /// A pointer that left the picture points at nothing; bones that are not drawn cannot be drawn brighter.
+    fn point(&mut self, pointer: Option<egui::Pos2>) {
+        self.pointer = pointer.filter(|_| self.shows_skeleton());
+        if self.pointer.is_none() {
+            self.pointed = None;
+        }
     }
 
     fn command(&mut self, id: Id) -> Option<Effect> {

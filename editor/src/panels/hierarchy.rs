@@ -142,7 +142,7 @@ impl Hierarchy {
         let theme = Theme::of(ui);
         let name = state.bone_name(row.bone);
         let selected = state.selected == Some(row.bone);
-        let (rect, response) = widgets::row(ui, &name, selected, state.hovered == Some(row.bone));
+        let (rect, response) = widgets::row(ui, &name, selected, state.bright() == Some(row.bone));
         // Very deep skeletons stay readable: the indentation ends, the order goes on.
         let indent = 10.0 + (row.depth as f32 * 12.0).min(rect.width() * 0.5);
         let color = match (selected, hit) {

@@ -29,8 +29,7 @@ impl Overlays {
         }
         let Some(overlay) = state.overlay else { return };
         let id = WidgetId::unique(("overlay", format!("{overlay:?}")));
-        let mut modal = Modal::new(id)
-            .backdrop_color(egui::Color32::from_black_alpha(if Theme::of(ui).dark { 120 } else { 60 }));
+        let mut modal = Modal::new(id).backdrop_color(Theme::of(ui).backdrop);
         let margin = if overlay == Overlay::Palette { 8 } else { 20 };
         modal = modal.frame(egui::Frame::popup(ui.style()).inner_margin(margin));
         if overlay == Overlay::Palette {

@@ -112,13 +112,16 @@ fn show_model(ui: &mut Ui, state: &State) {
     fact(ui, "Bones", &widgets::grouped(model.animation.skeleton.len()));
     fact(ui, "Takes", &widgets::grouped(model.animation.takes.len()));
     fact(ui, "Keys", &widgets::grouped(state.digest.takes.iter().map(|take| take.keys).sum()));
-    widgets::caption(ui, "Surface");
-    fact(ui, "Meshes", &widgets::grouped(model.meshes.len()));
-    fact(ui, "Vertices", &widgets::grouped(state.digest.totals.vertices));
-    fact(ui, "Triangles", &widgets::grouped(state.digest.totals.triangles));
-    fact(ui, "Morph targets", &widgets::grouped(state.digest.totals.morph_targets));
-    fact(ui, "Materials", &widgets::grouped(model.materials.len()));
-    fact(ui, "Images", &widgets::grouped(model.images.len()));
+    // A skeleton alone needs no six lines that say so.
+    if !(model.meshes.is_empty() && model.materials.is_empty() && model.images.is_empty()) {
+        widgets::caption(ui, "Surface");
+        fact(ui, "Meshes", &widgets::grouped(model.meshes.len()));
+        fact(ui, "Vertices", &widgets::grouped(state.digest.totals.vertices));
+        fact(ui, "Triangles", &widgets::grouped(state.digest.totals.triangles));
+        fact(ui, "Morph targets", &widgets::grouped(state.digest.totals.morph_targets));
+        fact(ui, "Materials", &widgets::grouped(model.materials.len()));
+        fact(ui, "Images", &widgets::grouped(model.images.len()));
+    }
     let size = loaded.bounds.max - loaded.bounds.min;
     widgets::caption(ui, "Size");
     columns(ui, "Size", &letters(ui), &size.to_array().map(length));

@@ -80,6 +80,8 @@ pub enum Request {
     Viewport(egui::Rect),
     /// Which bone lies under this place, in points?
     Pick(egui::Pos2),
+    /// The pointer is here over the picture, in points, and does nothing else; or it is not.
+    Point(Option<egui::Pos2>),
     /// Opens a model.
     Open(Source),
     /// Shows an overlay, or none.
@@ -153,6 +155,10 @@ pub struct State {
     pub selected: Option<BoneIndex>,
     /// The bone under the pointer.
     pub hovered: Option<BoneIndex>,
+    /// Where the pointer is over the picture, in points.
+    pub pointer: Option<egui::Pos2>,
+    /// The bone there, as far as the answer is known.
+    pub pointed: Option<BoneIndex>,
     /// Which time of which take.
     pub playback: Playback,
     /// From where.
@@ -191,6 +197,8 @@ impl State {
             posed: Posed::default(),
             selected: None,
             hovered: None,
+            pointer: None,
+            pointed: None,
             playback,
             camera: Camera::default(),
             framed: false,
@@ -237,6 +245,7 @@ impl State {
         }
         self.selected = None;
         self.hovered = None;
+        self.pointed = None;
         self.framed = false;
         let has_takes = self.loaded().is_some_and(|loaded| !loaded.model.animation.takes.is_empty());
         self.show_take(has_takes.then_some(0));
@@ -315,6 +324,11 @@ impl State {
     pub fn shows_skeleton(&self) -> bool {
         let bare = self.loaded().is_some_and(|loaded| loaded.model.instances.is_empty());
         self.settings.look.skeleton || self.selected.is_some() || bare
+    }
+
+    /// The bone that is drawn brighter: under the pointer, in the tree or in the picture.
+    pub fn bright(&self) -> Option<BoneIndex> {
+        self.hovered.or(self.pointed)
     }
 
     /// Width over height of the picture.

@@ -55,6 +55,8 @@ pub struct Theme {
     pub bone: Color32,
     /// Shadow of cards.
     pub shadow: Color32,
+    /// Over everything that waits behind a sheet.
+    pub backdrop: Color32,
 }
 
 /// For dim rooms.
@@ -88,6 +90,7 @@ pub const DARK: Theme = Theme {
     grid: Color32::from_rgb(98, 110, 114),
     bone: Color32::from_rgb(205, 212, 214),
     shadow: Color32::from_rgba_premultiplied(0, 0, 0, 110),
+    backdrop: Color32::from_black_alpha(120),
 };
 
 /// For bright rooms.
@@ -117,6 +120,7 @@ pub const LIGHT: Theme = Theme {
     grid: Color32::from_rgb(128, 140, 142),
     bone: Color32::from_rgb(150, 160, 163),
     shadow: Color32::from_rgba_premultiplied(0, 0, 0, 50),
+    backdrop: Color32::from_black_alpha(60),
 };
 
 impl Theme {

@@ -104,6 +104,8 @@ impl Viewport {
                 focused: input.focused,
             }
         });
+        let rests = response.hovered() && input.down == [false; 3] && input.focused;
+        requests.push(Request::Point(ui.input(|input| input.pointer.latest_pos()).filter(|_| rests)));
         let mut camera = state.camera;
         if let Some(Outcome::Pick(at)) = self.control.step(&input, &mut camera) {
             requests.push(Request::Pick(rect.min + vec2(at.x, at.y)));

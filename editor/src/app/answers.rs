@@ -1,0 +1,94 @@
+//! What the document and the dialogs answer, shown in the window.
+
+use super::interface::Interface;
+use super::open_dialog::Answer;
+use crate::document::{DocumentReply, Source};
+use crate::panels::Effect;
+use crate::panels::state::{Loading, Overlay};
+use crate::panels::status::{Level, Status};
+use dragonfly_runtime::{Context, Receiver};
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::time::Instant;
+
+/// Takes what the document says.
+pub(super) struct Replies {
+    /// Where it is shown.
+    pub interface: Rc<RefCell<Interface>>,
+    /// Files of the command line that are not opened, until the person is told.
+    pub passed_over: usize,
+}
+
+impl Receiver for Replies {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _main: &mut Context) {
+        let mut interface = self.interface.borrow_mut();
+        let state = &mut interface.state;
+        let ends = !matches!(reply, DocumentReply::Loading { .. });
+        let passed_over = if ends { std::mem::take(&mut self.passed_over) } else { 0 };
+        match reply {
+            DocumentReply::Loading { title, progress } => state.loading = Some(Loading { title, progress }),
+            DocumentReply::Cancelled => {
+                state.loading = None;
+                state.status.say(Level::Info, "Stopped loading");
+            }
+            DocumentReply::Failed { source, reason } => {
+                state.loading = None;
+                if let Source::File(path) = source {
+                    state.settings.recent.retain(|other| *other != path || path.exists());
+                }
+                say_passed_over(&mut state.status, passed_over);
+                state.status.say(Level::Error, reason);
+            }
+            DocumentReply::View(view) => {
+                state.loading = None;
+                if let Some(path) = &view.loaded.path {
+                    state.settings.remember(path);
+                }
+                for warning in &view.loaded.warnings {
+                    state.status.say(Level::Warning, format!("{}: {warning}", view.loaded.title));
+                }
+                let title = view.loaded.title.clone();
+                state.now = Instant::now();
+                state.show(view);
+                state.status.say(Level::Info, format!("Opened {title}"));
+                say_passed_over(&mut state.status, passed_over);
+                interface.set_title(&title);
+            }
+        }
+        interface.redraw();
+    }
+}
+
+/// Says that so many files of the command line stay closed.
+fn say_passed_over(status: &mut Status, files: usize) {
+    match files {
+        0 => {}
+        1 => status.say(Level::Warning, "One model is open at a time: the second file stays closed"),
+        _ => {
+            status.say(Level::Warning, format!("One model is open at a time: {files} more files stay closed"))
+        }
+    }
+}
+
+/// Takes what the person chose in a dialog.
+pub(super) struct Answers(pub Rc<RefCell<Interface>>);
+
+impl Receiver for Answers {
+    type Message = Answer;
+
+    fn receive(&mut self, answer: Answer, _main: &mut Context) {
+        let mut interface = self.0.borrow_mut();
+        match answer {
+            Answer::File(path) => interface.effects.push(Effect::Open(Source::File(path))),
+            Answer::Nothing { quick: true } => {
+                let text = "This desktop has no dialog for opening files; type the path instead";
+                interface.state.status.say(Level::Warning, text);
+                interface.state.overlay = Some(Overlay::OpenPath);
+            }
+            Answer::Nothing { quick: false } => {}
+        }
+        interface.redraw();
+    }
+}

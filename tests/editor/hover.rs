@@ -1,0 +1,44 @@
+//! The bone under a pointer that moves: one question at a time, and only the newest place counts.
+
+use dragonfly::app::hover::{Hover, Place};
+use dragonfly::camera::Camera;
+
+fn at(x: f32) -> Option<Place> {
+    Some(Place { position: [x, 0.0], camera: Camera::default(), generation: 1 })
+}
+
+#[test]
+fn one_question_is_on_its_way_and_then_the_newest_place_is_asked() {
+    let mut hover = Hover::default();
+    assert!(hover.asks(at(0.0), 1));
+    for x in 1..100 {
+        assert!(!hover.asks(at(x as f32), 2), "another question while one is on its way");
+    }
+    assert!(hover.answered(1));
+    assert!(hover.asks(at(99.0), 2), "the pointer has moved since");
+    assert!(!hover.answered(1), "an answer counts once");
+    assert!(hover.answered(2));
+}
+
+#[test]
+fn a_pointer_at_rest_asks_once() {
+    let mut hover = Hover::default();
+    assert!(hover.asks(at(5.0), 1));
+    assert!(hover.answered(1));
+    for _ in 0..10 {
+        assert!(!hover.asks(at(5.0), 2));
+    }
+    let moved = at(5.0).map(|place| Place { generation: 2, ..place });
+    assert!(hover.asks(moved, 2), "another model lies there now");
+}
+
+#[test]
+fn an_answer_comes_too_late_for_a_pointer_that_left() {
+    let mut hover = Hover::default();
+    assert!(hover.asks(at(5.0), 1));
+    assert!(!hover.asks(None, 2));
+    assert!(!hover.answered(1), "it points at nothing any more");
+    assert!(!hover.asks(None, 2));
+    assert!(hover.asks(at(5.0), 2), "it came back");
+    assert!(!hover.answered(7), "somebody else's question");
+}
