@@ -74,13 +74,16 @@ fn show_bone(ui: &mut Ui, state: &State, index: BoneIndex, requests: &mut Vec<Re
 
     widgets::caption(ui, "Relative to the parent");
     let (x, y, z) = pose.rotation.to_euler(EulerRot::XYZ);
-    axes(ui, "Translation", &pose.translation.to_array().map(length));
+    // Less than a millionth of the model is what arithmetic leaves over, not a place.
+    let noise = loaded.bounds.sphere.radius * 1e-6;
+    let distance = |value: f32| length(if value.abs() < noise { 0.0 } else { value });
+    axes(ui, "Translation", &pose.translation.to_array().map(distance));
     axes(ui, "Rotation °", &[x, y, z].map(|angle| degrees(angle.to_degrees())));
     axes(ui, "Scale", &pose.scale.to_array().map(length));
     widgets::caption(ui, "Rotation as a quaternion");
     quaternion(ui, pose.rotation.to_array());
     widgets::caption(ui, "In the scene");
-    axes(ui, "Position", &to_root.w_axis.truncate().to_array().map(length));
+    axes(ui, "Position", &to_root.w_axis.truncate().to_array().map(distance));
 
     widgets::caption(ui, "Keys in this take");
     let keys = state.digest.lanes.channels.each_ref().map(|times| times.len());
