@@ -4,6 +4,7 @@ use crate::picture::{difference, settings};
 use crate::{arm, studio};
 use dragonfly::graphics::PictureSettings;
 use dragonfly::graphics::fault::{LossRecord, MAX_LOSSES, PATIENCE, Patience};
+use dragonfly_kit::process::{alone, resident_bytes};
 use std::time::{Duration, Instant};
 
 #[test]
@@ -24,6 +25,27 @@ fn the_same_picture_after_a_hundred_losses() {
     }
     assert_eq!(studio.stage().device().losses(), 100);
     assert_eq!(studio.stage().device().errors(), 0);
+}
+
+#[test]
+fn a_hundred_losses_take_no_memory_with_them() {
+    alone("device_loss::a_hundred_losses_take_no_memory_with_them", || {
+        let Some(mut studio) = studio::studio() else { return };
+        let loaded = arm::loaded();
+        let settings = PictureSettings { size: [64, 48], ..settings() };
+        let mut lose = |times: usize| {
+            for _ in 0..times {
+                studio.stage().device().lose();
+                studio.render(&loaded, &settings).unwrap();
+            }
+            resident_bytes()
+        };
+        // The first few fill the driver's own caches.
+        let before = lose(20);
+        let after = lose(100);
+        println!("{} KiB before, {} KiB after a hundred losses", before >> 10, after >> 10);
+        assert!(after <= before + before / 20, "{before} bytes grew to {after}");
+    });
 }
 
 #[test]

@@ -11,7 +11,7 @@ pub(super) fn about_wayland() {
         use std::env;
         use std::os::unix::process::CommandExt;
         const FORBID: &str = "NODEVICE_SELECT";
-        let set = |name| env::var_os(name).is_some();
+        let set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
         if set("XDG_RUNTIME_DIR") || set(FORBID) {
             return;
         }
