@@ -35,37 +35,22 @@ const fn formats<const N: usize>(shape: Type, kinds: [(ComponentType, bool); N])
 
 use ComponentType::{F32, I8, I16, U8, U16};
 
-/// Every integer format of KHR_mesh_quantization, allowed whether or not a file asks for the extension.
-pub(super) const ANY_VEC3: &[ElementFormat] = &formats(
-    Type::Vec3,
-    [
-        (F32, false),
-        (I8, false),
-        (I8, true),
-        (U8, false),
-        (U8, true),
-        (I16, false),
-        (I16, true),
-        (U16, false),
-        (U16, true),
-    ],
-);
+/// Every format of KHR_mesh_quantization, allowed whether or not a file asks for the extension.
+const QUANTIZED: [(ComponentType, bool); 9] = [
+    (F32, false),
+    (I8, false),
+    (I8, true),
+    (U8, false),
+    (U8, true),
+    (I16, false),
+    (I16, true),
+    (U16, false),
+    (U16, true),
+];
+pub(super) const ANY_VEC3: &[ElementFormat] = &formats(Type::Vec3, QUANTIZED);
 pub(super) const UNIT_VEC3: &[ElementFormat] = &formats(Type::Vec3, [(F32, false), (I8, true), (I16, true)]);
 const TANGENT: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (I8, true), (I16, true)]);
-const COORDINATES: &[ElementFormat] = &formats(
-    Type::Vec2,
-    [
-        (F32, false),
-        (I8, false),
-        (I8, true),
-        (U8, false),
-        (U8, true),
-        (I16, false),
-        (I16, true),
-        (U16, false),
-        (U16, true),
-    ],
-);
+const COORDINATES: &[ElementFormat] = &formats(Type::Vec2, QUANTIZED);
 const COLOR_3: &[ElementFormat] = &formats(Type::Vec3, [(F32, false), (U8, true), (U16, true)]);
 const COLOR_4: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (U8, true), (U16, true)]);
 const COLOR: &[ElementFormat] = &[COLOR_3[0], COLOR_3[1], COLOR_3[2], COLOR_4[0], COLOR_4[1], COLOR_4[2]];
