@@ -1,0 +1,157 @@
+//! What the machine itself costs, measured before anything else: its clock, its wake-ups, and who else is working.
+
+use crate::Distribution;
+use std::fs;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Processor time since the machine started, in ticks of the kernel: all programs together, and this one.
+#[derive(Clone, Copy)]
+pub struct Load {
+    when: Instant,
+    all: u64,
+    own: u64,
+}
+
+/// Ticks a second, as Linux reports them to programs whatever the kernel's own rate is.
+const TICKS: f64 = 100.0;
+
+impl Load {
+    /// Now. Zero where there is no `/proc`.
+    pub fn now() -> Self {
+        let number = |word: &str| word.parse::<u64>().unwrap_or(0);
+        let stat = fs::read_to_string("/proc/stat").unwrap_or_default();
+        // user nice system idle iowait irq softirq steal; the rest repeats user time.
+        let first: Vec<u64> =
+            stat.lines().next().unwrap_or("").split_whitespace().skip(1).map(number).collect();
+        let all = first.iter().take(8).sum::<u64>() - first.get(3).unwrap_or(&0) - first.get(4).unwrap_or(&0);
+        let own = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+        // The name in brackets may hold spaces; what follows it does not.
+        let rest = own.rsplit_once(')').map_or("", |(_, rest)| rest);
+        let words: Vec<u64> = rest.split_whitespace().map(number).collect();
+        let own = words.get(11).unwrap_or(&0) + words.get(12).unwrap_or(&0);
+        Self { when: Instant::now(), all, own }
+    }
+
+    /// How many cores other programs kept busy since `self`, on average.
+    pub fn others_since(self) -> f64 {
+        let now = Self::now();
+        let others = (now.all - self.all).saturating_sub(now.own - self.own) as f64;
+        others / TICKS / (now.when - self.when).as_secs_f64().max(1e-9)
+    }
+
+    /// Processor time of this program since `self`, all its threads together.
+    pub fn own_since(self) -> Duration {
+        Duration::from_secs_f64((Self::now().own - self.own) as f64 / TICKS)
+    }
+}
+
+/// What the machine is, and what its clock and wake-ups cost.
+pub struct Machine {
+    /// The processor's name.
+    pub processor: String,
+    /// Cores that this program may use.
+    pub cores: usize,
+    /// The kernel's release.
+    pub kernel: String,
+    /// What reading the clock costs, in nanoseconds.
+    pub clock_cost: f64,
+    /// The smallest step of the clock that was seen, in nanoseconds.
+    pub clock_step: u64,
+    /// There and back between two threads that wake each other with nothing else to do: two wake-ups.
+    pub wake_ups: Distribution,
+    /// How much later than asked a sleep of one millisecond ends.
+    pub overshoot: Distribution,
+}
+
+impl Machine {
+    /// Looks and measures; takes about half a second.
+    pub fn measure() -> Self {
+        let cpu = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+        let processor = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+        let kernel = fs::read_to_string("/proc/sys/kernel/osrelease").unwrap_or_default();
+        let (clock_cost, clock_step) = clock();
+        Self {
+            processor: processor.map_or_else(|| "unknown".into(), |(_, name)| name.to_owned()),
+            cores: thread::available_parallelism().map_or(1, usize::from),
+            kernel: kernel.trim().to_owned(),
+            clock_cost,
+            clock_step,
+            wake_ups: wake_ups(),
+            overshoot: overshoot(),
+        }
+    }
+}
+
+fn clock() -> (f64, u64) {
+    const READS: u32 = 100_000;
+    let begin = Instant::now();
+    let mut last = begin;
+    let mut step = u64::MAX;
+    for _ in 0..READS {
+        let now = Instant::now();
+        let passed = (now - last).as_nanos() as u64;
+        if passed > 0 {
+            step = step.min(passed);
+        }
+        last = now;
+    }
+    (begin.elapsed().as_nanos() as f64 / f64::from(READS), step)
+}
+
+/// Two bare threads that unpark each other: the least that any message between sleeping threads can cost.
+fn wake_ups() -> Distribution {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicU32, Ordering};
+    const TURNS: u32 = 5_000;
+    let mut all = Distribution::new();
+    let turn = Arc::new(AtomicU32::new(0));
+    let (theirs, me) = (Arc::clone(&turn), thread::current());
+    let other = thread::Builder::new().name("wake-ups".into()).spawn(move || {
+        for round in 0..TURNS {
+            while theirs.load(Ordering::SeqCst) != 2 * round + 1 {
+                thread::park();
+            }
+            theirs.store(2 * round + 2, Ordering::SeqCst);
+            me.unpark();
+        }
+    });
+    let other = other.expect("the system has a thread left");
+    for round in 0..TURNS {
+        let begin = Instant::now();
+        turn.store(2 * round + 1, Ordering::SeqCst);
+        other.thread().unpark();
+        while turn.load(Ordering::SeqCst) != 2 * round + 2 {
+            thread::park();
+        }
+        all.record(begin.elapsed());
+    }
+    other.join().expect("it does nothing that fails");
+    all
+}
+
+fn overshoot() -> Distribution {
+    let mut all = Distribution::new();
+    let asked = Duration::from_millis(1);
+    for _ in 0..100 {
+        let begin = Instant::now();
+        thread::park_timeout(asked);
+        all.record(begin.elapsed().saturating_sub(asked));
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_of_this_program_is_not_laid_to_others() {
+        let load = Load::now();
+        let begin = Instant::now();
+        while begin.elapsed() < Duration::from_millis(200) {}
+        let own = load.own_since();
+        assert!(own >= Duration::from_millis(50), "{own:?} of 200 ms of work were seen");
+        assert!(load.others_since() >= 0.0);
+    }
+}

@@ -1,0 +1,220 @@
+//! In which order things are measured, and how often.
+
+use crate::machine::{Load, Machine};
+use crate::record::{self, Measured, Row};
+use dragonfly_kit::random::Random;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// How thorough a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Does everything once with little data: for tests, which look at results and not at times.
+    Check,
+    /// Under two minutes for all of the study: rough figures.
+    Short,
+    /// The figures of the study; written down in `benches/results`.
+    Full,
+}
+
+impl Mode {
+    /// One of three values, by thoroughness.
+    pub fn pick<T>(self, check: T, short: T, full: T) -> T {
+        match self {
+            Self::Check => check,
+            Self::Short => short,
+            Self::Full => full,
+        }
+    }
+}
+
+/// One of the things a case compares: its name, and what to do to measure it once.
+pub struct Variant<'a> {
+    name: &'a str,
+    run: Box<dyn FnMut(&mut Measured) + 'a>,
+}
+
+impl<'a> Variant<'a> {
+    /// `run` sets up what it needs, does the work, checks its result, and writes down what it measured.
+    pub fn new(name: &'a str, run: impl FnMut(&mut Measured) + 'a) -> Self {
+        Self { name, run: Box::new(run) }
+    }
+}
+
+/// One run of one bench program.
+pub struct Study {
+    /// How thorough it is.
+    pub mode: Mode,
+    name: &'static str,
+    only: Option<String>,
+    order: Random,
+    rows: Vec<Row>,
+    begin: Instant,
+}
+
+impl Study {
+    /// Reads the program's arguments: `--full`, `--check`, `--seed N`, and a part of a case's name to measure only those.
+    /// Prints what the machine is and what its clock and wake-ups cost.
+    pub fn start(name: &'static str) -> Self {
+        let mut mode = Mode::Short;
+        let (mut only, mut seed) = (None, 1);
+        let mut arguments = std::env::args().skip(1);
+        while let Some(argument) = arguments.next() {
+            match argument.as_str() {
+                "--full" => mode = Mode::Full,
+                "--check" => mode = Mode::Check,
+                "--seed" => seed = arguments.next().and_then(|word| word.parse().ok()).unwrap_or(seed),
+                // What cargo itself says to every bench.
+                word if word.starts_with("--") => {}
+                word => only = Some(word.to_owned()),
+            }
+        }
+        let study =
+            Self { mode, name, only, order: Random::new(seed), rows: Vec::new(), begin: Instant::now() };
+        let machine = Machine::measure();
+        println!("# {name}, {mode:?}, order by seed {seed}");
+        println!("# {}, {} cores, Linux {}", machine.processor, machine.cores, machine.kernel);
+        println!("# clock: {:.0} ns a look, steps of {} ns", machine.clock_cost, machine.clock_step);
+        let (wake, late) = (&machine.wake_ups, &machine.overshoot);
+        println!(
+            "# two wake-ups: p50 {} ns, p99 {} ns; a sleep of 1 ms is late by p50 {} ns, p99 {} ns",
+            wake.percentile(50.0),
+            wake.percentile(99.0),
+            late.percentile(50.0),
+            late.percentile(99.0),
+        );
+        let mut measured = Measured::default();
+        measured.value("clock.cost", "ns", machine.clock_cost);
+        measured.value("clock.step", "ns", machine.clock_step as f64);
+        measured.distribution("two_wake_ups", wake);
+        measured.distribution("overshoot_1ms", late);
+        let mut study = study;
+        study.keep("machine", "bare", 0, measured, 0.0);
+        study
+    }
+
+    /// For tests: everything once, nothing printed or written.
+    pub fn check() -> Self {
+        Self {
+            mode: Mode::Check,
+            name: "check",
+            only: None,
+            order: Random::new(1),
+            rows: Vec::new(),
+            begin: Instant::now(),
+        }
+    }
+
+    /// Measures every variant of `case`, `repeats` times, each time in another order. One line a variant is printed.
+    ///
+    /// Skipped when the program was told to measure something else.
+    pub fn compare(&mut self, case: &str, repeats: u32, variants: Vec<Variant>) {
+        if self.only.as_ref().is_some_and(|only| !case.contains(only.as_str())) {
+            return;
+        }
+        let mut variants = variants;
+        let first = self.rows.len();
+        let names: Vec<String> = variants.iter().map(|variant| variant.name.to_owned()).collect();
+        for repeat in 0..repeats {
+            for place in (1..variants.len()).rev() {
+                variants.swap(place, self.order.below(place + 1));
+            }
+            for variant in &mut variants {
+                let load = Load::now();
+                let mut measured = Measured::default();
+                (variant.run)(&mut measured);
+                self.keep(case, variant.name, repeat, measured, load.others_since());
+            }
+        }
+        if self.mode != Mode::Check {
+            self.print(first, &names);
+        }
+    }
+
+    fn keep(&mut self, case: &str, variant: &str, repeat: u32, measured: Measured, others: f64) {
+        self.rows.extend(measured.values.into_iter().map(|(metric, unit, value)| Row {
+            case: case.to_owned(),
+            variant: variant.to_owned(),
+            repeat,
+            metric,
+            unit,
+            value,
+            others,
+        }));
+    }
+
+    /// One line for each variant and metric: the median of the repeats, their spread, and the load of others.
+    fn print(&self, first: usize, variants: &[String]) {
+        let rows = &self.rows[first..];
+        for variant in variants {
+            let mut metrics: Vec<&str> = Vec::new();
+            for row in rows.iter().filter(|row| row.variant == *variant) {
+                if !metrics.contains(&row.metric.as_str()) {
+                    metrics.push(&row.metric);
+                }
+            }
+            for metric in metrics {
+                let of = |row: &&Row| row.variant == *variant && row.metric == metric;
+                let found: Vec<&Row> = rows.iter().filter(of).collect();
+                let mut values: Vec<f64> = found.iter().map(|row| row.value).collect();
+                values.sort_by(f64::total_cmp);
+                let others = found.iter().map(|row| row.others).fold(0.0, f64::max);
+                let (low, middle, high) = (values[0], values[values.len() / 2], values[values.len() - 1]);
+                println!(
+                    "{:<44} {variant:<18} {metric:<22} {middle:>14.1} {:<5} [{low:.1} .. {high:.1}] others {others:.2}",
+                    found[0].case, found[0].unit
+                );
+            }
+        }
+    }
+
+    /// Everything measured so far.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Writes the raw data: of a full and whole run to `benches/results`, of any other to the target folder; says where.
+    pub fn finish(self) -> Vec<Row> {
+        let study = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+        let folder = if self.mode == Mode::Full && self.only.is_none() {
+            study.join("results")
+        } else {
+            std::env::current_exe().ok().and_then(|path| Some(path.parent()?.to_owned())).unwrap_or_default()
+        };
+        let path = folder.join(format!("{}.csv", self.name));
+        match record::write(&path, &self.rows) {
+            Ok(()) => println!("# {} s; raw data: {}", self.begin.elapsed().as_secs(), path.display()),
+            Err(error) => eprintln!("cannot write {}: {error}", path.display()),
+        }
+        self.rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_variant_has_its_turn_in_every_repeat_and_not_always_in_the_same_order() {
+        let turns = std::cell::RefCell::new(String::new());
+        let mut study = Study::check();
+        let variant = |name: &'static str| {
+            let turns = &turns;
+            Variant::new(name, move |measured| {
+                turns.borrow_mut().push_str(name);
+                measured.value("metric", "ns", 1.0);
+            })
+        };
+        study.compare("case", 8, vec![variant("a"), variant("b"), variant("c")]);
+        let turns = turns.into_inner();
+        let rounds: Vec<&[u8]> = turns.as_bytes().chunks(3).collect();
+        assert_eq!(rounds.len(), 8);
+        for round in &rounds {
+            let mut sorted = round.to_vec();
+            sorted.sort_unstable();
+            assert_eq!(sorted, b"abc");
+        }
+        assert!(rounds.iter().any(|round| round != &rounds[0]), "{turns}");
+        assert_eq!(study.rows().len(), 24);
+    }
+}
