@@ -15,6 +15,7 @@ mod hover;
 mod images;
 mod life;
 mod made;
+mod manager;
 mod no_allocation;
 mod panels;
 mod picking;
@@ -30,6 +31,8 @@ mod studio;
 mod surfaces;
 mod viewport_control;
 mod window;
+mod window_full_screen;
+mod wire;
 
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

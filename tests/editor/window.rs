@@ -140,7 +140,7 @@ pub(crate) fn settled(screen: &Screen, part: [u32; 4]) -> RgbaImage {
 }
 
 /// How many different colours there are: a blank or broken picture has few.
-fn colours(picture: &RgbaImage) -> usize {
+pub(crate) fn colours(picture: &RgbaImage) -> usize {
     picture.pixels().collect::<std::collections::HashSet<_>>().len()
 }
 
