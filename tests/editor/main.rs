@@ -32,6 +32,7 @@ mod surfaces;
 mod viewport_control;
 mod window;
 mod window_full_screen;
+mod window_scale;
 mod wire;
 
 #[global_allocator]
