@@ -112,10 +112,8 @@ impl EditorRuntime {
 
 impl BaseRuntime for EditorRuntime {
     fn initialize(&mut self, parts: Parts, main: &mut Context) {
-        let replies = main.register_receiver(Replies {
-            interface: Rc::clone(&parts.interface),
-            passed_over: self.options.passed_over,
-        });
+        parts.interface.borrow_mut().state.passed_over = self.options.passed_over;
+        let replies = main.register_receiver(Replies { interface: Rc::clone(&parts.interface) });
         let answers = main.register_receiver(Answers(Rc::clone(&parts.interface)));
         let document = match Document::start(replies.clone()) {
             Ok(document) => {

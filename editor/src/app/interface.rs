@@ -224,7 +224,7 @@ impl Interface {
         // Asked before there are textures to deliver: asking panics when the window was destroyed behind our back.
         let size = self.window.inner_size();
         let input = self.egui.take_egui_input(&self.window);
-        let dropped = input.dropped_files.first().map(|file| file.path().to_owned());
+        let dropped: Vec<_> = input.dropped_files.iter().map(|file| file.path().to_owned()).collect();
         let mut requests = Vec::new();
         self.state.begin(now);
         let (desk, state) = (&mut self.desk, &self.state);
@@ -251,7 +251,9 @@ impl Interface {
         let (overlay, viewport) = (self.state.overlay, self.state.viewport);
         self.state.hovered = None;
         self.state.find = false;
-        if let Some(path) = dropped {
+        let files = dropped.len();
+        if let Some(path) = dropped.into_iter().next() {
+            self.state.passed_over = files - 1;
             requests.push(Request::Open(crate::document::Source::File(path)));
         }
         for request in requests {
