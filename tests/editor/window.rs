@@ -155,7 +155,7 @@ pub(crate) fn same(screen: &Screen, now: &RgbaImage, before: &RgbaImage, otherwi
 }
 
 #[track_caller]
-fn eventually_shows_something(screen: &Screen) {
+pub(crate) fn eventually_shows_something(screen: &Screen) {
     let deadline = Instant::now() + SOON;
     while colours(&screen.part(VIEWPORT)) < 200 {
         if Instant::now() > deadline {

@@ -15,8 +15,6 @@ pub(crate) type Window = u32;
 /// Numbers that the protocol gives to names.
 pub(crate) mod atom {
     pub(crate) const ATOM: u32 = 4;
-    pub(crate) const RESOURCE_MANAGER: u32 = 23;
-    pub(crate) const STRING: u32 = 31;
     pub(crate) const WINDOW: u32 = 33;
 }
 

@@ -85,7 +85,10 @@ impl Receiver for Answers {
                 interface.state.status.say(Level::Warning, text);
                 interface.state.overlay = Some(Overlay::OpenPath);
             }
-            Answer::Nothing { quick: false } => {}
+            // Also where the dialog failed slowly, which looks the same from here.
+            Answer::Nothing { quick: false } => {
+                interface.state.status.say(Level::Info, "No file was chosen");
+            }
         }
         interface.redraw();
     }
