@@ -1,6 +1,7 @@
 //! The graphics thread, turned by hand: it draws when something changed, answers what it is asked, and rests otherwise.
 
 use crate::arm;
+use crate::complaints::NoComplaints;
 use dragonfly::camera::Camera;
 use dragonfly::graphics::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
 use dragonfly::playback::Playback;
@@ -32,17 +33,20 @@ struct Bench {
     thread: Captured,
     graphics: GraphicsHandle,
     replies: Rc<RefCell<Replies>>,
+    // Dropped last, when the device is gone.
+    _watch: NoComplaints,
 }
 
 impl Bench {
     /// `None` without an adapter.
     fn new() -> Option<Self> {
+        let watch = NoComplaints::expect();
         let mut main = Thread::capture("main", || {});
         let thread = Thread::capture("graphics", || {});
         let replies = Rc::new(RefCell::new(Replies::default()));
         let address = main.context().register_receiver(Rc::clone(&replies));
         let graphics = Graphics::start_in(thread.handle(), DeviceParameters::default(), SIZE, address);
-        let mut bench = Self { main, thread, graphics, replies };
+        let mut bench = Self { main, thread, graphics, replies, _watch: watch };
         bench.settle();
         match &bench.take()[..] {
             [GraphicsReply::Fatal(reason), ..] => {

@@ -4,6 +4,7 @@ mod arm;
 mod camera;
 mod command_line;
 mod commands;
+mod complaints;
 mod device_loss;
 mod documents;
 mod drag;

@@ -40,7 +40,12 @@ fn f11_and_the_menu_fill_the_screen_and_give_the_window_back() {
         }
         toggle(&mut screen);
         eventually(SOON, || screen.place(window) == before);
-        same(&screen, &settled(&screen, VIEWPORT), &whole, "the screen filled and given back changed the picture");
+        same(
+            &screen,
+            &settled(&screen, VIEWPORT),
+            &whole,
+            "the screen filled and given back changed the picture",
+        );
     }
     screen.close(window);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());

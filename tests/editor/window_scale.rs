@@ -95,7 +95,12 @@ fn a_new_scale_lays_the_window_out_as_if_it_had_been_so_from_the_start() {
             same(&screen, &now, &larger, "a scale that became 1.5 looks other than one that was 1.5");
             desktop.set(96);
             eventually(SOON, || screen.place(editor.window) == USUAL.map(|side| side as i32));
-            same(&screen, &settled(&screen, still(USUAL)), &usual, "the scale came back, the picture did not");
+            same(
+                &screen,
+                &settled(&screen, still(USUAL)),
+                &usual,
+                "the scale came back, the picture did not",
+            );
         }
         end(editor, &mut screen);
     }
