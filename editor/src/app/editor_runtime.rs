@@ -281,6 +281,7 @@ fn look(state: &State, pixels_per_point: f32, dark: bool) -> Look {
             pixels(rect.right()).saturating_sub(left),
             pixels(rect.bottom()).saturating_sub(top),
         ],
+        pixels_per_point,
         background: theme.sky.map(linear),
         grid: settings.grid,
         grid_color: linear(theme.grid),
