@@ -61,13 +61,16 @@ impl Manager {
                 self.wire.tell(42, 2, &words(&[window, 0]));
             }
             event::CONFIGURE_REQUEST => self.configure(event),
-            event::CLIENT_MESSAGE if event.word(8) == self.state => {
-                if [event.word(16), event.word(20)].contains(&self.full_screen) {
-                    self.fill(event.word(4), event.word(12));
-                }
+            event::CLIENT_MESSAGE if self.is_about_full_screen(event) => {
+                self.fill(event.word(4), event.word(12));
             }
             _ => {}
         }
+    }
+
+    fn is_about_full_screen(&self, message: &Event) -> bool {
+        let states = [message.word(16), message.word(20)];
+        message.word(8) == self.state && states.contains(&self.full_screen)
     }
 
     /// A window that wants to be somewhere is put there, unless it fills the screen.

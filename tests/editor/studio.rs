@@ -5,19 +5,23 @@ use dragonfly::graphics::{DeviceParameters, GraphicsError, Studio};
 use std::ops::{Deref, DerefMut};
 
 /// A studio in which nothing may be done wrong.
-pub(crate) struct Watched(Studio, #[allow(dead_code)] NoComplaints);
+pub(crate) struct Watched {
+    studio: Studio,
+    // Dropped last, when the device is gone.
+    _watch: NoComplaints,
+}
 
 impl Deref for Watched {
     type Target = Studio;
 
     fn deref(&self) -> &Studio {
-        &self.0
+        &self.studio
     }
 }
 
 impl DerefMut for Watched {
     fn deref_mut(&mut self) -> &mut Studio {
-        &mut self.0
+        &mut self.studio
     }
 }
 
@@ -25,7 +29,7 @@ impl DerefMut for Watched {
 pub(crate) fn studio() -> Option<Watched> {
     let watch = NoComplaints::expect();
     match Studio::with(DeviceParameters::default()) {
-        Ok(studio) => Some(Watched(studio, watch)),
+        Ok(studio) => Some(Watched { studio, _watch: watch }),
         Err(GraphicsError::NoAdapter(reason)) => {
             eprintln!("skipped: no graphics adapter ({reason})");
             None
