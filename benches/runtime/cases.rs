@@ -21,6 +21,12 @@ impl Cases {
 
     /// Adds a peer to every case.
     pub fn add<P: Peer>(&mut self, name: &'static str) {
+        self.add_one_way::<P>(name);
+        self.round_trips(name, round_trip::run::<P>);
+    }
+
+    /// Adds a peer of which there cannot be two at a time: to all cases but round trips.
+    pub fn add_one_way<P: Peer>(&mut self, name: &'static str) {
         self.one_way::<P, Words<1>>(name, 1, "one_way/1_producer/8_bytes");
         self.one_way::<P, Words<8>>(name, 1, "one_way/1_producer/64_bytes");
         self.one_way::<P, Words<1>>(name, 2, "one_way/2_producers/8_bytes");
@@ -29,10 +35,9 @@ impl Cases {
         self.variant("burst", name, move |measured| burst::run::<P>(burst, measured));
         self.late::<P>(name, 1_000, self.mode.pick(20, 150, 2_000));
         self.late::<P>(name, 10_000, self.mode.pick(200, 1_500, 20_000));
-        self.round_trips(name, round_trip::run::<P>);
     }
 
-    /// Adds only round trips, of a peer that has its own way of making them.
+    /// Adds round trips, made in a peer's own way.
     pub fn round_trips(&mut self, name: &'static str, run: fn(round_trip::Plan, &mut Measured)) {
         let at_once = round_trip::Plan { trips: self.mode.pick(50, 2_000, 20_000), rest: None };
         self.variant("round_trip/at_once", name, move |measured| run(at_once, measured));

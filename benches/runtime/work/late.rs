@@ -1,11 +1,9 @@
 //! How late messages come that are to be sent at given times, while another thread keeps a core busy.
 //!
 //! The time runs from when a message was *to be* sent: a sender that was held up does not make the delay look short
-//! (Tene's coordinated omission). How late the sender itself was is written down beside it. It waits on its processor,
-//! so with two cores the consumer has to take one from somebody.
+//! (Tene's coordinated omission). How late the sender itself was is written down beside it.
 
-use super::round_trip::Noise;
-use super::threads;
+use super::threads::{self, Noise};
 use crate::runtime::peer::{Message, Peer, Small};
 use crate::{Distribution, Measured};
 use std::ops::ControlFlow;
@@ -45,9 +43,10 @@ pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
         ControlFlow::Break(())
     }));
     let sender = threads::start("producer", move || {
+        threads::sleep_exactly();
         let mut late = Distribution::new();
         for number in 0..total {
-            threads::spin_until(intended(number));
+            threads::wait_until(intended(number));
             late.record(Instant::now() - intended(number));
             P::send(&address, Small::of(number));
         }
@@ -56,5 +55,6 @@ pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
     P::wait(running);
     let late = threads::join(sender);
     measured.distribution("delay", &result.recv().expect("the consumer had everything"));
+    measured.value("sender_late.p50", "ns", late.percentile(50.0) as f64);
     measured.value("sender_late.p99", "ns", late.percentile(99.0) as f64);
 }

@@ -4,7 +4,6 @@ use super::threads;
 use crate::runtime::peer::{Message, Peer, Small};
 use crate::{Distribution, Measured};
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock, mpsc};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -133,32 +132,5 @@ impl First {
         }
         let _ = self.tell.send(None);
         Step::Wait
-    }
-}
-
-/// Keeps one core busy for as long as it lives.
-pub struct Noise {
-    over: Arc<AtomicBool>,
-    thread: Option<thread::JoinHandle<()>>,
-}
-
-impl Noise {
-    /// Starts it.
-    pub fn start() -> Self {
-        let over: Arc<AtomicBool> = Arc::default();
-        let end = Arc::clone(&over);
-        let thread = threads::start("noise", move || {
-            while !end.load(Ordering::Relaxed) {
-                std::hint::spin_loop();
-            }
-        });
-        Self { over, thread: Some(thread) }
-    }
-}
-
-impl Drop for Noise {
-    fn drop(&mut self) {
-        self.over.store(true, Ordering::Relaxed);
-        self.thread.take().into_iter().for_each(threads::join);
     }
 }
