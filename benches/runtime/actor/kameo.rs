@@ -33,6 +33,11 @@ impl<M: Message> message::Message<M> for Holder<M> {
     }
 }
 
+/// Starts one with an unbounded mailbox in the runtime that the caller is in.
+pub fn start<M: Message>(take: Take<M>) -> ActorRef<Holder<M>> {
+    Holder::spawn_with_mailbox(Holder(take), mailbox::unbounded())
+}
+
 /// Unbounded mailbox, told with `try_send`, which for such a mailbox never fails and needs no runtime at the sender;
 /// each actor has an OS thread with a current-thread runtime. For one consumer that is faster than several workers.
 pub struct CurrentThread;
@@ -45,7 +50,7 @@ impl Peer for CurrentThread {
         let (tell, address) = mpsc::channel();
         let thread = threads::start("consumer", move || {
             current_thread().block_on(async {
-                let actor = Holder::spawn_with_mailbox(Holder(take), mailbox::unbounded());
+                let actor = start(take);
                 let _ = tell.send(actor.clone());
                 actor.wait_for_shutdown().await;
             });
@@ -73,7 +78,7 @@ impl Peer for TwoWorkers {
 
     fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
         let _inside = two_workers().enter();
-        let actor = Holder::spawn_with_mailbox(Holder(take), mailbox::unbounded());
+        let actor = start(take);
         let other = actor.clone();
         (actor, Box::new(move || two_workers().block_on(other.wait_for_shutdown())))
     }

@@ -11,6 +11,8 @@ use crate::{Distribution, Measured};
 use ::stakker::sync::{Channel, ChannelGuard, PipedThread};
 use ::stakker::{ActorOwn, CX, Fwd, call, fwd_do, fwd_to, ret_shutdown};
 use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -37,11 +39,11 @@ pub struct Stakker;
 
 impl Peer for Stakker {
     type Address<M: Message> = Channel<M>;
-    type Running = (::stakker::Stakker, Box<dyn std::any::Any>);
+    type Running = (Loop, Box<dyn std::any::Any>);
 
     fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
-        let mut stakker = with_waker();
-        let core = &mut stakker;
+        let mut stakker = Loop::new();
+        let core = &mut stakker.stakker;
         let actor: ActorOwn<Holder<M>> = ::stakker::actor_new!(core, Holder<M>, ret_shutdown!(core));
         let (channel, open) = Channel::new(core, fwd_to!([actor], receive() as (M)));
         call!([actor], <Holder<M>>::init(take, open));
@@ -53,25 +55,41 @@ impl Peer for Stakker {
     }
 
     fn wait((mut stakker, _actor): Self::Running) {
-        run(&mut stakker);
+        stakker.run();
     }
 }
 
-/// One that other threads can wake from [`run`].
-fn with_waker() -> ::stakker::Stakker {
-    let mut stakker = ::stakker::Stakker::new(Instant::now());
-    let own = thread::current();
-    stakker.set_poll_waker(move || own.unpark());
-    stakker
+/// The loop that its documentation shows, with a sleep that other threads can end.
+pub struct Loop {
+    stakker: ::stakker::Stakker,
+    /// Beside the thread's own mark, which whatever parks in a call of an actor takes away.
+    woken: Arc<AtomicBool>,
 }
 
-/// The loop that its documentation shows, with a sleep that can be ended.
-fn run(stakker: &mut ::stakker::Stakker) {
-    stakker.run(Instant::now(), false);
-    while stakker.not_shutdown() {
-        thread::park_timeout(stakker.next_wait_max(Instant::now(), Duration::from_secs(60), false));
-        stakker.poll_wake();
+impl Loop {
+    fn new() -> Self {
+        let mut stakker = ::stakker::Stakker::new(Instant::now());
+        let woken: Arc<AtomicBool> = Arc::default();
+        let (wake, own) = (Arc::clone(&woken), thread::current());
+        stakker.set_poll_waker(move || {
+            wake.store(true, Ordering::Release);
+            own.unpark();
+        });
+        Self { stakker, woken }
+    }
+
+    fn run(&mut self) {
+        let stakker = &mut self.stakker;
         stakker.run(Instant::now(), false);
+        while stakker.not_shutdown() {
+            if !self.woken.swap(false, Ordering::Acquire) {
+                let rest = stakker.next_wait_max(Instant::now(), Duration::from_secs(60), false);
+                thread::park_timeout(rest);
+                continue;
+            }
+            stakker.poll_wake();
+            stakker.run(Instant::now(), false);
+        }
     }
 }
 
@@ -109,13 +127,13 @@ impl Traveller {
 /// Round trips in stakker's way: there cannot be a second one, so the other end is its `PipedThread`.
 pub fn round_trips(plan: Plan, measured: &mut Measured) {
     let (first, result) = First::new(plan);
-    let mut stakker = with_waker();
-    let core = &mut stakker;
+    let mut stakker = Loop::new();
+    let core = &mut stakker.stakker;
     let actor: ActorOwn<Traveller> = ::stakker::actor_new!(core, Traveller, ret_shutdown!(core));
     let (channel, open) = Channel::new(core, fwd_to!([actor], receive() as (Small)));
     call!([actor], Traveller::init(first, plan, open));
     let result = round_trip::ask(plan, result, move |message| Stakker::send(&channel, message));
-    run(&mut stakker);
+    stakker.run();
     let all: Distribution = threads::join(result);
     measured.distribution("trip", &all);
 }

@@ -34,6 +34,18 @@ pub struct Running {
     system: System,
 }
 
+impl Running {
+    /// Waits until it had its last message.
+    pub fn had_its_last(&self) {
+        self.ended.recv().expect("it tells");
+    }
+
+    /// Ends its thread.
+    pub fn end(self) {
+        self.system.shutdown().expect("its thread ends well");
+    }
+}
+
 impl Peer for Tonari {
     type Address<M: Message> = Addr<M>;
     type Running = Running;
@@ -52,7 +64,7 @@ impl Peer for Tonari {
     }
 
     fn wait(running: Self::Running) {
-        running.ended.recv().expect("it tells when it had its last message");
-        running.system.shutdown().expect("its thread ends well");
+        running.had_its_last();
+        running.end();
     }
 }
