@@ -75,4 +75,3 @@ pub fn measure(study: &mut Study, cases: Cases) {
         study.compare(&case, repeats, variants);
     }
 }
-

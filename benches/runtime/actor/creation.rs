@@ -13,7 +13,14 @@ use tokio::sync::oneshot;
 
 /// Writes down what `count` actors took. The memory is the most that was held at any time from before the first to
 /// behind the message of the last; without the stacks of threads, which the allocator does not see.
-pub fn write(count: u64, made: Duration, used: Duration, ended: Duration, bytes: u64, measured: &mut Measured) {
+pub fn write(
+    count: u64,
+    made: Duration,
+    used: Duration,
+    ended: Duration,
+    bytes: u64,
+    measured: &mut Measured,
+) {
     let each = |time: Duration| time.as_nanos() as f64 / count as f64;
     measured.value("make", "ns", each(made));
     measured.value("first_message", "ns", each(used));
@@ -36,7 +43,8 @@ pub fn run<P: Local>(count: u64, measured: &mut Measured) {
                 let (left, tell) = (Arc::clone(&left), Arc::clone(&tell));
                 let take = move |_| {
                     if left.fetch_sub(1, Ordering::Relaxed) == 1 {
-                        let _ = tell.lock().expect("nobody panicked with it").take().map(|tell| tell.send(()));
+                        let _ =
+                            tell.lock().expect("nobody panicked with it").take().map(|tell| tell.send(()));
                     }
                     ControlFlow::Continue(())
                 };

@@ -99,7 +99,8 @@ pub fn current_thread() -> Runtime {
 
 /// The runtime that the variants with two workers share.
 pub fn two_workers() -> &'static Runtime {
-    static SHARED: LazyLock<Runtime> =
-        LazyLock::new(|| Builder::new_multi_thread().worker_threads(2).build().expect("the system has threads left"));
+    static SHARED: LazyLock<Runtime> = LazyLock::new(|| {
+        Builder::new_multi_thread().worker_threads(2).build().expect("the system has threads left")
+    });
     &SHARED
 }

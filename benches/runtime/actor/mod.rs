@@ -15,7 +15,9 @@ pub mod tonari;
 
 use super::cases::{self, Cases};
 use super::own::peer::Dragonfly;
+use super::own::spin::Spinning;
 use super::peer::{Message, Words};
+use super::work::round_trip;
 use crate::{Study, Variant};
 use chain::Plan;
 
@@ -31,6 +33,7 @@ pub fn all(study: &mut Study) {
     cases.round_trips("stakker", stakker::round_trips);
     cases.add::<tonari::Tonari>("tonari-actor");
     cases.add::<Dragonfly>("dragonfly");
+    cases.round_trips("dragonfly, spinning", round_trip::run::<Spinning>);
     cases::measure(study, cases);
     on_one_thread(study);
 }

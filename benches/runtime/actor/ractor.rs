@@ -20,7 +20,12 @@ impl<M: Message> Actor for Holder<M> {
         Ok(take)
     }
 
-    async fn handle(&self, own: ActorRef<M>, message: M, take: &mut Take<M>) -> Result<(), ActorProcessingErr> {
+    async fn handle(
+        &self,
+        own: ActorRef<M>,
+        message: M,
+        take: &mut Take<M>,
+    ) -> Result<(), ActorProcessingErr> {
         if take(message).is_break() {
             own.stop(None);
         }

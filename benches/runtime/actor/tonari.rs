@@ -56,7 +56,10 @@ impl Peer for Tonari {
         // The factory, because the actor itself could only be made here if it were `Send` and `Sync` alike.
         let actor = system.prepare_fn(move || Holder { take, ended: tell });
         let capacity = Capacity { normal: 1 << 30, high: 5 };
-        (actor.with_capacity(capacity).spawn().expect("the system has a thread left"), Running { ended, system })
+        (
+            actor.with_capacity(capacity).spawn().expect("the system has a thread left"),
+            Running { ended, system },
+        )
     }
 
     fn send<M: Message>(address: &Self::Address<M>, message: M) {

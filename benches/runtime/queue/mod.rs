@@ -5,6 +5,8 @@ pub mod one_thread;
 
 use super::cases::{self, Cases};
 use super::own::peer::Dragonfly;
+use super::own::spin::Spinning;
+use super::work::round_trip;
 use crate::Study;
 use channels::{Crossbeam, Flume, FlumeDrained, Kanal, KanalDrained, Std};
 
@@ -18,6 +20,7 @@ pub fn all(study: &mut Study) {
     cases.add::<Kanal>("kanal");
     cases.add::<KanalDrained>("kanal, drained");
     cases.add::<Dragonfly>("dragonfly");
+    cases.round_trips("dragonfly, spinning", round_trip::run::<Spinning>);
     cases::measure(study, cases);
     one_thread::all(study);
 }

@@ -13,7 +13,7 @@ use std::sync::mpsc;
 use std::time::Instant;
 
 /// So many are sent before the first is taken.
-const BATCH: u64 = 1000;
+pub const BATCH: u64 = 1000;
 
 /// Queues of 8 and of 64 bytes.
 pub fn all(study: &mut Study) {
@@ -45,12 +45,7 @@ fn variants<M: Message>(rounds: u64) -> Vec<Variant<'static>> {
     ]
 }
 
-fn batches<M: Message>(
-    rounds: u64,
-    measured: &mut Measured,
-    send: impl Fn(M),
-    receive: impl Fn() -> M,
-) {
+fn batches<M: Message>(rounds: u64, measured: &mut Measured, send: impl Fn(M), receive: impl Fn() -> M) {
     timed(rounds, measured, || {
         (0..BATCH).for_each(|number| send(black_box(M::of(number))));
         (0..BATCH).map(|_| black_box(receive()).number()).sum()

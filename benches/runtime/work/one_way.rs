@@ -50,8 +50,7 @@ pub fn run<P: Peer, M: Message>(plan: Plan, measured: &mut Measured) {
     let together = Arc::new(Barrier::new(plan.producers as usize));
     let producers: Vec<_> = (0..plan.producers)
         .map(|_| {
-            let (address, is_warm, together) =
-                (address.clone(), Arc::clone(&is_warm), Arc::clone(&together));
+            let (address, is_warm, together) = (address.clone(), Arc::clone(&is_warm), Arc::clone(&together));
             threads::start("producer", move || {
                 (0..warm_up).for_each(|number| P::send(&address, M::of(number)));
                 threads::wait_for(&is_warm);
@@ -67,7 +66,11 @@ pub fn run<P: Peer, M: Message>(plan: Plan, measured: &mut Measured) {
     P::wait(running);
     let producers: Vec<_> = producers.into_iter().map(threads::join).collect();
     let end = end.recv().expect("the consumer had everything");
-    assert_eq!(end.sum, plan.producers * (sum_below(warm_up) + sum_below(plan.messages)), "messages were lost");
+    assert_eq!(
+        end.sum,
+        plan.producers * (sum_below(warm_up) + sum_below(plan.messages)),
+        "messages were lost"
+    );
     let begin = producers.iter().map(|(begin, ..)| *begin).min().expect("there is a producer");
     let messages = (plan.messages * plan.producers) as f64;
     measured.value("per_message", "ns", (end.when - begin).as_nanos() as f64 / messages);

@@ -23,11 +23,15 @@ pub struct Plan {
 
 /// Between two consumers of `P`.
 pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
-    measured.distribution("trip", &trips::<P>(plan));
+    measured.distribution("trip", &trips::<P>(plan, || true).expect("nothing was in the way"));
 }
 
-/// All trips but those for warming up.
-pub fn trips<P: Peer>(plan: Plan) -> Distribution {
+/// All trips but those for warming up. `before` is asked before each of the two consumers starts; `None` when it says
+/// that it could not do what it should.
+pub fn trips<P: Peer>(plan: Plan, mut before: impl FnMut() -> bool) -> Option<Distribution> {
+    if !before() {
+        return None;
+    }
     let (mut first, result) = First::new(plan);
     let home: Arc<OnceLock<P::Address<Small>>> = Arc::default();
     let mut back = second(plan);
@@ -36,6 +40,7 @@ pub fn trips<P: Peer>(plan: Plan) -> Distribution {
         P::send(to.get().expect("it is known before the first ping"), ping);
         back()
     }));
+    let moved = before();
     let (address, first_running) = P::start::<Small>(Box::new(move |message| match first.take(message) {
         Step::Send(ping) => {
             P::send(&away, ping);
@@ -48,7 +53,7 @@ pub fn trips<P: Peer>(plan: Plan) -> Distribution {
     let result = ask(plan, result, move |message| P::send(&address, message));
     P::wait(first_running);
     P::wait(second_running);
-    threads::join(result)
+    Some(threads::join(result)).filter(|_| moved)
 }
 
 /// Counts what the second consumer has sent back.

@@ -1,5 +1,6 @@
 //! Threads that are no part of what is measured: producers, and who makes noise.
 
+use std::process::Command;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -51,6 +52,33 @@ pub fn sleep_exactly() {
 /// The system's number of the calling thread; `None` where there is no `/proc`.
 pub fn own_id() -> Option<String> {
     Some(std::fs::read_link("/proc/thread-self").ok()?.file_name()?.to_str()?.to_owned())
+}
+
+/// One of the cores that this program may use.
+#[derive(Clone, Copy)]
+pub enum Place {
+    /// The first of them.
+    First,
+    /// The last of them.
+    Last,
+}
+
+/// Binds the calling thread, and those it starts from now on, to a core. `false` where that cannot be done.
+///
+/// With the program that Linux has for it: the system call would want code that is not safe, or a dependency.
+pub fn stay(place: Place) -> bool {
+    let cores = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let list = cores.lines().find_map(|line| line.strip_prefix("Cpus_allowed_list:")).unwrap_or_default();
+    let mut numbers = list.split([',', '-']).map(str::trim);
+    let core = match place {
+        Place::First => numbers.next(),
+        Place::Last => numbers.next_back(),
+    };
+    let (Some(core), Some(id)) = (core, own_id()) else {
+        return false;
+    };
+    let bind = Command::new("taskset").args(["-p", "-c", core, &id]).output();
+    bind.is_ok_and(|output| output.status.success())
 }
 
 /// Keeps one core busy for as long as it lives.
