@@ -33,8 +33,8 @@ impl Cases {
         self.one_way::<P, Words<8>>(name, 2, "one_way/2_producers/64_bytes");
         let burst = self.mode.pick(1000, 100_000, 100_000);
         self.variant("burst", name, move |measured| burst::run::<P>(burst, measured));
-        self.late::<P>(name, 1_000, self.mode.pick(20, 100, 2_000));
-        self.late::<P>(name, 10_000, self.mode.pick(200, 1_000, 20_000));
+        self.late::<P>(name, 1_000, self.mode.pick(20, 100, 500));
+        self.late::<P>(name, 10_000, self.mode.pick(200, 1_000, 5_000));
     }
 
     /// Adds round trips, made in a peer's own way.
@@ -42,12 +42,12 @@ impl Cases {
         let at_once = round_trip::Plan { trips: self.mode.pick(50, 2_000, 20_000), rest: None };
         self.variant("round_trip/at_once", name, move |measured| run(at_once, measured));
         let rest = Some(Duration::from_micros(300));
-        let rested = round_trip::Plan { trips: self.mode.pick(10, 150, 2_000), rest };
+        let rested = round_trip::Plan { trips: self.mode.pick(10, 150, 500), rest };
         self.variant("round_trip/rested", name, move |measured| run(rested, measured));
     }
 
     fn one_way<P: Peer, M: Message>(&mut self, name: &'static str, producers: u64, case: &str) {
-        let messages = self.mode.pick(1_000, 100_000, 1_000_000) / producers;
+        let messages = self.mode.pick(1_000, 100_000, 400_000) / producers;
         let plan = one_way::Plan { producers, messages };
         self.variant(case, name, move |measured| one_way::run::<P, M>(plan, measured));
     }

@@ -47,7 +47,10 @@ impl fmt::Display for Goal {
     /// One line of a table.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, unit, ours, rival, theirs, demanded } = self;
-        let spread = |of: &Spread| format!("{:.1} [{:.1} .. {:.1}]", of.median, of.low, of.high);
+        let spread = |of: &Spread| {
+            let digits = if of.high < 1.0 { 5 } else { 1 };
+            format!("{:.digits$} [{:.digits$} .. {:.digits$}]", of.median, of.low, of.high)
+        };
         let reached = if self.is_reached() { "reached" } else { "NOT REACHED" };
         write!(
             f,
@@ -102,14 +105,6 @@ pub fn goals(rows: &[Row]) -> Vec<Goal> {
         SPINNING,
         1_000.0,
         "a microsecond",
-    ));
-    all.extend(duel(
-        "the same beside crossbeam, which spins",
-        spin.0,
-        "trip.p50",
-        SPINNING,
-        &["crossbeam"],
-        EQUAL,
     ));
     all.extend(duel("spinning is harmless on one core", spin.1, "trip.p50", SPINNING, &[OURS], 1.1));
     for case in ["1_producer/8_bytes", "1_producer/64_bytes", "2_producers/8_bytes", "2_producers/64_bytes"] {

@@ -18,7 +18,7 @@ const LIMIT: usize = 1024;
 pub fn all(study: &mut Study) {
     let repeats = study.mode.pick(1, 3, 7);
     for (case, work) in [("own/addresses/idle", 0), ("own/addresses/busy", 1_000)] {
-        let count = study.mode.pick(1_000, 100_000, 1_000_000);
+        let count = study.mode.pick(1_000, 100_000, 300_000);
         let work = Duration::from_nanos(work);
         let kind = |name, make: fn(&Address<Small>) -> Address<Small>| {
             Variant::new(name, move |measured: &mut Measured| run(make, count, work, measured))

@@ -8,9 +8,11 @@ use crate::runtime::peer::{Message, Peer, Take};
 use crate::runtime::queue::channels::{Crossbeam, Kanal};
 use crate::runtime::work::round_trip::{self, Plan};
 use crate::runtime::work::threads::{self, Place};
-use crate::{Measured, Study, Variant};
+use crate::{Distribution, Measured, Mode, Study, Variant};
 use dragonfly_runtime::{Address, Thread};
-use std::time::Duration;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 /// For how long a thread looks before it sleeps.
 pub const LIMIT: Duration = Duration::from_micros(50);
@@ -37,13 +39,51 @@ impl Peer for Spinning {
     }
 }
 
+/// Two threads that hand a number to and fro and never sleep: the least that this machine allows, which is how long
+/// the two cores need to show each other a change. It differs from hour to hour where a hypervisor moves cores about.
+fn bare(plan: Plan, measured: &mut Measured) {
+    let turn = Arc::new(AtomicU64::new(0));
+    let wait_for = |turn: &AtomicU64, number| while turn.load(Ordering::Acquire) != number {};
+    let theirs = Arc::clone(&turn);
+    let echo = move || {
+        for trip in 0..plan.trips {
+            wait_for(&theirs, 2 * trip + 1);
+            theirs.store(2 * trip + 2, Ordering::Release);
+        }
+    };
+    let all = threads::start("places", move || {
+        let mut all = Distribution::new();
+        let placed = threads::stay(Place::First);
+        let other = threads::start("echo", echo);
+        let placed = placed && threads::stay(Place::Last);
+        let mut begin = Instant::now();
+        for trip in 0..plan.trips {
+            turn.store(2 * trip + 1, Ordering::Release);
+            wait_for(&turn, 2 * trip + 2);
+            let end = Instant::now();
+            all.record(end - begin);
+            begin = end;
+        }
+        threads::join(other);
+        placed.then_some(all)
+    });
+    if let Some(all) = threads::join(all) {
+        measured.distribution("trip", &all);
+    }
+}
+
 /// On two cores, and on one.
 pub fn all(study: &mut Study) {
     let plan = Plan { trips: study.mode.pick(50, 2_000, 20_000), rest: None };
     let repeats = study.mode.pick(1, 3, 7);
-    study.compare("own/spin/two_cores", repeats, variants(plan, [Place::First, Place::Last]));
+    let mut on_two = variants(plan, [Place::First, Place::Last]);
+    if study.mode != Mode::Check {
+        // Pointless where two threads must share a core, as tests may have to.
+        on_two.push(Variant::new("bare", move |measured| bare(plan, measured)));
+    }
+    study.compare("own/spin/two_cores", repeats, on_two);
     study.compare("own/spin/one_core", repeats, variants(plan, [Place::First, Place::First]));
-    let rested = Plan { trips: study.mode.pick(10, 200, 2_000), rest: Some(Duration::from_micros(300)) };
+    let rested = Plan { trips: study.mode.pick(10, 150, 500), rest: Some(Duration::from_micros(300)) };
     study.compare("own/spin/one_core_rested", repeats, variants(rested, [Place::First, Place::First]));
 }
 
