@@ -1,7 +1,8 @@
 //! `cargo bench -p dragonfly-study --bench runtime`; see `mod.rs`.
 
 use dragonfly_kit::counting::CountingAllocator;
-use dragonfly_study::{Study, runtime};
+use dragonfly_study::goal::goals;
+use dragonfly_study::{Mode, Study, runtime};
 
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
@@ -9,5 +10,9 @@ static ALLOCATOR: CountingAllocator = CountingAllocator;
 fn main() {
     let mut study = Study::start("runtime");
     runtime::all(&mut study);
-    study.finish();
+    let mode = study.mode;
+    let rows = study.finish();
+    if mode != Mode::Check {
+        goals(&rows).iter().for_each(|goal| println!("{goal}"));
+    }
 }

@@ -6,6 +6,7 @@
 //! machine meanwhile.
 
 pub mod distribution;
+pub mod goal;
 #[path = "../graphical/mod.rs"]
 pub mod graphical;
 pub mod machine;

@@ -1,0 +1,82 @@
+//! What it costs to make an actor, to send it its first message, and to keep it while it does nothing.
+
+use super::local::Local;
+use super::tonari::Tonari;
+use crate::Measured;
+use crate::runtime::peer::{Message, Peer, Small};
+use dragonfly_kit::counting;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+use tokio::sync::oneshot;
+
+/// Writes down what `count` actors took. The memory is the most that was held at any time from before the first to
+/// behind the message of the last; without the stacks of threads, which the allocator does not see.
+pub fn write(
+    count: u64,
+    made: Duration,
+    used: Duration,
+    ended: Duration,
+    bytes: u64,
+    measured: &mut Measured,
+) {
+    let each = |time: Duration| time.as_nanos() as f64 / count as f64;
+    measured.value("make", "ns", each(made));
+    measured.value("first_message", "ns", each(used));
+    measured.value("end_with_all", "ns", each(ended));
+    measured.value("memory", "bytes", bytes as f64 / count as f64);
+}
+
+/// With the actors of `P`, all on this thread.
+pub fn run<P: Local>(count: u64, measured: &mut Measured) {
+    let mut stage = P::stage();
+    let (tell, over) = oneshot::channel();
+    let tell = Arc::new(Mutex::new(Some(tell)));
+    let left = Arc::new(AtomicU64::new(count));
+    let mut made = Duration::ZERO;
+    let mut used = Duration::ZERO;
+    let (bytes, actors) = counting::peak(|| {
+        let begin = Instant::now();
+        let actors: Vec<P::Address<Small>> = (0..count)
+            .map(|_| {
+                let (left, tell) = (Arc::clone(&left), Arc::clone(&tell));
+                let take = move |_| {
+                    if left.fetch_sub(1, Ordering::Relaxed) == 1 {
+                        let _ =
+                            tell.lock().expect("nobody panicked with it").take().map(|tell| tell.send(()));
+                    }
+                    ControlFlow::Continue(())
+                };
+                P::start_in::<Small>(&mut stage, Box::new(take))
+            })
+            .collect();
+        made = begin.elapsed();
+        let begin = Instant::now();
+        actors.iter().for_each(|actor| P::send(actor, Small::of(0)));
+        P::run(&mut stage, over);
+        used = begin.elapsed();
+        actors
+    });
+    let begin = Instant::now();
+    drop(actors);
+    drop(stage);
+    write(count, made, used, begin.elapsed(), bytes, measured);
+}
+
+/// With the actors of tonari-actor, which have an OS thread each.
+pub fn threads(count: u64, measured: &mut Measured) {
+    let mut all = Vec::new();
+    let begin = Instant::now();
+    let (bytes, made) = counting::peak(|| {
+        all.extend((0..count).map(|_| Tonari::start::<Small>(Box::new(|_| ControlFlow::Break(())))));
+        begin.elapsed()
+    });
+    let begin = Instant::now();
+    all.iter().for_each(|(address, _)| Tonari::send(address, Small::of(0)));
+    all.iter().for_each(|(_, running)| running.had_its_last());
+    let used = begin.elapsed();
+    let begin = Instant::now();
+    all.into_iter().for_each(|(_, running)| running.end());
+    write(count, made, used, begin.elapsed(), bytes, measured);
+}

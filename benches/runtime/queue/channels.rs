@@ -1,0 +1,169 @@
+//! The channels, each with a thread behind it that takes one message at a time, or all that are there.
+
+use crate::runtime::peer::{Message, Peer, Take};
+use crate::runtime::work::threads;
+use std::ops::ControlFlow;
+use std::sync::mpsc;
+use std::thread::JoinHandle;
+
+/// A thread that gives `take` what `next` gives it.
+fn consumer<M: Message>(mut take: Take<M>, mut next: impl FnMut() -> M + Send + 'static) -> JoinHandle<()> {
+    threads::start("consumer", move || while take(next()).is_continue() {})
+}
+
+/// A thread that takes all that is there: `fill` waits for at least one message and adds all others.
+///
+/// Its list keeps its memory, as that of our thread does.
+fn drainer<M: Message>(
+    mut take: Take<M>,
+    mut fill: impl FnMut(&mut Vec<M>) + Send + 'static,
+) -> JoinHandle<()> {
+    threads::start("consumer", move || {
+        let mut all = Vec::new();
+        loop {
+            fill(&mut all);
+            for message in all.drain(..) {
+                if take(message) == ControlFlow::Break(()) {
+                    return;
+                }
+            }
+        }
+    })
+}
+
+const OPEN: &str = "both ends are there until the last message was taken";
+
+/// `std::sync::mpsc`, unbounded; it is crossbeam's channel with one end.
+pub struct Std;
+
+impl Peer for Std {
+    type Address<M: Message> = mpsc::Sender<M>;
+    type Running = JoinHandle<()>;
+
+    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+        let (enter, leave) = mpsc::channel();
+        (enter, consumer(take, move || leave.recv().expect(OPEN)))
+    }
+
+    fn send<M: Message>(address: &Self::Address<M>, message: M) {
+        address.send(message).expect(OPEN);
+    }
+
+    fn wait(running: Self::Running) {
+        threads::join(running);
+    }
+}
+
+/// crossbeam, unbounded. Its receiver spins for some microseconds before it sleeps.
+pub struct Crossbeam;
+
+impl Peer for Crossbeam {
+    type Address<M: Message> = crossbeam_channel::Sender<M>;
+    type Running = JoinHandle<()>;
+
+    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+        let (enter, leave) = crossbeam_channel::unbounded();
+        (enter, consumer(take, move || leave.recv().expect(OPEN)))
+    }
+
+    fn send<M: Message>(address: &Self::Address<M>, message: M) {
+        address.send(message).expect(OPEN);
+    }
+
+    fn wait(running: Self::Running) {
+        threads::join(running);
+    }
+}
+
+/// flume, unbounded, one message at a time.
+pub struct Flume;
+
+impl Peer for Flume {
+    type Address<M: Message> = flume::Sender<M>;
+    type Running = JoinHandle<()>;
+
+    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+        let (enter, leave) = flume::unbounded();
+        (enter, consumer(take, move || leave.recv().expect(OPEN)))
+    }
+
+    fn send<M: Message>(address: &Self::Address<M>, message: M) {
+        address.send(message).expect(OPEN);
+    }
+
+    fn wait(running: Self::Running) {
+        threads::join(running);
+    }
+}
+
+/// flume, unbounded, emptied with `drain`, which takes its lock once for all.
+pub struct FlumeDrained;
+
+impl Peer for FlumeDrained {
+    type Address<M: Message> = flume::Sender<M>;
+    type Running = JoinHandle<()>;
+
+    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+        let (enter, leave) = flume::unbounded();
+        let fill = move |all: &mut Vec<M>| {
+            all.push(leave.recv().expect(OPEN));
+            all.extend(leave.drain());
+        };
+        (enter, drainer(take, fill))
+    }
+
+    fn send<M: Message>(address: &Self::Address<M>, message: M) {
+        Flume::send(address, message);
+    }
+
+    fn wait(running: Self::Running) {
+        threads::join(running);
+    }
+}
+
+/// kanal, unbounded, one message at a time. Both ends spin before they sleep.
+pub struct Kanal;
+
+impl Peer for Kanal {
+    type Address<M: Message> = kanal::Sender<M>;
+    type Running = JoinHandle<()>;
+
+    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+        let (enter, leave) = kanal::unbounded();
+        (enter, consumer(take, move || leave.recv().expect(OPEN)))
+    }
+
+    fn send<M: Message>(address: &Self::Address<M>, message: M) {
+        address.send(message).expect(OPEN);
+    }
+
+    fn wait(running: Self::Running) {
+        threads::join(running);
+    }
+}
+
+/// kanal, unbounded, emptied with `drain_into`, in the way that its documentation shows.
+pub struct KanalDrained;
+
+impl Peer for KanalDrained {
+    type Address<M: Message> = kanal::Sender<M>;
+    type Running = JoinHandle<()>;
+
+    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+        let (enter, leave) = kanal::unbounded();
+        let fill = move |all: &mut Vec<M>| {
+            if leave.drain_into(all).expect(OPEN) == 0 {
+                all.push(leave.recv().expect(OPEN));
+            }
+        };
+        (enter, drainer(take, fill))
+    }
+
+    fn send<M: Message>(address: &Self::Address<M>, message: M) {
+        Kanal::send(address, message);
+    }
+
+    fn wait(running: Self::Running) {
+        threads::join(running);
+    }
+}

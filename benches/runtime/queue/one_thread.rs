@@ -1,0 +1,80 @@
+//! Send and deliver on one thread: what a queue costs when nobody has to be woken and nobody is in the way.
+
+use crate::runtime::own::peer::Sink;
+use crate::runtime::peer::{Message, sum_below};
+use crate::{Measured, Study, Variant};
+use dragonfly_kit::counting;
+use dragonfly_runtime::Thread;
+use std::cell::Cell;
+use std::hint::black_box;
+use std::ops::ControlFlow;
+use std::rc::Rc;
+use std::sync::mpsc;
+use std::time::Instant;
+
+/// So many are sent before the first is taken.
+pub const BATCH: u64 = 1000;
+
+/// Queues of 8 and of 64 bytes.
+pub fn all(study: &mut Study) {
+    use crate::runtime::peer::Words;
+    let rounds = study.mode.pick(2, 200, 2000);
+    study.compare("queue/one_thread/8_bytes", study.mode.pick(1, 5, 11), variants::<Words<1>>(rounds));
+    study.compare("queue/one_thread/64_bytes", study.mode.pick(1, 5, 11), variants::<Words<8>>(rounds));
+}
+
+fn variants<M: Message>(rounds: u64) -> Vec<Variant<'static>> {
+    vec![
+        Variant::new("std", move |measured| {
+            let (enter, leave) = mpsc::channel::<M>();
+            batches(rounds, measured, |message| enter.send(message).unwrap(), || leave.recv().unwrap());
+        }),
+        Variant::new("crossbeam", move |measured| {
+            let (enter, leave) = crossbeam_channel::unbounded::<M>();
+            batches(rounds, measured, |message| enter.send(message).unwrap(), || leave.recv().unwrap());
+        }),
+        Variant::new("flume", move |measured| {
+            let (enter, leave) = flume::unbounded::<M>();
+            batches(rounds, measured, |message| enter.send(message).unwrap(), || leave.recv().unwrap());
+        }),
+        Variant::new("kanal", move |measured| {
+            let (enter, leave) = kanal::unbounded::<M>();
+            batches(rounds, measured, |message| enter.send(message).unwrap(), || leave.recv().unwrap());
+        }),
+        Variant::new("dragonfly", move |measured| dragonfly::<M>(rounds, measured)),
+    ]
+}
+
+fn batches<M: Message>(rounds: u64, measured: &mut Measured, send: impl Fn(M), receive: impl Fn() -> M) {
+    timed(rounds, measured, || {
+        (0..BATCH).for_each(|number| send(black_box(M::of(number))));
+        (0..BATCH).map(|_| black_box(receive()).number()).sum()
+    });
+}
+
+/// A captured thread, so that sending and delivering happen on the thread that measures.
+fn dragonfly<M: Message>(rounds: u64, measured: &mut Measured) {
+    let mut thread = Thread::capture("one thread", || {});
+    let sum = Rc::new(Cell::new(0));
+    let add = Rc::clone(&sum);
+    let address = thread.context().register_receiver(Sink::new(move |message: M| {
+        add.set(add.get() + message.number());
+        ControlFlow::Continue(())
+    }));
+    timed(rounds, measured, || {
+        (0..BATCH).for_each(|number| address.send(black_box(M::of(number))).unwrap());
+        thread.iterate();
+        sum.take()
+    });
+}
+
+/// A tenth of the rounds for warming up, then all of them on the clock.
+pub fn timed(rounds: u64, measured: &mut Measured, mut round: impl FnMut() -> u64) {
+    let mut rounds_of = |count: u64| (0..count).for_each(|_| assert_eq!(round(), sum_below(BATCH)));
+    rounds_of(rounds.div_ceil(10));
+    let begin = Instant::now();
+    let (count, ()) = counting::count(|| rounds_of(rounds));
+    let messages = (rounds * BATCH) as f64;
+    measured.value("per_message", "ns", begin.elapsed().as_nanos() as f64 / messages);
+    measured.value("allocations", "1/msg", count.allocations as f64 / messages);
+}

@@ -1,0 +1,60 @@
+//! How late messages come that are to be sent at given times, while another thread keeps a core busy.
+//!
+//! The time runs from when a message was *to be* sent: a sender that was held up does not make the delay look short
+//! (Tene's coordinated omission). How late the sender itself was is written down beside it.
+
+use super::threads::{self, Noise};
+use crate::runtime::peer::{Message, Peer, Small};
+use crate::{Distribution, Measured};
+use std::ops::ControlFlow;
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+
+/// How often, and how many.
+#[derive(Clone, Copy)]
+pub struct Plan {
+    /// Time between two messages.
+    pub period: Duration,
+    /// On the clock; a tenth of it goes before, for warming up.
+    pub messages: u64,
+}
+
+/// Messages at their times; all must come, in order.
+pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
+    let _noise = Noise::start();
+    let warm_up = plan.messages / 10;
+    let total = plan.messages + warm_up;
+    let (tell, result) = mpsc::channel();
+    let base = Instant::now() + Duration::from_millis(5);
+    let intended = move |number: u64| base + plan.period * number as u32;
+    let mut seen = 0;
+    let mut delays = Distribution::new();
+    let (address, running) = P::start::<Small>(Box::new(move |message| {
+        let number = message.number();
+        assert_eq!(number, seen, "messages came out of order");
+        if number >= warm_up {
+            delays.record(Instant::now().saturating_duration_since(intended(number)));
+        }
+        seen += 1;
+        if seen < total {
+            return ControlFlow::Continue(());
+        }
+        let _ = tell.send(delays.clone());
+        ControlFlow::Break(())
+    }));
+    let sender = threads::start("producer", move || {
+        threads::sleep_exactly();
+        let mut late = Distribution::new();
+        for number in 0..total {
+            threads::wait_until(intended(number));
+            late.record(Instant::now() - intended(number));
+            P::send(&address, Small::of(number));
+        }
+        late
+    });
+    P::wait(running);
+    let late = threads::join(sender);
+    measured.distribution("delay", &result.recv().expect("the consumer had everything"));
+    measured.value("sender_late.p50", "ns", late.percentile(50.0) as f64);
+    measured.value("sender_late.p99", "ns", late.percentile(99.0) as f64);
+}

@@ -1,0 +1,183 @@
+//! What our runtime is to reach beside its peers, and whether it does: ratios of medians measured in one run.
+
+use crate::Row;
+use std::fmt;
+
+/// One number, measured several times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// The least.
+    pub low: f64,
+    /// The middle one; what is compared.
+    pub median: f64,
+    /// The most.
+    pub high: f64,
+}
+
+/// One demand: ours is to be at most `demanded` times that of the rival. Less is better in all of them.
+#[derive(Clone, Debug)]
+pub struct Goal {
+    /// What is compared.
+    pub name: String,
+    /// In which unit.
+    pub unit: String,
+    /// Ours.
+    pub ours: Spread,
+    /// Whose the other number is.
+    pub rival: String,
+    /// Theirs.
+    pub theirs: Spread,
+    /// The ratio that is allowed at most.
+    pub demanded: f64,
+}
+
+impl Goal {
+    /// Ours in parts of theirs.
+    pub fn ratio(&self) -> f64 {
+        self.ours.median / self.theirs.median
+    }
+
+    /// Is it as demanded, by the medians?
+    pub fn is_reached(&self) -> bool {
+        self.ours.median <= self.demanded * self.theirs.median
+    }
+}
+
+impl fmt::Display for Goal {
+    /// One line of a table.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, unit, ours, rival, theirs, demanded } = self;
+        let spread = |of: &Spread| {
+            let digits = if of.high < 1.0 { 5 } else { 1 };
+            format!("{:.digits$} [{:.digits$} .. {:.digits$}]", of.median, of.low, of.high)
+        };
+        let reached = if self.is_reached() { "reached" } else { "NOT REACHED" };
+        write!(
+            f,
+            "{name:<42} {unit:<6} ours {:<28} {rival:<20} {:<28} ratio {:>5.2}, at most {demanded:.2}: {reached}",
+            spread(ours),
+            spread(theirs),
+            self.ratio(),
+        )
+    }
+}
+
+/// The crates that run actors as tasks, in the variant where each actor has a thread of its own.
+const ASYNC: [&str; 3] = ["actix", "kameo", "ractor"];
+/// The crate that gives each actor an OS thread.
+const ONE_THREAD_EACH: &str = "tonari-actor";
+/// The fastest: all actors on one thread.
+const INLINE: &str = "stakker";
+const OURS: &str = "dragonfly";
+const SPINNING: &str = "dragonfly, spinning";
+/// "Not slower": medians of equal things differ by that much from run to run.
+const EQUAL: f64 = 1.05;
+/// "No allocation": what is left when a queue's memory, which grows at first, is laid upon all messages.
+const NONE: f64 = 0.001;
+
+/// The goals of which `rows` has both sides.
+///
+/// Round trips are compared with variants whose actors are in different threads, which must be woken; tokio with two
+/// workers runs two actors that answer each other on one of them.
+pub fn goals(rows: &[Row]) -> Vec<Goal> {
+    let mut all = Vec::new();
+    let crates = [ASYNC[0], ASYNC[1], ASYNC[2], ONE_THREAD_EACH, INLINE];
+    let duel = |name: &str, case: &str, metric: &str, ours: &str, rivals: &[&str], demanded: f64| {
+        let (ours, unit) = spread(rows, case, ours, metric)?;
+        let found = rivals.iter().filter_map(|rival| Some((*rival, spread(rows, case, rival, metric)?.0)));
+        let (rival, theirs) = found.min_by(|one, other| one.1.median.total_cmp(&other.1.median))?;
+        Some(Goal { name: name.to_owned(), unit, ours, rival: rival.to_owned(), theirs, demanded })
+    };
+    let limit = |name: &str, case: &str, metric: &str, ours: &str, most: f64, said: &str| {
+        let (ours, unit) = spread(rows, case, ours, metric)?;
+        let theirs = Spread { low: most, median: most, high: most };
+        Some(Goal { name: name.to_owned(), unit, ours, rival: said.to_owned(), theirs, demanded: 1.0 })
+    };
+    for (name, case) in [("at once", "at_once"), ("after a rest", "rested")] {
+        let (name, case) = (format!("round trip, parked, {name}"), format!("actor/round_trip/{case}"));
+        all.extend(duel(&name, &case, "trip.p50", OURS, &crates, EQUAL));
+    }
+    let spin = ("own/spin/two_cores", "own/spin/one_core");
+    all.extend(limit(
+        "round trip, spinning, two cores",
+        spin.0,
+        "trip.p50",
+        SPINNING,
+        1_000.0,
+        "a microsecond",
+    ));
+    all.extend(duel("spinning is harmless on one core", spin.1, "trip.p50", SPINNING, &[OURS], 1.1));
+    for case in ["1_producer/8_bytes", "1_producer/64_bytes", "2_producers/8_bytes", "2_producers/64_bytes"] {
+        let name = format!("one way, {}", case.replace(['_', '/'], " "));
+        let case = format!("actor/one_way/{case}");
+        for (rivals, demanded) in [(&[ONE_THREAD_EACH][..], 0.5), (&ASYNC, 0.5), (&[INLINE], EQUAL)] {
+            all.extend(duel(&name, &case, "per_message", OURS, rivals, demanded));
+        }
+        all.extend(limit("  allocations of it", &case, "allocations", OURS, NONE, "none"));
+    }
+    for size in ["8", "64"] {
+        let (name, case) = (format!("on one thread, {size} bytes"), format!("actor/chain/{size}_bytes"));
+        all.extend(duel(&name, &case, "per_message", OURS, &[INLINE], EQUAL));
+    }
+    all
+}
+
+/// The repeats of one metric, and its unit.
+fn spread(rows: &[Row], case: &str, variant: &str, metric: &str) -> Option<(Spread, String)> {
+    let of = |row: &&Row| row.case == case && row.variant == variant && row.metric == metric;
+    let mut values: Vec<f64> = rows.iter().filter(of).map(|row| row.value).collect();
+    values.sort_by(f64::total_cmp);
+    let unit = rows.iter().find(of)?.unit.clone();
+    let (low, high) = (*values.first()?, *values.last()?);
+    Some((Spread { low, median: values[values.len() / 2], high }, unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(case: &str, metric: &str, of: &[(&str, [f64; 3])]) -> Vec<Row> {
+        let row = |variant: &str, repeat: usize, value| Row {
+            case: case.to_owned(),
+            variant: variant.to_owned(),
+            repeat: repeat as u32,
+            metric: metric.to_owned(),
+            unit: "ns".into(),
+            value,
+            others: 0.0,
+        };
+        let of = of.iter();
+        of.flat_map(|(name, values)| values.iter().enumerate().map(|(i, v)| row(name, i, *v))).collect()
+    }
+
+    #[test]
+    fn the_median_is_compared_with_the_best_rival_of_each_kind() {
+        let all = goals(&rows(
+            "actor/one_way/1_producer/8_bytes",
+            "per_message",
+            &[
+                ("dragonfly", [90.0, 50.0, 10.0]),
+                ("actix", [120.0, 110.0, 400.0]),
+                ("kameo", [500.0, 500.0, 500.0]),
+                ("kameo, 2 workers", [1.0, 1.0, 1.0]),
+                ("tonari-actor", [90.0, 95.0, 99.0]),
+                ("stakker", [48.0, 49.0, 50.0]),
+            ],
+        ));
+        let seen: Vec<(&str, bool)> =
+            all.iter().map(|goal| (goal.rival.as_str(), goal.is_reached())).collect();
+        assert_eq!(seen, [("tonari-actor", false), ("actix", true), ("stakker", true)]);
+        assert_eq!(all[0].ours, Spread { low: 10.0, median: 50.0, high: 90.0 });
+        assert!(all[0].to_string().contains("NOT REACHED"), "{}", all[0]);
+    }
+
+    #[test]
+    fn a_fixed_limit_needs_no_rival_and_what_was_not_measured_is_no_goal() {
+        let spinning = |time| {
+            let all = rows("own/spin/two_cores", "trip.p50", &[("dragonfly, spinning", [time; 3])]);
+            goals(&all).iter().map(Goal::is_reached).collect::<Vec<bool>>()
+        };
+        assert_eq!((spinning(999.0), spinning(1_001.0)), (vec![true], vec![false]));
+        assert!(goals(&[]).is_empty());
+    }
+}
