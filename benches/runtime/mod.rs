@@ -1,6 +1,10 @@
 //! What a message costs: queues, actors, and the Savina suite, ours and others'.
 
+pub mod savina;
+
 use crate::Study;
 
 /// Measures every case.
-pub fn all(_study: &mut Study) {}
+pub fn all(study: &mut Study) {
+    savina::all(study);
+}

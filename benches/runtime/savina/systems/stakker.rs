@@ -1,0 +1,106 @@
+//! stakker: all actors in one thread, without a lock or an atomic between them. It has no other way.
+//!
+//! As it is meant to be used where it is quickest: default features, which bind it to one thread for the life of the
+//! process (`stakkers_thread.rs`). A message is a call of the actor's one method, by `call!`. An actor holds the
+//! reference that owns it, so it lives until it stops itself.
+
+use super::super::run::{DEADLINE, Finish, Run};
+use crate::{Mode, stakkers_thread};
+use stakker::{ActorOwn, CX, Core, Stakker, actor_new, call, ret_nop};
+use std::sync::Arc;
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::Instant;
+
+#[path = "../suite/mod.rs"]
+mod suite;
+
+trait Actor: Sized + 'static {
+    type Message: 'static;
+
+    fn receive(&mut self, message: Self::Message, cx: &mut Cx<Self>);
+}
+
+type Address<A> = stakker::Actor<Cell<A>>;
+
+struct World<'a> {
+    stakker: &'a mut Stakker,
+    run: Arc<Run>,
+}
+
+impl World<'_> {
+    fn spawn<A: Actor>(&mut self, _place: usize, actor: A) -> Address<A> {
+        spawn(self.stakker, &self.run, actor)
+    }
+
+    fn send<A: Actor>(&mut self, to: &Address<A>, message: A::Message) {
+        call!([to], receive(message));
+    }
+}
+
+fn spawn<A: Actor>(core: &mut Core, run: &Arc<Run>, actor: A) -> Address<A> {
+    let owner = actor_new!(core, Cell<A>, ret_nop!());
+    let address = owner.access_actor().clone();
+    call!([address], <Cell<A>>::init(actor, Arc::clone(run), owner));
+    address
+}
+
+/// An actor in stakker's sense.
+struct Cell<A: Actor> {
+    actor: A,
+    run: Arc<Run>,
+    _owner: ActorOwn<Self>,
+}
+
+impl<A: Actor> Cell<A> {
+    fn init(_: CX![], actor: A, run: Arc<Run>, owner: ActorOwn<Self>) -> Option<Self> {
+        Some(Self { actor, run, _owner: owner })
+    }
+
+    fn receive(&mut self, context: CX![], message: A::Message) {
+        let Self { actor, run, .. } = self;
+        run.watch(|| actor.receive(message, &mut Cx { context, run }));
+    }
+}
+
+struct Cx<'a, 'b, A: Actor> {
+    context: &'a mut stakker::Cx<'b, Cell<A>>,
+    run: &'a Arc<Run>,
+}
+
+impl<A: Actor> Cx<'_, '_, A> {
+    fn me(&self) -> Address<A> {
+        self.context.this().clone()
+    }
+
+    fn spawn<B: Actor>(&mut self, _place: usize, actor: B) -> Address<B> {
+        spawn(self.context, self.run, actor)
+    }
+
+    fn send<B: Actor>(&mut self, to: &Address<B>, message: B::Message) {
+        call!([to], receive(message));
+    }
+
+    fn stop(&mut self) {
+        self.context.stop();
+    }
+
+    fn finish(&mut self, messages: u64, retries: Option<u64>) {
+        self.run.finish(messages, retries);
+    }
+}
+
+pub(super) fn play(benchmark: &'static str, mode: Mode) -> Result<Finish, String> {
+    let played = stakkers_thread::run(move || {
+        let mut stakker = Stakker::new(Instant::now());
+        let (run, verdict) = Run::begin();
+        suite::start(benchmark, &mut World { stakker: &mut stakker, run: Arc::new(run) }, mode);
+        // Until nobody has anything left to do.
+        stakker.run(Instant::now(), false);
+        verdict.now()
+    });
+    match played.recv_timeout(DEADLINE) {
+        Ok(finish) => finish,
+        Err(RecvTimeoutError::Disconnected) => Err("an actor panicked".into()),
+        Err(RecvTimeoutError::Timeout) => Err(format!("no end within {DEADLINE:?}")),
+    }
+}
