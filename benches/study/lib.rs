@@ -13,7 +13,6 @@ pub mod plan;
 pub mod record;
 #[path = "../runtime/mod.rs"]
 pub mod runtime;
-pub mod stakkers_thread;
 
 pub use distribution::Distribution;
 pub use plan::{Mode, Study, Variant};
