@@ -5,6 +5,7 @@ pub mod cases;
 pub mod own;
 pub mod peer;
 pub mod queue;
+pub mod savina;
 pub mod work;
 
 use crate::Study;
@@ -14,4 +15,5 @@ pub fn all(study: &mut Study) {
     queue::all(study);
     actor::all(study);
     own::all(study);
+    savina::all(study);
 }

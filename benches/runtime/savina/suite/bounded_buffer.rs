@@ -1,0 +1,192 @@
+//! Producers, consumers, and a buffer between them that holds up who is too fast.
+//!
+//! Original: 40 producers of 1,000 items each, 40 consumers, a buffer of 50. Counted: four messages an item, which are
+//! the order, the item in, the item out, and the consumer's return. Checked: the buffer never holds more than it may,
+//! and every item was consumed exactly once.
+//!
+//! The original computes some 2,500 logarithms for every item on each side, which would hide the messages; here each
+//! side does 25 steps of a generator.
+
+use super::super::{Actor, Address, Cx, World};
+use super::work;
+use crate::Mode;
+use dragonfly_kit::random::Random;
+use std::collections::VecDeque;
+
+/// Work for an item, on each side.
+const STEPS: usize = 25;
+
+pub(super) fn start(world: &mut World, mode: Mode) {
+    let (producers, consumers, items, limit) =
+        mode.pick((4, 3, 20, 6), (40, 40, 200, 50), (40, 40, 1_000, 50));
+    let buffer = Buffer {
+        limit,
+        items,
+        held: VecDeque::new(),
+        producers: Vec::new(),
+        consumers: Vec::new(),
+        idle_producers: VecDeque::new(),
+        idle_consumers: (0..consumers).collect(),
+        ended: 0,
+        consumed: vec![false; producers * items],
+        reports: 0,
+    };
+    let buffer = world.spawn(0, buffer);
+    let produce = |index: usize| {
+        let random = Random::new(index as u64);
+        world.spawn(
+            index,
+            Producer { index, buffer: buffer.clone(), next: index * items, left: items, random },
+        )
+    };
+    let producers = (0..producers).map(produce).collect();
+    let consume = |index: usize| {
+        let random = Random::new(index as u64);
+        world.spawn(index, Consumer { index, buffer: buffer.clone(), consumed: Vec::new(), random })
+    };
+    let consumers = (0..consumers).map(consume).collect();
+    world.send(&buffer, BufferMessage::Open(producers, consumers));
+}
+
+struct Buffer {
+    limit: usize,
+    /// Of each producer.
+    items: usize,
+    held: VecDeque<usize>,
+    producers: Vec<Address<Producer>>,
+    consumers: Vec<Address<Consumer>>,
+    idle_producers: VecDeque<usize>,
+    idle_consumers: VecDeque<usize>,
+    /// Producers that have no more.
+    ended: usize,
+    consumed: Vec<bool>,
+    /// Consumers that have said what they consumed.
+    reports: usize,
+}
+
+enum BufferMessage {
+    Open(Vec<Address<Producer>>, Vec<Address<Consumer>>),
+    Item { from: usize, item: usize },
+    Exhausted,
+    Idle { from: usize },
+    Consumed(Vec<usize>),
+}
+
+impl Actor for Buffer {
+    type Message = BufferMessage;
+
+    fn receive(&mut self, message: BufferMessage, cx: &mut Cx<Self>) {
+        match message {
+            BufferMessage::Open(producers, consumers) => {
+                producers.iter().for_each(|producer| cx.send(producer, ProducerMessage::Produce));
+                (self.producers, self.consumers) = (producers, consumers);
+            }
+            BufferMessage::Item { from, item } => {
+                match self.idle_consumers.pop_front() {
+                    Some(consumer) => cx.send(&self.consumers[consumer], ConsumerMessage::Item(item)),
+                    None => self.held.push_back(item),
+                }
+                assert!(self.held.len() <= self.limit, "the buffer holds {}", self.held.len());
+                // Every other producer may already be about to deliver one.
+                if self.held.len() + self.producers.len() > self.limit {
+                    self.idle_producers.push_back(from);
+                } else {
+                    cx.send(&self.producers[from], ProducerMessage::Produce);
+                }
+            }
+            BufferMessage::Idle { from } => {
+                match self.held.pop_front() {
+                    Some(item) => cx.send(&self.consumers[from], ConsumerMessage::Item(item)),
+                    None => self.idle_consumers.push_back(from),
+                }
+                if let Some(producer) = self.idle_producers.pop_front() {
+                    cx.send(&self.producers[producer], ProducerMessage::Produce);
+                }
+                self.end_if_empty(cx);
+            }
+            BufferMessage::Exhausted => {
+                self.ended += 1;
+                self.end_if_empty(cx);
+            }
+            BufferMessage::Consumed(items) => self.check(&items, cx),
+        }
+    }
+}
+
+impl Buffer {
+    fn end_if_empty(&self, cx: &mut Cx<Self>) {
+        if self.ended == self.producers.len() && self.idle_consumers.len() == self.consumers.len() {
+            self.consumers.iter().for_each(|consumer| cx.send(consumer, ConsumerMessage::End));
+        }
+    }
+
+    fn check(&mut self, items: &[usize], cx: &mut Cx<Self>) {
+        for item in items {
+            assert!(!self.consumed[*item], "item {item} was consumed twice");
+            self.consumed[*item] = true;
+        }
+        self.reports += 1;
+        if self.reports == self.consumers.len() {
+            assert!(self.consumed.iter().all(|consumed| *consumed), "every item was consumed");
+            cx.finish(4 * (self.items * self.producers.len()) as u64, None);
+            cx.stop();
+        }
+    }
+}
+
+struct Producer {
+    index: usize,
+    buffer: Address<Buffer>,
+    next: usize,
+    left: usize,
+    random: Random,
+}
+
+enum ProducerMessage {
+    Produce,
+}
+
+impl Actor for Producer {
+    type Message = ProducerMessage;
+
+    fn receive(&mut self, ProducerMessage::Produce: ProducerMessage, cx: &mut Cx<Self>) {
+        if self.left == 0 {
+            cx.send(&self.buffer, BufferMessage::Exhausted);
+            return cx.stop();
+        }
+        work(&mut self.random, STEPS);
+        cx.send(&self.buffer, BufferMessage::Item { from: self.index, item: self.next });
+        self.next += 1;
+        self.left -= 1;
+    }
+}
+
+struct Consumer {
+    index: usize,
+    buffer: Address<Buffer>,
+    consumed: Vec<usize>,
+    random: Random,
+}
+
+enum ConsumerMessage {
+    Item(usize),
+    End,
+}
+
+impl Actor for Consumer {
+    type Message = ConsumerMessage;
+
+    fn receive(&mut self, message: ConsumerMessage, cx: &mut Cx<Self>) {
+        match message {
+            ConsumerMessage::Item(item) => {
+                work(&mut self.random, STEPS);
+                self.consumed.push(item);
+                cx.send(&self.buffer, BufferMessage::Idle { from: self.index });
+            }
+            ConsumerMessage::End => {
+                cx.send(&self.buffer, BufferMessage::Consumed(std::mem::take(&mut self.consumed)));
+                cx.stop();
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! A dictionary that many read and write: requests with answers, at one actor.
+//!
+//! Original: 20 workers, 10,000 requests each, one in ten writes. Counted: requests and answers. Checked: as each worker
+//! writes only keys of its own, it reads of them what it wrote last; of others' keys it never reads anything older
+//! than before; in the end the dictionary is what the workers know.
+
+use super::super::{Actor, Address, Cx, World};
+use crate::Mode;
+use dragonfly_kit::random::Random;
+use std::collections::HashMap;
+
+/// Keys that each worker owns.
+const KEYS: usize = 64;
+/// Requests of which one writes.
+const WRITES: usize = 10;
+
+pub(super) fn start(world: &mut World, mode: Mode) {
+    let (workers, requests) = mode.pick((4, 50), (20, 1_000), (20, 10_000));
+    let owned = |key: usize| (key, Version { key, version: 0 });
+    let entries: HashMap<usize, Version> = (0..KEYS * workers).map(owned).collect();
+    let dictionary = Dictionary { entries, workers: Vec::new(), requests, ended: 0, served: 0 };
+    let dictionary = world.spawn(0, dictionary);
+    let create = |index: usize| {
+        let (random, seen) = (Random::new(index as u64), vec![0; KEYS * workers]);
+        let worker =
+            Worker { index, workers, dictionary: dictionary.clone(), random, seen, key: 0, left: requests };
+        world.spawn(index, worker)
+    };
+    let workers: Vec<Address<Worker>> = (0..workers).map(create).collect();
+    world.send(&dictionary, DictionaryMessage::Open(workers));
+}
+
+/// What stands at a key: how often it was written. It knows its key, so that a wrong answer is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Version {
+    key: usize,
+    version: u32,
+}
+
+struct Dictionary {
+    entries: HashMap<usize, Version>,
+    workers: Vec<Address<Worker>>,
+    requests: u64,
+    ended: usize,
+    served: u64,
+}
+
+enum DictionaryMessage {
+    Open(Vec<Address<Worker>>),
+    Read { from: usize, key: usize },
+    Write { from: usize, value: Version },
+    End { owned: Vec<Version> },
+}
+
+impl Actor for Dictionary {
+    type Message = DictionaryMessage;
+
+    fn receive(&mut self, message: DictionaryMessage, cx: &mut Cx<Self>) {
+        match message {
+            DictionaryMessage::Open(workers) => {
+                workers.iter().for_each(|worker| cx.send(worker, WorkerMessage::Begin));
+                self.workers = workers;
+            }
+            DictionaryMessage::Read { from, key } => {
+                self.served += 1;
+                cx.send(&self.workers[from], WorkerMessage::Value(self.entries[&key]));
+            }
+            DictionaryMessage::Write { from, value } => {
+                self.served += 1;
+                self.entries.insert(value.key, value);
+                cx.send(&self.workers[from], WorkerMessage::Value(value));
+            }
+            DictionaryMessage::End { owned } => {
+                for value in owned {
+                    assert_eq!(self.entries[&value.key], value, "the dictionary is what its writer knows");
+                }
+                self.ended += 1;
+                if self.ended == self.workers.len() {
+                    assert_eq!(self.served, self.requests * self.ended as u64, "every request was served");
+                    cx.finish(2 * self.served, None);
+                    cx.stop();
+                }
+            }
+        }
+    }
+}
+
+struct Worker {
+    index: usize,
+    workers: usize,
+    dictionary: Address<Dictionary>,
+    random: Random,
+    /// The version of each key that was read or written last.
+    seen: Vec<u32>,
+    /// That of the request under way.
+    key: usize,
+    left: u64,
+}
+
+enum WorkerMessage {
+    Begin,
+    Value(Version),
+}
+
+impl Actor for Worker {
+    type Message = WorkerMessage;
+
+    fn receive(&mut self, message: WorkerMessage, cx: &mut Cx<Self>) {
+        if let WorkerMessage::Value(Version { key, version }) = message {
+            assert_eq!(key, self.key, "the answer is to the question");
+            if self.owns(key) {
+                assert_eq!(version, self.seen[key], "its own key has changed");
+            }
+            assert!(version >= self.seen[key], "key {key} has become older");
+            self.seen[key] = version;
+        }
+        self.request(cx);
+    }
+}
+
+impl Worker {
+    fn owns(&self, key: usize) -> bool {
+        key % self.workers == self.index
+    }
+
+    /// Makes the next request, or says what it knows of its keys.
+    fn request(&mut self, cx: &mut Cx<Self>) {
+        if self.left == 0 {
+            let keys = (0..self.seen.len()).filter(|key| self.owns(*key));
+            let owned = keys.map(|key| Version { key, version: self.seen[key] }).collect();
+            cx.send(&self.dictionary, DictionaryMessage::End { owned });
+            return cx.stop();
+        }
+        self.left -= 1;
+        let from = self.index;
+        if self.random.below(WRITES) == 0 {
+            self.key = self.random.below(KEYS) * self.workers + self.index;
+            self.seen[self.key] += 1;
+            let value = Version { key: self.key, version: self.seen[self.key] };
+            cx.send(&self.dictionary, DictionaryMessage::Write { from, value });
+        } else {
+            self.key = self.random.below(self.seen.len());
+            cx.send(&self.dictionary, DictionaryMessage::Read { from, key: self.key });
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Actors for a moment: each is created, computes a little with its one message, and ends.
+//!
+//! Original: 40,000 actors. Counted: actors, so the figure is that of a creation, a message there and one back, and an
+//! end. Checked: every actor has answered, and with the message that it was sent.
+//!
+//! The original creates from its main thread and waits until all have ended; here an actor creates, and each actor
+//! tells it before it ends.
+
+use super::super::{Actor, Address, Cx, World};
+use super::compute;
+use crate::Mode;
+
+pub(super) fn start(world: &mut World, mode: Mode) {
+    let actors = mode.pick(40, 10_000, 40_000);
+    let parent = world.spawn(0, Parent { answered: vec![false; actors], missing: actors });
+    world.send(&parent, ParentMessage::Begin);
+}
+
+struct Parent {
+    answered: Vec<bool>,
+    missing: usize,
+}
+
+enum ParentMessage {
+    Begin,
+    Done(usize),
+}
+
+impl Actor for Parent {
+    type Message = ParentMessage;
+
+    fn receive(&mut self, message: ParentMessage, cx: &mut Cx<Self>) {
+        match message {
+            ParentMessage::Begin => {
+                for number in 0..self.answered.len() {
+                    let parent = cx.me();
+                    let child = cx.spawn(number, Child { parent });
+                    cx.send(&child, number);
+                }
+            }
+            ParentMessage::Done(number) => {
+                assert!(!self.answered[number], "actor {number} answers once");
+                self.answered[number] = true;
+                self.missing -= 1;
+                if self.missing == 0 {
+                    cx.finish(self.answered.len() as u64, None);
+                    cx.stop();
+                }
+            }
+        }
+    }
+}
+
+struct Child {
+    parent: Address<Parent>,
+}
+
+impl Actor for Child {
+    type Message = usize;
+
+    fn receive(&mut self, number: usize, cx: &mut Cx<Self>) {
+        compute();
+        cx.send(&self.parent, ParentMessage::Done(number));
+        cx.stop();
+    }
+}

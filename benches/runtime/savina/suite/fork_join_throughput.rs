@@ -1,0 +1,84 @@
+//! One actor keeps many busy: messages to 60 actors in turn, each of which computes a little.
+//!
+//! Original: 60 actors, 10,000 messages each. Counted: those messages. Checked: each actor got its messages in the
+//! order of sending, and all of them.
+//!
+//! The original sends from its main thread; here an actor does.
+
+use super::super::{Actor, Address, Cx, World};
+use super::compute;
+use crate::Mode;
+
+pub(super) fn start(world: &mut World, mode: Mode) {
+    let (workers, messages) = mode.pick((6, 20), (60, 2_500), (60, 10_000));
+    let workers = (0..workers).map(|place| world.spawn(place, Worker { next: 0, messages })).collect();
+    let source = world.spawn(0, Source { workers, messages, done: 0 });
+    world.send(&source, SourceMessage::Begin);
+}
+
+struct Source {
+    workers: Vec<Address<Worker>>,
+    messages: u64,
+    done: usize,
+}
+
+enum SourceMessage {
+    Begin,
+    Done,
+}
+
+impl Actor for Source {
+    type Message = SourceMessage;
+
+    fn receive(&mut self, message: SourceMessage, cx: &mut Cx<Self>) {
+        match message {
+            SourceMessage::Begin => {
+                for number in 0..self.messages {
+                    for worker in &self.workers {
+                        cx.send(worker, WorkerMessage::Work(number));
+                    }
+                }
+                for worker in &self.workers {
+                    let me = cx.me();
+                    cx.send(worker, WorkerMessage::End(me));
+                }
+            }
+            SourceMessage::Done => {
+                self.done += 1;
+                if self.done == self.workers.len() {
+                    cx.finish(self.messages * self.done as u64, None);
+                    cx.stop();
+                }
+            }
+        }
+    }
+}
+
+struct Worker {
+    next: u64,
+    messages: u64,
+}
+
+enum WorkerMessage {
+    Work(u64),
+    End(Address<Source>),
+}
+
+impl Actor for Worker {
+    type Message = WorkerMessage;
+
+    fn receive(&mut self, message: WorkerMessage, cx: &mut Cx<Self>) {
+        match message {
+            WorkerMessage::Work(number) => {
+                assert_eq!(number, self.next, "messages come in the order of sending");
+                self.next += 1;
+                compute();
+            }
+            WorkerMessage::End(source) => {
+                assert_eq!(self.next, self.messages, "every message came");
+                cx.send(&source, SourceMessage::Done);
+                cx.stop();
+            }
+        }
+    }
+}

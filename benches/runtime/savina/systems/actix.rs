@@ -1,0 +1,128 @@
+//! actix: one or two arbiters, which are OS threads with a single-threaded tokio runtime each.
+//!
+//! An actor is started in the arbiter of its place, directly when that is the arbiter it is created in. Messages go
+//! through `Addr::do_send`, which never waits, whatever the mailbox's capacity.
+
+use super::super::run::{Finish, Run};
+use crate::Mode;
+use actix::{Actor as _, ActorContext, Addr, Arbiter, ArbiterHandle, AsyncContext, Handler, Message};
+use std::mem;
+use std::sync::Arc;
+
+#[path = "../suite/mod.rs"]
+mod suite;
+
+trait Actor: Sized + Send + Unpin + 'static {
+    type Message: Send + 'static;
+
+    fn receive(&mut self, message: Self::Message, cx: &mut Cx<Self>);
+}
+
+type Address<A> = Addr<Cell<A>>;
+
+/// The arbiters, and the run they are for.
+struct Team {
+    arbiters: Vec<ArbiterHandle>,
+    run: Run,
+}
+
+struct World {
+    team: Arc<Team>,
+}
+
+impl World {
+    fn spawn<A: Actor>(&mut self, place: usize, actor: A) -> Address<A> {
+        self.team.spawn(place, actor)
+    }
+
+    fn send<A: Actor>(&mut self, to: &Address<A>, message: A::Message) {
+        to.do_send(Letter(message));
+    }
+}
+
+impl Team {
+    fn spawn<A: Actor>(self: &Arc<Self>, place: usize, actor: A) -> Address<A> {
+        let place = place % self.arbiters.len();
+        let cell = Cell { actor, place, team: Arc::clone(self) };
+        Cell::start_in_arbiter(&self.arbiters[place], move |_| cell)
+    }
+}
+
+/// An actor in actix's sense.
+struct Cell<A> {
+    actor: A,
+    place: usize,
+    team: Arc<Team>,
+}
+
+impl<A: Actor> actix::Actor for Cell<A> {
+    type Context = actix::Context<Self>;
+}
+
+/// A message in actix's sense.
+struct Letter<M>(M);
+
+impl<M: 'static> Message for Letter<M> {
+    type Result = ();
+}
+
+impl<A: Actor> Handler<Letter<A::Message>> for Cell<A> {
+    type Result = ();
+
+    fn handle(&mut self, Letter(message): Letter<A::Message>, context: &mut actix::Context<Self>) {
+        let Self { actor, place, team } = self;
+        team.run.watch(|| actor.receive(message, &mut Cx { context, place: *place, team }));
+    }
+}
+
+struct Cx<'a, A: Actor> {
+    context: &'a mut actix::Context<Cell<A>>,
+    place: usize,
+    team: &'a Arc<Team>,
+}
+
+impl<A: Actor> Cx<'_, A> {
+    fn me(&self) -> Address<A> {
+        self.context.address()
+    }
+
+    fn spawn<B: Actor>(&mut self, place: usize, actor: B) -> Address<B> {
+        if place % self.team.arbiters.len() != self.place {
+            return self.team.spawn(place, actor);
+        }
+        Cell { actor, place: self.place, team: Arc::clone(self.team) }.start()
+    }
+
+    fn send<B: Actor>(&mut self, to: &Address<B>, message: B::Message) {
+        to.do_send(Letter(message));
+    }
+
+    fn stop(&mut self) {
+        self.context.stop();
+    }
+
+    fn finish(&mut self, messages: u64, retries: Option<u64>) {
+        self.team.run.finish(messages, retries);
+    }
+}
+
+pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
+    let runner = actix::System::new();
+    let arbiters: Vec<Arbiter> = (0..threads).map(|_| Arbiter::new()).collect();
+    let (run, verdict) = Run::begin();
+    let mut world =
+        World { team: Arc::new(Team { arbiters: arbiters.iter().map(Arbiter::handle).collect(), run }) };
+    suite::start(benchmark, &mut world, mode);
+    let finish = verdict.wait();
+    if finish.is_err() {
+        // An arbiter that is stuck would be waited for.
+        mem::forget((runner, arbiters));
+        return finish;
+    }
+    actix::System::current().stop();
+    runner.run().map_err(|error| error.to_string())?;
+    for arbiter in arbiters {
+        arbiter.join().map_err(|_| "an arbiter panicked")?;
+    }
+    if verdict.is_clean() { finish } else { Err("an actor panicked behind the end".into()) }
+}

@@ -1,0 +1,116 @@
+//! kameo: actors are tasks of tokio, on its single-threaded runtime or on its work-stealing one with two workers.
+//!
+//! Mailboxes are unbounded, since actors that wait for room in each other's bounded ones may wait for ever; messages
+//! go through `tell(…).try_send()`, which does not wait.
+
+use super::super::run::{Finish, Run};
+use super::tokio::Workers;
+use crate::Mode;
+use kameo::actor::{ActorRef, Spawn};
+use kameo::error::Infallible;
+use kameo::mailbox;
+use kameo::message::{Context, Message};
+use std::sync::Arc;
+
+#[path = "../suite/mod.rs"]
+mod suite;
+
+trait Actor: Sized + Send + 'static {
+    type Message: Send + 'static;
+
+    fn receive(&mut self, message: Self::Message, cx: &mut Cx<Self>);
+}
+
+type Address<A> = ActorRef<Cell<A>>;
+
+struct World {
+    run: Arc<Run>,
+}
+
+impl World {
+    fn spawn<A: Actor>(&mut self, _place: usize, actor: A) -> Address<A> {
+        spawn(&self.run, actor)
+    }
+
+    fn send<A: Actor>(&mut self, to: &Address<A>, message: A::Message) {
+        send(to, message);
+    }
+}
+
+fn spawn<A: Actor>(run: &Arc<Run>, actor: A) -> Address<A> {
+    Cell::spawn_with_mailbox(Cell { actor, run: Arc::clone(run) }, mailbox::unbounded())
+}
+
+fn send<A: Actor>(to: &Address<A>, message: A::Message) {
+    let sent = to.tell(Letter(message)).try_send();
+    assert!(sent.is_ok(), "no benchmark sends to an actor that has stopped");
+}
+
+/// An actor in kameo's sense.
+struct Cell<A> {
+    actor: A,
+    run: Arc<Run>,
+}
+
+impl<A: Actor> kameo::Actor for Cell<A> {
+    type Args = Self;
+    type Error = Infallible;
+
+    async fn on_start(cell: Self, _me: ActorRef<Self>) -> Result<Self, Infallible> {
+        Ok(cell)
+    }
+}
+
+/// A message in kameo's sense.
+struct Letter<M>(M);
+
+impl<A: Actor> Message<Letter<A::Message>> for Cell<A> {
+    type Reply = ();
+
+    async fn handle(&mut self, Letter(message): Letter<A::Message>, context: &mut Context<Self, ()>) {
+        let Self { actor, run } = self;
+        run.watch(|| actor.receive(message, &mut Cx { context, run }));
+    }
+}
+
+struct Cx<'a, A: Actor> {
+    context: &'a mut Context<Cell<A>, ()>,
+    run: &'a Arc<Run>,
+}
+
+impl<A: Actor> Cx<'_, A> {
+    fn me(&self) -> Address<A> {
+        self.context.actor_ref().clone()
+    }
+
+    fn spawn<B: Actor>(&mut self, _place: usize, actor: B) -> Address<B> {
+        spawn(self.run, actor)
+    }
+
+    fn send<B: Actor>(&mut self, to: &Address<B>, message: B::Message) {
+        send(to, message);
+    }
+
+    fn stop(&mut self) {
+        self.context.stop();
+    }
+
+    fn finish(&mut self, messages: u64, retries: Option<u64>) {
+        self.run.finish(messages, retries);
+    }
+}
+
+pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
+    let workers = Workers::start(threads);
+    let inside = workers.handle().enter();
+    let (run, verdict) = Run::begin();
+    suite::start(benchmark, &mut World { run: Arc::new(run) }, mode);
+    let finish = verdict.wait();
+    drop(inside);
+    if finish.is_err() {
+        workers.abandon();
+        return finish;
+    }
+    workers.stop();
+    if verdict.is_clean() { finish } else { Err("an actor panicked behind the end".into()) }
+}

@@ -1,0 +1,122 @@
+//! ractor: actors are tasks of tokio, on its single-threaded runtime or on its work-stealing one with two workers.
+//!
+//! They are created by `ActorRuntime::spawn_instant`, which does not wait until the actor is up; messages go through
+//! `ActorRef::send_message`. Its mailboxes are unbounded.
+
+use super::super::run::{Finish, Run};
+use super::tokio::Workers;
+use crate::Mode;
+use ractor::{ActorProcessingErr, ActorRef, ActorRuntime};
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+#[path = "../suite/mod.rs"]
+mod suite;
+
+trait Actor: Sized + Send + 'static {
+    type Message: Send + 'static;
+
+    fn receive(&mut self, message: Self::Message, cx: &mut Cx<Self>);
+}
+
+type Address<A> = ActorRef<<A as Actor>::Message>;
+
+struct World {
+    run: Arc<Run>,
+}
+
+impl World {
+    fn spawn<A: Actor>(&mut self, _place: usize, actor: A) -> Address<A> {
+        spawn(&self.run, actor)
+    }
+
+    fn send<M: Send + 'static>(&mut self, to: &ActorRef<M>, message: M) {
+        send(to, message);
+    }
+}
+
+fn spawn<A: Actor>(run: &Arc<Run>, actor: A) -> Address<A> {
+    let cell = Cell { actor, run: Arc::clone(run) };
+    let spawned = ActorRuntime::spawn_instant(None, Role(PhantomData), cell);
+    spawned.expect("actors without names do not clash").0
+}
+
+fn send<M: Send + 'static>(to: &ActorRef<M>, message: M) {
+    assert!(to.send_message(message).is_ok(), "no benchmark sends to an actor that has stopped");
+}
+
+/// An actor in ractor's sense; it has no state in itself.
+struct Role<A>(PhantomData<fn(A)>);
+
+/// The state that ractor keeps for it.
+struct Cell<A> {
+    actor: A,
+    run: Arc<Run>,
+}
+
+impl<A: Actor> ractor::Actor for Role<A> {
+    type Msg = A::Message;
+    type State = Cell<A>;
+    type Arguments = Cell<A>;
+
+    async fn pre_start(
+        &self,
+        _me: ActorRef<A::Message>,
+        cell: Cell<A>,
+    ) -> Result<Cell<A>, ActorProcessingErr> {
+        Ok(cell)
+    }
+
+    async fn handle(
+        &self,
+        me: ActorRef<A::Message>,
+        message: A::Message,
+        cell: &mut Cell<A>,
+    ) -> Result<(), ActorProcessingErr> {
+        let Cell { actor, run } = cell;
+        run.watch(|| actor.receive(message, &mut Cx { me, run }));
+        Ok(())
+    }
+}
+
+struct Cx<'a, A: Actor> {
+    me: Address<A>,
+    run: &'a Arc<Run>,
+}
+
+impl<A: Actor> Cx<'_, A> {
+    fn me(&self) -> Address<A> {
+        self.me.clone()
+    }
+
+    fn spawn<B: Actor>(&mut self, _place: usize, actor: B) -> Address<B> {
+        spawn(self.run, actor)
+    }
+
+    fn send<M: Send + 'static>(&mut self, to: &ActorRef<M>, message: M) {
+        send(to, message);
+    }
+
+    fn stop(&mut self) {
+        self.me.stop(None);
+    }
+
+    fn finish(&mut self, messages: u64, retries: Option<u64>) {
+        self.run.finish(messages, retries);
+    }
+}
+
+pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
+    let workers = Workers::start(threads);
+    let inside = workers.handle().enter();
+    let (run, verdict) = Run::begin();
+    suite::start(benchmark, &mut World { run: Arc::new(run) }, mode);
+    let finish = verdict.wait();
+    drop(inside);
+    if finish.is_err() {
+        workers.abandon();
+        return finish;
+    }
+    workers.stop();
+    if verdict.is_clean() { finish } else { Err("an actor panicked behind the end".into()) }
+}
