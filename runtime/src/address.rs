@@ -1,11 +1,9 @@
 //! Where to send a message: typed, cheap to clone, never waiting.
 
-use crate::mailbox::Content;
-use crate::object::short_type_name;
-use crate::register::Data;
+use crate::batch::{Content, Wrapped};
 use crate::shared::Shared;
-use crate::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use crate::sync::{Queue, planted};
+use crate::sync::atomic::{AtomicUsize, Ordering};
+use crate::sync::{Held, planted};
 use std::fmt;
 use std::sync::Arc;
 
@@ -22,21 +20,41 @@ use std::sync::Arc;
 ///
 /// Use `latest` for what a newer one makes pointless (pointer moves, sizes, scrubbing), `bounded`
 /// where a fast producer must learn that it is too fast, the plain one for edits and requests.
-pub struct Address<M> {
-    pub(crate) thread: Arc<Shared>,
-    pub(crate) receiver: u32,
+pub struct Address<M>(Arc<Route<M>>);
+
+/// The way to a receiver, shared by all clones of an address.
+struct Route<M> {
+    thread: Arc<Shared>,
+    receiver: u32,
+    /// Where in the thread's mailbox the letters of this flavour lie.
+    row: u32,
     flavour: Flavour<M>,
 }
 
 enum Flavour<M> {
     Plain,
-    Latest(Arc<Slot<M>>),
-    Bounded(Arc<Bound<M>>),
+    /// The message that waits.
+    Latest(Held<Option<M>>),
+    Bounded {
+        limit: usize,
+        weight: fn(&M) -> usize,
+        waiting: AtomicUsize,
+    },
 }
 
+/// Letters of the three flavours.
+struct Plain<M>(M);
+struct Newest<M>(Arc<Route<M>>);
+struct Weighed<M>(M, usize, Arc<Route<M>>);
+
 impl<M: Send + 'static> Address<M> {
-    pub(crate) fn new(thread: Arc<Shared>, receiver: u32) -> Self {
-        Self { thread, receiver, flavour: Flavour::Plain }
+    pub(crate) fn new(thread: &Arc<Shared>, receiver: u32) -> Self {
+        Self::with::<Plain<M>>(thread, receiver, Flavour::Plain)
+    }
+
+    fn with<C: Content>(thread: &Arc<Shared>, receiver: u32, flavour: Flavour<M>) -> Self {
+        let (thread, row) = (Arc::clone(thread), thread.mailbox.row::<C>());
+        Self(Arc::new(Route { thread, receiver, row, flavour }))
     }
 
     /// Stores `message` for the receiver's next iteration and goes on at once.
@@ -48,16 +66,19 @@ impl<M: Send + 'static> Address<M> {
     /// Gives the message back when the thread has stopped, or when this address is bounded and
     /// full.
     pub fn send(&self, message: M) -> Result<(), SendError<M>> {
-        match &self.flavour {
-            Flavour::Plain => self.post(message, None),
-            Flavour::Latest(slot) => self.replace(slot, message),
-            Flavour::Bounded(bound) => match bound.admit(&message) {
-                Some(permit) => self.post(message, Some(permit)),
-                None => {
-                    self.thread.tallies.refused.add(1);
-                    Err(SendError::Full(message))
-                }
-            },
+        let stopped = |content: Plain<M>| SendError::Stopped(content.0);
+        match &self.0.flavour {
+            Flavour::Plain => self.put(Plain(message)).map_err(stopped),
+            Flavour::Latest(waiting) => self.replace(waiting, message),
+            Flavour::Bounded { .. } => {
+                let Some(weight) = self.0.admit(&message) else {
+                    self.0.thread.tallies.refused.add(1);
+                    return Err(SendError::Full(message));
+                };
+                let letter = Weighed(message, weight, Arc::clone(&self.0));
+                let back = self.put(letter).err().and_then(Wrapped::open);
+                back.map_or(Ok(()), |message| Err(SendError::Stopped(message)))
+            }
         }
     }
 
@@ -67,12 +88,7 @@ impl<M: Send + 'static> Address<M> {
     /// that were sent to other addresses in between.
     #[must_use]
     pub fn latest(&self) -> Self {
-        let slot = Slot {
-            thread: Arc::clone(&self.thread),
-            waiting: Queue::new(),
-            announced: AtomicBool::new(false),
-        };
-        self.with(Flavour::Latest(Arc::new(slot)))
+        Self::with::<Newest<M>>(&self.0.thread, self.0.receiver, Flavour::Latest(Held::new(None)))
     }
 
     /// An address of the same receiver at which at most `limit` messages wait.
@@ -85,91 +101,116 @@ impl<M: Send + 'static> Address<M> {
     /// weighing what `weight` says: bytes, say. One that outweighs the limit alone never passes.
     #[must_use]
     pub fn bounded_by(&self, limit: usize, weight: fn(&M) -> usize) -> Self {
-        let waiting = Arc::new(AtomicUsize::new(0));
-        self.with(Flavour::Bounded(Arc::new(Bound { limit, weight, waiting })))
+        let bounded = Flavour::Bounded { limit, weight, waiting: AtomicUsize::new(0) };
+        Self::with::<Weighed<M>>(&self.0.thread, self.0.receiver, bounded)
     }
 
     /// How much waits at this address: messages, or their weight. 0 for a plain one, which does
     /// not count; see [`queue_len`](Self::queue_len).
     pub fn waiting(&self) -> usize {
-        match &self.flavour {
+        match &self.0.flavour {
             Flavour::Plain => 0,
-            Flavour::Latest(slot) => slot.waiting.len().min(1),
-            Flavour::Bounded(bound) => bound.waiting.load(Ordering::Relaxed),
+            Flavour::Latest(waiting) => waiting.with(|waiting| usize::from(waiting.is_some())),
+            Flavour::Bounded { waiting, .. } => waiting.load(Ordering::Relaxed),
         }
     }
 
     /// How many messages its thread has stored for the next iteration, for all receivers.
     pub fn queue_len(&self) -> usize {
-        self.thread.mailbox.len()
+        self.0.thread.mailbox.len()
     }
 
     /// Has the thread stopped, so that every send fails?
     pub fn is_stopped(&self) -> bool {
-        self.thread.mailbox.is_closed()
+        self.0.thread.mailbox.is_closed()
     }
 
     /// A caller's mistake, not a thing that happens: addresses are not mixed up by chance.
-    pub(crate) fn check_thread(&self, thread: &Arc<Shared>) {
-        let (own, other) = (&self.thread.name, &thread.name);
-        assert!(Arc::ptr_eq(&self.thread, thread), "the address belongs to thread {own:?}, not to {other:?}");
+    pub(crate) fn receiver_in(&self, thread: &Arc<Shared>) -> u32 {
+        let (own, other) = (&self.0.thread.name, &thread.name);
+        assert!(
+            Arc::ptr_eq(&self.0.thread, thread),
+            "the address belongs to thread {own:?}, not to {other:?}"
+        );
+        self.0.receiver
     }
 
-    fn with(&self, flavour: Flavour<M>) -> Self {
-        Self { thread: Arc::clone(&self.thread), receiver: self.receiver, flavour }
+    fn put<C: Content>(&self, content: C) -> Result<(), C> {
+        self.0.thread.send(self.0.receiver, self.0.row, content)
     }
 
-    fn post(&self, message: M, permit: Option<Permit>) -> Result<(), SendError<M>> {
-        self.put(Content::Message(Box::new(message), permit)).map_err(|content| {
-            let Content::Message(data, _) = content else {
-                unreachable!("what comes back is what was sent");
-            };
-            let message = data.downcast().expect("the type it had above");
-            SendError::Stopped(*message)
-        })
-    }
-
-    fn put(&self, content: Content) -> Result<(), Content> {
-        self.thread.send(self.receiver, short_type_name::<M>(), content)
-    }
-
-    fn replace(&self, slot: &Arc<Slot<M>>, message: M) -> Result<(), SendError<M>> {
+    /// Whoever finds nothing waiting holds a place in the thread's queue for it; whoever finds a
+    /// message takes its place. When the turn of that place comes, nothing waits again.
+    fn replace(&self, waiting: &Held<Option<M>>, message: M) -> Result<(), SendError<M>> {
         if self.is_stopped() {
             return Err(SendError::Stopped(message));
         }
-        let old: Vec<M> = slot.waiting.drain().collect();
-        slot.waiting.push(message);
-        self.thread.tallies.replaced.add(old.len());
-        if slot.announced.swap(true, Ordering::SeqCst) {
-            return Ok(()); // A place in the queue is held already; the newest will be taken there.
+        let early = planted("announced_too_long").then(|| waiting.with(|waiting| waiting.is_some()));
+        let old = waiting.with(|waiting| waiting.replace(message));
+        if early.unwrap_or(old.is_some()) {
+            self.0.thread.tallies.replaced.add(1);
+            return Ok(());
         }
-        let theirs = Arc::clone(slot);
-        let take = move || theirs.take_newest().map(|message| Box::new(message) as Data);
-        match self.put(Content::Latest(Box::new(take))) {
-            Ok(()) => Ok(()),
-            // When it is not there, a newer one replaced it, and that one's sender will be told.
-            Err(_) => slot.take_newest().map_or(Ok(()), |newest| Err(SendError::Stopped(newest))),
+        // When it stopped meanwhile, and a newer one came between, that one is given back.
+        let back = self.put(Newest(Arc::clone(&self.0))).err().and_then(Wrapped::open);
+        back.map_or(Ok(()), |newest| Err(SendError::Stopped(newest)))
+    }
+}
+
+impl<M> Route<M> {
+    /// What the message weighs, when there is room for it; the room is taken then.
+    fn admit(&self, message: &M) -> Option<usize> {
+        let Flavour::Bounded { limit, weight, waiting } = &self.flavour else { return Some(0) };
+        let weight = weight(message);
+        let fits = |now: usize| now.checked_add(weight).filter(|after| after <= limit);
+        waiting.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).ok()?;
+        Some(weight)
+    }
+
+    fn release(&self, weight: usize) {
+        if let Flavour::Bounded { waiting, .. } = &self.flavour {
+            waiting.fetch_sub(weight, Ordering::Relaxed);
         }
+    }
+}
+
+impl<M: Send + 'static> Wrapped for Plain<M> {
+    type Message = M;
+
+    fn open(self) -> Option<M> {
+        Some(self.0)
+    }
+}
+
+impl<M: Send + 'static> Wrapped for Newest<M> {
+    type Message = M;
+
+    /// Nothing, when its sender was given it back at the very moment of the stop.
+    fn open(self) -> Option<M> {
+        let Flavour::Latest(waiting) = &self.0.flavour else { return None };
+        waiting.with(Option::take)
+    }
+}
+
+impl<M: Send + 'static> Wrapped for Weighed<M> {
+    type Message = M;
+
+    /// Its room in the address is free as soon as it has left the queue.
+    fn open(self) -> Option<M> {
+        self.2.release(self.1);
+        Some(self.0)
     }
 }
 
 impl<M> Clone for Address<M> {
     fn clone(&self) -> Self {
-        Self {
-            thread: Arc::clone(&self.thread),
-            receiver: self.receiver,
-            flavour: match &self.flavour {
-                Flavour::Plain => Flavour::Plain,
-                Flavour::Latest(slot) => Flavour::Latest(Arc::clone(slot)),
-                Flavour::Bounded(bound) => Flavour::Bounded(Arc::clone(bound)),
-            },
-        }
+        Self(Arc::clone(&self.0))
     }
 }
 
 impl<M> fmt::Debug for Address<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Address({}/{})", self.thread.name, self.receiver)
+        write!(f, "Address({}/{})", self.0.thread.name, self.0.receiver)
     }
 }
 
@@ -208,57 +249,3 @@ impl<M> fmt::Debug for SendError<M> {
 }
 
 impl<M> std::error::Error for SendError<M> {}
-
-/// Where the newest message of a conflating address waits, and whether a place in the thread's
-/// queue is held for it. A queue rather than a lock around an option, so that there is one kind
-/// of thing that threads share.
-struct Slot<M> {
-    thread: Arc<Shared>,
-    waiting: Queue<M>,
-    announced: AtomicBool,
-}
-
-impl<M> Slot<M> {
-    /// First the announcement is taken back, then the message: whoever puts one in between
-    /// announces it anew. The other way round its message would wait for ever.
-    fn take_newest(&self) -> Option<M> {
-        let early = planted("announced_too_long").then(|| self.waiting.drain());
-        self.announced.swap(false, Ordering::SeqCst);
-        let mut waiting: Vec<M> = early.unwrap_or_else(|| self.waiting.drain()).collect();
-        // Two senders at once may both have found it empty; then two are here.
-        let newest = waiting.pop();
-        self.thread.tallies.replaced.add(waiting.len());
-        newest
-    }
-}
-
-struct Bound<M> {
-    limit: usize,
-    weight: fn(&M) -> usize,
-    waiting: Arc<AtomicUsize>,
-}
-
-impl<M> Bound<M> {
-    fn admit(&self, message: &M) -> Option<Permit> {
-        let weight = (self.weight)(message);
-        let fits = |waiting: usize| {
-            let after = waiting.checked_add(weight)?;
-            (after <= self.limit).then_some(after)
-        };
-        self.waiting.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).ok()?;
-        let waiting = Arc::clone(&self.waiting);
-        Some(Permit { waiting, weight })
-    }
-}
-
-/// Room taken in a bounded address; dropping it gives the room back.
-pub(crate) struct Permit {
-    waiting: Arc<AtomicUsize>,
-    weight: usize,
-}
-
-impl Drop for Permit {
-    fn drop(&mut self) {
-        self.waiting.fetch_sub(self.weight, Ordering::Relaxed);
-    }
-}

@@ -1,10 +1,11 @@
 //! A thread, as other threads see it.
 
-use crate::mailbox::Content;
-use crate::register::{LAST, Object, WORKER, WorkerId};
+use crate::batch::Content;
+use crate::register::{LAST, Object, RUN, WORKER, WorkerId};
 use crate::shared::{Counters, Shared};
 use crate::sync::atomic::Ordering;
 use crate::sync::planted;
+use crate::trace::Stamp;
 use crate::{Address, Context, Fault, Receiver, SendError, TraceSnapshot, Worker};
 use std::fmt;
 use std::sync::Arc;
@@ -70,14 +71,13 @@ impl ThreadHandle {
     /// # Panics
     /// When the address belongs to another thread.
     pub fn register_receiver_at<R: Receiver>(&self, address: &Address<R::Message>, make: impl Job<R>) {
-        address.check_thread(&self.shared);
-        self.insert(address.receiver, |thread| Object::receiver(make(thread)));
+        self.insert(address.receiver_in(&self.shared), |thread| Object::receiver(make(thread)));
     }
 
     /// An address at which nobody is registered yet, for objects that need each other's address.
     /// What arrives before a receiver is registered there is undeliverable.
     pub fn reserve_address<M: Send + 'static>(&self) -> Address<M> {
-        Address::new(Arc::clone(&self.shared), self.shared.new_id())
+        Address::new(&self.shared, self.shared.new_id())
     }
 
     /// Removes and drops a worker, in its thread.
@@ -90,8 +90,7 @@ impl ThreadHandle {
     /// # Panics
     /// When the address belongs to another thread.
     pub fn unregister_receiver<M: Send + 'static>(&self, address: &Address<M>) {
-        address.check_thread(&self.shared);
-        self.remove(address.receiver);
+        self.remove(address.receiver_in(&self.shared));
     }
 
     /// Ends the thread behind all messages queued so far: they are delivered, later ones are not.
@@ -144,6 +143,11 @@ impl ThreadHandle {
         self.command(move |thread| thread.observe(observer));
     }
 
+    /// Lets the thread look for messages for `limit` before it sleeps; see [`Context::set_spin`].
+    pub fn set_spin(&self, limit: Duration) {
+        self.command(move |thread| thread.set_spin(limit));
+    }
+
     /// Traces the thread, keeping the newest `capacity` records; 0 ends the trace.
     pub fn set_trace(&self, capacity: usize) {
         self.command(move |thread| thread.set_trace(capacity));
@@ -172,8 +176,29 @@ impl ThreadHandle {
         let _ = self.ask("run", job);
     }
 
-    fn ask(&self, what: &'static str, job: impl Job) -> Result<(), Content> {
-        self.shared.send(0, what, Content::Run(Box::new(job)))
+    fn ask(&self, name: &'static str, job: impl Job) -> Result<(), Asked> {
+        let row = self.shared.mailbox.row::<Asked>();
+        self.shared.send(0, row, Asked { name, job: Box::new(job) })
+    }
+}
+
+/// A letter to the thread itself: registers, observers, traces, sleep and stop.
+struct Asked {
+    name: &'static str,
+    job: Box<dyn FnOnce(&mut Context) + Send>,
+}
+
+impl Content for Asked {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn deliver(self, _: u32, _: Option<Box<Stamp>>, thread: &mut Context) {
+        thread.shown(RUN, "run", |thread| thread.contain("run", "run", self.job));
+    }
+
+    fn discard(self) -> usize {
+        0
     }
 }
 

@@ -5,11 +5,11 @@
 
 use crate::Context;
 use crate::fault::{Fault, Outcome, allow_restart, reason};
-use crate::mailbox::{Content, Envelope};
-use crate::register::{Call, Data, LAST, Label, RUN, Slot, WORKER};
+use crate::object::short_type_name;
+use crate::register::{LAST, Label, Object, Slot, WORKER};
 use crate::sync::atomic::Ordering;
 use crate::sync::planted;
-use crate::trace::{self, End, Event, Record};
+use crate::trace::{self, End, Event, Record, Stamp};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -39,9 +39,11 @@ impl Context {
             return next;
         }
         self.again = false;
-        let now = self.now();
-        self.alarms.retain(|(_, when)| *when > now);
-        self.shared().tallies.iterations.add(1);
+        if !self.alarms.is_empty() {
+            let now = self.now(); // A look at the clock costs as much as a message.
+            self.alarms.retain(|(_, when)| *when > now);
+        }
+        self.shared().tallies.iterations.add_own(1);
         self.dispatch_messages();
         self.update_workers();
         self.next()
@@ -51,53 +53,48 @@ impl Context {
     /// to this thread is for the next one.
     fn dispatch_messages(&mut self) {
         self.fetch_messages();
-        while !self.halted()
-            && let Some(envelope) = self.batch.pop_front()
-        {
+        // Out of the context meanwhile, which the deliveries need whole.
+        let mut batch = std::mem::take(&mut self.batch);
+        let letters = batch.len();
+        while batch.len() > 0 && !self.halted() {
             // Calls are guarded themselves; this is for messages that panic when they are dropped.
-            self.contain("message", "drop", |thread| thread.resolve_message(envelope));
+            self.contain("message", "drop", |thread| {
+                while batch.len() > 0 && !thread.halted() {
+                    batch.deliver(if planted("reversed_batch") { batch.len() - 1 } else { 0 }, thread);
+                }
+            });
         }
-        // A flood must not hold its memory for ever.
-        if self.batch.is_empty() && self.batch.capacity() > 4096 {
-            self.batch = Default::default();
-        }
+        batch.shrink(letters);
+        self.batch = batch;
     }
 
     /// Takes over what is stored, behind what an earlier iteration left undelivered.
     pub(crate) fn fetch_messages(&mut self) {
-        self.batch.extend(self.handle.shared.mailbox.drain());
-        if planted("reversed_batch") {
-            self.batch.make_contiguous().reverse();
-        }
+        self.handle.shared.mailbox.empty_into(&mut self.batch);
     }
 
-    pub(crate) fn resolve_message(&mut self, envelope: Envelope) {
-        let Envelope { to, name: message, content, stamp } = envelope;
-        let data = match content {
-            Content::Message(data, _permit) => Some(data),
-            Content::Latest(take) => take(),
-            Content::Run(job) => {
-                self.shown(RUN, "run", |thread| thread.contain("run", "run", job));
-                None
-            }
-        };
-        if data.is_none() {
-            return; // It was for the thread itself, or its newest message was taken already.
-        }
-        let tallies = &self.shared().tallies;
-        if self.objects.contains_key(&to) {
-            tallies.delivered.add(1);
-        } else {
-            tallies.undeliverable.add(1);
-            tracing::debug!(thread = %self.shared().name, receiver = to, message, "undeliverable");
-        }
-        self.call(to, data, |label, begin, end| Event::Message {
+    /// Hands a message to its receiver, if that is still there.
+    pub(crate) fn resolve_message<M: Send + 'static>(
+        &mut self,
+        to: u32,
+        message: M,
+        stamp: Option<Box<Stamp>>,
+    ) {
+        let mut message = Some(message);
+        let end = self.call(to, &mut message, |label, begin, end| Event::Message {
             from: stamp.as_ref().map(|stamp| Arc::clone(&stamp.from)).unwrap_or_default(),
             to: label.name,
-            message,
+            message: short_type_name::<M>(),
             waited: stamp.map(|stamp| begin.saturating_duration_since(stamp.sent)),
             end,
         });
+        let tallies = &self.shared().tallies;
+        if end != End::Undeliverable {
+            return tallies.delivered.add_own(1);
+        }
+        tallies.undeliverable.add_own(1);
+        let (thread, name) = (&self.shared().name, short_type_name::<M>());
+        tracing::debug!(%thread, receiver = to, message = name, "undeliverable");
     }
 
     /// Calls the workers in order. Those registered meanwhile wait for the next iteration.
@@ -109,9 +106,9 @@ impl Context {
             let Some(id) = ahead.find(|id| id & !(WORKER | LAST) < newcomers) else {
                 return;
             };
+            let event = |label: Label, _, end| Event::Worker { name: label.name, end };
             // What a panicking worker should have done is not done: as if it had said so.
-            if self.call(id, None, |label, _, end| Event::Worker { name: label.name, end }) != End::Done(true)
-            {
+            if self.call(id, &mut (), event) != End::Done(true) {
                 return;
             }
             from = id + 1;
@@ -119,46 +116,48 @@ impl Context {
     }
 
     /// Calls an object, with the register free for changes meanwhile, and traces that as `event`.
-    fn call(&mut self, id: u32, data: Option<Data>, event: impl FnOnce(Label, Instant, End) -> Event) -> End {
+    fn call(
+        &mut self,
+        id: u32,
+        message: &mut dyn Any,
+        event: impl FnOnce(Label, Instant, End) -> Event,
+    ) -> End {
         let begin = self.trace.is_some().then(|| self.now());
-        let slot = self.objects.get_mut(&id);
-        let found = slot.and_then(|slot| Some((slot.call.take()?, slot.label.clone())));
-        let (label, end) = match found {
-            Some((object, label)) => (label.clone(), self.call_object(id, &label, object, data)),
-            None => (Label::default(), End::Undeliverable),
-        };
+        let object = self.objects.get_mut(&id).and_then(|slot| slot.object.take());
+        let label = begin.and(object.as_ref()).map(|object| object.label.clone());
+        let end = object.map_or(End::Undeliverable, |object| self.call_object(id, object, message));
         if let (Some(trace), Some(begin)) = (&mut self.trace, begin) {
             let took = self.handle.shared.clock.now().saturating_duration_since(begin);
             let iteration = self.handle.shared.tallies.iterations.get();
-            trace.add(Record { iteration, at: begin, took, event: event(label, begin, end) });
+            let event = event(label.unwrap_or_default(), begin, end);
+            trace.add(Record { iteration, at: begin, took, event });
         }
         end
     }
 
-    fn call_object(&mut self, id: u32, label: &Label, mut object: Call, data: Option<Data>) -> End {
-        let call = |thread: &mut Self| thread.guarded(|thread| object(data, thread));
-        match self.shown(id, &label.name, call) {
-            Ok(answer) => {
-                match self.objects.get_mut(&id) {
-                    Some(slot) if slot.call.is_none() => slot.call = Some(object),
-                    _ => self.contain(&label.name, "drop", |_| drop(object)), // Unregistered or replaced by its call.
-                }
-                End::Done(answer)
-            }
-            Err(payload) => {
-                self.contain(&label.name, "drop", |_| drop(object));
-                let outcome = self.after_panic(id);
-                self.report(&label.name, label.call, &*payload, outcome);
-                End::Panicked
-            }
+    fn call_object(&mut self, id: u32, mut object: Object, message: &mut dyn Any) -> End {
+        let Object { label, call } = &mut object;
+        let answer = self.shown(id, &label.name, |thread| thread.guarded(|thread| call(message, thread)));
+        let end = answer.as_ref().map_or(End::Panicked, |answer| End::Done(*answer));
+        if let (Ok(_), Some(Slot { object: place @ None, .. })) = (&answer, self.objects.get_mut(&id)) {
+            *place = Some(object);
+            return end;
         }
+        // It panicked, or was unregistered or replaced by its own call.
+        let Object { label, call } = object;
+        self.contain(&label.name, "drop", |_| drop(call));
+        if let Err(payload) = answer {
+            let outcome = self.after_panic(id);
+            self.report(&label.name, label.call, &*payload, outcome);
+        }
+        end
     }
 
     /// Removes the object that panicked, or makes it anew when it has a factory.
     fn after_panic(&mut self, id: u32) -> Outcome {
         let now = self.now();
         let slot = self.objects.get_mut(&id);
-        let Some(slot) = slot.filter(|slot| slot.call.is_none()) else {
+        let Some(slot) = slot.filter(|slot| slot.object.is_none()) else {
             return Outcome::Removed; // It had removed itself before.
         };
         let allowed = allow_restart(&mut slot.failures, now);
@@ -167,9 +166,9 @@ impl Context {
         if let Some(mut factory) = factory.filter(|_| allowed) {
             let made = self.guarded(|thread| factory(thread));
             if let (Ok(object), Some(slot)) = (made, self.objects.get_mut(&id)) {
-                slot.call = Some(object.call);
+                slot.object = Some(object);
                 slot.factory = Some(factory);
-                self.shared().tallies.restarts.add(1);
+                self.shared().tallies.restarts.add_own(1);
                 return Outcome::Restarted;
             }
         }
@@ -178,7 +177,7 @@ impl Context {
     }
 
     fn report(&mut self, object: &str, call: &'static str, payload: &(dyn Any + Send), outcome: Outcome) {
-        self.shared().tallies.panics.add(1);
+        self.shared().tallies.panics.add_own(1);
         let thread = Arc::clone(&self.shared().name);
         let object = object.into();
         let reason = reason(payload);
@@ -199,25 +198,26 @@ impl Context {
     }
 
     /// Runs `job`; a panic is reported as one in `what` was done with `object`.
-    fn contain(&mut self, object: &str, what: &'static str, job: impl FnOnce(&mut Self)) {
+    pub(crate) fn contain(&mut self, object: &str, what: &'static str, job: impl FnOnce(&mut Self)) {
         if let Err(payload) = self.guarded(job) {
             self.report(object, what, &*payload, Outcome::Removed);
         }
     }
 
     pub(crate) fn drop_slot(&mut self, slot: Slot) {
-        let name = Arc::clone(&slot.label.name);
+        let Label { name, .. } = slot.label();
         self.contain(&name, "drop", |_| drop(slot));
     }
 
     /// Runs `call`, which must not panic, while the watchdog sees what is running, and what is sent
     /// bears its name.
-    fn shown<A>(&mut self, id: u32, name: &str, call: impl FnOnce(&mut Self) -> A) -> A {
-        let outer = trace::send_as(trace::sender(&self.shared().name, name));
+    pub(crate) fn shown<A>(&mut self, id: u32, name: &str, call: impl FnOnce(&mut Self) -> A) -> A {
+        let sender = trace::sender(&self.shared().name, name);
+        let outer = sender.map(|sender| trace::send_as(Some(sender)));
         self.shared().show_running(id);
         let answer = call(self);
         self.shared().show_running(0);
-        trace::send_as(outer);
+        outer.map(trace::send_as);
         answer
     }
 
@@ -230,7 +230,7 @@ impl Context {
         if let Some(next) = self.suspended() {
             return next;
         }
-        if self.again || !self.batch.is_empty() || !self.shared().mailbox.fall_asleep() {
+        if self.again || self.batch.len() > 0 || !self.shared().mailbox.fall_asleep() {
             return Next::Now;
         }
         let first = self.alarms.iter().map(|(_, when)| *when).min();
@@ -267,9 +267,10 @@ impl Context {
         if planted("finished_too_early") {
             self.shared().finish();
         }
-        let mut left = self.shared().mailbox.close();
-        left += std::mem::take(&mut self.batch).into_iter().map(Envelope::discard).sum::<usize>();
-        self.shared().tallies.undelivered.add(left);
+        let mut left = std::mem::take(&mut self.batch);
+        left.append(&mut self.shared().mailbox.close());
+        let left = left.discard();
+        self.shared().tallies.undelivered.add_own(left);
         while let Some((_, slot)) = self.objects.pop_last() {
             self.drop_slot(slot);
         }

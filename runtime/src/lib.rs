@@ -143,8 +143,9 @@
 //!   receivers they are for. Registering, removing, sleeping and stopping from outside are
 //!   messages too, and keep their place. Only [`Address::latest`] and
 //!   [`pause`](ThreadHandle::pause) overtake.
-//! * **Sending never waits.** It costs one allocation and one short lock of the queue. Where a
-//!   producer can be too fast, [`Address::bounded`] and [`Address::latest`] say what then.
+//! * **Sending never waits.** It costs one short lock of the queue and the move of the message; no
+//!   allocation, once the queue has grown to its usual length. Where a producer can be too fast,
+//!   [`Address::bounded`] and [`Address::latest`] say what then.
 //! * **Nothing vanishes unseen.** A message is delivered, or comes back in the error, or is counted
 //!   in [`Counters`]: no such receiver, replaced by a newer one, still queued at the stop.
 //! * **A thread sleeps when it has nothing to do.** It runs on only while somebody calls
@@ -165,30 +166,36 @@
 //!
 //! # How it is made, and what was not done
 //!
-//! * The queue between threads is flume's unbounded channel, emptied at once by its `drain`. It
-//!   takes a lock, as the thesis's queue does on purpose (§3.2.6.1): a flood of messages makes
-//!   its senders wait for one another, and the thread takes the whole flood in one go. A lock-free
-//!   queue in an arena would save the message's box; it was not made, because it needs `unsafe`
-//!   and because the benchmarks shall say first what it would gain.
-//! * Messages are boxed as `dyn Any` in between and typed at both ends, so a thread has one queue
-//!   for all types, which is what keeps the order between them. One enum of all messages would
-//!   couple every receiver with every other; one channel for each receiver would lose the order.
+//! * The queue between threads is a lock around a batch of messages (`mailbox`, `batch`), as the
+//!   thesis's queue is on purpose (§3.2.6.1): a flood of messages makes its senders wait for one
+//!   another, and the thread takes the whole flood in one go, by changing places with an empty
+//!   batch. The lock is there for the move of one message and cannot be held longer. The study in
+//!   `benches/` measured what a channel of boxes costs in its place, which is what was here first.
+//!   A lock-free queue would need `unsafe`.
+//! * Messages are typed at both ends, and typed in between: those of one type lie side by side, and
+//!   only what lies around them forgets the type. So a thread has one queue for all types, which is
+//!   what keeps the order between them, and a message needs no box of its own. One enum of all
+//!   messages would couple every receiver with every other; one channel for each receiver would
+//!   lose the order.
 //! * There are no priorities and no replies to wait for. Both were left out on purpose: the first
 //!   breaks the order, the second deadlocks.
 //! * A thread does not steal work from another: every object has one owner.
+//! * A thread that has nothing to do sleeps at once. Who cannot wait for the system's wake-up, for the
+//!   length of a gesture, lets it look for messages a while first ([`ThreadHandle::set_spin`]).
 //! * Everything that threads share goes through one small module (`sync`), which the model checkers
 //!   loom and shuttle replace; `.ci/models` runs them over this very code.
 //!
 //! # Reading on
 //!
-//! `object` (the two traits), `register` (where objects lie), `iteration` (the loop), `mailbox`
-//! (where threads meet), `address` and `handle` (what others hold), `context` (what objects hold),
+//! `object` (the two traits), `register` (where objects lie), `iteration` (the loop), `batch` (where
+//! messages lie), `mailbox` (where threads meet), `address` and `handle` (what others hold), `context` (what objects hold),
 //! `thread`, `stage`; then `fault`, `trace`, `watchdog`, `clock`. The code without its comments is
-//! under 1,500 lines, and a test keeps it there.
+//! under 1,650 lines, and a test keeps it there.
 
 #![forbid(unsafe_code)]
 
 mod address;
+mod batch;
 mod clock;
 mod context;
 mod fault;

@@ -27,12 +27,18 @@ pub(crate) type Register = BTreeMap<u32, Slot>;
 
 /// The place of one object. It outlives the object when that is made anew.
 pub(crate) struct Slot {
-    pub(crate) label: Label,
     /// Taken out while it is called, so that the call may change the register it stands in.
-    pub(crate) call: Option<Call>,
+    pub(crate) object: Option<Object>,
     pub(crate) factory: Option<Factory>,
     /// When it panicked lately.
     pub(crate) failures: Vec<Instant>,
+}
+
+impl Slot {
+    /// What the object is called; nothing while it is being called itself.
+    pub(crate) fn label(&self) -> Label {
+        self.object.as_ref().map(|object| object.label.clone()).unwrap_or_default()
+    }
 }
 
 /// What an object is called in reports.
@@ -49,12 +55,9 @@ pub(crate) struct Object {
     pub(crate) call: Call,
 }
 
-/// Calls the object that it holds: a receiver with a message, a worker without. The answer is the
-/// worker's.
-pub(crate) type Call = Box<dyn FnMut(Option<Data>, &mut Context) -> bool>;
-
-/// A message whose type has been forgotten.
-pub(crate) type Data = Box<dyn Any + Send>;
+/// Calls the object that it holds: a worker, or a receiver with the message that it finds in an
+/// `Option<Message>` whose type has been forgotten, and leaves `None` there. The answer is the worker's.
+pub(crate) type Call = Box<dyn FnMut(&mut dyn Any, &mut Context) -> bool>;
 
 /// Makes an object, and makes it anew after a panic.
 pub(crate) type Factory = Box<dyn FnMut(&mut Context) -> Object>;
@@ -67,10 +70,10 @@ impl Object {
 
     pub(crate) fn receiver<R: Receiver>(mut receiver: R) -> Self {
         let label = Label { name: receiver.name().into(), call: short_type_name::<R::Message>() };
-        let call = move |data: Option<Data>, thread: &mut Context| {
-            let message = data.and_then(|data| data.downcast().ok());
+        let call = move |message: &mut dyn Any, thread: &mut Context| {
+            let message = message.downcast_mut().and_then(Option::take);
             let message = message.expect("an address is only made for a receiver of its own message type");
-            receiver.receive(*message, thread);
+            receiver.receive(message, thread);
             true
         };
         Self { label, call: Box::new(call) }

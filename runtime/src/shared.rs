@@ -1,10 +1,13 @@
 //! What of a thread other threads may touch: its mailbox, a few flags, and counters.
 
+use crate::batch::{Content, Letter};
 use crate::clock::Clock;
-use crate::mailbox::{Content, Envelope, Mailbox};
+use crate::mailbox::Mailbox;
+use crate::register::Label;
 use crate::sync::atomic::{AtomicBool, Ordering};
-use crate::sync::{Queue, planted, thread};
+use crate::sync::{Held, planted, thread};
 use crate::trace;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{self as std_atomic, AtomicU32, AtomicU64, AtomicUsize};
 
@@ -20,7 +23,9 @@ pub(crate) struct Shared {
     /// The loop has ended and every object of the thread is dropped.
     pub(crate) finished: AtomicBool,
     /// Woken when the loop has ended.
-    pub(crate) waiters: Queue<thread::Thread>,
+    pub(crate) waiters: Held<Vec<thread::Thread>>,
+    /// What the objects are called, for a watchdog; empty without one.
+    pub(crate) labels: Held<BTreeMap<u32, Label>>,
     next_id: AtomicU32,
     running: AtomicU64,
     /// Do senders stamp what they send here?
@@ -37,7 +42,8 @@ impl Shared {
             paused: AtomicBool::new(false),
             stopping: AtomicBool::new(false),
             finished: AtomicBool::new(false),
-            waiters: Queue::new(),
+            waiters: Held::new(Vec::new()),
+            labels: Held::new(BTreeMap::new()),
             next_id: AtomicU32::new(1),
             running: AtomicU64::new(0),
             traced: std_atomic::AtomicBool::new(false),
@@ -56,20 +62,17 @@ impl Shared {
     }
 
     /// Stores `content` for the next iteration; gives it back when the thread has stopped.
-    pub(crate) fn send(&self, to: u32, name: &'static str, content: Content) -> Result<(), Content> {
+    pub(crate) fn send<C: Content>(&self, to: u32, row: u32, content: C) -> Result<(), C> {
         let traced = self.traced.load(std_atomic::Ordering::Relaxed);
         let stamp = traced.then(|| Box::new(trace::Stamp::now(&self.clock)));
-        let sent = self.mailbox.send(Envelope { to, name, content, stamp });
-        let discarded = sent.map_err(|envelope| envelope.content)?;
-        self.tallies.undelivered.add(discarded);
-        Ok(())
+        self.mailbox.send(row, Letter { to, stamp, content })
     }
 
     /// Says that the loop has ended and all objects are dropped, and wakes who waits for it.
     pub(crate) fn finish(&self) {
         let order = if planted("relaxed_finish") { Ordering::Relaxed } else { Ordering::SeqCst };
         self.finished.store(true, order);
-        self.waiters.drain().for_each(|waiter| waiter.unpark());
+        self.waiters.with(std::mem::take).into_iter().for_each(|waiter| waiter.unpark());
     }
 
     /// Lets the watchdog see which object is running, and that it is another call than before.
@@ -89,10 +92,14 @@ impl Shared {
 pub(crate) struct Tally(AtomicUsize);
 
 impl Tally {
+    /// Counts what any thread may do.
     pub(crate) fn add(&self, count: usize) {
-        if count > 0 {
-            self.0.fetch_add(count, std_atomic::Ordering::Relaxed);
-        }
+        self.0.fetch_add(count, std_atomic::Ordering::Relaxed);
+    }
+
+    /// Counts what the thread itself does and nobody else: no thread has to be kept out.
+    pub(crate) fn add_own(&self, count: usize) {
+        self.0.store(self.0.load(std_atomic::Ordering::Relaxed) + count, std_atomic::Ordering::Relaxed);
     }
 
     pub(crate) fn get(&self) -> u64 {

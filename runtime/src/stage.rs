@@ -1,7 +1,6 @@
 //! Threads on a test's strings: iterations, clock and message order are stepped by hand.
 
 use crate::clock::Clock;
-use crate::mailbox::Envelope;
 use crate::shared::Shared;
 use crate::{Context, Next, ThreadHandle};
 use std::sync::Arc;
@@ -95,12 +94,11 @@ impl Stage {
     pub fn waiting(&mut self, thread: &ThreadHandle) -> Vec<Waiting> {
         let context = self.context(thread);
         context.fetch_messages();
-        let describe = |envelope: &Envelope| {
-            let slot = context.objects.get(&envelope.to);
-            let to = slot.map(|slot| Arc::clone(&slot.label.name)).unwrap_or_default();
-            Waiting { to, message: envelope.name }
+        let describe = |(to, message)| {
+            let to = context.objects.get(&to).map(|slot| slot.label().name).unwrap_or_default();
+            Waiting { to, message }
         };
-        context.batch.iter().map(describe).collect()
+        context.batch.describe().map(describe).collect()
     }
 
     /// Delivers the message at `index` of [`waiting`](Self::waiting) before all others, and calls
@@ -109,8 +107,10 @@ impl Stage {
     pub fn deliver(&mut self, thread: &ThreadHandle, index: usize) -> bool {
         let context = self.context(thread);
         context.fetch_messages();
-        let envelope = context.batch.remove(index);
-        envelope.map(|envelope| context.resolve_message(envelope)).is_some()
+        let mut batch = std::mem::take(&mut context.batch);
+        let found = batch.deliver(index, context);
+        context.batch = batch;
+        found
     }
 
     /// Iterates all threads in turn, in the order in which they were started, until nothing is due

@@ -1,51 +1,27 @@
 //! All that threads share passes through here, so that the model checkers see the real code.
 //!
-//! | build | queue | threads, atomics |
-//! |---|---|---|
-//! | normal | a flume channel, whose two ends stay together | `std` |
-//! | `--cfg loom`, `--cfg shuttle` | a `Mutex<VecDeque>` of the checker, with the same methods | the checker's |
+//! | build | lock, threads, atomics |
+//! |---|---|
+//! | normal | `std` |
+//! | `--cfg loom`, `--cfg shuttle` | the checker's |
+//! | `--cfg tsan` | `std`, with a lock that ThreadSanitizer can look into |
 //!
-//! flume cannot run under a checker, so what is proved there is our protocol over a queue that is
-//! right (push, drain, empty), not flume itself; flume has the stress tests.
 //! Statistics (counters, what is running) stay with `std`: nothing waits for them, and each
 //! further atomic multiplies what a checker has to try.
 
-/// The checkers' queue and atomics, and threads that park as the standard library's do.
+/// The checkers' lock and atomics, and threads that park as the standard library's do.
 #[cfg(any(loom, shuttle))]
 use crate::modelled as parts;
-pub(crate) use parts::{Queue, atomic, planted, thread};
+pub(crate) use parts::{atomic, planted, thread};
 use std::time::Instant;
 
 #[cfg(not(any(loom, shuttle)))]
 mod parts {
+    #[cfg(tsan)]
+    pub(crate) use spin::Mutex;
+    #[cfg(not(tsan))]
+    pub(crate) use std::sync::Mutex;
     pub(crate) use std::{sync::atomic, thread};
-
-    /// An unbounded queue that many threads fill and one empties. Held for a push or a drain, no
-    /// longer.
-    pub(crate) struct Queue<T> {
-        enter: flume::Sender<T>,
-        leave: flume::Receiver<T>,
-    }
-
-    impl<T> Queue<T> {
-        pub(crate) fn new() -> Self {
-            let (enter, leave) = flume::unbounded();
-            Self { enter, leave }
-        }
-
-        pub(crate) fn push(&self, item: T) {
-            self.enter.send(item).expect("both ends of the channel live in this struct");
-        }
-
-        /// Takes everything that is there at the moment of the call, oldest first, under one lock.
-        pub(crate) fn drain(&self) -> impl Iterator<Item = T> {
-            self.leave.drain()
-        }
-
-        pub(crate) fn len(&self) -> usize {
-            self.leave.len()
-        }
-    }
 
     /// Is the planted bug of this name on? Never, in a normal build: the question compiles to
     /// nothing.
@@ -54,6 +30,49 @@ mod parts {
     /// that a checker finds it.
     pub(crate) const fn planted(_bug: &str) -> bool {
         false
+    }
+}
+
+/// The one lock of the crate, and so the one thing that two threads ever wait for in it: as in the
+/// thesis, whose queue has one for the same reason (§3.2.6.1).
+///
+/// It cannot be held: there is no guard, only a closure. What runs in there moves a few bytes
+/// and returns; nothing of the program's is called, and no second one is taken, so no two can be
+/// taken in the wrong order. Debug builds check that.
+pub(crate) struct Held<T>(parts::Mutex<T>);
+
+impl<T> Held<T> {
+    pub(crate) fn new(content: T) -> Self {
+        Self(parts::Mutex::new(content))
+    }
+
+    pub(crate) fn with<R>(&self, briefly: impl FnOnce(&mut T) -> R) -> R {
+        alone::enter();
+        #[cfg(not(tsan))]
+        // What runs inside cannot panic half way; and a message more or less is no broken promise.
+        let mut content = self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        #[cfg(tsan)]
+        let mut content = self.0.lock();
+        let answer = briefly(&mut content);
+        drop(content);
+        alone::leave();
+        answer
+    }
+}
+
+/// No thread is in two locks at once. Not under the checkers, all of whose threads are one.
+mod alone {
+    #[cfg(all(debug_assertions, not(any(loom, shuttle))))]
+    thread_local!(static INSIDE: std::cell::Cell<bool> = const { std::cell::Cell::new(false) });
+
+    pub(super) fn enter() {
+        #[cfg(all(debug_assertions, not(any(loom, shuttle))))]
+        assert!(!INSIDE.replace(true), "a lock was taken inside another");
+    }
+
+    pub(super) fn leave() {
+        #[cfg(all(debug_assertions, not(any(loom, shuttle))))]
+        INSIDE.set(false);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::clock::Clock;
 use crate::shared::Shared;
-use crate::sync::{Queue, park, planted, thread};
+use crate::sync::{Held, park, planted, thread};
 use crate::{Context, Next, ThreadHandle};
 use std::io;
 use std::sync::Arc;
@@ -32,13 +32,13 @@ impl Thread {
     pub fn start(name: &str) -> io::Result<Self> {
         // The mailbox must know whom to wake, and the loop needs the mailbox: so the thread is
         // started first, and waits until its mailbox is laid in the cradle.
-        let cradle = Arc::new(Queue::new());
+        let cradle = Arc::new(Held::new(None));
         let theirs = Arc::clone(&cradle);
         let os_thread = thread::Builder::new().name(name.to_owned()).spawn(move || thread_proc(&theirs))?;
         let sleeper = os_thread.thread().clone();
         let wake = Box::new(move || sleeper.unpark());
         let shared = Shared::new(name, Clock::Real, wake);
-        cradle.push(Arc::clone(&shared));
+        cradle.with(|cradle| *cradle = Some(Arc::clone(&shared)));
         os_thread.thread().unpark();
         Ok(Self { handle: ThreadHandle { shared }, os_thread: Some(os_thread) })
     }
@@ -73,7 +73,7 @@ impl Thread {
         let early = planted("unchecked_wait").then(names);
         // First said, then looked: a thread that finishes in between either sees who waits or is
         // seen as finished.
-        threads.iter().for_each(|one| one.shared.waiters.push(thread::current()));
+        threads.iter().for_each(|one| one.shared.waiters.with(|waiters| waiters.push(thread::current())));
         let mut running = early.unwrap_or_else(names);
         while !running.is_empty() {
             if Instant::now() >= deadline {
@@ -107,11 +107,13 @@ impl Drop for Thread {
 }
 
 /// The loop of a thread of its own (thesis §3.2.6.1).
-fn thread_proc(cradle: &Queue<Arc<Shared>>) {
-    while cradle.len() == 0 {
-        park(None);
-    }
-    let shared = cradle.drain().next().expect("it is laid there once");
+fn thread_proc(cradle: &Held<Option<Arc<Shared>>>) {
+    let shared = loop {
+        match cradle.with(Option::take) {
+            Some(shared) => break shared,
+            None => park(None),
+        }
+    };
     let mut context = Context::new(shared);
     tracing::debug!(thread = context.handle().name(), "started");
     loop {
@@ -121,12 +123,36 @@ fn thread_proc(cradle: &Queue<Arc<Shared>>) {
             Next::OnMessage => None,
             Next::Stopped => return,
         };
-        let due = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        let left = |deadline: Instant| deadline.saturating_duration_since(Instant::now());
+        let due = || deadline.is_some_and(|deadline| left(deadline).is_zero());
+        let asleep = || context.shared().mailbox.is_asleep();
+        // Who was told to sleep is awake in this sense, and looks for nothing.
+        if !context.spin.is_zero() && asleep() {
+            let limit = deadline.map_or(context.spin, |deadline| left(deadline).min(context.spin));
+            spin(limit, || !asleep());
+        }
+        // A wake-up that nobody meant, which the system allows itself, is slept through. Who was
+        // told to sleep or to pause is woken by nothing else.
         park(deadline);
-        // A wake-up that nobody meant, which the system allows itself, is slept through.
-        while !due() && context.shared().mailbox.is_asleep() {
+        while !due() && asleep() {
             park(deadline);
         }
+    }
+}
+
+/// Waits for `done` without sleep, for `limit` at most.
+///
+/// After each short while whoever waits for this core has a turn: it may be the one that is waited for.
+fn spin(limit: Duration, done: impl Fn() -> bool) {
+    let begin = Instant::now();
+    while begin.elapsed() < limit {
+        for _ in 0..64 {
+            if done() {
+                return;
+            }
+            std::hint::spin_loop();
+        }
+        thread::yield_now();
     }
 }
 

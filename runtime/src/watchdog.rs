@@ -1,9 +1,8 @@
 //! Says which object of which thread does not come back, and with which type of message.
 
-use crate::register::{Label, RUN};
+use crate::register::Label;
 use crate::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::io;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -31,7 +30,7 @@ pub struct Stall {
 /// threads do nothing for it but store that number. A stall is reported once, between one limit
 /// and one and a quarter after it began.
 pub struct Watchdog {
-    address: Address<Watched>,
+    address: Address<ThreadHandle>,
     /// Ends with the watchdog, when it has a thread of its own.
     _thread: Option<Thread>,
 }
@@ -59,7 +58,7 @@ impl Watchdog {
         let own = address.clone();
         // A stopped thread watches nobody.
         let _ = thread.run(move |thread| {
-            let watch = Rc::new(RefCell::new(Watch { limit, report: Box::new(report), threads: Vec::new() }));
+            let watch = Rc::new(RefCell::new(Watch { limit, report: Box::new(report), looks: Vec::new() }));
             thread.register_receiver_at(&own, Rc::clone(&watch));
             thread.register_worker(watch);
         });
@@ -69,35 +68,23 @@ impl Watchdog {
     /// Watches `thread` until it stops.
     pub fn watch(&self, thread: &ThreadHandle) {
         let address = self.address.clone();
-        // A stopped thread need not be watched.
+        // A stopped thread need not be watched, and a watchdog that has stopped watches nobody.
         let _ = thread.run(move |thread| {
-            thread.watchers.push(address);
-            for (id, slot) in &thread.objects {
-                thread.tell_watchers(*id, Some(&slot.label));
-            }
-            thread.tell_watchers(RUN, Some(&Label { name: "run".into(), call: "run" }));
+            thread.show_labels();
+            let _ = address.send(thread.handle().clone());
         });
     }
-}
-
-/// An object that may stall, told by its thread when it is registered, and when it is removed.
-pub(crate) struct Watched {
-    pub(crate) thread: ThreadHandle,
-    pub(crate) id: u32,
-    /// `None` when it is removed.
-    pub(crate) label: Option<Label>,
 }
 
 struct Watch {
     limit: Duration,
     report: Box<dyn FnMut(&Stall)>,
-    threads: Vec<Look>,
+    looks: Vec<Look>,
 }
 
 /// What was seen of a thread.
 struct Look {
     thread: ThreadHandle,
-    labels: HashMap<u32, Label>,
     /// The call that was running.
     running: u64,
     /// When it was seen first; `None` when it was reported.
@@ -105,34 +92,26 @@ struct Look {
 }
 
 impl Receiver for Watch {
-    type Message = Watched;
+    type Message = ThreadHandle;
 
-    fn receive(&mut self, watched: Watched, _: &mut Context) {
-        let known = |look: &Look| look.thread == watched.thread;
-        let index = self.threads.iter().position(known).unwrap_or_else(|| {
-            let thread = watched.thread.clone();
-            self.threads.push(Look { thread, labels: HashMap::new(), running: 0, since: None });
-            self.threads.len() - 1
-        });
-        let labels = &mut self.threads[index].labels;
-        match watched.label {
-            Some(label) => labels.insert(watched.id, label),
-            None => labels.remove(&watched.id),
-        };
+    fn receive(&mut self, thread: ThreadHandle, _: &mut Context) {
+        if self.looks.iter().all(|look| look.thread != thread) {
+            self.looks.push(Look { thread, running: 0, since: None });
+        }
     }
 }
 
 impl Worker for Watch {
     fn update(&mut self, thread: &mut Context) -> bool {
         let now = thread.now();
-        self.threads.retain(|look| !look.thread.is_stopped());
-        for look in &mut self.threads {
+        self.looks.retain(|look| !look.thread.is_stopped());
+        for look in &mut self.looks {
             if let Some(stall) = look.again(now, self.limit) {
                 tracing::warn!(?stall, "stalled");
                 (self.report)(&stall);
             }
         }
-        if !self.threads.is_empty() {
+        if !self.looks.is_empty() {
             thread.wake_at(now + self.limit / 4);
         }
         true
@@ -152,7 +131,8 @@ impl Look {
             return None;
         }
         self.since = None;
-        let Label { name: object, call } = self.labels.get(&id).cloned().unwrap_or_default();
+        let label = self.thread.shared.labels.with(|labels| labels.get(&id).cloned());
+        let Label { name: object, call } = label.unwrap_or_default();
         Some(Stall { thread: self.thread.name().to_owned(), object, call, running: time })
     }
 }

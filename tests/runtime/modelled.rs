@@ -1,37 +1,10 @@
-//! What stands in for flume and for the system's threads while a model checker runs: compiled into the
+//! What stands in for the standard library's lock and threads while a model checker runs: compiled into the
 //! runtime's `sync` module, in builds with `--cfg loom` or `--cfg shuttle` only.
 
 #[cfg(loom)]
-use loom::sync::Mutex;
-#[cfg(loom)]
-pub(crate) use loom::sync::atomic;
+pub use loom::sync::{Mutex, atomic};
 #[cfg(shuttle)]
-use shuttle::sync::Mutex;
-#[cfg(shuttle)]
-pub(crate) use shuttle::sync::atomic;
-use std::collections::VecDeque;
-
-/// The same methods as the queue over flume, over the checker's lock.
-pub(crate) struct Queue<T>(Mutex<VecDeque<T>>);
-
-impl<T> Queue<T> {
-    pub(crate) fn new() -> Self {
-        Self(Mutex::new(VecDeque::new()))
-    }
-
-    pub(crate) fn push(&self, item: T) {
-        self.0.lock().unwrap().push_back(item);
-    }
-
-    pub(crate) fn drain(&self) -> impl Iterator<Item = T> {
-        // What is done with them is done outside the lock, as with flume.
-        std::mem::take(&mut *self.0.lock().unwrap()).into_iter()
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.0.lock().unwrap().len()
-    }
-}
+pub use shuttle::sync::{Mutex, atomic};
 
 /// Is the planted bug of this name the one that the environment asks for?
 pub(crate) fn planted(bug: &str) -> bool {
@@ -50,6 +23,7 @@ pub use shuttle::thread;
 #[cfg(loom)]
 pub mod thread {
     use loom::sync::{Condvar, Mutex};
+    pub use loom::thread::yield_now;
     use std::cell::RefCell;
     use std::io;
     use std::sync::Arc;

@@ -5,7 +5,7 @@
 # The standard library is not instrumented, so ThreadSanitizer cannot see how `std::sync::Mutex`,
 # `mpsc`, a join and the test harness keep order. Three answers, none of which hides a race of ours:
 # * it gets a program without harness and `mpsc`, which exercises all that threads share;
-# * flume is built with its `spin` feature, whose lock is instrumented like everything else;
+# * the runtime's one lock is taken from a crate (`--cfg tsan`), instrumented like everything else;
 # * one suppression: `race:drop_slow`, the last drop of an `Arc`.
 # AddressSanitizer has no such trouble and gets the whole test suite. Takes some minutes.
 set -eu
@@ -20,9 +20,11 @@ echo 'race:drop_slow' >"$suppressions"
 run() { # SANITIZER TEST ARGUMENTS...
     sanitizer=$1 test=$2
     shift 2
-    RUSTFLAGS="-Zsanitizer=$sanitizer -Cunsafe-allow-abi-mismatch=sanitizer" \
+    lock=
+    [ "$sanitizer" = address ] || lock='--cfg tsan'
+    RUSTFLAGS="-Zsanitizer=$sanitizer -Cunsafe-allow-abi-mismatch=sanitizer $lock" \
         cargo test --quiet --locked --target "$host" --target-dir "$target/$sanitizer" -p dragonfly-runtime \
-        --features flume/spin --test "$test" -- "$@"
+        --test "$test" -- "$@"
 }
 
 export TSAN_OPTIONS="halt_on_error=0 exitcode=66 suppressions=$suppressions"

@@ -121,9 +121,11 @@ fn off_it_adds_no_allocation_to_a_send() {
         address.send(1).unwrap();
         stage.iterate(&thread);
     };
+    // Two batches change places: each has to grow once.
+    turn(&mut stage);
     turn(&mut stage);
     let (count, ()) = dragonfly_kit::counting::count(|| (0..100).for_each(|_| turn(&mut stage)));
-    assert!(count.allocations <= 200, "the message's box, and the queue's block: {count:?}");
+    assert_eq!(count.allocations, 0, "{count:?}");
 }
 
 /// Keeps what `tracing` gets: each event's fields, as one line.

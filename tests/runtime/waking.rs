@@ -158,3 +158,55 @@ fn a_captured_and_an_own_thread_talk() {
     }
     assert_eq!(sum, 9900);
 }
+
+#[test]
+fn a_thread_that_looks_before_it_sleeps_needs_no_wake_up_and_sleeps_in_the_end() {
+    let thread = Thread::start("looking").unwrap();
+    let (receiver, hears) = outlet();
+    let address = thread.handle().register_receiver(|_| receiver);
+    let sleeps = || os_thread("looking").map_or(0, |os| os.waits);
+    // Looking for as long as the test lasts: it never goes to sleep between two messages.
+    thread.handle().set_spin(LIMIT);
+    address.send(0).unwrap();
+    assert_eq!(hears.recv_timeout(LIMIT), Ok(0));
+    let before = sleeps();
+    for message in 0..1000_u32 {
+        address.send(message).unwrap();
+        assert_eq!(hears.recv_timeout(LIMIT), Ok(message));
+    }
+    let slept = sleeps() - before;
+    assert!(slept < 500, "it slept {slept} times between 1,000 messages");
+    // For a moment only, and then it sleeps; told to stop looking, it sleeps at once.
+    for limit in [Duration::from_millis(1), Duration::ZERO] {
+        thread.handle().set_spin(limit);
+        eventually(LIMIT, || is_asleep("looking"));
+        address.send(7).unwrap();
+        assert_eq!(hears.recv_timeout(LIMIT), Ok(7));
+    }
+}
+
+#[test]
+fn a_thread_that_looks_keeps_its_alarms_and_can_be_stopped() {
+    let thread = Thread::start("awaiting").unwrap();
+    thread.handle().set_spin(LIMIT);
+    let (rings, rang) = outlet();
+    let bell = thread.handle().register_receiver(|_| rings);
+    let begin = Instant::now();
+    let mut rung = false;
+    thread.handle().register_worker(move |thread: &mut Context| {
+        let when = thread.now() + Duration::from_millis(20);
+        thread.wake_at(when);
+        work(move |thread: &mut Context| {
+            if thread.now() >= when && !rung {
+                rung = true;
+                bell.send(()).unwrap();
+            }
+            true
+        })
+    });
+    rang.recv_timeout(LIMIT).unwrap();
+    assert!(begin.elapsed() < LIMIT / 2, "the alarm waited for the end of looking");
+    thread.handle().remote_stop();
+    Thread::wait_for(&[thread.handle().clone()], deadline()).unwrap();
+    assert!(begin.elapsed() < LIMIT / 2);
+}
