@@ -275,14 +275,15 @@ mod tests {
     #[test]
     fn half_an_edit_is_torn_and_a_whole_one_is_not() {
         let mut document = Size::TINY.document();
-        let before = document.clone();
         let originals = document.originals();
-        for number in [1, 2, STAMPS - 1, STAMPS + 5] {
+        drop(document.apply(key(7).prepare(&originals)));
+        for number in [8, 9, STAMPS - 1, STAMPS + 5] {
+            let before = document.clone();
             drop(document.apply(key(number).prepare(&originals)));
-            let entry = &document.takes[0];
-            assert!(!entry.mark(true).is_torn(&entry.result), "{number}");
-            assert!(entry.mark(true).is_torn(&before.takes[0].result), "{number}");
-            assert!(before.takes[0].mark(false).is_torn(&entry.result), "{number}");
+            let (old, new) = (&before.takes[0], &document.takes[0]);
+            assert!(!new.mark(true).is_torn(&new.result), "{number}");
+            assert!(new.mark(true).is_torn(&old.result), "{number}");
+            assert!(old.mark(false).is_torn(&new.result), "{number}");
         }
     }
 }

@@ -65,7 +65,7 @@ impl Frame {
             frame.draw();
             begin.elapsed()
         };
-        let quickest = (0..200).map(|_| one(&mut frame)).min().unwrap_or(COST);
+        let quickest = (0..3000).map(|_| one(&mut frame)).min().unwrap_or(COST);
         (COST.as_secs_f64() / quickest.as_secs_f64()).round().max(1.0) as u32
     }
 

@@ -72,6 +72,10 @@ impl Worker for Scene {
             thread.wake_at(stage.due);
             return false;
         }
+        if !stage.viewing.is_ready(thread) {
+            return false;
+        }
+        let now = Instant::now();
         stage.opened = Some((stage.due, now));
         let recording = stage.ledger.is_recording();
         if recording && stage.recorded.is_none() {

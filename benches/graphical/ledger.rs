@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// Edits that may be on their way at once; more would overwrite the times of older ones.
-pub const MOST_WAITING: u64 = 1 << 17;
+pub const MOST_WAITING: u64 = 1 << 16;
 
 /// Shared by all threads of one run.
 pub struct Ledger {

@@ -8,49 +8,97 @@
 //! | messages | each | after each edit |
 //! | messages, newest | each | after all edits that were waiting; a newer one replaces the one that waits |
 //! | messages, relayed | each | likewise, but by way of the main thread |
+//! | messages, read | each | likewise, and the same to the main thread, which asks nobody but reads |
 //! | messages, merged | in one gesture, a newer one replaces the one that waits | likewise |
+//! | messages, on demand | each | when a frame is due and asks for one |
+//! | messages, spinning | each | as "newest"; the document looks for messages a while before it sleeps |
 
-use super::document::{Document, Edit};
-use super::frame::{Answer, Frame, Question, shown};
+use super::document::{Change, Document, Edit};
+use super::frame::{Answer, Question, shown};
 use super::ledger::Ledger;
 use super::sharing::{Asked, Sharing, Start, Started, Viewing};
+use super::views::{Asking, Newest, View};
 use dragonfly_anim::data::Take;
 use dragonfly_runtime::{Address, Captured, Context, Next, Receiver, Thread, Worker};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::{Arc, mpsc};
-use std::time::Instant;
-
-type View = Arc<Document>;
+use std::time::{Duration, Instant};
 
 /// What the document's thread understands.
-enum ToDocument {
+pub(super) enum ToDocument {
     Edit(Edit),
     Ask(Question, Address<Answer>),
+    /// The graphics thread wants the newest view, even when it has it.
+    Publish,
     /// For the comparison at the end.
     Give(mpsc::Sender<Document>),
+}
+
+/// When views are sent, and to whom; how edits are.
+#[derive(Clone, Copy, Default)]
+struct Kind {
+    each: bool,
+    relayed: bool,
+    read: bool,
+    merges: bool,
+    on_demand: bool,
+    spin: Duration,
+}
+
+/// Every edit a message, and after every edit a view.
+pub fn plain(start: Start) -> Started {
+    begin(start, Kind { each: true, ..Kind::default() })
+}
+
+/// Every edit a message; a view when no more edits wait.
+pub fn newest(start: Start) -> Started {
+    begin(start, Kind::default())
+}
+
+/// The same, with views sent to the main thread, which passes them on.
+pub fn relayed(start: Start) -> Started {
+    begin(start, Kind { relayed: true, ..Kind::default() })
+}
+
+/// The main thread gets the views as well, and looks there for answers.
+pub fn read(start: Start) -> Started {
+    begin(start, Kind { read: true, ..Kind::default() })
+}
+
+/// Edits of one gesture replace each other while they wait, and so do views.
+pub fn merged(start: Start) -> Started {
+    begin(start, Kind { merges: true, ..Kind::default() })
+}
+
+/// A view when a frame asks for it.
+pub fn on_demand(start: Start) -> Started {
+    begin(start, Kind { on_demand: true, ..Kind::default() })
+}
+
+/// The document's thread does not sleep at once.
+pub fn spinning(start: Start) -> Started {
+    begin(start, Kind { spin: Duration::from_millis(2), ..Kind::default() })
 }
 
 /// The document in its thread.
 struct Owner {
     document: View,
     originals: Vec<Arc<Take>>,
-    views: Address<View>,
-    /// For those who are to hear of every edit.
-    each: bool,
+    views: Vec<Address<View>>,
+    kind: Kind,
     changed: bool,
     ledger: Arc<Ledger>,
-    /// Does somebody else pass the views on, and say so then?
-    relayed: bool,
 }
 
 impl Owner {
     fn publish(&mut self) {
-        let number = shown(&self.document.takes).number;
-        // Who draws may have stopped; then nobody looks.
-        let _ = self.views.send(Arc::clone(&self.document));
-        if !self.relayed {
-            self.ledger.publish(number);
+        for views in &self.views {
+            // Who draws may have stopped; then nobody looks.
+            let _ = views.send(Arc::clone(&self.document));
+        }
+        if !self.kind.relayed {
+            self.ledger.publish(shown(&self.document.takes).number);
         }
         self.changed = false;
     }
@@ -67,7 +115,7 @@ impl Receiver for Owner {
                 drop(Arc::make_mut(&mut self.document).apply(ready));
                 self.ledger.apply(number);
                 self.changed = true;
-                if self.each {
+                if self.kind.each {
                     self.publish();
                 }
             }
@@ -76,6 +124,13 @@ impl Receiver for Owner {
                 // Who asked may have stopped.
                 let _ = to.send(answer);
             }
+            ToDocument::Publish => {
+                if !self.changed {
+                    // The asker tells an answer by its being another view.
+                    self.document = Arc::new((*self.document).clone());
+                }
+                self.publish();
+            }
             ToDocument::Give(to) => _ = to.send((*self.document).clone()),
         }
     }
@@ -83,7 +138,7 @@ impl Receiver for Owner {
 
 impl Worker for Owner {
     fn update(&mut self, _thread: &mut Context) -> bool {
-        if self.changed {
+        if self.changed && !self.kind.on_demand {
             self.publish();
         }
         true
@@ -106,14 +161,14 @@ impl Receiver for Relay {
     }
 }
 
-/// Where an answer lies until it is read.
-struct Answers(Rc<Cell<Option<Answer>>>);
+/// Where the newest of something lies until it is read.
+struct Last<M>(Rc<Cell<Option<M>>>);
 
-impl Receiver for Answers {
-    type Message = Answer;
+impl<M: Send + 'static> Receiver for Last<M> {
+    type Message = M;
 
-    fn receive(&mut self, answer: Answer, _thread: &mut Context) {
-        self.0.set(Some(answer));
+    fn receive(&mut self, message: M, _thread: &mut Context) {
+        self.0.set(Some(message));
     }
 }
 
@@ -126,11 +181,17 @@ struct Main {
     merges: bool,
     answer: Rc<Cell<Option<Answer>>>,
     answers: Address<Answer>,
+    /// The newest view, where the main thread gets them.
+    view: Option<Rc<Cell<Option<View>>>>,
 }
 
 impl Sharing for Main {
     fn edit(&mut self, edit: Edit, begins: bool) {
-        if self.merges && begins {
+        // Only edits of one key may stand for each other, and none may overtake what was sent before its gesture began.
+        let mergeable = self.merges && matches!(edit.change, Change::Key(..));
+        if !mergeable {
+            self.gesture = None;
+        } else if begins || self.gesture.is_none() {
             self.gesture = Some(self.address.latest());
         }
         let to = self.gesture.as_ref().unwrap_or(&self.address);
@@ -138,6 +199,14 @@ impl Sharing for Main {
     }
 
     fn ask(&mut self, question: Question, main: &mut Captured) -> Asked {
+        if let Some(newest) = &self.view {
+            return Asked::at_once(|| {
+                let view = newest.take().expect("there has always been one");
+                let answer = question.answer(shown(&view.takes), &view.skeleton);
+                newest.set(Some(view));
+                answer
+            });
+        }
         let begin = Instant::now();
         let message = ToDocument::Ask(question, self.answers.clone());
         self.address.send(message).expect("the document lives as long as this");
@@ -165,93 +234,44 @@ impl Sharing for Main {
     }
 }
 
-/// The graphics thread's side: the newest view that has come.
-struct Newest {
-    view: Rc<RefCell<View>>,
-    promised: u64,
-}
-
-impl Viewing for Newest {
-    fn frame(&mut self, frame: &mut Frame) {
-        let view = Arc::clone(&self.view.borrow());
-        frame.read(shown(&view.takes));
-        frame.draw();
-        frame.confirm(shown(&view.takes));
-    }
-
-    /// What had been published before the messages of this iteration were taken out of the queue.
-    fn promise(&mut self, ledger: &Ledger) -> u64 {
-        std::mem::replace(&mut self.promised, ledger.published())
-    }
-}
-
-struct Views(Rc<RefCell<View>>);
-
-impl Receiver for Views {
-    type Message = View;
-
-    fn receive(&mut self, view: View, _thread: &mut Context) {
-        *self.0.borrow_mut() = view;
-    }
-}
-
-struct Kind {
-    each: bool,
-    relayed: bool,
-    merges: bool,
-}
-
-/// Every edit a message, and after every edit a view.
-pub fn plain(start: Start) -> Started {
-    begin(start, Kind { each: true, relayed: false, merges: false })
-}
-
-/// Every edit a message; a view when no more edits wait.
-pub fn newest(start: Start) -> Started {
-    begin(start, Kind { each: false, relayed: false, merges: false })
-}
-
-/// The same, with views sent to the main thread, which passes them on.
-pub fn relayed(start: Start) -> Started {
-    begin(start, Kind { each: false, relayed: true, merges: false })
-}
-
-/// Edits of one gesture replace each other while they wait, and so do views.
-pub fn merged(start: Start) -> Started {
-    begin(start, Kind { each: false, relayed: false, merges: true })
-}
-
 fn begin(start: Start, kind: Kind) -> Started {
     let Start { document, graphics, main, ledger } = start;
     let drawn: Address<View> = graphics.reserve_address();
-    let views = if kind.each { drawn.clone() } else { drawn.latest() };
-    let views = match kind.relayed {
-        true => {
-            let relay = Relay { to: views, ledger: Arc::clone(ledger) };
-            main.context().register_receiver(relay).latest()
-        }
-        false => views,
-    };
+    let mut views = vec![if kind.each { drawn.clone() } else { drawn.latest() }];
     let originals = document.originals();
     let first = Arc::new(document);
+    let mut view = None;
+    if kind.relayed {
+        let relay = Relay { to: views.remove(0), ledger: Arc::clone(ledger) };
+        views.push(main.context().register_receiver(relay).latest());
+    }
+    if kind.read {
+        let newest = Rc::new(Cell::new(Some(Arc::clone(&first))));
+        views.push(main.context().register_receiver(Last(Rc::clone(&newest))).latest());
+        view = Some(newest);
+    }
     let thread = Thread::start("document").expect("the system has a thread left");
+    thread.handle().set_spin(kind.spin);
     let address = thread.handle().reserve_address();
-    let (own, document, theirs) = (address.clone(), Arc::clone(&first), Arc::clone(ledger));
-    let (each, relayed) = (kind.each, kind.relayed);
+    let (own, document, ledger) = (address.clone(), Arc::clone(&first), Arc::clone(ledger));
     let register = move |context: &mut Context| {
-        let owner = Owner { document, originals, views, each, changed: false, ledger: theirs, relayed };
+        let owner = Owner { document, originals, views, kind, changed: false, ledger };
         let owner = Rc::new(RefCell::new(owner));
         context.register_receiver_at(&own, Rc::clone(&owner));
         context.register_worker(owner);
     };
     thread.handle().run(register).expect("it was just started");
     let answer = Rc::new(Cell::new(None));
-    let answers = main.context().register_receiver(Answers(Rc::clone(&answer)));
-    let sharing = Main { _thread: thread, address, gesture: None, merges: kind.merges, answer, answers };
+    let answers = main.context().register_receiver(Last(Rc::clone(&answer)));
+    let asked = address.clone();
+    let merges = kind.merges;
+    let sharing = Main { _thread: thread, address, gesture: None, merges, answer, answers, view };
     let viewing = Box::new(move |graphics: &mut Context| {
-        let view = Rc::new(RefCell::new(first));
-        graphics.register_receiver_at(&drawn, Views(Rc::clone(&view)));
-        Box::new(Newest { view, promised: 0 }) as Box<dyn Viewing>
+        let newest = Newest::new(first, &drawn, graphics);
+        match kind.on_demand {
+            true => Box::new(Asking::new(newest, asked)) as Box<dyn Viewing>,
+            false => Box::new(newest),
+        }
     });
     Started { sharing: Box::new(sharing), viewing }
 }

@@ -30,6 +30,12 @@ pub trait Viewing {
     /// Draws a frame from one consistent view.
     fn frame(&mut self, frame: &mut Frame);
 
+    /// Called when a frame is due: may it begin? If not, the thread is asked again when a message comes, or when
+    /// the answer itself had it woken.
+    fn is_ready(&mut self, _thread: &mut Context) -> bool {
+        true
+    }
+
     /// The edit that a frame must show that begins now: this or a newer one. Asked once in each iteration.
     fn promise(&mut self, ledger: &Ledger) -> u64 {
         ledger.completed()
@@ -107,8 +113,11 @@ type PlRwLock<T> = parking_lot::RwLock<T>;
 pub const WAYS: &[Way] = &[
     Way::new("messages", messages::plain).telling(),
     Way::new("messages, newest", messages::newest).telling(),
+    Way::new("messages, on demand", messages::on_demand).telling(),
     Way::new("messages, relayed", messages::relayed),
-    Way::new("messages, merged", messages::merged).telling(),
+    Way::new("messages, read", messages::read),
+    Way::new("messages, merged", messages::merged),
+    Way::new("messages, spinning", messages::spinning),
     Way::new("mutex, frame", locks::held::<StdMutex<_>>).telling(),
     Way::new("mutex, poses", locks::sampled::<StdMutex<_>>).telling(),
     Way::new("mutex, clone", locks::cloned::<StdMutex<_>>),
