@@ -29,7 +29,7 @@ impl Field {
         /// A short run has no time for more.
         const FEW: [&str; 6] = [
             "messages, newest",
-            "messages, on demand",
+            "messages, batched",
             "mutex, frame",
             "mutex, poses",
             "mutex, cow",
@@ -87,7 +87,7 @@ fn basis(mode: Mode) -> Scenario {
         edits: Edits::Small,
         rate: Rate::EVERY_MILLISECOND,
         period: HERTZ_60,
-        length: milliseconds(20, 250, 600),
+        length: milliseconds(20, 220, 600),
         warm_up: milliseconds(5, 40, 100),
         graphics_stall: None,
         main_stall: None,

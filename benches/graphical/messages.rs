@@ -11,6 +11,7 @@
 //! | messages, read | each | likewise, and the same to the main thread, which asks nobody but reads |
 //! | messages, merged | in one gesture, a newer one replaces the one that waits | likewise |
 //! | messages, on demand | each | when a frame is due and asks for one |
+//! | messages, batched | each, but they wake nobody | likewise; all edits that wait are made then |
 //! | messages, spinning | each | as "newest"; the document looks for messages a while before it sleeps |
 
 use super::document::{Change, Document, Edit};
@@ -43,6 +44,7 @@ struct Kind {
     read: bool,
     merges: bool,
     on_demand: bool,
+    batched: bool,
     spin: Duration,
 }
 
@@ -76,6 +78,11 @@ pub fn on_demand(start: Start) -> Started {
     begin(start, Kind { on_demand: true, ..Kind::default() })
 }
 
+/// The document's thread pauses between frames, so that edits do not wake it; the frame that asks for a view does.
+pub fn batched(start: Start) -> Started {
+    begin(start, Kind { on_demand: true, batched: true, ..Kind::default() })
+}
+
 /// The document's thread does not sleep at once.
 pub fn spinning(start: Start) -> Started {
     begin(start, Kind { spin: Duration::from_millis(2), ..Kind::default() })
@@ -107,7 +114,7 @@ impl Owner {
 impl Receiver for Owner {
     type Message = ToDocument;
 
-    fn receive(&mut self, message: ToDocument, _thread: &mut Context) {
+    fn receive(&mut self, message: ToDocument, thread: &mut Context) {
         match message {
             ToDocument::Edit(edit) => {
                 let number = edit.number;
@@ -125,6 +132,10 @@ impl Receiver for Owner {
                 let _ = to.send(answer);
             }
             ToDocument::Publish => {
+                if self.kind.batched {
+                    // Before the view goes: who has it may ask for the next, and that must end this pause.
+                    thread.pause();
+                }
                 if !self.changed {
                     // The asker tells an answer by its being another view.
                     self.document = Arc::new((*self.document).clone());
@@ -174,7 +185,7 @@ impl<M: Send + 'static> Receiver for Last<M> {
 
 /// The main thread's side.
 struct Main {
-    _thread: Thread,
+    thread: Thread,
     address: Address<ToDocument>,
     /// The place of the running gesture, where edits replace each other.
     gesture: Option<Address<ToDocument>>,
@@ -210,6 +221,7 @@ impl Sharing for Main {
         let begin = Instant::now();
         let message = ToDocument::Ask(question, self.answers.clone());
         self.address.send(message).expect("the document lives as long as this");
+        self.thread.handle().resume();
         let blocked = begin.elapsed();
         loop {
             if let Some(answer) = self.answer.take() {
@@ -225,6 +237,7 @@ impl Sharing for Main {
     fn document(&mut self, main: &mut Captured) -> Document {
         let (to, from) = mpsc::channel();
         self.address.send(ToDocument::Give(to)).expect("the document lives as long as this");
+        self.thread.handle().resume();
         main.iterate();
         from.recv().expect("it is given")
     }
@@ -263,13 +276,13 @@ fn begin(start: Start, kind: Kind) -> Started {
     thread.handle().run(register).expect("it was just started");
     let answer = Rc::new(Cell::new(None));
     let answers = main.context().register_receiver(Last(Rc::clone(&answer)));
-    let asked = address.clone();
+    let asked = (address.clone(), kind.batched.then(|| thread.handle().clone()));
     let merges = kind.merges;
-    let sharing = Main { _thread: thread, address, gesture: None, merges, answer, answers, view };
+    let sharing = Main { thread, address, gesture: None, merges, answer, answers, view };
     let viewing = Box::new(move |graphics: &mut Context| {
         let newest = Newest::new(first, &drawn, graphics);
         match kind.on_demand {
-            true => Box::new(Asking::new(newest, asked)) as Box<dyn Viewing>,
+            true => Box::new(Asking::new(newest, asked.0, asked.1)) as Box<dyn Viewing>,
             false => Box::new(newest),
         }
     });

@@ -63,6 +63,8 @@
 //!   whose call had returned; for messages, any view that had been sent before the last iteration ended. At the end the last
 //!   edit must be shown. A run with a mistake ends the program. In check mode every bone of every frame is looked at, and the
 //!   document is compared with that of one thread alone. `tests/study/broken.rs` shows that the checker sees mistakes.
+//! * A pause of the document's thread (`messages, batched`) ends with the next frame; where no frames are made, an editor
+//!   would have to end it otherwise.
 //! * In a flood at most 65,536 edits wait (128 of whole takes); then the main thread rests. An unbounded mailbox would go on,
 //!   until the memory is full: what is measured flatters it.
 //!

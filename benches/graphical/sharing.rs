@@ -114,6 +114,7 @@ pub const WAYS: &[Way] = &[
     Way::new("messages", messages::plain).telling(),
     Way::new("messages, newest", messages::newest).telling(),
     Way::new("messages, on demand", messages::on_demand).telling(),
+    Way::new("messages, batched", messages::batched).telling(),
     Way::new("messages, relayed", messages::relayed),
     Way::new("messages, read", messages::read),
     Way::new("messages, merged", messages::merged),

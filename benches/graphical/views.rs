@@ -5,7 +5,7 @@ use super::frame::{Frame, shown};
 use super::ledger::Ledger;
 use super::messages::ToDocument;
 use super::sharing::Viewing;
-use dragonfly_runtime::{Address, Context, Receiver};
+use dragonfly_runtime::{Address, Context, Receiver, ThreadHandle};
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -58,6 +58,8 @@ impl Receiver for Views {
 pub(super) struct Asking {
     newest: Newest,
     document: Address<ToDocument>,
+    /// The document's thread, where it pauses between frames.
+    pausing: Option<ThreadHandle>,
     /// When it was asked for, and which view was there then.
     asked: Option<(Instant, View)>,
 }
@@ -67,8 +69,8 @@ const PATIENCE: Duration = Duration::from_millis(2);
 
 impl Asking {
     /// Asks `document`, which answers to where `newest` looks.
-    pub(super) fn new(newest: Newest, document: Address<ToDocument>) -> Self {
-        Self { newest, document, asked: None }
+    pub(super) fn new(newest: Newest, document: Address<ToDocument>, pausing: Option<ThreadHandle>) -> Self {
+        Self { newest, document, pausing, asked: None }
     }
 }
 
@@ -86,6 +88,9 @@ impl Viewing for Asking {
         let Some((when, old)) = &self.asked else {
             // A document that has stopped does not answer; the frame begins without it.
             let _ = self.document.send(ToDocument::Publish);
+            if let Some(pausing) = &self.pausing {
+                pausing.resume();
+            }
             self.asked = Some((now, Arc::clone(&self.newest.view.borrow())));
             thread.wake_at(now + PATIENCE);
             return false;
