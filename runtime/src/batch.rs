@@ -12,7 +12,7 @@
 
 use crate::Context;
 use crate::object::short_type_name;
-use crate::trace::Stamp;
+use crate::trace::Stamped;
 use std::any::Any;
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -23,7 +23,7 @@ pub(crate) struct Letter<C> {
     /// The receiver's number; 0 for the thread itself.
     pub(crate) to: u32,
     /// Who sent it and when; only when the thread that gets it is traced.
-    pub(crate) stamp: Option<Box<Stamp>>,
+    pub(crate) stamp: Stamped,
     pub(crate) content: C,
 }
 
@@ -33,7 +33,7 @@ pub(crate) trait Content: Send + 'static {
     fn name(&self) -> &'static str;
 
     /// Its turn has come.
-    fn deliver(self, to: u32, stamp: Option<Box<Stamp>>, thread: &mut Context);
+    fn deliver(self, to: u32, stamp: Stamped, thread: &mut Context);
 
     /// Its turn will not come: how many messages of the program (not of the runtime) that was.
     fn discard(self) -> usize;
@@ -52,7 +52,7 @@ impl<W: Wrapped> Content for W {
         short_type_name::<W::Message>()
     }
 
-    fn deliver(self, to: u32, stamp: Option<Box<Stamp>>, thread: &mut Context) {
+    fn deliver(self, to: u32, stamp: Stamped, thread: &mut Context) {
         if let Some(message) = self.open() {
             thread.resolve_message(to, message, stamp);
         }

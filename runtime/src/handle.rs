@@ -5,7 +5,7 @@ use crate::register::{LAST, Object, RUN, WORKER, WorkerId};
 use crate::shared::{Counters, Shared};
 use crate::sync::atomic::Ordering;
 use crate::sync::planted;
-use crate::trace::Stamp;
+use crate::trace::Stamped;
 use crate::{Address, Context, Fault, Receiver, SendError, TraceSnapshot, Worker};
 use std::fmt;
 use std::sync::Arc;
@@ -193,7 +193,7 @@ impl Content for Asked {
         self.name
     }
 
-    fn deliver(self, _: u32, _: Option<Box<Stamp>>, thread: &mut Context) {
+    fn deliver(self, _: u32, _: Stamped, thread: &mut Context) {
         thread.shown(RUN, "run", |thread| thread.contain("run", "run", self.job));
     }
 

@@ -9,7 +9,7 @@ use crate::object::short_type_name;
 use crate::register::{LAST, Label, Object, Slot, WORKER};
 use crate::sync::atomic::Ordering;
 use crate::sync::planted;
-use crate::trace::{self, End, Event, Record, Stamp};
+use crate::trace::{self, End, Event, Record, Stamped};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -74,12 +74,7 @@ impl Context {
     }
 
     /// Hands a message to its receiver, if that is still there.
-    pub(crate) fn resolve_message<M: Send + 'static>(
-        &mut self,
-        to: u32,
-        message: M,
-        stamp: Option<Box<Stamp>>,
-    ) {
+    pub(crate) fn resolve_message<M: Send + 'static>(&mut self, to: u32, message: M, stamp: Stamped) {
         let mut message = Some(message);
         let end = self.call(to, &mut message, |label, begin, end| Event::Message {
             from: stamp.as_ref().map(|stamp| Arc::clone(&stamp.from)).unwrap_or_default(),

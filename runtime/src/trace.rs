@@ -114,6 +114,9 @@ pub(crate) struct Stamp {
     pub(crate) sent: Instant,
 }
 
+/// On messages to a traced thread only.
+pub(crate) type Stamped = Option<Box<Stamp>>;
+
 thread_local! {
     /// Which object of which runtime thread is being called on this OS thread.
     static SENDER: RefCell<Option<Arc<str>>> = const { RefCell::new(None) };
