@@ -197,7 +197,10 @@ impl Study {
             std::env::current_exe().ok().and_then(|path| Some(path.parent()?.to_owned())).unwrap_or_default()
         };
         let path = folder.join(format!("{}.csv", self.name));
-        match record::write(&path, &self.rows) {
+        match std::fs::create_dir_all(&folder)
+            .map_err(Into::into)
+            .and_then(|()| record::write(&path, &self.rows))
+        {
             Ok(()) => println!("# {} s; raw data: {}", self.begin.elapsed().as_secs(), path.display()),
             Err(error) => eprintln!("cannot write {}: {error}", path.display()),
         }
