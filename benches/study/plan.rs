@@ -45,6 +45,8 @@ impl<'a> Variant<'a> {
 pub struct Study {
     /// How thorough it is.
     pub mode: Mode,
+    /// Are results printed as they come? A bench that prints tables of its own says no.
+    pub prints: bool,
     name: &'static str,
     only: Option<String>,
     order: Random,
@@ -69,8 +71,15 @@ impl Study {
                 word => only = Some(word.to_owned()),
             }
         }
-        let study =
-            Self { mode, name, only, order: Random::new(seed), rows: Vec::new(), begin: Instant::now() };
+        let study = Self {
+            mode,
+            prints: true,
+            name,
+            only,
+            order: Random::new(seed),
+            rows: Vec::new(),
+            begin: Instant::now(),
+        };
         let machine = Machine::measure();
         println!("# {name}, {mode:?}, order by seed {seed}");
         println!("# {}, {} cores, Linux {}", machine.processor, machine.cores, machine.kernel);
@@ -97,6 +106,7 @@ impl Study {
     pub fn check() -> Self {
         Self {
             mode: Mode::Check,
+            prints: false,
             name: "check",
             only: None,
             order: Random::new(1),
@@ -109,7 +119,7 @@ impl Study {
     ///
     /// Skipped when the program was told to measure something else.
     pub fn compare(&mut self, case: &str, repeats: u32, variants: Vec<Variant>) {
-        if self.only.as_ref().is_some_and(|only| !case.contains(only.as_str())) {
+        if !self.wants(case) {
             return;
         }
         let mut variants = variants;
@@ -126,9 +136,14 @@ impl Study {
                 self.keep(case, variant.name, repeat, measured, load.others_since());
             }
         }
-        if self.mode != Mode::Check {
+        if self.prints && self.mode != Mode::Check {
             self.print(first, &names);
         }
+    }
+
+    /// Is `case` to be measured?
+    pub fn wants(&self, case: &str) -> bool {
+        self.only.as_ref().is_none_or(|only| case.contains(only.as_str()))
     }
 
     fn keep(&mut self, case: &str, variant: &str, repeat: u32, measured: Measured, others: f64) {
@@ -182,7 +197,10 @@ impl Study {
             std::env::current_exe().ok().and_then(|path| Some(path.parent()?.to_owned())).unwrap_or_default()
         };
         let path = folder.join(format!("{}.csv", self.name));
-        match record::write(&path, &self.rows) {
+        match std::fs::create_dir_all(&folder)
+            .map_err(Into::into)
+            .and_then(|()| record::write(&path, &self.rows))
+        {
             Ok(()) => println!("# {} s; raw data: {}", self.begin.elapsed().as_secs(), path.display()),
             Err(error) => eprintln!("cannot write {}: {error}", path.display()),
         }

@@ -14,6 +14,7 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+use std::sync::atomic::{AtomicI64, Ordering};
 
 /// What a thread asked of the allocator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -29,7 +30,16 @@ thread_local! {
     static COUNT: Cell<Count> = const { Cell::new(Count { allocations: 0, bytes: 0 }) };
     /// Bytes held now and at most, by what this thread took and gave back.
     static HELD: Cell<(i64, i64)> = const { Cell::new((0, 0)) };
+    /// Of that, what is not yet counted for the process.
+    static UNCOUNTED: Cell<i64> = const { Cell::new(0) };
 }
+
+/// A thread adds what it took and gave back to the process's count in steps of so many bytes: so the threads do not meet at
+/// one number in every call, and the count is right but for this much a thread.
+const STEP: i64 = 1 << 16;
+
+/// Bytes that the process holds now, and at most.
+static PROCESS: [AtomicI64; 2] = [AtomicI64::new(0), AtomicI64::new(0)];
 
 /// What the calling thread has asked for so far; zero unless [`CountingAllocator`] is the global allocator.
 pub fn so_far() -> Count {
@@ -56,6 +66,16 @@ pub fn peak<T>(work: impl FnOnce() -> T) -> (u64, T) {
     ((most - before).max(0) as u64, result)
 }
 
+/// Runs `work` and tells how many bytes more than before the process held at most, all its threads together; right but for
+/// 64 KiB a thread. One at a time.
+pub fn process_peak<T>(work: impl FnOnce() -> T) -> (u64, T) {
+    let [held, most] = &PROCESS;
+    let before = held.load(Ordering::Relaxed);
+    most.store(before, Ordering::Relaxed);
+    let result = work();
+    ((most.load(Ordering::Relaxed) - before).max(0) as u64, result)
+}
+
 /// The system's allocator, which counts per thread.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CountingAllocator;
@@ -74,6 +94,16 @@ fn hold(bytes: i64) {
     let _ = HELD.try_with(|cell| {
         let (held, most) = cell.get();
         cell.set((held + bytes, most.max(held + bytes)));
+    });
+    let _ = UNCOUNTED.try_with(|cell| {
+        let bytes = cell.get() + bytes;
+        let counted = bytes.abs() >= STEP;
+        cell.set(if counted { 0 } else { bytes });
+        if counted {
+            let [held, most] = &PROCESS;
+            let now = held.fetch_add(bytes, Ordering::Relaxed) + bytes;
+            most.fetch_max(now, Ordering::Relaxed);
+        }
     });
 }
 

@@ -1,0 +1,29 @@
+//! Letting this program use fewer cores for a while, by the tool that every Linux has for it.
+
+use std::process::Command;
+
+/// Until it is dropped, the program runs on the cores it was pinned to.
+pub struct Pinned {
+    before: String,
+}
+
+/// Lets all threads of this program, and those that they start, run on `cores` only; `None` where that cannot be done.
+pub fn pin(cores: &str) -> Option<Pinned> {
+    let own = std::process::id().to_string();
+    let asked = Command::new("taskset").args(["-cp", &own]).output().ok()?;
+    let text = String::from_utf8(asked.stdout).ok()?;
+    let before = text.trim().rsplit_once(": ")?.1.to_owned();
+    set(cores).then_some(Pinned { before })
+}
+
+fn set(cores: &str) -> bool {
+    let own = std::process::id().to_string();
+    let done = Command::new("taskset").args(["-acp", cores, &own]).output();
+    done.is_ok_and(|done| done.status.success())
+}
+
+impl Drop for Pinned {
+    fn drop(&mut self) {
+        assert!(set(&self.before), "what could be done can be undone");
+    }
+}

@@ -1,0 +1,198 @@
+//! The graphics thread: workers of the runtime in their order, as in the editor. The scene opens the frame when it is due,
+//! the model is sampled and drawn, and the frame is presented; then what it showed is written down.
+
+use super::frame::Frame;
+use super::ledger::Ledger;
+use super::sharing::{MakeViewing, Viewing};
+use crate::Distribution;
+use dragonfly_runtime::{Context, Thread, Worker};
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::{Arc, mpsc};
+use std::time::{Duration, Instant};
+
+/// What the frames of one run were like.
+#[derive(Default)]
+pub struct Frames {
+    /// From the moment at which it began to its end.
+    pub time: Distribution,
+    /// How much later than intended a frame began. Empty where nothing sets the pace.
+    pub jitter: Distribution,
+    /// From the moment at which an edit was meant to happen to the end of the first frame that shows it.
+    pub visible: Distribution,
+    /// Moments at which a frame was to be finished and was not.
+    pub missed: u64,
+    /// Looks that found half an edit.
+    pub torn: u64,
+    /// Frames that showed an older document than they should have.
+    pub stale: u64,
+}
+
+/// How the graphics thread works.
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
+    /// From one frame to the next; `None` for as fast as possible.
+    pub period: Option<Duration>,
+    /// How often the mesh is drawn in a frame.
+    pub draws: u32,
+    /// Is every bone of every frame looked at?
+    pub thorough: bool,
+    /// At which moment after the begin of the recording the driver holds a frame up, and for how long.
+    pub stall: Option<(Duration, Duration)>,
+}
+
+/// What the workers share.
+struct Stage {
+    viewing: Box<dyn Viewing>,
+    frame: Frame,
+    pace: Pace,
+    ledger: Arc<Ledger>,
+    begin: Instant,
+    /// When the next frame is to begin.
+    due: Instant,
+    /// When the frame that is open was to begin, and when it began.
+    opened: Option<(Instant, Instant)>,
+    /// When the first frame was recorded.
+    recorded: Option<Instant>,
+    promised: u64,
+    last: u64,
+    frames: Frames,
+    done: mpsc::Sender<Frames>,
+}
+
+/// Opens the frame.
+struct Scene(Rc<RefCell<Stage>>);
+
+impl Worker for Scene {
+    fn update(&mut self, thread: &mut Context) -> bool {
+        let stage = &mut *self.0.borrow_mut();
+        stage.promised = stage.viewing.promise(&stage.ledger);
+        let now = Instant::now();
+        if stage.pace.period.is_some() && now < stage.due {
+            thread.wake_at(stage.due);
+            return false;
+        }
+        if !stage.viewing.is_ready(thread) {
+            return false;
+        }
+        let now = Instant::now();
+        stage.opened = Some((stage.due, now));
+        let recording = stage.ledger.is_recording();
+        if recording && stage.recorded.is_none() {
+            stage.recorded = Some(now);
+        }
+        let stall = match (stage.pace.stall, stage.recorded) {
+            (Some((at, length)), Some(begin)) if now >= begin + at => {
+                stage.pace.stall = None;
+                length
+            }
+            _ => Duration::ZERO,
+        };
+        stage.frame.begin((now - stage.begin).as_secs_f32(), stall);
+        true
+    }
+}
+
+/// Samples and draws the model.
+struct Model(Rc<RefCell<Stage>>);
+
+impl Worker for Model {
+    fn update(&mut self, _thread: &mut Context) -> bool {
+        let stage = &mut *self.0.borrow_mut();
+        stage.viewing.frame(&mut stage.frame);
+        true
+    }
+}
+
+/// Ends the frame.
+struct Present(Rc<RefCell<Stage>>);
+
+impl Worker for Present {
+    fn update(&mut self, thread: &mut Context) -> bool {
+        let stage = &mut *self.0.borrow_mut();
+        let Some((due, began)) = stage.opened.take() else { return false };
+        let now = Instant::now();
+        let newest = stage.frame.seen().expect("every frame reads the document");
+        stage.frames.stale += u64::from(newest < stage.promised || newest < stage.last);
+        stage.frames.torn = stage.frame.torn();
+        stage.ledger.record_visible(stage.last, newest, now, &mut stage.frames.visible);
+        stage.last = newest;
+        stage.ledger.see(newest);
+        let recording = stage.ledger.is_recording();
+        if recording {
+            stage.frames.time.record(now - began);
+        }
+        if let Some(period) = stage.pace.period {
+            let late = (now.saturating_duration_since(due).as_nanos() / period.as_nanos()) as u32;
+            if recording {
+                stage.frames.jitter.record(began.saturating_duration_since(due));
+                stage.frames.missed += u64::from(late);
+            }
+            stage.due = due + period * (late + 1);
+            thread.wake_at(stage.due);
+        } else {
+            stage.due = now;
+            thread.iterate_again();
+        }
+        true
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        // Nobody listens when the run was given up.
+        let _ = self.done.send(std::mem::take(&mut self.frames));
+    }
+}
+
+/// Lets `thread` make frames from now on, until it is stopped; then what they were like arrives.
+pub fn register(
+    thread: &Thread,
+    viewing: MakeViewing,
+    frame: impl FnOnce() -> Frame + Send + 'static,
+    pace: Pace,
+    ledger: &Arc<Ledger>,
+) -> mpsc::Receiver<Frames> {
+    let (done, frames) = mpsc::channel();
+    let ledger = Arc::clone(ledger);
+    let job = move |context: &mut Context| {
+        let now = Instant::now();
+        let stage = Stage {
+            viewing: viewing(context),
+            frame: frame(),
+            pace,
+            ledger,
+            begin: now,
+            due: now,
+            opened: None,
+            recorded: None,
+            promised: 0,
+            last: 0,
+            frames: Frames::default(),
+            done,
+        };
+        let stage = Rc::new(RefCell::new(stage));
+        context.register_worker(Scene(Rc::clone(&stage)));
+        context.register_worker(Model(Rc::clone(&stage)));
+        context.register_last_worker(Present(stage));
+    };
+    thread.handle().run(job).expect("it was just started");
+    frames
+}
+
+/// A thread that computes all the time: an import, or another program's load.
+pub fn busy() -> Thread {
+    struct Computing(u64);
+    impl Worker for Computing {
+        fn update(&mut self, thread: &mut Context) -> bool {
+            for _ in 0..100_000 {
+                self.0 = std::hint::black_box(self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1));
+            }
+            thread.iterate_again();
+            true
+        }
+    }
+    let thread = Thread::start("import").expect("the system has a thread left");
+    thread.handle().register_worker(|_| Computing(1));
+    thread
+}

@@ -1,0 +1,270 @@
+//! The main thread: replays the drag at its intended times, asks, and measures how long each call keeps it.
+
+use super::document::Document;
+use super::frame::Question;
+use super::ledger::{Ledger, MOST_WAITING};
+use super::script::{SHOWN, Script};
+use super::sharing::Sharing;
+use crate::Distribution;
+use dragonfly_runtime::{Captured, Next, ThreadHandle};
+use std::time::{Duration, Instant};
+
+/// How fast edits come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rate {
+    /// None at all.
+    Still,
+    /// At their times in the script, this being one interval of it; however long the calls before took.
+    Every(Duration),
+    /// Each as soon as the call before has returned.
+    FlatOut,
+}
+
+impl Rate {
+    /// A quick mouse.
+    pub const EVERY_MILLISECOND: Self = Self::Every(Duration::from_millis(1));
+}
+
+/// What the main thread has measured.
+#[derive(Default)]
+pub struct Record {
+    /// How long an edit kept the main thread.
+    pub blocked: Distribution,
+    /// From a question to its answer.
+    pub answer: Distribution,
+    /// How long the question kept the main thread.
+    pub asking: Distribution,
+    /// Edits a second that were posted.
+    pub posted: f64,
+    /// Edits a second from the first to be posted to the last to be shown.
+    pub shown: f64,
+    /// Most edits that waited to be made.
+    pub backlog: u64,
+    /// Most messages that waited for the graphics thread.
+    pub views: usize,
+    /// Cores that all threads together kept busy.
+    pub cores: f64,
+}
+
+/// The same for edits of whole takes, which are a thousand times as large.
+const MOST_WAITING_TAKES: u64 = 128;
+
+/// In a flood, every so many edits the clock is looked at.
+const CHUNK: u64 = 16;
+
+/// See the module.
+pub struct Hand<'a> {
+    sharing: Box<dyn Sharing>,
+    main: Captured,
+    script: &'a Script,
+    ledger: &'a Ledger,
+    graphics: &'a ThreadHandle,
+    question: Question,
+    /// Edits posted so far.
+    number: u64,
+    /// The newest of the take that is shown.
+    newest_shown: u64,
+    recorded_from: u64,
+    began: Instant,
+    most_waiting: u64,
+    record: Record,
+}
+
+impl<'a> Hand<'a> {
+    /// Nothing posted yet.
+    pub fn new(
+        sharing: Box<dyn Sharing>,
+        main: Captured,
+        script: &'a Script,
+        ledger: &'a Ledger,
+        graphics: &'a ThreadHandle,
+        question: Question,
+    ) -> Self {
+        Self {
+            sharing,
+            main,
+            script,
+            ledger,
+            graphics,
+            question,
+            number: 0,
+            newest_shown: 0,
+            recorded_from: 1,
+            began: Instant::now(),
+            most_waiting: if script.is_small() { MOST_WAITING } else { MOST_WAITING_TAKES },
+            record: Record::default(),
+        }
+    }
+
+    /// Waits until so many frames are finished.
+    pub fn wait_for_frames(&mut self, frames: u64) {
+        while self.ledger.frames() < frames {
+            self.rest_until(Instant::now() + Duration::from_millis(1));
+        }
+    }
+
+    /// What comes now counts; nothing before does.
+    pub fn start_recording(&mut self) {
+        self.recorded_from = self.number + 1;
+        self.ledger.record_from(self.recorded_from);
+        self.record = Record::default();
+        self.began = Instant::now();
+    }
+
+    /// Edits, for `length`, and asks as often as `questions` says; in between does something else for as long as
+    /// `stall` says.
+    pub fn replay(
+        &mut self,
+        rate: Rate,
+        length: Duration,
+        questions: Option<Duration>,
+        stall: Option<(Duration, Duration)>,
+    ) {
+        let begin = Instant::now();
+        let first = self.number;
+        match rate {
+            Rate::FlatOut => self.flood(begin + length),
+            Rate::Still => {
+                let mut when = begin;
+                while let Some(every) = questions
+                    && when < begin + length
+                {
+                    self.rest_until(when);
+                    self.ask();
+                    when += every;
+                }
+            }
+            Rate::Every(interval) => self.follow(begin, interval, length, questions, stall),
+        }
+        self.record.posted = (self.number - first) as f64 / begin.elapsed().as_secs_f64();
+    }
+
+    fn follow(
+        &mut self,
+        begin: Instant,
+        interval: Duration,
+        length: Duration,
+        questions: Option<Duration>,
+        stall: Option<(Duration, Duration)>,
+    ) {
+        let mut stall = stall;
+        let mut ask_at = questions.map(|_| begin);
+        let base = self.script.time(self.number + 1);
+        loop {
+            let number = self.number + 1;
+            let intended = begin + interval.mul_f64(self.script.time(number) - base);
+            if intended >= begin + length {
+                return;
+            }
+            let edit = self.script.edit(number);
+            if let Some((_, length)) = stall.take_if(|(at, _)| intended >= begin + *at) {
+                // Not even messages are taken out of the queue meanwhile.
+                let until = Instant::now() + length;
+                while Instant::now() < until {
+                    std::thread::park_timeout(until - Instant::now());
+                }
+            }
+            self.rest_until(intended);
+            self.ledger.intend(number, (edit.take == SHOWN).then_some(intended));
+            let begins = self.script.begins(number);
+            let shown = edit.take == SHOWN;
+            let called = Instant::now();
+            self.sharing.edit(edit, begins);
+            self.record.blocked.record(called.elapsed());
+            self.posted(number, shown);
+            self.look_around();
+            if let (Some(when), Some(every)) = (ask_at, questions)
+                && Instant::now() >= when
+            {
+                self.ask();
+                ask_at = Some(when + every);
+            }
+        }
+    }
+
+    fn flood(&mut self, end: Instant) {
+        loop {
+            let now = Instant::now();
+            if now >= end {
+                return;
+            }
+            self.look_around();
+            if self.sharing.backlog(self.number, self.ledger) + CHUNK > self.most_waiting {
+                // Here the run ends being fair to those who come after; a real flood would fill the memory.
+                self.rest_until(now + Duration::from_micros(100));
+                continue;
+            }
+            for step in 0..CHUNK {
+                let number = self.number + 1;
+                let edit = self.script.edit(number);
+                let (shown, begins) = (edit.take == SHOWN, self.script.begins(number));
+                self.ledger.intend(number, shown.then_some(now));
+                if step == 0 {
+                    let called = Instant::now();
+                    self.sharing.edit(edit, begins);
+                    self.record.blocked.record(called.elapsed());
+                } else {
+                    self.sharing.edit(edit, begins);
+                }
+                self.posted(number, shown);
+            }
+            self.main.iterate();
+        }
+    }
+
+    fn posted(&mut self, number: u64, shown: bool) {
+        self.number = number;
+        if shown {
+            self.newest_shown = number;
+            self.ledger.complete(number);
+        }
+    }
+
+    fn look_around(&mut self) {
+        self.record.backlog = self.record.backlog.max(self.sharing.backlog(self.number, self.ledger));
+        self.record.views = self.record.views.max(self.graphics.queue_len());
+    }
+
+    fn ask(&mut self) {
+        let begin = Instant::now();
+        let asked = self.sharing.ask(self.question, &mut self.main);
+        self.record.answer.record(begin.elapsed());
+        self.record.asking.record(asked.blocked);
+        assert!(asked.answer.pose.is_finite() && asked.answer.number <= self.number);
+    }
+
+    /// Does what a main thread does while nothing is to be done: takes messages, and sleeps.
+    fn rest_until(&mut self, until: Instant) {
+        loop {
+            let next = self.main.iterate();
+            let now = Instant::now();
+            if now >= until {
+                return;
+            }
+            if next != Next::Now {
+                std::thread::park_timeout(until - now);
+            }
+        }
+    }
+
+    /// Waits until the last edit is shown; `false` when that takes too long.
+    pub fn wait_until_seen(&mut self) -> bool {
+        const PATIENCE: Duration = Duration::from_secs(20);
+        let begin = Instant::now();
+        while self.ledger.seen() < self.newest_shown {
+            if begin.elapsed() > PATIENCE {
+                return false;
+            }
+            self.rest_until(Instant::now() + Duration::from_micros(200));
+        }
+        let edits = self.number + 1 - self.recorded_from;
+        self.record.shown = edits as f64 / self.began.elapsed().as_secs_f64();
+        true
+    }
+
+    /// What was measured, how many edits were posted, and what they made of the document.
+    pub fn end(mut self) -> (Record, u64, Document) {
+        let document = self.sharing.document(&mut self.main);
+        (self.record, self.number, document)
+    }
+}

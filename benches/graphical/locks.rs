@@ -1,0 +1,229 @@
+//! A document behind locks, each used in five ways: held for the whole frame, held to sample the poses that the frame needs,
+//! held to copy the take, held to take a reference to a document that is copied when it is edited, and one lock a take.
+
+use super::document::{Document, Edit, Entry};
+use super::frame::{Frame, Question, shown};
+use super::script::SHOWN;
+use super::sharing::{Asked, Sharing, Start, Started, Viewing};
+use dragonfly_anim::data::{Skeleton, Take};
+use dragonfly_runtime::Captured;
+use std::sync::Arc;
+
+/// A lock, of whatever make. A poisoned one is a bug of the measurement.
+pub trait Lock<T>: Send + Sync + 'static {
+    /// Around `value`.
+    fn around(value: T) -> Self;
+    /// For as long as `work` takes; other readers may be there where the lock knows of them.
+    fn read<R>(&self, work: impl FnOnce(&T) -> R) -> R;
+    /// For as long as `work` takes, alone.
+    fn write<R>(&self, work: impl FnOnce(&mut T) -> R) -> R;
+}
+
+impl<T: Send + 'static> Lock<T> for std::sync::Mutex<T> {
+    fn around(value: T) -> Self {
+        Self::new(value)
+    }
+    fn read<R>(&self, work: impl FnOnce(&T) -> R) -> R {
+        work(&self.lock().expect("nobody panics with it"))
+    }
+    fn write<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
+        work(&mut self.lock().expect("nobody panics with it"))
+    }
+}
+
+impl<T: Send + Sync + 'static> Lock<T> for std::sync::RwLock<T> {
+    fn around(value: T) -> Self {
+        Self::new(value)
+    }
+    fn read<R>(&self, work: impl FnOnce(&T) -> R) -> R {
+        work(&Self::read(self).expect("nobody panics with it"))
+    }
+    fn write<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
+        work(&mut Self::write(self).expect("nobody panics with it"))
+    }
+}
+
+impl<T: Send + 'static> Lock<T> for parking_lot::Mutex<T> {
+    fn around(value: T) -> Self {
+        Self::new(value)
+    }
+    fn read<R>(&self, work: impl FnOnce(&T) -> R) -> R {
+        work(&self.lock())
+    }
+    fn write<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
+        work(&mut self.lock())
+    }
+}
+
+impl<T: Send + Sync + 'static> Lock<T> for parking_lot::RwLock<T> {
+    fn around(value: T) -> Self {
+        Self::new(value)
+    }
+    fn read<R>(&self, work: impl FnOnce(&T) -> R) -> R {
+        work(&Self::read(self))
+    }
+    fn write<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
+        work(&mut Self::write(self))
+    }
+}
+
+/// The main thread's side of all that keep one document behind one lock.
+struct One<L> {
+    lock: Arc<L>,
+    originals: Vec<Arc<Take>>,
+    skeleton: Arc<Skeleton>,
+}
+
+impl<L: Lock<Document>> One<L> {
+    fn start(start: Start, viewing: impl FnOnce(Arc<L>) -> Box<dyn Viewing> + Send + 'static) -> Started {
+        let originals = start.document.originals();
+        let skeleton = Arc::clone(&start.document.skeleton);
+        let lock = Arc::new(L::around(start.document));
+        let theirs = Arc::clone(&lock);
+        let sharing = Box::new(Self { lock, originals, skeleton });
+        Started { sharing, viewing: Box::new(|_| viewing(theirs)) }
+    }
+}
+
+impl<L: Lock<Document>> Sharing for One<L> {
+    fn edit(&mut self, edit: Edit, _begins: bool) {
+        let ready = edit.prepare(&self.originals);
+        // What is replaced is freed when the lock is free again.
+        let remains = self.lock.write(|document| document.apply(ready));
+        drop(remains);
+    }
+
+    fn ask(&mut self, question: Question, _main: &mut Captured) -> Asked {
+        Asked::at_once(|| self.lock.read(|document| question.answer(shown(&document.takes), &self.skeleton)))
+    }
+
+    fn document(&mut self, _main: &mut Captured) -> Document {
+        self.lock.read(Document::clone)
+    }
+}
+
+/// One lock, held for the whole frame.
+pub fn held<L: Lock<Document>>(start: Start) -> Started {
+    struct Held<L>(Arc<L>);
+    impl<L: Lock<Document>> Viewing for Held<L> {
+        fn frame(&mut self, frame: &mut Frame) {
+            self.0.read(|document| {
+                frame.read(shown(&document.takes));
+                frame.draw();
+                frame.confirm(shown(&document.takes));
+            });
+        }
+    }
+    One::start(start, |lock: Arc<L>| Box::new(Held(lock)))
+}
+
+/// One lock, held while the poses of the bones are sampled.
+pub fn sampled<L: Lock<Document>>(start: Start) -> Started {
+    struct Sampled<L>(Arc<L>);
+    impl<L: Lock<Document>> Viewing for Sampled<L> {
+        fn frame(&mut self, frame: &mut Frame) {
+            self.0.read(|document| frame.read(shown(&document.takes)));
+            frame.draw();
+        }
+    }
+    One::start(start, |lock: Arc<L>| Box::new(Sampled(lock)))
+}
+
+/// One lock, held while the shown take is copied.
+pub fn cloned<L: Lock<Document>>(start: Start) -> Started {
+    struct Cloned<L>(Arc<L>);
+    impl<L: Lock<Document>> Viewing for Cloned<L> {
+        fn frame(&mut self, frame: &mut Frame) {
+            let (mark, take) = self.0.read(|document| {
+                let entry = shown(&document.takes);
+                (frame.mark(entry), entry.copy_result())
+            });
+            frame.read_copy(mark, &take);
+            frame.draw();
+        }
+    }
+    One::start(start, |lock: Arc<L>| Box::new(Cloned(lock)))
+}
+
+/// One lock, held while a reference is taken to a document that is copied, as far as it must be, when it is edited.
+pub fn copied_on_write<L: Lock<Arc<Document>>>(start: Start) -> Started {
+    struct Main<L>(Arc<L>, Vec<Arc<Take>>);
+    impl<L: Lock<Arc<Document>>> Sharing for Main<L> {
+        fn edit(&mut self, edit: Edit, _begins: bool) {
+            let ready = edit.prepare(&self.1);
+            let remains = self.0.write(|document| Arc::make_mut(document).apply(ready));
+            drop(remains);
+        }
+
+        fn ask(&mut self, question: Question, _main: &mut Captured) -> Asked {
+            Asked::at_once(|| {
+                let document = self.0.read(Arc::clone);
+                question.answer(shown(&document.takes), &document.skeleton)
+            })
+        }
+
+        fn document(&mut self, _main: &mut Captured) -> Document {
+            self.0.read(|document| (**document).clone())
+        }
+    }
+
+    struct Theirs<L>(Arc<L>);
+    impl<L: Lock<Arc<Document>>> Viewing for Theirs<L> {
+        fn frame(&mut self, frame: &mut Frame) {
+            let document = self.0.read(Arc::clone);
+            frame.read(shown(&document.takes));
+            frame.draw();
+            frame.confirm(shown(&document.takes));
+        }
+    }
+
+    let originals = start.document.originals();
+    let lock = Arc::new(L::around(Arc::new(start.document)));
+    let theirs = Arc::clone(&lock);
+    let viewing = Box::new(|_: &mut _| Box::new(Theirs(theirs)) as Box<dyn Viewing>);
+    Started { sharing: Box::new(Main(lock, originals)), viewing }
+}
+
+/// A lock for each take, held for the whole frame: what is drawn stands still, what is not can be edited.
+pub fn a_take<L: Lock<Entry>>(start: Start) -> Started {
+    struct Main<L> {
+        takes: Arc<[L]>,
+        originals: Vec<Arc<Take>>,
+        skeleton: Arc<Skeleton>,
+    }
+    impl<L: Lock<Entry>> Sharing for Main<L> {
+        fn edit(&mut self, edit: Edit, _begins: bool) {
+            let take = edit.take;
+            let ready = edit.prepare(&self.originals);
+            let remains = self.takes[take].write(|entry| entry.apply(ready));
+            drop(remains);
+        }
+
+        fn ask(&mut self, question: Question, _main: &mut Captured) -> Asked {
+            Asked::at_once(|| self.takes[SHOWN].read(|entry| question.answer(entry, &self.skeleton)))
+        }
+
+        fn document(&mut self, _main: &mut Captured) -> Document {
+            let takes = self.takes.iter().map(|take| take.read(Entry::clone)).collect();
+            Document { skeleton: Arc::clone(&self.skeleton), takes }
+        }
+    }
+
+    struct Theirs<L>(Arc<[L]>);
+    impl<L: Lock<Entry>> Viewing for Theirs<L> {
+        fn frame(&mut self, frame: &mut Frame) {
+            self.0[SHOWN].read(|entry| {
+                frame.read(entry);
+                frame.draw();
+                frame.confirm(entry);
+            });
+        }
+    }
+
+    let originals = start.document.originals();
+    let skeleton = start.document.skeleton;
+    let takes: Arc<[L]> = start.document.takes.into_iter().map(L::around).collect();
+    let theirs = Arc::clone(&takes);
+    let viewing = Box::new(|_: &mut _| Box::new(Theirs(theirs)) as Box<dyn Viewing>);
+    Started { sharing: Box::new(Main { takes, originals, skeleton }), viewing }
+}

@@ -1,0 +1,290 @@
+//! A document that one thread owns: edits are sent to it, and it sends its newest view to those who draw it.
+//!
+//! A view is a reference to the whole document. What somebody else still has is copied when it is edited, as far as it must
+//! be; so the first edit after a view was published pays for a copy, and those that follow before the next view do not.
+//!
+//! | name | edits | views |
+//! |---|---|---|
+//! | messages | each | after each edit |
+//! | messages, newest | each | after all edits that were waiting; a newer one replaces the one that waits |
+//! | messages, relayed | each | likewise, but by way of the main thread |
+//! | messages, read | each | likewise, and the same to the main thread, which asks nobody but reads |
+//! | messages, merged | in one gesture, a newer one replaces the one that waits | likewise |
+//! | messages, on demand | each | when a frame is due and asks for one |
+//! | messages, batched | each, but they wake nobody | likewise; all edits that wait are made then |
+//! | messages, spinning | each | as "newest"; the document looks for messages a while before it sleeps |
+
+use super::document::{Change, Document, Edit};
+use super::frame::{Answer, Question, shown};
+use super::ledger::Ledger;
+use super::sharing::{Asked, Sharing, Start, Started, Viewing};
+use super::views::{Asking, Newest, View};
+use dragonfly_anim::data::Take;
+use dragonfly_runtime::{Address, Captured, Context, Next, Receiver, Thread, Worker};
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+use std::sync::{Arc, mpsc};
+use std::time::{Duration, Instant};
+
+/// What the document's thread understands.
+pub(super) enum ToDocument {
+    Edit(Edit),
+    Ask(Question, Address<Answer>),
+    /// The graphics thread wants the newest view, even when it has it.
+    Publish,
+    /// For the comparison at the end.
+    Give(mpsc::Sender<Document>),
+}
+
+/// When views are sent, and to whom; how edits are.
+#[derive(Clone, Copy, Default)]
+struct Kind {
+    each: bool,
+    relayed: bool,
+    read: bool,
+    merges: bool,
+    on_demand: bool,
+    batched: bool,
+    spin: Duration,
+}
+
+/// Every edit a message, and after every edit a view.
+pub fn plain(start: Start) -> Started {
+    begin(start, Kind { each: true, ..Kind::default() })
+}
+
+/// Every edit a message; a view when no more edits wait.
+pub fn newest(start: Start) -> Started {
+    begin(start, Kind::default())
+}
+
+/// The same, with views sent to the main thread, which passes them on.
+pub fn relayed(start: Start) -> Started {
+    begin(start, Kind { relayed: true, ..Kind::default() })
+}
+
+/// The main thread gets the views as well, and looks there for answers.
+pub fn read(start: Start) -> Started {
+    begin(start, Kind { read: true, ..Kind::default() })
+}
+
+/// Edits of one gesture replace each other while they wait, and so do views.
+pub fn merged(start: Start) -> Started {
+    begin(start, Kind { merges: true, ..Kind::default() })
+}
+
+/// A view when a frame asks for it.
+pub fn on_demand(start: Start) -> Started {
+    begin(start, Kind { on_demand: true, ..Kind::default() })
+}
+
+/// The document's thread pauses between frames, so that edits do not wake it; the frame that asks for a view does.
+pub fn batched(start: Start) -> Started {
+    begin(start, Kind { on_demand: true, batched: true, ..Kind::default() })
+}
+
+/// The document's thread does not sleep at once.
+pub fn spinning(start: Start) -> Started {
+    begin(start, Kind { spin: Duration::from_millis(2), ..Kind::default() })
+}
+
+/// The document in its thread.
+struct Owner {
+    document: View,
+    originals: Vec<Arc<Take>>,
+    views: Vec<Address<View>>,
+    kind: Kind,
+    changed: bool,
+    ledger: Arc<Ledger>,
+}
+
+impl Owner {
+    fn publish(&mut self) {
+        for views in &self.views {
+            // Who draws may have stopped; then nobody looks.
+            let _ = views.send(Arc::clone(&self.document));
+        }
+        if !self.kind.relayed {
+            self.ledger.publish(shown(&self.document.takes).number);
+        }
+        self.changed = false;
+    }
+}
+
+impl Receiver for Owner {
+    type Message = ToDocument;
+
+    fn receive(&mut self, message: ToDocument, thread: &mut Context) {
+        match message {
+            ToDocument::Edit(edit) => {
+                let number = edit.number;
+                let ready = edit.prepare(&self.originals);
+                drop(Arc::make_mut(&mut self.document).apply(ready));
+                self.ledger.apply(number);
+                self.changed = true;
+                if self.kind.each {
+                    self.publish();
+                }
+            }
+            ToDocument::Ask(question, to) => {
+                let answer = question.answer(shown(&self.document.takes), &self.document.skeleton);
+                // Who asked may have stopped.
+                let _ = to.send(answer);
+            }
+            ToDocument::Publish => {
+                if self.kind.batched {
+                    // Before the view goes: who has it may ask for the next, and that must end this pause.
+                    thread.pause();
+                }
+                if !self.changed {
+                    // The asker tells an answer by its being another view.
+                    self.document = Arc::new((*self.document).clone());
+                }
+                self.publish();
+            }
+            ToDocument::Give(to) => _ = to.send((*self.document).clone()),
+        }
+    }
+}
+
+impl Worker for Owner {
+    fn update(&mut self, _thread: &mut Context) -> bool {
+        if self.changed && !self.kind.on_demand {
+            self.publish();
+        }
+        true
+    }
+}
+
+/// Passes views on from the main thread.
+struct Relay {
+    to: Address<View>,
+    ledger: Arc<Ledger>,
+}
+
+impl Receiver for Relay {
+    type Message = View;
+
+    fn receive(&mut self, view: View, _thread: &mut Context) {
+        let number = shown(&view.takes).number;
+        let _ = self.to.send(view);
+        self.ledger.publish(number);
+    }
+}
+
+/// Where the newest of something lies until it is read.
+struct Last<M>(Rc<Cell<Option<M>>>);
+
+impl<M: Send + 'static> Receiver for Last<M> {
+    type Message = M;
+
+    fn receive(&mut self, message: M, _thread: &mut Context) {
+        self.0.set(Some(message));
+    }
+}
+
+/// The main thread's side.
+struct Main {
+    thread: Thread,
+    address: Address<ToDocument>,
+    /// The place of the running gesture, where edits replace each other.
+    gesture: Option<Address<ToDocument>>,
+    merges: bool,
+    answer: Rc<Cell<Option<Answer>>>,
+    answers: Address<Answer>,
+    /// The newest view, where the main thread gets them.
+    view: Option<Rc<Cell<Option<View>>>>,
+}
+
+impl Sharing for Main {
+    fn edit(&mut self, edit: Edit, begins: bool) {
+        // Only edits of one key may stand for each other, and none may overtake what was sent before its gesture began.
+        let mergeable = self.merges && matches!(edit.change, Change::Key(..));
+        if !mergeable {
+            self.gesture = None;
+        } else if begins || self.gesture.is_none() {
+            self.gesture = Some(self.address.latest());
+        }
+        let to = self.gesture.as_ref().unwrap_or(&self.address);
+        to.send(ToDocument::Edit(edit)).expect("the document lives as long as this");
+    }
+
+    fn ask(&mut self, question: Question, main: &mut Captured) -> Asked {
+        if let Some(newest) = &self.view {
+            return Asked::at_once(|| {
+                let view = newest.take().expect("there has always been one");
+                let answer = question.answer(shown(&view.takes), &view.skeleton);
+                newest.set(Some(view));
+                answer
+            });
+        }
+        let begin = Instant::now();
+        let message = ToDocument::Ask(question, self.answers.clone());
+        self.address.send(message).expect("the document lives as long as this");
+        self.thread.handle().resume();
+        let blocked = begin.elapsed();
+        loop {
+            if let Some(answer) = self.answer.take() {
+                return Asked { answer, blocked };
+            }
+            // Here the main thread could do anything else; it has nothing else to do.
+            if main.iterate() == Next::OnMessage && self.answer.get().is_none() {
+                std::thread::park();
+            }
+        }
+    }
+
+    fn document(&mut self, main: &mut Captured) -> Document {
+        let (to, from) = mpsc::channel();
+        self.address.send(ToDocument::Give(to)).expect("the document lives as long as this");
+        self.thread.handle().resume();
+        main.iterate();
+        from.recv().expect("it is given")
+    }
+
+    fn backlog(&self, posted: u64, ledger: &Ledger) -> u64 {
+        posted.saturating_sub(ledger.applied())
+    }
+}
+
+fn begin(start: Start, kind: Kind) -> Started {
+    let Start { document, graphics, main, ledger } = start;
+    let drawn: Address<View> = graphics.reserve_address();
+    let mut views = vec![if kind.each { drawn.clone() } else { drawn.latest() }];
+    let originals = document.originals();
+    let first = Arc::new(document);
+    let mut view = None;
+    if kind.relayed {
+        let relay = Relay { to: views.remove(0), ledger: Arc::clone(ledger) };
+        views.push(main.context().register_receiver(relay).latest());
+    }
+    if kind.read {
+        let newest = Rc::new(Cell::new(Some(Arc::clone(&first))));
+        views.push(main.context().register_receiver(Last(Rc::clone(&newest))).latest());
+        view = Some(newest);
+    }
+    let thread = Thread::start("document").expect("the system has a thread left");
+    thread.handle().set_spin(kind.spin);
+    let address = thread.handle().reserve_address();
+    let (own, document, ledger) = (address.clone(), Arc::clone(&first), Arc::clone(ledger));
+    let register = move |context: &mut Context| {
+        let owner = Owner { document, originals, views, kind, changed: false, ledger };
+        let owner = Rc::new(RefCell::new(owner));
+        context.register_receiver_at(&own, Rc::clone(&owner));
+        context.register_worker(owner);
+    };
+    thread.handle().run(register).expect("it was just started");
+    let answer = Rc::new(Cell::new(None));
+    let answers = main.context().register_receiver(Last(Rc::clone(&answer)));
+    let asked = (address.clone(), kind.batched.then(|| thread.handle().clone()));
+    let merges = kind.merges;
+    let sharing = Main { thread, address, gesture: None, merges, answer, answers, view };
+    let viewing = Box::new(move |graphics: &mut Context| {
+        let newest = Newest::new(first, &drawn, graphics);
+        match kind.on_demand {
+            true => Box::new(Asking::new(newest, asked.0, asked.1)) as Box<dyn Viewing>,
+            false => Box::new(newest),
+        }
+    });
+    Started { sharing: Box::new(sharing), viewing }
+}

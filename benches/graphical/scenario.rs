@@ -1,0 +1,151 @@
+//! One run: a main thread that replays the drag, a graphics thread that makes frames, one way of sharing between them, and
+//! what disturbs them.
+
+use super::document::Document;
+use super::frame::{Frame, Question};
+use super::graphics::{self, Frames, Pace};
+use super::hand::{Hand, Rate, Record};
+use super::ledger::{Ledger, MOST_WAITING};
+use super::model::Size;
+use super::script::{Edits, Script};
+use super::sharing::{Start, Way};
+use crate::machine::Load;
+use crate::{Distribution, Measured};
+use dragonfly_kit::counting;
+use dragonfly_runtime::Thread;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A document to begin with, and how often a frame draws on this machine.
+pub struct Bed {
+    /// How large it is.
+    pub size: Size,
+    /// Never altered: every run begins with a shallow copy.
+    pub document: Document,
+    /// How often the mesh is drawn in a frame.
+    pub draws: u32,
+}
+
+impl Bed {
+    /// A document of `size`.
+    pub fn new(size: Size, draws: u32) -> Self {
+        Self { size, document: size.document(), draws }
+    }
+}
+
+/// What happens in a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Scenario {
+    /// What the main thread does.
+    pub edits: Edits,
+    /// How fast.
+    pub rate: Rate,
+    /// From one frame to the next; `None` for as fast as possible.
+    pub period: Option<Duration>,
+    /// What is measured.
+    pub length: Duration,
+    /// What comes before that and does not count.
+    pub warm_up: Duration,
+    /// The graphics thread is held up by the driver, at this moment and so long.
+    pub graphics_stall: Option<(Duration, Duration)>,
+    /// The main thread does something else, at this moment and so long.
+    pub main_stall: Option<(Duration, Duration)>,
+    /// Threads that compute all the time.
+    pub busy: usize,
+    /// How often the main thread asks something.
+    pub questions: Option<Duration>,
+    /// For tests: looks at every bone in every frame, and compares the document with that of one thread alone.
+    pub thorough: bool,
+}
+
+/// What was wrong in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Verdict {
+    /// Looks that found half an edit.
+    pub torn: u64,
+    /// Frames that showed an older document than promised.
+    pub stale: u64,
+    /// The last edit was never shown.
+    pub lost: bool,
+    /// The document is not what the same edits make of it one after the other.
+    pub wrong: bool,
+}
+
+/// Runs `scenario` with `way`, writes down what was measured, and says what was wrong.
+pub fn run(bed: &Bed, way: &Way, scenario: &Scenario, measured: &mut Measured) -> Verdict {
+    let flood = scenario.rate == Rate::FlatOut;
+    let ledger = Arc::new(Ledger::new(if flood { MOST_WAITING } else { 1 << 13 }));
+    let (memory, (record, frames, verdict)) =
+        counting::process_peak(|| run_counted(bed, way, scenario, &ledger));
+    write(scenario, &record, &frames, memory, measured);
+    verdict
+}
+
+fn run_counted(bed: &Bed, way: &Way, scenario: &Scenario, ledger: &Arc<Ledger>) -> (Record, Frames, Verdict) {
+    let script = Script::new(bed.size, scenario.edits, &bed.document);
+    let me = std::thread::current();
+    let mut main = Thread::capture("main", move || me.unpark());
+    let graphics = Thread::start("graphics").expect("the system has a thread left");
+    let document = bed.document.clone();
+    let start = Start { document, graphics: graphics.handle(), main: &mut main, ledger };
+    let started = (way.start)(start);
+    let pace = Pace {
+        period: scenario.period,
+        draws: bed.draws,
+        thorough: scenario.thorough,
+        stall: scenario.graphics_stall,
+    };
+    let skeleton = Arc::clone(&bed.document.skeleton);
+    let frame = move || Frame::new(skeleton, pace.draws, pace.thorough);
+    let done = graphics::register(&graphics, started.viewing, frame, pace, ledger);
+    let busy: Vec<Thread> = (0..scenario.busy).map(|_| graphics::busy()).collect();
+
+    let question = Question { bone: bed.size.bones / 2, time: 0.5 };
+    let mut hand = Hand::new(started.sharing, main, &script, ledger, graphics.handle(), question);
+    hand.wait_for_frames(2);
+    let slow = if scenario.rate == Rate::FlatOut { Rate::EVERY_MILLISECOND } else { scenario.rate };
+    hand.replay(slow, scenario.warm_up, None, None);
+    hand.start_recording();
+    let (load, begin) = (Load::now(), Instant::now());
+    hand.replay(scenario.rate, scenario.length, scenario.questions, scenario.main_stall);
+    let lost = !hand.wait_until_seen();
+    ledger.end();
+    let cores = load.own_since().as_secs_f64() / begin.elapsed().as_secs_f64();
+
+    let (mut record, last, document) = hand.end();
+    record.cores = cores;
+    drop(busy);
+    drop(graphics);
+    let frames = done.recv().expect("the graphics thread has ended");
+    let expected = || {
+        let (mut document, originals) = (bed.document.clone(), bed.document.originals());
+        (1..=last).for_each(|number| drop(document.apply(script.edit(number).prepare(&originals))));
+        document
+    };
+    let wrong = scenario.thorough && document != expected();
+    let verdict = Verdict { torn: frames.torn, stale: frames.stale, lost, wrong };
+    (record, frames, verdict)
+}
+
+fn write(scenario: &Scenario, record: &Record, frames: &Frames, memory: u64, measured: &mut Measured) {
+    let mut distribution = |name: &str, durations: &Distribution| {
+        if durations.count() > 0 {
+            measured.distribution(name, durations);
+        }
+    };
+    distribution("blocked", &record.blocked);
+    distribution("frame", &frames.time);
+    distribution("jitter", &frames.jitter);
+    distribution("visible", &frames.visible);
+    distribution("answer", &record.answer);
+    distribution("asking", &record.asking);
+    if scenario.period.is_some() {
+        measured.value("missed", "count", frames.missed as f64);
+    }
+    measured.value("posted", "1/s", record.posted);
+    measured.value("shown", "1/s", record.shown);
+    measured.value("backlog", "count", record.backlog as f64);
+    measured.value("waiting_views", "count", record.views as f64);
+    measured.value("memory", "bytes", memory as f64);
+    measured.value("cores", "cores", record.cores);
+}

@@ -1,0 +1,106 @@
+//! Three documents: one is drawn, one is edited, one is the newest finished and waits. Nobody waits for anybody, and nothing
+//! is copied after the first touch: whoever edits makes the edits that the other two missed in them when they come back.
+//!
+//! Which document has which part is one number, exchanged atomically; each thread touches only those that are its own. The
+//! locks are there because the compiler cannot know that: they are never waited for.
+
+use super::document::{Document, Edit, Ready};
+use super::frame::{Frame, Question, shown};
+use super::sharing::{Asked, Sharing, Start, Started, Viewing};
+use dragonfly_anim::data::Take;
+use dragonfly_runtime::Captured;
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard};
+
+/// Set beside the number of the waiting document when it is newer than the one that is drawn.
+const FRESH: usize = 4;
+
+struct Buffers {
+    documents: [Mutex<Document>; 3],
+    /// The number of the one that waits.
+    waiting: AtomicUsize,
+}
+
+impl Buffers {
+    fn own(&self, index: usize) -> MutexGuard<'_, Document> {
+        self.documents[index].try_lock().expect("each has one owner at a time")
+    }
+}
+
+struct Main {
+    buffers: Arc<Buffers>,
+    back: usize,
+    originals: Vec<Arc<Take>>,
+    /// Edits that one of the documents still misses, oldest first.
+    log: VecDeque<Ready>,
+    /// The newest edit that each document has; of those that are away, what they had when they went.
+    has: [u64; 3],
+}
+
+impl Main {
+    /// Makes the edits that the document in hand misses.
+    fn catch_up(&mut self) {
+        let mut document = self.buffers.own(self.back);
+        let has = self.has[self.back];
+        let missed = self.log.partition_point(|ready| ready.number() <= has);
+        for ready in self.log.range(missed..) {
+            self.has[self.back] = ready.number();
+            drop(document.apply(ready.clone()));
+        }
+        drop(document);
+        let oldest = self.has.iter().copied().min().unwrap_or(0);
+        let done = self.log.partition_point(|ready| ready.number() <= oldest);
+        self.log.drain(..done);
+    }
+}
+
+impl Sharing for Main {
+    fn edit(&mut self, edit: Edit, _begins: bool) {
+        // Whole takes are computed once; the three share them.
+        self.log.push_back(edit.prepare(&self.originals));
+        self.catch_up();
+        self.back = self.buffers.waiting.swap(self.back | FRESH, Ordering::AcqRel) & !FRESH;
+    }
+
+    fn ask(&mut self, question: Question, _main: &mut Captured) -> Asked {
+        Asked::at_once(|| {
+            self.catch_up();
+            let document = self.buffers.own(self.back);
+            question.answer(shown(&document.takes), &document.skeleton)
+        })
+    }
+
+    fn document(&mut self, _main: &mut Captured) -> Document {
+        self.catch_up();
+        self.buffers.own(self.back).clone()
+    }
+}
+
+struct Theirs {
+    buffers: Arc<Buffers>,
+    front: usize,
+}
+
+impl Viewing for Theirs {
+    fn frame(&mut self, frame: &mut Frame) {
+        if self.buffers.waiting.load(Ordering::Relaxed) & FRESH != 0 {
+            self.front = self.buffers.waiting.swap(self.front, Ordering::AcqRel) & !FRESH;
+        }
+        let document = self.buffers.own(self.front);
+        frame.read(shown(&document.takes));
+        frame.draw();
+        frame.confirm(shown(&document.takes));
+    }
+}
+
+/// See the module.
+pub fn start(start: Start) -> Started {
+    let originals = start.document.originals();
+    let documents = [start.document.clone(), start.document.clone(), start.document].map(Mutex::new);
+    let buffers = Arc::new(Buffers { documents, waiting: AtomicUsize::new(1) });
+    let theirs = Arc::clone(&buffers);
+    let viewing = Box::new(|_: &mut _| Box::new(Theirs { buffers: theirs, front: 0 }) as Box<dyn Viewing>);
+    let main = Main { buffers, back: 2, originals, log: VecDeque::new(), has: [0; 3] };
+    Started { sharing: Box::new(main), viewing }
+}
