@@ -5,6 +5,8 @@
 //! whole distributions ([`Distribution`]). Every row goes into a CSV file with the load that other programs put on the
 //! machine meanwhile.
 
+#[path = "../design/mod.rs"]
+pub mod design;
 pub mod distribution;
 #[path = "../graphical/mod.rs"]
 pub mod graphical;
