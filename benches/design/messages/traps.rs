@@ -19,8 +19,7 @@ fn editor() -> (Stage, [ThreadHandle; 3], Rc<RefCell<Panel>>) {
 
 /// Asks the other one, in the middle of its own message, and waits.
 struct Asker {
-    other: Address<Question>,
-    /// All are in the middle of a message; all have looked for their answer.
+    /// Both are in the middle of a message; both have looked for their answer.
     stations: Arc<[Barrier; 2]>,
     found: mpsc::Sender<bool>,
 }
@@ -36,11 +35,10 @@ impl Receiver for Asker {
     fn receive(&mut self, question: Question, _: &mut Context) {
         match question {
             Question::Begin { other } => {
-                self.other = other;
                 let (answer, answers) = mpsc::channel();
-                self.other.send(Question::Ask { answer }).expect("it runs");
                 self.stations[0].wait();
-                // Both have asked, and neither can answer before this call returns: `recv()` would wait for ever.
+                other.send(Question::Ask { answer }).expect("it runs");
+                // Neither can answer before this very call returns: `recv()` would wait for ever.
                 let found = answers.recv_timeout(Duration::from_millis(20)).is_ok();
                 self.stations[1].wait();
                 self.found.send(found).expect("the test listens");
@@ -58,10 +56,7 @@ fn deadlock_by_waiting_for_an_answer_in_the_middle_of_a_message() {
     let (found, results) = mpsc::channel();
     let addresses = [&threads[0], &threads[1]].map(|thread| {
         let (stations, found) = (Arc::clone(&stations), found.clone());
-        let own = thread.handle().reserve_address();
-        let other = own.clone();
-        thread.handle().register_receiver_at(&own, move |_| Asker { other, stations, found });
-        own
+        thread.handle().register_receiver(move |_| Asker { stations, found })
     });
     addresses[0].send(Question::Begin { other: addresses[1].clone() }).unwrap();
     addresses[1].send(Question::Begin { other: addresses[0].clone() }).unwrap();
