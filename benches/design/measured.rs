@@ -107,6 +107,7 @@ fn the_counts_say_what_the_page_says_in_words() {
     assert_eq!(costs.closures.added, costs.locks.added, "closures cost what the lock costs");
     assert_eq!(costs.messages.added - costs.raw.added, 7, "two methods and a `use`: that is the handle");
     assert!(2 * costs.edits.added > costs.messages.added, "most of it is the edit as a value");
+    assert_eq!((costs.messages.places.len(), costs.messages.files), (5, 3));
     assert!(costs.messages.base < 2 * costs.locks.base, "the whole editor is not twice as long");
     assert!(costs.same.added > costs.locks.added, "the property itself costs more than the lock's part");
 }

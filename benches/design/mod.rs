@@ -9,6 +9,8 @@ pub mod count;
 pub mod locks;
 pub mod messages;
 pub mod skeleton;
+pub mod tables;
+pub mod ways;
 
 use count::{Cost, Source};
 
@@ -28,10 +30,10 @@ pub const MESSAGES: &[Source] = &[
 pub const EDITS: Source = ("messages/document.rs", include_str!("messages/document.rs"));
 
 /// The panel that names messages at every call, in place of handles.
-pub const RAW: Source = ("messages/raw.rs", include_str!("messages/raw.rs"));
+pub const RAW: Source = ("ways/raw.rs", include_str!("ways/raw.rs"));
 
 /// The document and the panel that have closures for messages.
-pub const CLOSURES: Source = ("messages/closures.rs", include_str!("messages/closures.rs"));
+pub const CLOSURES: Source = ("ways/closures.rs", include_str!("ways/closures.rs"));
 
 /// The editor with locks.
 pub const LOCKS: &[Source] = &[

@@ -17,6 +17,11 @@ fn shown_in(value: f64, unit: &str) -> (&'static str, f64) {
     *steps.iter().rev().find(fits).unwrap_or(&steps[0])
 }
 
+/// How much one step of the unit is in which `value` is shown: 1,048,576 for some MiB.
+pub fn step(value: f64, unit: &str) -> f64 {
+    shown_in(value, unit).1
+}
+
 /// Three digits that matter: `0.04`, `9.12`, `34.5`, `12,300`.
 pub fn digits(value: f64) -> String {
     match value.abs() {
@@ -55,11 +60,19 @@ pub fn tick(value: f64, unit: &str) -> String {
     format!("{text} {name}").trim_end().to_owned()
 }
 
-/// A median with its spread, all in the median's unit: `9.12 [8.90 .. 12.1] µs`.
+/// A median with its spread, all in the median's unit: `9.12 [8.90 .. 12.1] µs`. Without spread, the value alone.
 pub fn spread(median: f64, low: f64, high: f64, unit: &str) -> String {
     let (name, size) = shown_in(median, unit);
-    let [median, low, high] = [median, low, high].map(|value| digits(value / size));
-    format!("{median} [{low} .. {high}] {name}").trim_end().to_owned()
+    let number = |value: f64| {
+        if unit == "count" && value.fract() == 0.0 && value < 1000.0 {
+            format!("{value}")
+        } else {
+            digits(value / size)
+        }
+    };
+    let [shown, low_shown, high_shown] = [median, low, high].map(number);
+    let text = if low == high { shown } else { format!("{shown} [{low_shown} .. {high_shown}]") };
+    format!("{text} {name}").trim_end().to_owned()
 }
 
 #[cfg(test)]
@@ -77,6 +90,7 @@ mod tests {
         assert_eq!(tick(0.5, "ratio"), "0.5 ×");
         assert_eq!(tick(1e6, "ns"), "1 ms");
         assert_eq!(spread(9123.0, 8900.0, 12_100.0, "ns"), "9.12 [8.90 .. 12.1] µs");
-        assert_eq!(spread(1.0, 0.0, 1234.0, "count"), "1.00 [0 .. 1,234]");
+        assert_eq!(spread(1.0, 0.0, 1234.0, "count"), "1 [0 .. 1,234]");
+        assert_eq!(spread(180.0, 180.0, 180.0, "ns"), "180 ns");
     }
 }

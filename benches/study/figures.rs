@@ -26,12 +26,12 @@ pub struct Chart {
     pub kind: Kind,
 }
 
-/// A file of raw data, and the beginnings of the names of the cases that are taken from it.
+/// A file of raw data, and the cases that are taken from it.
 #[derive(Clone, Copy)]
 pub struct Source {
     /// `results/file.csv`.
     pub file: &'static str,
-    /// Any of these.
+    /// Any of these; one that ends in `*` stands for all that begin so.
     pub cases: &'static [&'static str],
 }
 
@@ -41,8 +41,8 @@ pub enum Kind {
     Rows(&'static [Column], Scale),
     /// See [`curves`](crate::chart::curves): the percentiles of this distribution, by these; one case.
     Curves(&'static str, &'static [&'static str]),
-    /// See [`ratios`](crate::chart::ratios): this metric, in times this variant's.
-    Ratios(&'static str, &'static str),
+    /// See [`ratios`](crate::chart::ratios): this metric, in times this variant's, of these.
+    Ratios(&'static str, &'static str, &'static [&'static str]),
 }
 
 /// The files of raw data, each written by the bench of that name.
@@ -57,18 +57,20 @@ const fn graphical(cases: &'static [&'static str]) -> Source {
 }
 
 // The cases of `graphical`.
-const CORE: &[&str] = &["graphical/core"];
-const FLAT_OUT: &[&str] = &["graphical/flat_out"];
-const LARGE: &[&str] = &["graphical/large"];
-const STALLS: &[&str] = &["graphical/stall"];
-const QUESTIONS: &[&str] = &["graphical/questions"];
-const THREADS: &[&str] = &["graphical/threads"];
+const DRAG: &[&str] = &["drag"];
+const RATES: &[&str] = &["drag/*"];
+const FLOODS: &[&str] = &["flood", "takes/flood"];
+const TAKES: &[&str] = &["takes/60 Hz"];
+const SIZES: &[&str] = &["drag", "long takes", "43 million keys"];
+const STALLS: &[&str] = &["graphics stall*", "main stall*"];
+const THREADS: &[&str] = &["drag", "import", "more threads than cores", "one core"];
+const QUESTIONS: &[&str] = &["question/*"];
 
 /// The ways that are drawn: the others of each kind lie near them, and are in the tables.
 const TELLING: &[&str] = &[
     "messages",
     "messages, newest",
-    "messages, merged",
+    "messages, on demand",
     "mutex, frame",
     "mutex, poses",
     "mutex, cow",
@@ -78,10 +80,10 @@ const TELLING: &[&str] = &[
 
 // The cases that queues and actors are compared in.
 const ONE_WAY: &[&str] = &[
-    "queue/one_way/1_producer/64",
-    "queue/one_way/2_producers/64",
-    "actor/one_way/1_producer/64",
-    "actor/one_way/2_producers/64",
+    "queue/one_way/1_producer/64*",
+    "queue/one_way/2_producers/64*",
+    "actor/one_way/1_producer/64*",
+    "actor/one_way/2_producers/64*",
 ];
 
 const TRIP: &[Column] =
@@ -111,8 +113,8 @@ const EDITING: &[Column] = &[
 pub const TABLES: &[Table] = &[
     Table { name: "machine-runtime", source: runtime(&["machine"]), columns: MACHINE },
     Table { name: "machine-graphical", source: graphical(&["machine"]), columns: MACHINE },
-    Table { name: "round-trip-queues", source: runtime(&["queue/round_trip/"]), columns: TRIP },
-    Table { name: "round-trip-actors", source: runtime(&["actor/round_trip/"]), columns: TRIP },
+    Table { name: "round-trip-queues", source: runtime(&["queue/round_trip/*"]), columns: TRIP },
+    Table { name: "round-trip-actors", source: runtime(&["actor/round_trip/*"]), columns: TRIP },
     Table {
         name: "one-way",
         source: runtime(ONE_WAY),
@@ -129,7 +131,7 @@ pub const TABLES: &[Table] = &[
     },
     Table {
         name: "late",
-        source: runtime(&["queue/late/", "actor/late/"]),
+        source: runtime(&["queue/late/*", "actor/late/*"]),
         columns: &[
             ("delay.p50", "late by, p50"),
             ("delay.p99", "p99"),
@@ -139,12 +141,12 @@ pub const TABLES: &[Table] = &[
     },
     Table {
         name: "savina",
-        source: runtime(&["savina/"]),
+        source: runtime(&["savina/*"]),
         columns: &[("total", "time"), ("per_message", "a message")],
     },
     Table {
-        name: "core",
-        source: graphical(CORE),
+        name: "blocked",
+        source: graphical(DRAG),
         columns: &[
             ("blocked.p50", "blocked, p50"),
             ("blocked.p90", "p90"),
@@ -155,7 +157,7 @@ pub const TABLES: &[Table] = &[
     },
     Table {
         name: "visible",
-        source: graphical(CORE),
+        source: graphical(DRAG),
         columns: &[
             ("visible.p50", "visible after, p50"),
             ("visible.p99", "p99"),
@@ -168,7 +170,7 @@ pub const TABLES: &[Table] = &[
     },
     Table {
         name: "means",
-        source: graphical(CORE),
+        source: graphical(DRAG),
         columns: &[
             ("memory", "memory at most"),
             ("cores", "cores in use"),
@@ -177,7 +179,7 @@ pub const TABLES: &[Table] = &[
     },
     Table {
         name: "flat-out",
-        source: graphical(FLAT_OUT),
+        source: graphical(FLOODS),
         columns: &[
             ("posted", "edits"),
             ("visible.p50", "visible after, p50"),
@@ -186,7 +188,9 @@ pub const TABLES: &[Table] = &[
             ("blocked.p99", "blocked, p99"),
         ],
     },
-    Table { name: "large", source: graphical(LARGE), columns: EDITING },
+    Table { name: "rates", source: graphical(RATES), columns: EDITING },
+    Table { name: "takes", source: graphical(TAKES), columns: EDITING },
+    Table { name: "sizes", source: graphical(SIZES), columns: EDITING },
     Table { name: "stalls", source: graphical(STALLS), columns: EDITING },
     Table { name: "threads", source: graphical(THREADS), columns: EDITING },
     Table {
@@ -207,13 +211,13 @@ pub const CHARTS: &[Chart] = &[
     Chart {
         name: "round-trip-queues",
         title: "How long does it take to ask another thread and have the answer, by queue?",
-        source: runtime(&["queue/round_trip/"]),
+        source: runtime(&["queue/round_trip/*"]),
         kind: Kind::Rows(TRIP_MARKS, Scale::Log),
     },
     Chart {
         name: "round-trip-actors",
         title: "How long does it take to ask an actor and have the answer?",
-        source: runtime(&["actor/round_trip/"]),
+        source: runtime(&["actor/round_trip/*"]),
         kind: Kind::Rows(TRIP_MARKS, Scale::Log),
     },
     Chart {
@@ -223,33 +227,47 @@ pub const CHARTS: &[Chart] = &[
         kind: Kind::Rows(&[("per_message", "time a message")], Scale::Linear),
     },
     Chart {
-        name: "savina",
-        title: "How do actors compare over the Savina suite?",
-        source: runtime(&["savina/"]),
-        kind: Kind::Ratios("total", "dragonfly"),
+        name: "savina-1-thread",
+        title: "How do actor systems compare over the Savina suite, on one thread?",
+        source: runtime(&["savina/*"]),
+        kind: Kind::Ratios(
+            "total",
+            "dragonfly 1 thread",
+            &["actix 1 thread", "kameo 1 thread", "ractor 1 thread", "stakker"],
+        ),
+    },
+    Chart {
+        name: "savina-2-threads",
+        title: "How do actor systems compare over the Savina suite, on two threads or one for each actor?",
+        source: runtime(&["savina/*"]),
+        kind: Kind::Ratios(
+            "total",
+            "dragonfly 2 threads",
+            &["actix 2 threads", "kameo 2 threads", "ractor 2 threads", "tonari-actor"],
+        ),
     },
     Chart {
         name: "blocked",
         title: "How long does an edit keep the main thread from its window?",
-        source: graphical(CORE),
+        source: graphical(DRAG),
         kind: Kind::Curves("blocked", TELLING),
     },
     Chart {
         name: "visible",
         title: "How long does an edit take until a frame shows it?",
-        source: graphical(CORE),
+        source: graphical(DRAG),
         kind: Kind::Curves("visible", TELLING),
     },
     Chart {
         name: "jitter",
         title: "How much too late is a frame?",
-        source: graphical(CORE),
+        source: graphical(DRAG),
         kind: Kind::Curves("jitter", TELLING),
     },
     Chart {
         name: "missed",
         title: "How many frames are missed?",
-        source: graphical(CORE),
+        source: graphical(DRAG),
         kind: Kind::Rows(&[("missed", "frames missed in a run")], Scale::Linear),
     },
     Chart {
@@ -264,13 +282,13 @@ pub const CHARTS: &[Chart] = &[
     Chart {
         name: "memory",
         title: "How much memory does each way take at most?",
-        source: graphical(CORE),
+        source: graphical(DRAG),
         kind: Kind::Rows(&[("memory", "memory")], Scale::Linear),
     },
     Chart {
         name: "cores",
         title: "How much of the processor does each way take?",
-        source: graphical(CORE),
+        source: graphical(DRAG),
         kind: Kind::Rows(&[("cores", "cores in use, on average")], Scale::Linear),
     },
 ];

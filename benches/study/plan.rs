@@ -72,7 +72,9 @@ impl Study {
         }
         let study =
             Self { mode, name, only, order: Random::new(seed), rows: Vec::new(), begin: Instant::now() };
+        let load = Load::now();
         let machine = Machine::measure();
+        let others = load.others_since();
         println!("# {name}, {mode:?}, order by seed {seed}");
         println!("# {}, {} cores, Linux {}", machine.processor, machine.cores, machine.kernel);
         println!("# clock: {:.0} ns a look, steps of {} ns", machine.clock_cost, machine.clock_step);
@@ -93,7 +95,7 @@ impl Study {
         measured.distribution("overshoot_1ms", late);
         let mut study = study;
         let name = format!("{}, Linux {}", machine.processor, machine.kernel);
-        study.keep("machine", &name, 0, measured, 0.0);
+        study.keep("machine", &name, 0, measured, others);
         study
     }
 

@@ -3,7 +3,7 @@
 use crate::amount;
 use crate::chart;
 use crate::design;
-use crate::figures::{CHARTS, Chart, FILES, Kind, Source, TABLES};
+use crate::figures::{CHARTS, Chart, FILES, Kind, Source, TABLES, Table};
 use crate::record::{self, Row};
 use crate::summary::{Summary, summarise};
 use crate::table;
@@ -44,7 +44,11 @@ impl Data {
     /// When the file is there and has none: then the list of figures is wrong.
     fn rows(&self, name: &str, source: &Source) -> Result<Option<Vec<Row>>, Failed> {
         let Some(rows) = self.0.get(source.file) else { return Ok(None) };
-        let wanted = |row: &&Row| source.cases.iter().any(|case| row.case.starts_with(case));
+        let matches = |case: &str, wanted: &str| match wanted.strip_suffix('*') {
+            Some(begin) => case.starts_with(begin),
+            None => case == wanted,
+        };
+        let wanted = |row: &&Row| source.cases.iter().any(|wanted| matches(&row.case, wanted));
         let rows: Vec<Row> = rows.iter().filter(wanted).cloned().collect();
         if rows.is_empty() {
             return Err(format!("{name}: {}.csv has nothing of {:?}", source.file, source.cases).into());
@@ -62,31 +66,14 @@ pub fn render(data: &Data, readme: &str) -> Result<Vec<(PathBuf, String)>, Faile
     let mut blocks: BTreeMap<String, String> = BTreeMap::new();
     let mut files = Vec::new();
     for one in TABLES {
-        let text = match data.rows(one.name, &one.source)? {
-            None => NOTHING.to_owned(),
-            Some(rows) => {
-                let shown = summarise(&rows);
-                let lacks = |(metric, _): &&table::Column| !shown.iter().any(|one| one.metric == *metric);
-                if let Some((metric, _)) = one.columns.iter().find(lacks) {
-                    return Err(format!("table {}: nothing was measured as {metric}", one.name).into());
-                }
-                format!("{}\n{}", table::wide(&shown, one.columns), from(&one.source, &shown))
-            }
-        };
-        blocks.insert(format!("table: {}", one.name), text);
+        blocks.insert(format!("table: {}", one.name), table_block(data, one)?);
     }
-    blocks.insert("table: design-cost".into(), design_cost());
-    blocks.insert("table: design-mistakes".into(), design_mistakes());
+    blocks.insert("table: design-cost".into(), design::tables::cost());
+    blocks.insert("table: design-mistakes".into(), design::tables::mistakes());
     for one in CHARTS {
-        let text = match data.rows(one.name, &one.source)? {
-            None => NOTHING.to_owned(),
-            Some(rows) => {
-                let path = format!("results/{}.svg", one.name);
-                files.push((path.clone().into(), draw(one, &rows)?));
-                format!("![{}]({path})\n\n{}", one.title, from(&one.source, &summarise(&rows)))
-            }
-        };
-        blocks.insert(format!("chart: {}", one.name), text);
+        let (block, chart) = chart_block(data, one)?;
+        blocks.insert(format!("chart: {}", one.name), block);
+        files.extend(chart);
     }
     for (file, rows) in &data.0 {
         let text = format!(
@@ -98,6 +85,31 @@ pub fn render(data: &Data, readme: &str) -> Result<Vec<(PathBuf, String)>, Faile
     }
     files.push(("README.md".into(), fill(readme, &blocks)?));
     Ok(files)
+}
+
+/// What stands between the markers of a table.
+fn table_block(data: &Data, one: &Table) -> Result<String, Failed> {
+    let Some(rows) = data.rows(one.name, &one.source)? else { return Ok(NOTHING.to_owned()) };
+    let shown = summarise(&rows);
+    let lacks = |(metric, _): &&table::Column| !shown.iter().any(|one| one.metric == *metric);
+    if let Some((metric, _)) = one.columns.iter().find(lacks) {
+        return Err(format!("table {}: nothing was measured as {metric}", one.name).into());
+    }
+    let mut text = table::wide(&shown, one.columns);
+    let lines = text.lines().count() - 2;
+    // What would fill the window is folded.
+    if lines > 12 {
+        text = format!("<details><summary>The numbers: {lines} rows</summary>\n\n{text}\n</details>\n");
+    }
+    Ok(format!("{text}\n{}", from(&one.source, &shown)))
+}
+
+/// What stands between the markers of a chart, and the chart's file.
+fn chart_block(data: &Data, one: &Chart) -> Result<(String, Option<(PathBuf, String)>), Failed> {
+    let Some(rows) = data.rows(one.name, &one.source)? else { return Ok((NOTHING.to_owned(), None)) };
+    let path = format!("results/{}.svg", one.name);
+    let block = format!("![{}]({path})\n\n{}", one.title, from(&one.source, &summarise(&rows)));
+    Ok((block, Some((path.into(), draw(one, &rows)?))))
 }
 
 /// Makes everything of the files of raw data in `results` and writes it into `folder`; says what changed.
@@ -119,13 +131,17 @@ pub fn update(results: &Path, folder: &Path) -> Result<Vec<PathBuf>, Failed> {
     Ok(changed)
 }
 
-/// Would `rows`, as the raw data of `file`, give everything that is to be shown of it?
+/// Would `rows`, as the raw data of `file`, give everything that is to be shown of it but the machine?
 ///
 /// # Errors
 /// What is missing: so a case that has another name now is found in a test, and not after an hour of measuring.
 pub fn is_complete(file: &'static str, rows: &[Row]) -> Result<(), Failed> {
-    let readme = fs::read_to_string(folder().join("README.md"))?;
-    render(&Data([(file, rows.to_vec())].into()), &readme).map(|_| ())
+    let data = Data([(file, rows.to_vec())].into());
+    TABLES
+        .iter()
+        .filter(|one| one.source.cases != ["machine"])
+        .try_for_each(|one| table_block(&data, one).map(drop))?;
+    CHARTS.iter().try_for_each(|one| chart_block(&data, one).map(drop))
 }
 
 /// The folder of the study: where `README.md` and `results` are.
@@ -153,18 +169,25 @@ fn draw(chart: &Chart, rows: &[Row]) -> Result<String, Failed> {
     let has = |metric: &str| all.iter().any(|one| one.metric.starts_with(metric));
     let metric = match &chart.kind {
         Kind::Rows(columns, _) => columns.iter().map(|column| column.0).find(|metric| !has(metric)),
-        Kind::Curves(metric, _) | Kind::Ratios(metric, _) => (!has(metric)).then_some(*metric),
+        Kind::Curves(metric, _) | Kind::Ratios(metric, ..) => (!has(metric)).then_some(*metric),
     };
     if let Some(metric) = metric {
         return Err(format!("chart {}: nothing was measured as {metric}", chart.name).into());
     }
+    let named: Vec<&str> = match &chart.kind {
+        Kind::Rows(..) => Vec::new(),
+        Kind::Curves(_, who) => who.to_vec(),
+        Kind::Ratios(_, ours, peers) => peers.iter().chain([ours]).copied().collect(),
+    };
+    if let Some(who) = named.iter().find(|who| !all.iter().any(|one| one.variant == **who)) {
+        return Err(format!("chart {}: there is no {who}", chart.name).into());
+    }
     Ok(match &chart.kind {
         Kind::Rows(columns, scale) => chart::rows(chart.title, &all, columns, *scale),
-        Kind::Ratios(metric, ours) => chart::ratios(chart.title, rows, metric, ours),
+        Kind::Ratios(metric, ours, peers) => chart::ratios(chart.title, rows, metric, ours, peers),
         Kind::Curves(metric, who) => {
-            let unknown = who.iter().find(|who| !all.iter().any(|one| one.variant == **who));
-            if cases.len() != 1 || unknown.is_some() {
-                return Err(format!("chart {}: of {cases:?}, where is {unknown:?}?", chart.name).into());
+            if cases.len() != 1 {
+                return Err(format!("chart {}: one case is wanted, there are {cases:?}", chart.name).into());
             }
             chart::curves(chart.title, &all, metric, who)
         }
@@ -210,45 +233,10 @@ fn fill(readme: &str, blocks: &BTreeMap<String, String>) -> Result<String, Faile
     Ok(filled)
 }
 
-fn design_cost() -> String {
-    let costs = design::costs();
-    let mut text = String::from(
-        "| | editor before, lines | feature: lines | types and variants | functions | places touched | files |\n|---|---|---|---|---|---|---|\n",
-    );
-    let rows = [
-        ("the property itself and its drawing (same for all)", &costs.same, true),
-        ("one short lock", &costs.locks, true),
-        ("messages, edits as closures", &costs.closures, false),
-        ("messages, edits as values, sent at the call", &costs.raw, false),
-        ("messages, edits as values, typed handles", &costs.messages, true),
-        ("– of these, the edits as values", &costs.edits, false),
-    ];
-    for (name, cost, whole) in rows {
-        let base = if whole { cost.base.to_string() } else { "–".into() };
-        let lines = cost.added + cost.changed;
-        let (types, functions, places, files) = (cost.types, cost.functions, cost.places.len(), cost.files);
-        text += &format!("| {name} | {base} | {lines} | {types} | {functions} | {places} | {files} |\n");
-    }
-    text
-}
-
-fn design_mistakes() -> String {
-    let mut text = String::from("| | does not compile | compiles, and goes wrong |\n|---|---|---|\n");
-    for (way, refused, compiling) in design::mistakes() {
-        let list = |all: Vec<String>| {
-            let items: String = all.iter().map(|one| format!("<li>{one}</li>")).collect();
-            format!("{}:<ul>{items}</ul>", all.len())
-        };
-        let lower = |text: &str| text[..1].to_lowercase() + &text[1..];
-        let refused = list(refused.into_iter().map(lower).collect());
-        text += &format!("| {way} | {refused} | {} |\n", list(compiling));
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::summary::tests::row;
 
     fn blocks() -> BTreeMap<String, String> {
         [("table: a".to_owned(), "| new |\n".to_owned()), ("chart: b".to_owned(), "![b](b.svg)".to_owned())]
@@ -279,5 +267,90 @@ mod tests {
         ] {
             assert!(fill(&wrong, &blocks()).is_err(), "{wrong}");
         }
+    }
+
+    /// Invented rows for everything that is shown: two repeats of each metric, by all who are named and one who is not.
+    fn invented() -> Data {
+        let mut data = Data::default();
+        let mut add = |source: &Source, who: &[&str], metrics: &[String]| {
+            let rows = data.0.entry(source.file).or_default();
+            for case in source.cases {
+                for (place, who) in who.iter().chain(&["somebody"]).enumerate() {
+                    for metric in metrics {
+                        for repeat in 0..2 {
+                            let value = 1e4 * (place + 1) as f64 + f64::from(repeat);
+                            rows.push(row(&case.replace('*', "some"), who, repeat, metric, "ns", value));
+                        }
+                    }
+                }
+            }
+        };
+        let names =
+            |columns: &[table::Column]| columns.iter().map(|column| column.0.to_owned()).collect::<Vec<_>>();
+        for one in TABLES {
+            add(&one.source, &[], &names(one.columns));
+        }
+        for one in CHARTS {
+            match &one.kind {
+                Kind::Rows(columns, _) => add(&one.source, &[], &names(columns)),
+                Kind::Ratios(metric, ours, peers) => {
+                    add(&one.source, &[&[*ours], *peers].concat(), &[(*metric).to_owned()]);
+                }
+                Kind::Curves(metric, who) => {
+                    let points = ["p50", "p90", "p99", "p99.9", "max"];
+                    add(&one.source, who, &points.map(|point| format!("{metric}.{point}")));
+                }
+            }
+        }
+        data
+    }
+
+    #[test]
+    fn a_whole_page_is_made_from_raw_data_and_made_anew_it_stays() {
+        let readme = fs::read_to_string(folder().join("README.md")).unwrap();
+        let data = invented();
+        let files = render(&data, &readme).unwrap();
+        let page = &files.iter().find(|(path, _)| path.ends_with("README.md")).unwrap().1;
+        assert!(!page.contains(NOTHING), "something was not measured");
+        assert_eq!(&render(&data, page).unwrap().last().unwrap().1, page);
+        for chart in CHARTS {
+            assert!(
+                files.iter().any(|(path, _)| path.ends_with(format!("{}.svg", chart.name))),
+                "{}",
+                chart.name
+            );
+        }
+        // Everything that was measured is in the tables of everything.
+        for (file, rows) in &data.0 {
+            let all = &files.iter().find(|(path, _)| path.ends_with(format!("{file}.md"))).unwrap().1;
+            for row in rows {
+                assert!(
+                    all.contains(&format!("| {} | {} | {} |", row.case, row.variant, row.metric)),
+                    "{row:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_case_or_metric_that_has_another_name_is_missed() {
+        let all = invented();
+        for (file, rows) in &all.0 {
+            is_complete(file, rows).unwrap();
+            assert!(is_complete(file, &rows[..rows.len() / 2]).is_err());
+            let mut renamed = rows.clone();
+            renamed.iter_mut().for_each(|row| row.metric.insert(0, 'x'));
+            assert!(is_complete(file, &renamed).is_err());
+        }
+    }
+
+    #[test]
+    fn a_case_is_named_whole_unless_it_ends_in_a_star() {
+        let rows = ["drag", "drag/60 Hz"].map(|case| row(case, "who", 0, "m", "ns", 1.0)).to_vec();
+        let data = Data([("graphical", rows)].into());
+        let count = |cases| data.rows("x", &Source { file: "graphical", cases }).unwrap().unwrap().len();
+        assert_eq!((count(&["drag"]), count(&["drag*"]), count(&["drag/*"])), (1, 2, 1));
+        assert!(data.rows("x", &Source { file: "graphical", cases: &["dra"] }).is_err());
+        assert!(data.rows("x", &Source { file: "runtime", cases: &["drag"] }).unwrap().is_none());
     }
 }

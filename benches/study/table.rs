@@ -104,9 +104,9 @@ mod tests {
         let expected = "\
 | case | who | median | allocations | others |
 |---|---|---|---|---|
-| a | fast | 900 [900 .. 900] ns | 0.50 [0.50 .. 0.50] a message | 0.00 |
+| a | fast | 900 ns | 0.50 a message | 0.00 |
 | a | slow | 25.0 [20.0 .. 30.0] µs | – | 0.20 |
-| b | fast | 1.00 [1.00 .. 1.00] ns | – | 0.00 |
+| b | fast | 1.00 ns | – | 0.00 |
 ";
         assert_eq!(wide(&all, &columns), expected);
         assert_eq!(long(&all).lines().count(), 2 + all.len());

@@ -4,21 +4,17 @@
 //! the user does goes to the document as an [`Edit`]; what the document became goes to the other two as a [`View`],
 //! which nobody changes any more. To pick a bone, the panel asks the viewport, and the answer is a message too.
 
-mod closures;
 mod document;
 mod handles;
 mod panel;
-mod raw;
 pub mod refused;
 #[cfg(test)]
 mod traps;
 mod viewport;
 
-pub use closures::{Change, ClosureDocument, ClosureHandle, ClosurePanel};
 pub use document::{Document, Edit, View};
 pub use handles::{DocumentHandle, PanelHandle, ViewportHandle};
 pub use panel::{Panel, PanelMessage};
-pub use raw::RawPanel;
 pub use viewport::{Screen, Viewport, ViewportMessage};
 
 use super::skeleton::{Bone, Line};
@@ -125,31 +121,5 @@ mod tests {
             let _ = woken.recv_timeout(Duration::from_millis(1));
             assert!(Instant::now() < deadline, "the panel does not show it");
         }
-    }
-
-    #[test]
-    fn a_panel_that_sends_its_messages_itself_does_the_same() {
-        let mut stage = Stage::new();
-        let [main, document, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
-        let panel_address = main.reserve_address();
-        let document_address = document.reserve_address();
-        let viewport_address = graphics.reserve_address();
-        let raw = RawPanel::new(document_address.clone(), viewport_address.clone());
-        let panel = Rc::new(RefCell::new(raw));
-        stage.context(&main).register_receiver_at(&panel_address, Rc::clone(&panel));
-        let handles = (PanelHandle(panel_address), ViewportHandle(viewport_address));
-        document
-            .register_receiver_at(&document_address, move |_| Document::new(bones(), handles.0, handles.1));
-        assert!(stage.settle(10));
-        panel.borrow().choose_colour(0, [255, 128, 0]);
-        panel.borrow().toggle_visible(1);
-        panel.borrow().drag_angle(2, 0.5);
-        panel.borrow().click([0.5, 0.0]);
-        assert!(stage.settle(10));
-        assert_eq!(
-            panel.borrow().rows(),
-            ["hip 0.00 #ff8000", "knee 0.00 #ffffff hidden", "foot 0.50 #ffffff"]
-        );
-        assert_eq!(panel.borrow().selected(), None);
     }
 }

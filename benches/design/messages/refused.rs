@@ -60,7 +60,7 @@
 //!
 //! # 4. What was sent is used by its sender
 //! ```
-//! use dragonfly_study::design::messages::{Edit, RawPanel};
+//! use dragonfly_study::design::messages::Edit;
 //! use dragonfly_runtime::Address;
 //! fn twice(document: &Address<Edit>, edit: Edit) {
 //!     let is_turn = matches!(edit, Edit::SetAngle { .. });
@@ -68,7 +68,7 @@
 //! }
 //! ```
 //! ```compile_fail,E0382
-//! use dragonfly_study::design::messages::{Edit, RawPanel};
+//! use dragonfly_study::design::messages::Edit;
 //! use dragonfly_runtime::Address;
 //! fn twice(document: &Address<Edit>, edit: Edit) {
 //!     let _ = document.send(edit);

@@ -67,8 +67,10 @@ impl Axis {
         let mut ticks = Vec::new();
         match self.scale {
             Scale::Linear => {
+                // Round in the unit that is written: 5 MiB, not 5,000,000 bytes.
+                let size = amount::step(self.high, &self.unit);
                 let rough = (self.high - self.low) / 5.0;
-                let power = 10_f64.powf(rough.log10().floor());
+                let power = size * 10_f64.powf((rough / size).log10().floor());
                 let step =
                     [1.0, 2.0, 5.0, 10.0].map(|step| step * power).into_iter().find(|step| *step >= rough);
                 let step = step.unwrap_or(rough);
@@ -113,6 +115,9 @@ mod tests {
 
         let linear = Axis::fit([0.0, 40.0].into_iter(), Scale::Linear, "count", 0, 420);
         assert_eq!(linear.ticks()[..2], [(0, "0".to_owned()), (100, "10".to_owned())]);
+        let memory = Axis::fit([5e7].into_iter(), Scale::Linear, "bytes", 0, 100);
+        let named: Vec<String> = memory.ticks().into_iter().map(|tick| tick.1).collect();
+        assert_eq!(named, ["0", "20 MiB", "40 MiB"]);
     }
 
     #[test]

@@ -76,7 +76,16 @@ mod tests {
                 "curves",
                 curves("How long is the main thread kept?", &summarise(&blocked), "blocked", &ways[..6]),
             ),
-            ("ratios", ratios("How do actors compare?", &suite, "took", "dragonfly")),
+            (
+                "ratios",
+                ratios(
+                    "How do actors compare?",
+                    &suite,
+                    "took",
+                    "dragonfly",
+                    &["actix", "kameo", "ractor", "stakker"],
+                ),
+            ),
         ]
     }
 

@@ -11,13 +11,11 @@ const RIGHT: i32 = WIDTH - 40;
 const TOP: i32 = 112;
 const ROW: i32 = 30;
 
-/// Draws `metric` of everybody but `ours` in times ours, repeat by repeat: they were measured one after another.
-pub fn ratios(title: &str, rows: &[Row], metric: &str, ours: &str) -> String {
+/// Draws `metric` of `peers` in times ours, repeat by repeat: those were measured one after another.
+pub fn ratios(title: &str, rows: &[Row], metric: &str, ours: &str, peers: &[&str]) -> String {
     let of_metric = || rows.iter().filter(|row| row.metric == metric);
     let cases = distinct(of_metric().map(|row| row.case.as_str()));
     let prefix = common_folder(&cases);
-    let mut peers = distinct(of_metric().map(|row| row.variant.as_str()).filter(|peer| *peer != ours));
-    peers.sort_unstable();
     let mut points = Vec::new();
     for (line, case) in cases.iter().enumerate() {
         for (number, peer) in peers.iter().enumerate() {

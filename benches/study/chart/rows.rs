@@ -89,7 +89,7 @@ pub fn rows(title: &str, all: &[Summary], columns: &[Column], scale: Scale) -> S
 
 fn under(columns: &[Column], scale: Scale) -> String {
     let scale = if scale == Scale::Log { "logarithmic scale" } else { "from zero" };
-    let number = if columns.len() > 1 { ", number: the last mark" } else { "" };
+    let number = if columns.len() > 1 { "; the number is the last mark's" } else { "" };
     format!("Less is better. Median over the repeats, thin lines: smallest to greatest; {scale}{number}.")
 }
 

@@ -1,12 +1,12 @@
 //! The panel again, without handles: it names the messages and decides about their loss at every call.
 
-use super::{Edit, PanelMessage, View, ViewportMessage};
+use crate::design::messages::{Edit, PanelMessage, View, ViewportMessage};
 use crate::design::skeleton::Colour; // feature
 use crate::design::skeleton::{Point, describe};
 use dragonfly_runtime::{Address, Context, Receiver};
 use std::sync::Arc;
 
-/// [`Panel`](super::Panel) without handles.
+/// [`Panel`](crate::design::messages::Panel) without handles.
 pub struct RawPanel {
     view: View,
     selected: Option<usize>,
@@ -61,5 +61,41 @@ impl Receiver for RawPanel {
             PanelMessage::Show(view) => self.view = view,
             PanelMessage::Picked(bone) => self.selected = bone,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::messages::{Document, PanelHandle, ViewportHandle};
+    use crate::design::skeleton::Bone;
+    use dragonfly_runtime::Stage;
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
+    #[test]
+    fn a_panel_that_sends_its_messages_itself_does_the_same() {
+        let bones = ["hip", "knee", "foot"].map(|name| Bone::new(name, 0.0)).to_vec();
+        let mut stage = Stage::new();
+        let [main, document, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
+        let panel_address = main.reserve_address();
+        let document_address = document.reserve_address();
+        let viewport_address = graphics.reserve_address();
+        let raw = RawPanel::new(document_address.clone(), viewport_address.clone());
+        let panel = Rc::new(RefCell::new(raw));
+        stage.context(&main).register_receiver_at(&panel_address, Rc::clone(&panel));
+        let handles = (PanelHandle(panel_address), ViewportHandle(viewport_address));
+        document.register_receiver_at(&document_address, move |_| Document::new(bones, handles.0, handles.1));
+        assert!(stage.settle(10));
+        panel.borrow().choose_colour(0, [255, 128, 0]);
+        panel.borrow().toggle_visible(1);
+        panel.borrow().drag_angle(2, 0.5);
+        panel.borrow().click([0.5, 0.0]);
+        assert!(stage.settle(10));
+        assert_eq!(
+            panel.borrow().rows(),
+            ["hip 0.00 #ff8000", "knee 0.00 #ffffff hidden", "foot 0.50 #ffffff"]
+        );
+        assert_eq!(panel.borrow().selected(), None);
     }
 }

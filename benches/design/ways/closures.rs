@@ -1,7 +1,7 @@
 //! The document and the panel once more, with closures for messages: as short as with a lock, and one owner all the
 //! same. What is lost is the edit as a value: it cannot be written into a journal, taken back, or seen in a trace.
 
-use super::{PanelMessage, View, ViewportHandle};
+use crate::design::messages::{PanelMessage, View, ViewportHandle};
 use crate::design::skeleton::Colour; // feature
 use crate::design::skeleton::{Bone, Point, describe};
 use dragonfly_runtime::{Address, Context, Receiver};
