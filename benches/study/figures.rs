@@ -31,7 +31,8 @@ pub struct Chart {
 pub struct Source {
     /// `results/file.csv`.
     pub file: &'static str,
-    /// Any of these; one that ends in `*` stands for all that begin so.
+    /// Any of these; one that ends in `*` stands for all that begin so. One that begins with `?` cannot be measured on
+    /// every machine; if there is nothing else, nothing is shown.
     pub cases: &'static [&'static str],
 }
 
@@ -140,6 +141,49 @@ pub const TABLES: &[Table] = &[
         ],
     },
     Table {
+        name: "chain",
+        source: runtime(&["actor/chain/*"]),
+        columns: &[("per_message", "a message"), ("allocations", "allocations")],
+    },
+    Table {
+        name: "creation",
+        source: runtime(&["actor/creation"]),
+        columns: &[
+            ("make", "to make one"),
+            ("first_message", "its first message"),
+            ("end_with_all", "its end"),
+            ("memory", "memory"),
+        ],
+    },
+    Table { name: "spin", source: runtime(&["?own/spin/*"]), columns: TRIP },
+    Table {
+        name: "addresses",
+        source: runtime(&["own/addresses/*"]),
+        columns: &[
+            ("send", "to send one"),
+            ("all_delivered", "until all are there, each"),
+            ("longest_queue", "longest queue"),
+            ("replaced", "replaced"),
+            ("refused", "refused"),
+            ("allocations", "allocations"),
+        ],
+    },
+    Table {
+        name: "registers",
+        source: runtime(&["own/registers"]),
+        columns: &[("register", "to register one"), ("remove", "to remove it")],
+    },
+    Table {
+        name: "observed",
+        source: runtime(&["own/observed"]),
+        columns: &[("per_message", "a message"), ("allocations", "allocations")],
+    },
+    Table {
+        name: "idle",
+        source: runtime(&["own/idle_iteration"]),
+        columns: &[("iteration", "an iteration")],
+    },
+    Table {
         name: "savina",
         source: runtime(&["savina/*"]),
         columns: &[("total", "time"), ("per_message", "a message")],
@@ -225,6 +269,18 @@ pub const CHARTS: &[Chart] = &[
         title: "What does a message of 64 bytes cost when nobody waits for an answer?",
         source: runtime(ONE_WAY),
         kind: Kind::Rows(&[("per_message", "time a message")], Scale::Linear),
+    },
+    Chart {
+        name: "chain",
+        title: "What does a message cost between actors that share a thread?",
+        source: runtime(&["actor/chain/*"]),
+        kind: Kind::Rows(&[("per_message", "time a message")], Scale::Linear),
+    },
+    Chart {
+        name: "spin",
+        title: "What does looking before sleeping gain, and what does it cost where there is one core?",
+        source: runtime(&["?own/spin/*"]),
+        kind: Kind::Rows(TRIP_MARKS, Scale::Log),
     },
     Chart {
         name: "savina-1-thread",

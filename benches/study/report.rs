@@ -44,13 +44,16 @@ impl Data {
     /// When the file is there and has none: then the list of figures is wrong.
     fn rows(&self, name: &str, source: &Source) -> Result<Option<Vec<Row>>, Failed> {
         let Some(rows) = self.0.get(source.file) else { return Ok(None) };
-        let matches = |case: &str, wanted: &str| match wanted.strip_suffix('*') {
+        let matches = |case: &str, wanted: &str| match wanted.trim_start_matches('?').strip_suffix('*') {
             Some(begin) => case.starts_with(begin),
-            None => case == wanted,
+            None => case == wanted.trim_start_matches('?'),
         };
         let wanted = |row: &&Row| source.cases.iter().any(|wanted| matches(&row.case, wanted));
         let rows: Vec<Row> = rows.iter().filter(wanted).cloned().collect();
         if rows.is_empty() {
+            if source.cases.iter().all(|case| case.starts_with('?')) {
+                return Ok(None);
+            }
             return Err(format!("{name}: {}.csv has nothing of {:?}", source.file, source.cases).into());
         }
         Ok(Some(rows))
@@ -158,7 +161,7 @@ fn from(source: &Source, shown: &[Summary]) -> String {
     let file = source.file;
     format!(
         "<sub>Raw data: [{file}.csv](results/{file}.csv), `{}`; repeats: {repeats}; load by others: at most {} cores.</sub>\n",
-        source.cases.join("`, `"),
+        source.cases.join("`, `").replace('?', ""),
         amount::digits(others),
     )
 }
@@ -279,7 +282,14 @@ mod tests {
                     for metric in metrics {
                         for repeat in 0..2 {
                             let value = 1e4 * (place + 1) as f64 + f64::from(repeat);
-                            rows.push(row(&case.replace('*', "some"), who, repeat, metric, "ns", value));
+                            rows.push(row(
+                                &case.replace('?', "").replace('*', "some"),
+                                who,
+                                repeat,
+                                metric,
+                                "ns",
+                                value,
+                            ));
                         }
                     }
                 }
@@ -351,6 +361,7 @@ mod tests {
         let count = |cases| data.rows("x", &Source { file: "graphical", cases }).unwrap().unwrap().len();
         assert_eq!((count(&["drag"]), count(&["drag*"]), count(&["drag/*"])), (1, 2, 1));
         assert!(data.rows("x", &Source { file: "graphical", cases: &["dra"] }).is_err());
+        assert!(data.rows("x", &Source { file: "graphical", cases: &["?dra"] }).unwrap().is_none());
         assert!(data.rows("x", &Source { file: "runtime", cases: &["drag"] }).unwrap().is_none());
     }
 }
