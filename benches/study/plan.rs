@@ -181,6 +181,10 @@ impl Study {
             Ok(()) => println!("# {} s; raw data: {}", self.begin.elapsed().as_secs(), path.display()),
             Err(error) => eprintln!("cannot write {}: {error}", path.display()),
         }
+        if self.only.is_none() {
+            let missing = report::missing(self.name, &self.rows);
+            missing.iter().for_each(|what| println!("# not to be shown: {what}"));
+        }
         if kept {
             match report::update(&folder, &report::folder()) {
                 Ok(changed) => changed.iter().for_each(|path| println!("# made anew: {}", path.display())),
