@@ -2,8 +2,9 @@
 
 use crate::machine::{Load, Machine};
 use crate::record::{self, Measured, Row};
+use crate::report;
+use crate::summary::{Summary, summarise};
 use dragonfly_kit::random::Random;
-use std::path::PathBuf;
 use std::time::Instant;
 
 /// How thorough a run is.
@@ -80,7 +81,9 @@ impl Study {
             rows: Vec::new(),
             begin: Instant::now(),
         };
+        let load = Load::now();
         let machine = Machine::measure();
+        let others = load.others_since();
         println!("# {name}, {mode:?}, order by seed {seed}");
         println!("# {}, {} cores, Linux {}", machine.processor, machine.cores, machine.kernel);
         println!("# clock: {:.0} ns a look, steps of {} ns", machine.clock_cost, machine.clock_step);
@@ -93,12 +96,15 @@ impl Study {
             late.percentile(99.0),
         );
         let mut measured = Measured::default();
+        measured.value("cores", "count", machine.cores as f64);
+        measured.value("order.seed", "count", seed as f64);
         measured.value("clock.cost", "ns", machine.clock_cost);
         measured.value("clock.step", "ns", machine.clock_step as f64);
         measured.distribution("two_wake_ups", wake);
         measured.distribution("overshoot_1ms", late);
         let mut study = study;
-        study.keep("machine", "bare", 0, measured, 0.0);
+        let name = format!("{}, Linux {}", machine.processor, machine.kernel);
+        study.keep("machine", &name, 0, measured, others);
         study
     }
 
@@ -160,24 +166,12 @@ impl Study {
 
     /// One line for each variant and metric: the median of the repeats, their spread, and the load of others.
     fn print(&self, first: usize, variants: &[String]) {
-        let rows = &self.rows[first..];
+        let all = summarise(&self.rows[first..]);
         for variant in variants {
-            let mut metrics: Vec<&str> = Vec::new();
-            for row in rows.iter().filter(|row| row.variant == *variant) {
-                if !metrics.contains(&row.metric.as_str()) {
-                    metrics.push(&row.metric);
-                }
-            }
-            for metric in metrics {
-                let of = |row: &&Row| row.variant == *variant && row.metric == metric;
-                let found: Vec<&Row> = rows.iter().filter(of).collect();
-                let mut values: Vec<f64> = found.iter().map(|row| row.value).collect();
-                values.sort_by(f64::total_cmp);
-                let others = found.iter().map(|row| row.others).fold(0.0, f64::max);
-                let (low, middle, high) = (values[0], values[values.len() / 2], values[values.len() - 1]);
+            for one in all.iter().filter(|one| one.variant == *variant) {
+                let Summary { case, metric, unit, median, low, high, others, .. } = one;
                 println!(
-                    "{:<44} {variant:<18} {metric:<22} {middle:>14.1} {:<5} [{low:.1} .. {high:.1}] others {others:.2}",
-                    found[0].case, found[0].unit
+                    "{case:<44} {variant:<18} {metric:<22} {median:>14.1} {unit:<5} [{low:.1} .. {high:.1}] others {others:.2}"
                 );
             }
         }
@@ -188,11 +182,12 @@ impl Study {
         &self.rows
     }
 
-    /// Writes the raw data: of a full and whole run to `benches/results`, of any other to the target folder; says where.
+    /// Writes the raw data, and says where: of a full and whole run to `benches/results`, with the tables and charts made
+    /// anew; of any other run to the target folder.
     pub fn finish(self) -> Vec<Row> {
-        let study = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-        let folder = if self.mode == Mode::Full && self.only.is_none() {
-            study.join("results")
+        let kept = self.mode == Mode::Full && self.only.is_none();
+        let folder = if kept {
+            report::folder().join("results")
         } else {
             std::env::current_exe().ok().and_then(|path| Some(path.parent()?.to_owned())).unwrap_or_default()
         };
@@ -203,6 +198,16 @@ impl Study {
         {
             Ok(()) => println!("# {} s; raw data: {}", self.begin.elapsed().as_secs(), path.display()),
             Err(error) => eprintln!("cannot write {}: {error}", path.display()),
+        }
+        if self.only.is_none() {
+            let missing = report::missing(self.name, &self.rows);
+            missing.iter().for_each(|what| println!("# not to be shown: {what}"));
+        }
+        if kept {
+            match report::update(&folder, &report::folder()) {
+                Ok(changed) => changed.iter().for_each(|path| println!("# made anew: {}", path.display())),
+                Err(error) => eprintln!("the report is not made: {error}"),
+            }
         }
         self.rows
     }

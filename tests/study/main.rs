@@ -1,6 +1,7 @@
 //! Everything that the study measures does its work right, each variant of each case, once and with little data.
 
 mod broken;
+mod readme;
 
 use dragonfly_kit::counting::CountingAllocator;
 use dragonfly_study::{Study, graphical, runtime};

@@ -1,0 +1,149 @@
+//! Reads source text with a feature's lines marked in it: leaves them out, and counts what they cost.
+//!
+//! A line that ends in `// feature` belongs to the feature, and so do those between `// feature: begin` and
+//! `// feature: end`. A line that ends in `// feature, before: …` took the place of that other line. The build script
+//! uses this file too, so it stands alone.
+
+/// A file's name and its text.
+pub type Source = (&'static str, &'static str);
+
+const BEGIN: &str = "// feature: begin";
+const END: &str = "// feature: end";
+const ADDED: &str = "// feature";
+const CHANGED: &str = "// feature, before: ";
+
+/// What only the tests see, and is no part of an editor.
+const TESTS: [&str; 3] = ["pub mod refused;", "#[cfg(test)]", "mod traps;"];
+
+/// Whose a line is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Line<'a> {
+    /// It was there before.
+    Base,
+    /// Of the feature.
+    Added,
+    /// Of the feature, in place of this.
+    Changed(&'a str),
+    /// It only says where the feature begins or ends.
+    Mark,
+}
+
+fn lines(text: &str) -> impl Iterator<Item = (&str, Line<'_>)> {
+    let mut inside = false;
+    text.lines().map(move |line| {
+        let trimmed = line.trim();
+        let whose = if trimmed == BEGIN || trimmed == END {
+            inside = trimmed == BEGIN;
+            Line::Mark
+        } else if inside || trimmed.ends_with(ADDED) {
+            Line::Added
+        } else if let Some((_, before)) = line.split_once(CHANGED) {
+            Line::Changed(before)
+        } else {
+            Line::Base
+        };
+        (line, whose)
+    })
+}
+
+/// The text as it was before the feature.
+pub fn before(text: &str) -> String {
+    let mut before = String::new();
+    for (line, whose) in lines(text) {
+        match whose {
+            Line::Base => before += line,
+            Line::Changed(line) => before += line,
+            Line::Added | Line::Mark => continue,
+        }
+        before.push('\n');
+    }
+    before
+}
+
+/// What a feature cost in one way of writing it. Lines are lines of code: no comments, no empty ones, no tests.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// Lines before the feature.
+    pub base: usize,
+    /// Lines that the feature added.
+    pub added: usize,
+    /// Lines that were there and had to change.
+    pub changed: usize,
+    /// Types that came with it, the variants of an enum included: each is a thing with a name of its own.
+    pub types: usize,
+    /// Functions that came with it.
+    pub functions: usize,
+    /// Functions, types and implementations that were there and had to be opened; `use` is none.
+    pub places: Vec<String>,
+    /// Files that were opened.
+    pub files: usize,
+}
+
+/// Counts the marked lines of `sources`.
+pub fn cost(sources: &[Source]) -> Cost {
+    let mut cost = Cost::default();
+    for (file, text) in sources {
+        let mut touched = false;
+        // The items around the line: how far they are indented, what they say, and whether they were there before.
+        let mut around: Vec<(usize, &str, bool)> = Vec::new();
+        let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
+        for (line, whose) in lines(code) {
+            let trimmed = line.trim();
+            if trimmed.is_empty() || trimmed.starts_with("//") || TESTS.contains(&trimmed) {
+                continue;
+            }
+            let indent = line.len() - line.trim_start().len();
+            around.retain(|(outer, ..)| *outer < indent);
+            match whose {
+                Line::Base => cost.base += 1,
+                Line::Added => cost.added += 1,
+                Line::Changed(_) => {
+                    cost.base += 1;
+                    cost.changed += 1;
+                }
+                Line::Mark => {}
+            }
+            if !matches!(whose, Line::Base) {
+                touched = true;
+                cost.functions += usize::from(item(trimmed) == Some("fn"));
+                let variant = around.last().is_some_and(|(_, around, _)| item(around) == Some("enum"))
+                    && trimmed.starts_with(char::is_uppercase);
+                let is_type = matches!(item(trimmed), Some("struct" | "enum" | "type" | "trait"));
+                cost.types += usize::from(variant || is_type);
+                let place = around.iter().rev().find(|(_, _, there)| *there);
+                let place = place.map(|(_, head, _)| format!("{file}: {}", head.trim_end_matches(" {")));
+                let new_inside = around.last().is_some_and(|(_, _, there)| !there);
+                if let Some(place) = place.filter(|_| !new_inside)
+                    && !cost.places.contains(&place)
+                {
+                    cost.places.push(place);
+                }
+            }
+            if item(trimmed).is_some() {
+                around.push((indent, trimmed, whose == Line::Base));
+            }
+        }
+        cost.files += usize::from(touched);
+    }
+    cost
+}
+
+/// What kind of item a line begins, if any.
+fn item(line: &str) -> Option<&'static str> {
+    let line = line.strip_prefix("pub ").unwrap_or(line);
+    ["fn", "struct", "enum", "type", "trait", "impl"]
+        .into_iter()
+        .find(|kind| line.strip_prefix(kind).is_some_and(|rest| rest.starts_with([' ', '<'])))
+}
+
+/// The headings of a file of examples that do not compile.
+pub fn refused(text: &'static str) -> Vec<&'static str> {
+    let headings = text.lines().filter_map(|line| line.strip_prefix("//! # "));
+    headings.map(|heading| heading.split_once(". ").map_or(heading, |(_, words)| words)).collect()
+}
+
+/// The tests of a file of mistakes that do compile, their names as words.
+pub fn traps(text: &str) -> Vec<String> {
+    let tests = text.split("#[test]\nfn ").skip(1);
+    tests.filter_map(|test| test.split('(').next()).map(|name| name.replace('_', " ")).collect()
+}

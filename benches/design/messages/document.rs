@@ -1,0 +1,96 @@
+//! The document, in its thread.
+
+use super::{PanelHandle, ViewportHandle};
+use crate::design::skeleton::Bone;
+use crate::design::skeleton::Colour; // feature
+use dragonfly_runtime::{Context, Receiver};
+use std::sync::Arc;
+
+/// The document as it was at one moment; never changed.
+pub type View = Arc<[Bone]>;
+
+/// What others may ask of the document.
+pub enum Edit {
+    /// Turns a bone.
+    SetAngle {
+        /// Which.
+        bone: usize,
+        /// Against the one before it, in radians.
+        angle: f32,
+    },
+    // feature: begin
+    /// Chooses a colour.
+    SetColour {
+        /// Of which bone.
+        bone: usize,
+        /// Which.
+        colour: Colour,
+    },
+    /// Hides a bone, or shows it again.
+    ToggleVisible {
+        /// Which.
+        bone: usize,
+    },
+    // feature: end
+}
+
+/// The only owner of the bones.
+pub struct Document {
+    bones: Vec<Bone>,
+    panel: PanelHandle,
+    viewport: ViewportHandle,
+}
+
+impl Document {
+    /// A document that shows itself at once.
+    pub fn new(bones: Vec<Bone>, panel: PanelHandle, viewport: ViewportHandle) -> Self {
+        let document = Self { bones, panel, viewport };
+        document.publish();
+        document
+    }
+
+    /// Turns a bone.
+    pub fn set_angle(&mut self, bone: usize, angle: f32) {
+        self.change(bone, |bone| bone.angle = angle);
+    }
+
+    // feature: begin
+    /// Chooses a bone's colour.
+    pub fn set_colour(&mut self, bone: usize, colour: Colour) {
+        self.change(bone, |bone| bone.colour = colour);
+    }
+
+    /// Hides a bone, or shows it again.
+    pub fn toggle_visible(&mut self, bone: usize) {
+        self.change(bone, |bone| bone.visible = !bone.visible);
+    }
+    // feature: end
+
+    /// The one way to change it, so that nobody forgets to show it.
+    fn change(&mut self, bone: usize, change: impl FnOnce(&mut Bone)) {
+        if let Some(bone) = self.bones.get_mut(bone) {
+            change(bone);
+            self.publish();
+        }
+    }
+
+    fn publish(&self) {
+        let view: View = self.bones.as_slice().into();
+        self.panel.show(Arc::clone(&view));
+        self.viewport.show(view);
+    }
+}
+
+impl Receiver for Document {
+    type Message = Edit;
+
+    fn receive(&mut self, edit: Edit, _: &mut Context) {
+        match edit {
+            Edit::SetAngle { bone, angle } => self.set_angle(bone, angle),
+            // feature: begin
+            Edit::SetColour { bone, colour } => self.set_colour(bone, colour),
+            Edit::ToggleVisible { bone } => self.toggle_visible(bone),
+            // feature: end
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Handles: the same method names as the objects, from any thread (the thesis's method pairs, §2.2.6.2).
+//!
+//! Who has stopped shows and edits nothing any more: the program is ending. That is decided here, once.
+
+use super::{Edit, PanelMessage, View, ViewportMessage};
+use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Point;
+use dragonfly_runtime::Address;
+
+/// [`Document`](super::Document), from any thread.
+#[derive(Clone)]
+pub struct DocumentHandle(pub Address<Edit>);
+
+impl DocumentHandle {
+    /// Turns a bone.
+    pub fn set_angle(&self, bone: usize, angle: f32) {
+        let _ = self.0.send(Edit::SetAngle { bone, angle });
+    }
+
+    // feature: begin
+    /// Chooses a bone's colour.
+    pub fn set_colour(&self, bone: usize, colour: Colour) {
+        let _ = self.0.send(Edit::SetColour { bone, colour });
+    }
+
+    /// Hides a bone, or shows it again.
+    pub fn toggle_visible(&self, bone: usize) {
+        let _ = self.0.send(Edit::ToggleVisible { bone });
+    }
+    // feature: end
+}
+
+/// [`Viewport`](super::Viewport), from any thread.
+#[derive(Clone)]
+pub struct ViewportHandle(pub Address<ViewportMessage>);
+
+impl ViewportHandle {
+    /// Draws `view` in the next frame.
+    pub fn show(&self, view: View) {
+        let _ = self.0.send(ViewportMessage::Show(view));
+    }
+
+    /// Has the panel told which bone is at `point`.
+    pub fn pick(&self, point: Point) {
+        let _ = self.0.send(ViewportMessage::Pick(point));
+    }
+}
+
+/// [`Panel`](super::Panel), from any thread.
+#[derive(Clone)]
+pub struct PanelHandle(pub Address<PanelMessage>);
+
+impl PanelHandle {
+    /// Shows `view` from now on.
+    pub fn show(&self, view: View) {
+        let _ = self.0.send(PanelMessage::Show(view));
+    }
+
+    /// The answer to a click.
+    pub fn picked(&self, bone: Option<usize>) {
+        let _ = self.0.send(PanelMessage::Picked(bone));
+    }
+}

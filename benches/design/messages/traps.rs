@@ -1,0 +1,168 @@
+//! Mistakes that compile. Each test makes one happen, every time: on a stage, where a test decides what is delivered
+//! when, or between two real threads that a barrier holds in place.
+
+use super::*;
+use dragonfly_runtime::{Address, Receiver, Stage, Thread};
+use std::sync::{Arc, Barrier, mpsc};
+use std::time::Duration;
+
+/// The editor on a stage, at rest, with two bones.
+fn editor() -> (Stage, [ThreadHandle; 3], Rc<RefCell<Panel>>) {
+    let mut stage = Stage::new();
+    let threads = ["main", "document", "graphics"].map(|name| stage.start(name));
+    let [main, document, graphics] = &threads;
+    let bones = vec![Bone::new("hip", 0.0), Bone::new("knee", 0.0)];
+    let panel = open(stage.context(main), document, graphics, bones, |_| {});
+    assert!(stage.settle(10));
+    (stage, threads, panel)
+}
+
+/// Asks the other one, in the middle of its own message, and waits.
+struct Asker {
+    /// Both are in the middle of a message; both have looked for their answer.
+    stations: Arc<[Barrier; 2]>,
+    found: mpsc::Sender<bool>,
+}
+
+enum Question {
+    Begin { other: Address<Question> },
+    Ask { answer: mpsc::Sender<()> },
+}
+
+impl Receiver for Asker {
+    type Message = Question;
+
+    fn receive(&mut self, question: Question, _: &mut Context) {
+        match question {
+            Question::Begin { other } => {
+                let (answer, answers) = mpsc::channel();
+                self.stations[0].wait();
+                other.send(Question::Ask { answer }).expect("it runs");
+                // Neither can answer before this very call returns: `recv()` would wait for ever.
+                let found = answers.recv_timeout(Duration::from_millis(20)).is_ok();
+                self.stations[1].wait();
+                self.found.send(found).expect("the test listens");
+            }
+            // Nobody listens any more when it comes.
+            Question::Ask { answer } => _ = answer.send(()),
+        }
+    }
+}
+
+#[test]
+fn deadlock_by_waiting_for_an_answer_in_the_middle_of_a_message() {
+    let threads = ["left", "right"].map(|name| Thread::start(name).expect("a thread"));
+    let stations = Arc::new([Barrier::new(2), Barrier::new(2)]);
+    let (found, results) = mpsc::channel();
+    let addresses = [&threads[0], &threads[1]].map(|thread| {
+        let (stations, found) = (Arc::clone(&stations), found.clone());
+        thread.handle().register_receiver(move |_| Asker { stations, found })
+    });
+    addresses[0].send(Question::Begin { other: addresses[1].clone() }).unwrap();
+    addresses[1].send(Question::Begin { other: addresses[0].clone() }).unwrap();
+    let result = || results.recv_timeout(Duration::from_secs(10)).expect("both come back");
+    assert_eq!([result(), result()], [false, false], "each waits for the other");
+}
+
+/// Passes on what it gets, for ever: two of these keep each other busy.
+struct Echo {
+    to: Address<u32>,
+}
+
+impl Receiver for Echo {
+    type Message = u32;
+
+    fn receive(&mut self, number: u32, _: &mut Context) {
+        let _ = self.to.send(number + 1);
+    }
+}
+
+#[test]
+fn no_rest_by_messages_that_go_in_a_circle() {
+    let mut stage = Stage::new();
+    let (left, right) = (stage.start("left"), stage.start("right"));
+    let (to_left, to_right) = (left.reserve_address(), right.reserve_address());
+    left.register_receiver_at(&to_left, {
+        let to = to_right.clone();
+        |_| Echo { to }
+    });
+    right.register_receiver_at(&to_right, {
+        let to = to_left.clone();
+        |_| Echo { to }
+    });
+    assert!(stage.settle(10));
+    to_left.send(0).unwrap();
+    assert!(!stage.settle(1_000), "it never comes to rest");
+}
+
+#[test]
+fn race_by_reading_a_view_and_sending_what_follows_from_it() {
+    let (mut stage, _, panel) = editor();
+    let turn = || {
+        let row = panel.borrow().rows()[0].clone();
+        let angle: f32 = row.split(' ').nth(1).unwrap().parse().unwrap();
+        panel.borrow().drag_angle(0, angle + 1.0);
+    };
+    // Twice before the view came back.
+    turn();
+    turn();
+    assert!(stage.settle(10));
+    assert_eq!(panel.borrow().rows()[0], "hip 1.00 #ffffff", "one of two is lost");
+    // The cure: an edit that says what to do, and leaves to the owner what comes of it.
+    panel.borrow().toggle_visible(0);
+    panel.borrow().toggle_visible(0);
+    panel.borrow().toggle_visible(0);
+    assert!(stage.settle(10));
+    assert_eq!(panel.borrow().rows()[0], "hip 1.00 #ffffff hidden");
+}
+
+#[test]
+fn stale_view_until_the_new_one_is_delivered() {
+    let (mut stage, [main, document, _], panel) = editor();
+    panel.borrow().toggle_visible(0);
+    assert!(!panel.borrow().rows()[0].contains("hidden"), "not yet with the document");
+    stage.iterate(&document);
+    assert!(!panel.borrow().rows()[0].contains("hidden"), "done, and not yet seen");
+    stage.iterate(&main);
+    assert!(panel.borrow().rows()[0].contains("hidden"));
+}
+
+#[test]
+fn stale_answer_by_two_ways_to_the_same_thread() {
+    let (mut stage, [main, document, graphics], panel) = editor();
+    // Hidden first, clicked second; but one goes by way of the document, the other straight to the viewport.
+    panel.borrow().toggle_visible(0);
+    panel.borrow().click([0.5, 0.0]);
+    stage.iterate(&graphics);
+    stage.iterate(&document);
+    stage.iterate(&main);
+    assert_eq!(panel.borrow().selected(), Some(0));
+    assert!(panel.borrow().rows()[0].contains("hidden"), "a hidden bone was picked");
+}
+
+#[test]
+fn flood_by_a_sender_that_nobody_slows_down() {
+    let (stage, [_, document, _], panel) = editor();
+    for step in 0..100_000 {
+        panel.borrow().drag_angle(0, step as f32);
+    }
+    assert_eq!(document.queue_len(), 100_000, "all wait");
+    drop(stage);
+    // The cure, where only the newest counts.
+    let (_stage, [_, document, _], _) = editor();
+    let newest = document.reserve_address::<Edit>().latest();
+    for step in 0..100_000 {
+        newest.send(Edit::SetAngle { bone: 0, angle: step as f32 }).unwrap();
+    }
+    assert_eq!((newest.waiting(), document.queue_len()), (1, 1));
+}
+
+#[test]
+fn lost_message_by_sending_to_who_is_gone() {
+    let (mut stage, [_, document, _], _) = editor();
+    let nobody = document.reserve_address::<Edit>();
+    let before = document.counters().undeliverable;
+    assert!(nobody.send(Edit::ToggleVisible { bone: 0 }).is_ok(), "accepted");
+    stage.iterate(&document);
+    assert_eq!(document.counters().undeliverable - before, 1, "and counted, but not delivered");
+}

@@ -1,0 +1,139 @@
+//! The document and the panel once more, with closures for messages: as short as with a lock, and one owner all the
+//! same. What is lost is the edit as a value: it cannot be written into a journal, taken back, or seen in a trace.
+
+use crate::design::messages::{PanelMessage, View, ViewportHandle};
+use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::{Bone, Point, describe};
+use dragonfly_runtime::{Address, Context, Receiver};
+use std::sync::Arc;
+
+/// Anything that can be done to a bone.
+pub struct Change {
+    bone: usize,
+    change: Box<dyn FnOnce(&mut Bone) + Send>,
+}
+
+/// The only owner of the bones.
+pub struct ClosureDocument {
+    bones: Vec<Bone>,
+    show: Box<dyn Fn(View)>,
+}
+
+impl ClosureDocument {
+    /// A document that shows itself at once, by `show`.
+    pub fn new(bones: Vec<Bone>, show: impl Fn(View) + 'static) -> Self {
+        show(bones.as_slice().into());
+        Self { bones, show: Box::new(show) }
+    }
+}
+
+impl Receiver for ClosureDocument {
+    type Message = Change;
+
+    fn receive(&mut self, Change { bone, change }: Change, _: &mut Context) {
+        if let Some(bone) = self.bones.get_mut(bone) {
+            change(bone);
+            (self.show)(self.bones.as_slice().into());
+        }
+    }
+}
+
+/// The document's handle: it never grows.
+#[derive(Clone)]
+pub struct ClosureHandle(pub Address<Change>);
+
+impl ClosureHandle {
+    /// Does `change` to a bone, there and later.
+    pub fn edit(&self, bone: usize, change: impl FnOnce(&mut Bone) + Send + 'static) {
+        let _ = self.0.send(Change { bone, change: Box::new(change) });
+    }
+}
+
+/// The panel that sends closures.
+pub struct ClosurePanel {
+    view: View,
+    selected: Option<usize>,
+    document: ClosureHandle,
+    viewport: ViewportHandle,
+}
+
+impl ClosurePanel {
+    /// An empty panel.
+    pub fn new(document: ClosureHandle, viewport: ViewportHandle) -> Self {
+        Self { view: Arc::new([]), selected: None, document, viewport }
+    }
+
+    /// What it shows.
+    pub fn rows(&self) -> Vec<String> {
+        self.view.iter().map(describe).collect()
+    }
+
+    /// The bone that was clicked last.
+    pub fn selected(&self) -> Option<usize> {
+        self.selected
+    }
+
+    /// The user moves a slider.
+    pub fn drag_angle(&self, bone: usize, angle: f32) {
+        self.document.edit(bone, move |bone| bone.angle = angle);
+    }
+
+    // feature: begin
+    /// The user chooses a colour.
+    pub fn choose_colour(&self, bone: usize, colour: Colour) {
+        self.document.edit(bone, move |bone| bone.colour = colour);
+    }
+
+    /// The user clicks the eye beside a bone.
+    pub fn toggle_visible(&self, bone: usize) {
+        self.document.edit(bone, |bone| bone.visible = !bone.visible);
+    }
+    // feature: end
+
+    /// The user clicks into the picture; the answer comes later.
+    pub fn click(&self, point: Point) {
+        self.viewport.pick(point);
+    }
+}
+
+impl Receiver for ClosurePanel {
+    type Message = PanelMessage;
+
+    fn receive(&mut self, message: PanelMessage, _: &mut Context) {
+        match message {
+            PanelMessage::Show(view) => self.view = view,
+            PanelMessage::Picked(bone) => self.selected = bone,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::messages::PanelHandle;
+    use dragonfly_runtime::Stage;
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
+    #[test]
+    fn closures_edit_as_well() {
+        let mut stage = Stage::new();
+        let [main, document] = ["main", "document"].map(|name| stage.start(name));
+        let to_panel = main.reserve_address();
+        let show = PanelHandle(to_panel.clone());
+        let bones = vec![Bone::new("hip", 0.0)];
+        let to_document =
+            document.register_receiver(|_| ClosureDocument::new(bones, move |view| show.show(view)));
+        // Nobody draws here.
+        let viewport = ViewportHandle(main.reserve_address());
+        let panel = Rc::new(RefCell::new(ClosurePanel::new(ClosureHandle(to_document), viewport)));
+        stage.context(&main).register_receiver_at(&to_panel, Rc::clone(&panel));
+        panel.borrow().choose_colour(0, [255, 0, 0]);
+        panel.borrow().toggle_visible(0);
+        panel.borrow().drag_angle(0, 0.5);
+        panel.borrow().click([0.5, 0.0]);
+        assert!(stage.settle(10));
+        assert_eq!(panel.borrow().rows(), ["hip 0.50 #ff0000 hidden"]);
+        assert_eq!(panel.borrow().selected(), None);
+    }
+}

@@ -1,0 +1,29 @@
+//! `cargo run --release -p dragonfly-study --bin report`: makes the tables and charts of the study anew from its raw data.
+//!
+//! With a folder of raw data as its argument, of a short run say, it writes into `report` there and leaves the study as
+//! it is.
+
+use dragonfly_study::report;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let study = report::folder();
+    let (results, folder) = match std::env::args_os().nth(1) {
+        Some(results) => (PathBuf::from(&results), PathBuf::from(&results).join("report")),
+        None => (study.join("results"), study),
+    };
+    match report::update(&results, &folder) {
+        Ok(changed) => {
+            for path in &changed {
+                println!("{}", path.display());
+            }
+            println!("{} files changed", changed.len());
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
