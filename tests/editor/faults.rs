@@ -4,6 +4,7 @@
 use crate::fixture_layer::{Layer, lines};
 use crate::program::{Folder, data, dragonfly, outcome};
 use crate::screen::Screen;
+use crate::studio;
 use crate::window::{Editor, SOON, alone, rest, same};
 use dragonfly::document::{Cancel, LoadedModel, Source, load_model};
 use dragonfly::graphics::{PictureSettings, Studio};
@@ -77,7 +78,7 @@ fn slowness() -> u32 {
 fn draw_through(name: &str, call: &str, result: i32, times: usize, more: &[(&str, &str)]) {
     let layer = Layer::new(name);
     let reference = layer.folder.join("reference.png");
-    let mut studio = Studio::new().expect("a device");
+    let mut studio = studio::studio().expect("a device");
     studio.render(&fox(), &settings()).expect("a picture").save(&reference).expect("a file");
     let output = Command::new(std::env::current_exe().expect("a running test has a file"))
         .args(["faults::pictures_drawn_behind_the_layer", "--exact", "--nocapture", "--test-threads=1"])

@@ -1,6 +1,7 @@
 //! The graphics thread, turned by hand: it draws when something changed, answers what it is asked, and rests otherwise.
 
 use crate::arm;
+use crate::complaints::NoComplaints;
 use dragonfly::camera::Camera;
 use dragonfly::graphics::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
 use dragonfly::playback::Playback;
@@ -32,17 +33,25 @@ struct Bench {
     thread: Captured,
     graphics: GraphicsHandle,
     replies: Rc<RefCell<Replies>>,
+    // Dropped last, when the device is gone.
+    _watch: NoComplaints,
 }
 
 impl Bench {
-    /// `None` without an adapter.
-    fn new() -> Option<Self> {
+    /// Before the graphics thread was turned for the first time.
+    fn begin(parameters: DeviceParameters) -> Self {
+        let watch = NoComplaints::expect();
         let mut main = Thread::capture("main", || {});
         let thread = Thread::capture("graphics", || {});
         let replies = Rc::new(RefCell::new(Replies::default()));
         let address = main.context().register_receiver(Rc::clone(&replies));
-        let graphics = Graphics::start_in(thread.handle(), DeviceParameters::default(), SIZE, address);
-        let mut bench = Self { main, thread, graphics, replies };
+        let graphics = Graphics::start_in(thread.handle(), parameters, SIZE, address);
+        Self { main, thread, graphics, replies, _watch: watch }
+    }
+
+    /// `None` without an adapter.
+    fn new() -> Option<Self> {
+        let mut bench = Self::begin(DeviceParameters::default());
         bench.settle();
         match &bench.take()[..] {
             [GraphicsReply::Fatal(reason), ..] => {
@@ -176,6 +185,22 @@ fn panels_come_back_after_a_loss_with_everything_else() {
     }
     let after = bench.capture(&scratch("after-loss.png"));
     assert_eq!(crate::picture::difference(&before, &after), 0);
+}
+
+#[test]
+fn panels_that_no_device_will_show_are_forgotten_in_peace() {
+    let none = DeviceParameters { backends: wgpu::Backends::empty(), ..DeviceParameters::default() };
+    let mut bench = Bench::begin(none);
+    let context = egui::Context::default();
+    // Before it is known that there is none, and after.
+    bench.graphics.show_panels(panels(&context, "early"));
+    bench.settle();
+    assert!(matches!(&bench.take()[..], [GraphicsReply::Fatal(_)]), "the window must hear of it, to end");
+    let context = egui::Context::default();
+    bench.graphics.show_panels(panels(&context, "late"));
+    bench.settle();
+    // And when the thread ends with drawings on their way.
+    bench.graphics.show_panels(panels(&egui::Context::default(), "never"));
 }
 
 #[test]

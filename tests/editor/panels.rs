@@ -5,7 +5,7 @@ use dragonfly::document::{Progress, Stage, View};
 use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use std::time::Instant;
 
 /// The whole window without a window.
@@ -144,6 +144,24 @@ fn a_click_on_a_row_selects_the_bone_and_shows_its_numbers() {
     harness.run_steps(4);
     assert_eq!(harness.state().state.selected, Some(1));
     assert!(harness.query_by_label_contains("Translation: X 0.000, Y 0.100, Z 0.000").is_some());
+}
+
+#[test]
+fn the_button_for_bones_is_pressed_whenever_they_are_shown() {
+    let pressed = |view| {
+        let mut harness = harness(Bench::new(view));
+        harness.run_steps(4);
+        let on = Some(egui::accesskit::Toggled::True);
+        let found = harness.query_all_by_label("Skeleton");
+        (
+            found.filter(|node| node.accesskit_node().toggled() == on).count(),
+            harness.state().state.shows_skeleton(),
+        )
+    };
+    // The tab of the panel has the same name and is pressed as well.
+    assert_eq!(pressed(None), (1, false));
+    // Bones and nothing else, so they are shown although nobody asked for them.
+    assert_eq!(pressed(Some(fixture::full())), (2, true));
 }
 
 #[test]

@@ -56,6 +56,16 @@ fn a_near_miss_gets_the_nearest_bone_and_a_far_one_none() {
 }
 
 #[test]
+fn a_miss_is_as_near_on_a_screen_of_fine_pixels() {
+    let mut scene = scene(0.0, BoneLook::Lines);
+    let [x, y] = window_position(&scene, Vec3::Y * 0.5);
+    assert_eq!(pick(&scene, [x + 17.0, y]), None);
+    scene.look.pixels_per_point = 2.0;
+    assert_eq!(pick(&scene, [x + 17.0, y]), Some(0));
+    assert_eq!(pick(&scene, [x + 60.0, y]), None);
+}
+
+#[test]
 fn nothing_is_found_outside_the_viewport_and_hidden_bones_are_found() {
     let mut scene = scene(0.0, BoneLook::Octahedra);
     let on_bone = window_position(&scene, Vec3::Y * 0.5);

@@ -1,5 +1,6 @@
 //! The real program, run and watched with a deadline.
 
+use crate::complaints;
 use std::ffi::OsStr;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -63,12 +64,9 @@ pub(crate) fn outcome(command: &mut Command) -> Outcome {
     let status = wait(&mut child, LIMIT);
     let took = began.elapsed();
     let stderr = stderr.recv().expect("the reader ends");
-    Outcome {
-        code: status.code(),
-        stdout: stdout.recv().expect("the reader ends"),
-        stderr: String::from_utf8_lossy(&stderr).into_owned(),
-        took,
-    }
+    let stderr = String::from_utf8_lossy(&stderr).into_owned();
+    complaints::none_in(&stderr, command.get_envs().map(|(name, _)| name));
+    Outcome { code: status.code(), stdout: stdout.recv().expect("the reader ends"), stderr, took }
 }
 
 /// Runs the program with `arguments` to its end.

@@ -1,27 +1,25 @@
 //! A screen of our own, with a hand on its keyboard and mouse and an eye on its pixels.
 //!
-//! Xvfb is the screen; it writes what it shows into a file that we read. The hand speaks the X protocol itself: the few
-//! requests it needs are easier to write than a tool for them is to install.
+//! Xvfb is the screen; it writes what it shows into a file that we read.
 
 use crate::program::Folder;
+use crate::wire::{Place, Wire, words};
 use image::RgbaImage;
-use std::io::{BufRead, BufReader, Read, Write};
-use std::os::unix::net::UnixStream;
+use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Longer than Xvfb takes to start on a busy machine.
-const START: Duration = Duration::from_secs(30);
+pub(crate) use crate::wire::Window;
 
 /// Between two movements of a finger.
 const HAND: Duration = Duration::from_millis(60);
 
-/// A window as the X server numbers it.
-pub(crate) type Window = u32;
-
 /// Keys by their position on a keyboard, as Xvfb numbers them.
 pub(crate) mod key {
+    pub(crate) const CONTROL: u8 = 37;
+    pub(crate) const O: u8 = 32;
     pub(crate) const SPACE: u8 = 65;
+    pub(crate) const F11: u8 = 95;
     pub(crate) const HOME: u8 = 110;
 }
 
@@ -29,8 +27,7 @@ pub(crate) mod key {
 pub(crate) struct Screen {
     server: Child,
     number: u32,
-    hand: UnixStream,
-    root: Window,
+    hand: Wire,
     test_extension: u8,
     frames: Folder,
 }
@@ -54,16 +51,19 @@ impl Screen {
         let read = BufReader::new(server.stdout.take().expect("piped")).read_line(&mut line);
         read.expect("the number of the display");
         let number = line.trim().parse().expect("the number of the display");
-        let mut hand = connect(number);
-        let root = greet(&mut hand);
-        let mut screen = Self { server, number, hand, root, test_extension: 0, frames };
-        screen.test_extension = screen.extension("XTEST");
-        screen
+        let mut hand = Wire::connect(number);
+        let test_extension = hand.extension("XTEST");
+        Self { server, number, hand, test_extension, frames }
     }
 
     /// What `DISPLAY` must be for a program to open its window here.
     pub(crate) fn display(&self) -> String {
         format!(":{}", self.number)
+    }
+
+    /// Another connection, for whoever plays another program beside it.
+    pub(crate) fn wire(&self) -> Wire {
+        Wire::connect(self.number)
     }
 
     /// Stops at once, as when a session ends under its programs.
@@ -76,10 +76,10 @@ impl Screen {
     #[track_caller]
     pub(crate) fn window(&mut self, title: &str, limit: Duration) -> Window {
         let deadline = Instant::now() + limit;
-        let name = self.atom("_NET_WM_NAME");
+        let name = self.hand.atom("_NET_WM_NAME");
         loop {
-            for window in self.children() {
-                if self.property(window, name).is_some_and(|text| text.starts_with(title.as_bytes())) {
+            for window in self.hand.children() {
+                if self.hand.property(window, name).is_some_and(|text| text.starts_with(title.as_bytes())) {
                     return window;
                 }
             }
@@ -111,43 +111,45 @@ impl Screen {
         pass(HAND);
     }
 
+    /// Presses a key while another is held down.
+    pub(crate) fn press_with(&mut self, held: u8, key: u8) {
+        self.fake(2, held, 0, 0);
+        pass(HAND);
+        self.press(key);
+        self.fake(3, held, 0, 0);
+        pass(HAND);
+    }
+
     /// Gives the window the keyboard; without a window manager nobody else does.
     pub(crate) fn focus(&mut self, window: Window) {
-        let mut request = vec![42, 2, 3, 0];
-        request.extend(words(&[window, 0]));
-        self.send(&request);
+        self.hand.tell(42, 2, &words(&[window, 0]));
+    }
+
+    /// Where the window is: left, top, width, height.
+    #[track_caller]
+    pub(crate) fn place(&mut self, window: Window) -> Place {
+        self.hand.place(window).expect("a window")
     }
 
     /// Asks the window to close, as a click on its cross does.
     pub(crate) fn close(&mut self, window: Window) {
-        let (protocols, delete) = (self.atom("WM_PROTOCOLS"), self.atom("WM_DELETE_WINDOW"));
-        let mut event = vec![33, 32, 0, 0];
-        event.extend(words(&[window, protocols, delete, 0, 0, 0, 0]));
-        let mut request = vec![25, 0, 11, 0];
-        request.extend(words(&[window, 0]));
-        request.extend(event);
-        self.send(&request);
+        let (protocols, delete) = (self.hand.atom("WM_PROTOCOLS"), self.hand.atom("WM_DELETE_WINDOW"));
+        self.hand.message(window, 0, window, protocols, [delete, 0, 0, 0, 0]);
     }
 
     /// Gives the window another size.
     pub(crate) fn resize(&mut self, window: Window, width: u32, height: u32) {
-        let mut request = vec![12, 0, 5, 0];
-        request.extend(words(&[window, 0b1100, width, height]));
-        self.send(&request);
+        self.hand.tell(12, 0, &words(&[window, 0b1100, width, height]));
     }
 
     /// Takes the window off the screen, as minimising does, or puts it back.
     pub(crate) fn show(&mut self, window: Window, shown: bool) {
-        let mut request = vec![if shown { 8 } else { 10 }, 0, 2, 0];
-        request.extend(words(&[window]));
-        self.send(&request);
+        self.hand.tell(if shown { 8 } else { 10 }, 0, &words(&[window]));
     }
 
     /// Destroys the window behind the program's back.
     pub(crate) fn destroy(&mut self, window: Window) {
-        let mut request = vec![4, 0, 2, 0];
-        request.extend(words(&[window]));
-        self.send(&request);
+        self.hand.tell(4, 0, &words(&[window]));
     }
 
     /// Everything on the screen.
@@ -179,62 +181,12 @@ impl Screen {
     }
 
     fn fake(&mut self, kind: u8, detail: u8, x: i16, y: i16) {
-        let mut request = vec![self.test_extension, 2, 9, 0, kind, detail, 0, 0];
-        request.extend(words(&[0, self.root, 0, 0]));
-        request.extend(x.to_le_bytes());
-        request.extend(y.to_le_bytes());
-        request.extend([0; 8]);
-        self.send(&request);
-    }
-
-    fn extension(&mut self, name: &str) -> u8 {
-        let reply = self.ask(98, 0, &named(name)).expect("an answer");
-        assert_eq!(reply[8], 1, "the X server lacks {name}");
-        reply[9]
-    }
-
-    fn atom(&mut self, name: &str) -> u32 {
-        word(&self.ask(16, 0, &named(name)).expect("an answer"), 8)
-    }
-
-    fn children(&mut self) -> Vec<Window> {
-        let Some(reply) = self.ask(15, 0, &words(&[self.root])) else { return Vec::new() };
-        let count = usize::from(u16::from_le_bytes([reply[16], reply[17]]));
-        (0..count).map(|index| word(&reply, 32 + 4 * index)).collect()
-    }
-
-    fn property(&mut self, window: Window, property: u32) -> Option<Vec<u8>> {
-        let reply = self.ask(20, 0, &words(&[window, property, 0, 0, 64]))?;
-        let length = word(&reply, 16) as usize * usize::from(reply[1]) / 8;
-        reply.get(32..32 + length).map(<[u8]>::to_vec)
-    }
-
-    /// A request with an answer; `None` when the answer is an error (the window is gone).
-    fn ask(&mut self, request: u8, detail: u8, body: &[u8]) -> Option<Vec<u8>> {
-        let length = (body.len() / 4 + 1) as u16;
-        let mut bytes = vec![request, detail];
-        bytes.extend(length.to_le_bytes());
-        bytes.extend(body);
-        self.send(&bytes);
-        loop {
-            let mut reply = vec![0; 32];
-            self.hand.read_exact(&mut reply).expect("the X server answers");
-            match reply[0] {
-                0 => return None,
-                1 => {
-                    let mut more = vec![0; word(&reply, 4) as usize * 4];
-                    self.hand.read_exact(&mut more).expect("the X server answers");
-                    reply.extend(more);
-                    return Some(reply);
-                }
-                // An event that nobody asked for.
-                _ => {}
-            }
-        }
-    }
-
-    fn send(&mut self, request: &[u8]) {
-        self.hand.write_all(request).expect("the X server listens");
+        let mut body = vec![kind, detail, 0, 0];
+        body.extend(words(&[0, self.hand.root, 0, 0]));
+        body.extend(x.to_le_bytes());
+        body.extend(y.to_le_bytes());
+        body.extend([0; 8]);
+        self.hand.tell(self.test_extension, 2, &body);
     }
 }
 
@@ -253,48 +205,4 @@ pub(crate) fn pass(time: Duration) {
     while let Some(left) = end.checked_duration_since(Instant::now()) {
         std::thread::park_timeout(left);
     }
-}
-
-fn connect(number: u32) -> UnixStream {
-    let deadline = Instant::now() + START;
-    loop {
-        match UnixStream::connect(format!("/tmp/.X11-unix/X{number}")) {
-            Ok(stream) => {
-                stream.set_read_timeout(Some(START)).expect("a socket");
-                return stream;
-            }
-            Err(error) => assert!(Instant::now() < deadline, "{error}"),
-        }
-        std::thread::park_timeout(Duration::from_millis(10));
-    }
-}
-
-/// Says hello (little-endian, version 11) and learns the root window.
-fn greet(hand: &mut UnixStream) -> Window {
-    hand.write_all(&[0x6c, 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0]).expect("the X server listens");
-    let mut head = [0; 8];
-    hand.read_exact(&mut head).expect("the X server answers");
-    assert_eq!(head[0], 1, "the X server refused us");
-    let mut body = vec![0; usize::from(u16::from_le_bytes([head[6], head[7]])) * 4];
-    hand.read_exact(&mut body).expect("the X server answers");
-    let vendor = usize::from(u16::from_le_bytes([body[16], body[17]])).next_multiple_of(4);
-    let formats = usize::from(body[21]) * 8;
-    word(&body, 32 + vendor + formats)
-}
-
-/// A text as requests want it: length, padding, letters, padding.
-fn named(name: &str) -> Vec<u8> {
-    let mut body = (name.len() as u16).to_le_bytes().to_vec();
-    body.extend([0, 0]);
-    body.extend(name.as_bytes());
-    body.resize(body.len().next_multiple_of(4), 0);
-    body
-}
-
-fn words(numbers: &[u32]) -> Vec<u8> {
-    numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
-}
-
-fn word(bytes: &[u8], at: usize) -> u32 {
-    u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
 }

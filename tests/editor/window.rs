@@ -1,8 +1,10 @@
 //! The whole program as a person meets it: a real window on a screen of our own, driven by keys and mouse.
 
+use crate::complaints;
 use crate::program::{Folder, data, dragonfly, wait};
 use crate::screen::{Screen, Window, key, pass};
 use image::RgbaImage;
+use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -33,6 +35,8 @@ pub(crate) struct Editor {
     said: Receiver<String>,
     pub(crate) lines: Vec<String>,
     pub(crate) window: Window,
+    /// Variables of its environment.
+    variables: Vec<String>,
     _settings: Folder,
 }
 
@@ -56,7 +60,8 @@ impl Editor {
         let stderr = BufReader::new(child.stderr.take().expect("piped"));
         let read = move || stderr.lines().map_while(Result::ok).try_for_each(|line| sender.send(line));
         std::thread::Builder::new().name("reader".to_owned()).spawn(read).expect("a thread");
-        let mut editor = Self { child, said, lines: Vec::new(), window: 0, _settings: settings };
+        let variables = environment.iter().map(|(name, _)| (*name).to_owned()).collect();
+        let mut editor = Self { child, said, lines: Vec::new(), window: 0, variables, _settings: settings };
         editor.hears("Opened Fox.glb", 1, SOON);
         editor.window = screen.window("Fox.glb", SOON);
         screen.focus(editor.window);
@@ -93,11 +98,15 @@ impl Editor {
     #[track_caller]
     pub(crate) fn ends(&mut self, limit: Duration) -> ExitStatus {
         let status = wait(&mut self.child, limit);
-        // Until the reader has read the last line.
+        self.listen_to_the_end();
+        status
+    }
+
+    /// Until the reader has read the last line.
+    fn listen_to_the_end(&mut self) {
         while let Ok(line) = self.said.recv() {
             self.lines.push(line);
         }
-        status
     }
 
     /// Processor time used so far, in hundredths of a second.
@@ -113,8 +122,11 @@ impl Drop for Editor {
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();
+        self.listen_to_the_end();
         if std::thread::panicking() {
             eprintln!("what the editor said:\n{}", self.log());
+        } else {
+            complaints::none_in(&self.log(), self.variables.iter().map(OsStr::new));
         }
     }
 }
@@ -140,7 +152,7 @@ pub(crate) fn settled(screen: &Screen, part: [u32; 4]) -> RgbaImage {
 }
 
 /// How many different colours there are: a blank or broken picture has few.
-fn colours(picture: &RgbaImage) -> usize {
+pub(crate) fn colours(picture: &RgbaImage) -> usize {
     picture.pixels().collect::<std::collections::HashSet<_>>().len()
 }
 
@@ -155,7 +167,7 @@ pub(crate) fn same(screen: &Screen, now: &RgbaImage, before: &RgbaImage, otherwi
 }
 
 #[track_caller]
-fn eventually_shows_something(screen: &Screen) {
+pub(crate) fn eventually_shows_something(screen: &Screen) {
     let deadline = Instant::now() + SOON;
     while colours(&screen.part(VIEWPORT)) < 200 {
         if Instant::now() > deadline {

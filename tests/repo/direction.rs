@@ -137,6 +137,13 @@ const ABSENCES: &[Absence] = &[
         words: &["wgpu", "winit", "egui", "glam"],
         because: "the runtime knows nothing of animation, windows or GPUs",
     },
+    Absence {
+        within: &["tests/editor/"],
+        // Two that watch their devices, and one whose layer makes errors on purpose.
+        except: &["tests/editor/studio.rs", "tests/editor/graphics_thread.rs", "tests/editor/faults.rs"],
+        words: &["Studio::new", "Studio::with", "Stage::new", "Device::new", "Graphics::start"],
+        because: "a test gets its device where it is watched for errors of ours, from studio()",
+    },
 ];
 
 /// Files in which `unsafe` may be written, and why.
@@ -172,6 +179,7 @@ fn what_the_architecture_promises_by_absence_is_absent() {
     )]));
     one(says_no_such_word(&[File::planted("editor/src/panels/takes.rs", "let answer = receiver.recv();")]));
     one(says_no_such_word(&[File::planted("editor/src/app/window.rs", "device: wgpu::Device,")]));
+    one(says_no_such_word(&[File::planted("tests/editor/light.rs", "let studio = Studio::new()?;")]));
     one(says_no_such_word(&[File::planted("runtime/src/thread.rs", "use winit::event_loop;")]));
     none(says_no_such_word(&[File::planted("editor/src/app/state.rs", "// no Mutex here")]));
 }

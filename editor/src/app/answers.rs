@@ -15,8 +15,6 @@ use std::time::Instant;
 pub(super) struct Replies {
     /// Where it is shown.
     pub interface: Rc<RefCell<Interface>>,
-    /// Files of the command line that are not opened, until the person is told.
-    pub passed_over: usize,
 }
 
 impl Receiver for Replies {
@@ -26,7 +24,7 @@ impl Receiver for Replies {
         let mut interface = self.interface.borrow_mut();
         let state = &mut interface.state;
         let ends = !matches!(reply, DocumentReply::Loading { .. });
-        let passed_over = if ends { std::mem::take(&mut self.passed_over) } else { 0 };
+        let passed_over = if ends { std::mem::take(&mut state.passed_over) } else { 0 };
         match reply {
             DocumentReply::Loading { title, progress } => state.loading = Some(Loading { title, progress }),
             DocumentReply::Cancelled => {
@@ -61,7 +59,7 @@ impl Receiver for Replies {
     }
 }
 
-/// Says that so many files of the command line stay closed.
+/// Says that so many files, given together with the one that is open now, stay closed.
 fn say_passed_over(status: &mut Status, files: usize) {
     match files {
         0 => {}
@@ -87,7 +85,10 @@ impl Receiver for Answers {
                 interface.state.status.say(Level::Warning, text);
                 interface.state.overlay = Some(Overlay::OpenPath);
             }
-            Answer::Nothing { quick: false } => {}
+            // Also where the dialog failed slowly, which looks the same from here.
+            Answer::Nothing { quick: false } => {
+                interface.state.status.say(Level::Info, "No file was chosen");
+            }
         }
         interface.redraw();
     }

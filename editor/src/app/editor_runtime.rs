@@ -112,10 +112,8 @@ impl EditorRuntime {
 
 impl BaseRuntime for EditorRuntime {
     fn initialize(&mut self, parts: Parts, main: &mut Context) {
-        let replies = main.register_receiver(Replies {
-            interface: Rc::clone(&parts.interface),
-            passed_over: self.options.passed_over,
-        });
+        parts.interface.borrow_mut().state.passed_over = self.options.passed_over;
+        let replies = main.register_receiver(Replies { interface: Rc::clone(&parts.interface) });
         let answers = main.register_receiver(Answers(Rc::clone(&parts.interface)));
         let document = match Document::start(replies.clone()) {
             Ok(document) => {
@@ -283,6 +281,7 @@ fn look(state: &State, pixels_per_point: f32, dark: bool) -> Look {
             pixels(rect.right()).saturating_sub(left),
             pixels(rect.bottom()).saturating_sub(top),
         ],
+        pixels_per_point,
         background: theme.sky.map(linear),
         grid: settings.grid,
         grid_color: linear(theme.grid),

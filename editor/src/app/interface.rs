@@ -11,7 +11,7 @@ use crate::panels::{Desk, Effect, Request, Settings, State, style};
 use dragonfly_runtime::{Context, Worker};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use winit::event::WindowEvent;
+use winit::event::{InnerSizeWriter, WindowEvent};
 use winit::window::{Fullscreen, Window};
 
 /// Panels are drawn at most this often, however fast the mouse reports.
@@ -29,6 +29,9 @@ pub struct Interface {
     graphics: Option<GraphicsHandle>,
     store: Store,
     saved: Settings,
+    /// Physical pixels a point, as the desktop says; the window's own answer is late (winit under X11 tells of a change
+    /// and goes on to answer with the scale before).
+    desktop_scale: f64,
     /// When the panels are to be drawn.
     due: Option<Instant>,
     drawn: Instant,
@@ -45,6 +48,7 @@ impl Interface {
         style::install(egui.egui_ctx());
         let saved = settings.clone();
         Self {
+            desktop_scale: window.scale_factor(),
             window,
             egui,
             desk,
@@ -86,6 +90,21 @@ impl Interface {
         egui_winit::pixels_per_point(self.egui.egui_ctx(), &self.window)
     }
 
+    /// How much egui must enlarge what it takes for the usual size: what the person chose, and what the window does not
+    /// know yet.
+    fn zoom(&self) -> f32 {
+        self.state.settings.scale * (self.desktop_scale / self.window.scale_factor()) as f32
+    }
+
+    /// Takes the desktop's new scale. Told the same scale again, winit would enlarge the window a second time.
+    fn set_desktop_scale(&mut self, scale: f64, size: &InnerSizeWriter) {
+        if self.desktop_scale == scale {
+            // Fails only when the size is settled already.
+            let _ = size.clone().request_inner_size(self.window.inner_size());
+        }
+        self.desktop_scale = scale;
+    }
+
     /// Is the dark theme shown?
     pub fn is_dark(&self) -> bool {
         self.egui.egui_ctx().theme() == egui::Theme::Dark
@@ -124,6 +143,9 @@ impl Interface {
             return;
         }
         let response = self.egui.on_window_event(&self.window, event);
+        if let WindowEvent::ScaleFactorChanged { scale_factor, inner_size_writer } = event {
+            self.set_desktop_scale(*scale_factor, inner_size_writer);
+        }
         match event {
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
                 self.tell_size();
@@ -190,9 +212,9 @@ impl Interface {
 
     fn draw(&mut self, now: Instant) {
         let context = self.egui.egui_ctx().clone();
-        let scale = self.state.settings.scale;
-        if context.zoom_factor() != scale {
-            context.set_zoom_factor(scale);
+        let zoom = self.zoom();
+        if context.zoom_factor() != zoom {
+            context.set_zoom_factor(zoom);
         }
         context.set_theme(match self.state.settings.theme {
             ThemeChoice::System => egui::ThemePreference::System,
@@ -202,7 +224,7 @@ impl Interface {
         // Asked before there are textures to deliver: asking panics when the window was destroyed behind our back.
         let size = self.window.inner_size();
         let input = self.egui.take_egui_input(&self.window);
-        let dropped = input.dropped_files.first().map(|file| file.path().to_owned());
+        let dropped: Vec<_> = input.dropped_files.iter().map(|file| file.path().to_owned()).collect();
         let mut requests = Vec::new();
         self.state.begin(now);
         let (desk, state) = (&mut self.desk, &self.state);
@@ -229,7 +251,9 @@ impl Interface {
         let (overlay, viewport) = (self.state.overlay, self.state.viewport);
         self.state.hovered = None;
         self.state.find = false;
-        if let Some(path) = dropped {
+        let files = dropped.len();
+        if let Some(path) = dropped.into_iter().next() {
+            self.state.passed_over = files - 1;
             requests.push(Request::Open(crate::document::Source::File(path)));
         }
         for request in requests {

@@ -44,6 +44,9 @@ pub enum AppError {
     /// There is no display to show it on.
     #[error("no display: {0}")]
     Display(String),
+    /// The display that it was shown on is gone.
+    #[error("the display is gone: {0}")]
+    DisplayGone(String),
     /// The display refused it.
     #[error("no window: {0}")]
     Window(String),
@@ -77,7 +80,11 @@ pub fn run(options: Options) -> Result<(), AppError> {
     if let Some(error) = shell.error {
         return Err(error);
     }
-    ended.map_err(|error| AppError::Display(error.to_string()))?;
+    if let Err(error) = ended {
+        let shown = timeline.borrow().reached().contains(&Step::MainRuntime);
+        let gone = if shown { AppError::DisplayGone } else { AppError::Display };
+        return Err(gone(error.to_string()));
+    }
     timeline.borrow_mut().reach(Step::MainFunctionEnd);
     Ok(())
 }

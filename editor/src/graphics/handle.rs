@@ -52,12 +52,8 @@ impl GraphicsHandle {
             GraphicsMessage::Resized(_) => &self.size,
             _ => &self.address,
         };
-        if let Err(error) = address.send(message)
-            && let GraphicsMessage::Panels(mut frame) = error.into_inner()
-        {
-            // egui insists that textures are not forgotten by mistake; here it is on purpose.
-            frame.textures.clear();
-        }
+        // The thread has stopped, and nothing is to be done about it.
+        let _ = address.send(message);
     }
 
     /// Shows `loaded` instead of what is shown.

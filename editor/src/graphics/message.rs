@@ -36,6 +36,8 @@ pub enum Shading {
 pub struct Look {
     /// Where the scene goes, in physical pixels of the window: x, y, width, height.
     pub viewport: [u32; 4],
+    /// Physical pixels a point: how large a hand is on this screen.
+    pub pixels_per_point: f32,
     /// Linear RGB, top and bottom of the background.
     pub background: [[f32; 3]; 2],
     /// Ground grid.
@@ -67,6 +69,7 @@ impl Default for Look {
     fn default() -> Self {
         Self {
             viewport: [0; 4],
+            pixels_per_point: 1.0,
             background: [[0.046, 0.052, 0.061], [0.014, 0.016, 0.020]],
             grid: true,
             grid_color: [0.30, 0.33, 0.37],
@@ -91,8 +94,16 @@ pub struct PanelsFrame {
     pub pixels_per_point: f32,
     /// Triangles, ready to draw.
     pub jobs: Vec<egui::ClippedPrimitive>,
-    /// Textures that changed since the last frame; must not be dropped unapplied.
+    /// Textures that changed since the last frame.
     pub textures: egui::TexturesDelta,
+}
+
+impl Drop for PanelsFrame {
+    /// egui panics where textures are forgotten, which it takes for a mistake. A drawing that nobody will show, as there is
+    /// no device or no thread any more, is dropped wherever it happens to be, and is none.
+    fn drop(&mut self) {
+        self.textures.clear();
+    }
 }
 
 /// Messages of the graphics thread.

@@ -8,7 +8,7 @@ use crate::camera::Ray;
 use dragonfly_anim::data::BoneIndex;
 use glam::{Mat4, Vec2, Vec3, Vec4Swizzles};
 
-/// A pointer may miss by so many pixels.
+/// A pointer may miss by so many points, which look equally large on every screen.
 const REACH: f32 = 10.0;
 
 /// The bone at a pixel of the window, in the pose that `scene` prepared last.
@@ -73,13 +73,14 @@ fn meets(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<f32> {
 fn nearest(scene: &Scene, shape: &SkeletonShape, pixel: Vec2) -> Option<BoneIndex> {
     let clip_from_world = scene.clip_from_world(&scene.bounds().sphere);
     let size = scene.size();
+    let reach = REACH * scene.look.pixels_per_point;
     let mut best: Option<(f32, BoneIndex)> = None;
     for body in Body::ALL {
         for (instance, &bone) in shape.instances(body).iter().zip(shape.owners(body)) {
             let ends = [instance.head, instance.tail].map(|end| on_screen(&clip_from_world, end, size));
             let [Some(head), Some(tail)] = ends else { continue };
             let distance = to_segment(pixel, head, tail);
-            if distance <= REACH && best.is_none_or(|(nearest, _)| distance < nearest) {
+            if distance <= reach && best.is_none_or(|(nearest, _)| distance < nearest) {
                 best = Some((distance, bone));
             }
         }

@@ -79,8 +79,10 @@ impl WindowSurface {
             return Acquired::Nothing;
         }
         let size = size.map(|side| side.min(gpu.max_side));
-        if self.configured.as_ref().is_none_or(|now| [now.width, now.height] != size) {
-            self.configure(gpu, size);
+        if self.configured.as_ref().is_none_or(|now| [now.width, now.height] != size)
+            && !self.configure(gpu, size)
+        {
+            return self.refused();
         }
         use wgpu::CurrentSurfaceTexture as Current;
         for _ in 0..2 {
@@ -90,23 +92,37 @@ impl WindowSurface {
                     self.refusals = 0;
                     return Acquired::Frame(texture);
                 }
-                Current::Outdated | Current::Lost => self.configure(gpu, size),
+                Current::Outdated | Current::Lost => {
+                    if !self.configure(gpu, size) {
+                        return self.refused();
+                    }
+                }
                 Current::Timeout | Current::Occluded => return Acquired::Nothing,
                 Current::Validation => {
-                    // What a lost device answers for ever, but a window in the middle of a change only once.
-                    self.refusals += 1;
-                    if self.refusals >= 2 {
-                        self.refusals = 0;
+                    if matches!(self.refused(), Acquired::DeviceLost) {
                         return Acquired::DeviceLost;
                     }
-                    self.configure(gpu, size);
+                    if !self.configure(gpu, size) {
+                        return self.refused();
+                    }
                 }
             }
         }
         Acquired::Nothing
     }
 
-    fn configure(&mut self, gpu: &Gpu, [width, height]: [u32; 2]) {
+    /// What a lost device or a destroyed window answers for ever, but a window in the middle of a change only once.
+    fn refused(&mut self) -> Acquired {
+        self.refusals += 1;
+        if self.refusals < 2 {
+            return Acquired::Nothing;
+        }
+        self.refusals = 0;
+        Acquired::DeviceLost
+    }
+
+    /// Did the window take it? One that was destroyed behind our back does not, which is no error of ours.
+    fn configure(&mut self, gpu: &Gpu, [width, height]: [u32; 2]) -> bool {
         let configuration = wgpu::SurfaceConfiguration {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
             format: gpu.window_format,
@@ -118,7 +134,14 @@ impl WindowSurface {
             alpha_mode: wgpu::CompositeAlphaMode::Auto,
             view_formats: Vec::new(),
         };
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         self.surface.configure(&gpu.device, &configuration);
-        self.configured = Some(configuration);
+        // Answered at once: the scope is kept on this side of the driver.
+        let refusal = pollster::block_on(scope.pop());
+        if let Some(error) = &refusal {
+            tracing::warn!(%error, "the window takes no pictures");
+        }
+        self.configured = refusal.is_none().then_some(configuration);
+        self.configured.is_some()
     }
 }

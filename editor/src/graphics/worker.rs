@@ -188,11 +188,8 @@ impl Receiver for Graphics {
 
     fn receive(&mut self, message: GraphicsMessage, thread: &mut Context) {
         let Some(stage) = self.stage.clone() else {
-            match message {
-                // egui insists that textures are not forgotten by mistake; here it is on purpose.
-                GraphicsMessage::Panels(mut frame) if self.failed => frame.textures.clear(),
-                _ if self.failed => {}
-                message => self.waiting.push(message),
+            if !self.failed {
+                self.waiting.push(message);
             }
             return;
         };

@@ -100,7 +100,7 @@ fn view(
     let look = &state.settings.look;
     item(ui, Id::ToggleGrid, look.grid, requests);
     item(ui, Id::ToggleSurface, look.surface, requests);
-    item(ui, Id::ToggleSkeleton, look.skeleton, requests);
+    item(ui, Id::ToggleSkeleton, state.shows_skeleton(), requests);
     item(ui, Id::ToggleXRay, look.bones_in_front, requests);
     ui.menu_button("Bones", |ui| {
         item(ui, Id::BonesOctahedra, look.bone_look == BoneLook::Octahedra, requests);

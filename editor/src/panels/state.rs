@@ -171,6 +171,8 @@ pub struct State {
     pub status: Status,
     /// A model on its way.
     pub loading: Option<Loading>,
+    /// How many files were given together with the one on its way and are not opened, until the person is told.
+    pub passed_over: usize,
     /// The graphics device.
     pub device: Device,
     /// How long the last frame took, milliseconds.
@@ -205,6 +207,7 @@ impl State {
             settings,
             status: Status::default(),
             loading: None,
+            passed_over: 0,
             device: Device::default(),
             frame_time: None,
             overlay: None,

@@ -143,7 +143,7 @@ fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) 
     divider(ui);
     command_button(ui, Icon::Grid, Id::ToggleGrid, look.grid, requests);
     command_button(ui, Icon::XRay, Id::ToggleXRay, look.bones_in_front, requests);
-    command_button(ui, Icon::Bone, Id::ToggleSkeleton, look.skeleton, requests);
+    command_button(ui, Icon::Bone, Id::ToggleSkeleton, state.shows_skeleton(), requests);
     if wide {
         divider(ui);
         command_button(ui, Icon::Lines, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);

@@ -1,0 +1,53 @@
+//! The whole screen, with F11 and from the menu, on a desktop with a window manager.
+
+use crate::manager;
+use crate::screen::{Screen, key};
+use crate::window::{Editor, SOON, alone, colours, rest, same, settled};
+use dragonfly_kit::eventually;
+
+/// The viewport, in the window as it opens.
+const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
+
+/// The menu "View" and its line "Full screen".
+const MENU: [(i16, i16); 2] = [(129, 14), (154, 345)];
+
+#[test]
+fn f11_and_the_menu_fill_the_screen_and_give_the_window_back() {
+    let _one = alone();
+    let mut screen = Screen::new("full", 1600, 1000);
+    manager::start(&screen);
+    let mut editor = Editor::open(&mut screen, &[], &[]);
+    let window = editor.window;
+    let whole = rest(&mut screen, VIEWPORT);
+    let before = screen.place(window);
+    assert_eq!(before[2..], [1280, 720]);
+    for way in ["key", "key", "menu"] {
+        let toggle = |screen: &mut Screen| match way {
+            "key" => screen.press(key::F11),
+            _ => {
+                MENU.into_iter().for_each(|(x, y)| screen.click(x, y));
+                // Off everything that would light up under it.
+                screen.point(i16::MAX, i16::MAX);
+            }
+        };
+        toggle(&mut screen);
+        eventually(SOON, || screen.place(window) == [0, 0, 1600, 1000]);
+        // What was nothing but the black screen before is drawn to the last pixel.
+        eventually(SOON, || colours(&screen.part([1400, 0, 200, 1000])) > 20);
+        let full = settled(&screen, [0, 0, 1600, 1000]);
+        for (x, y) in [(1599, 0), (1599, 999), (0, 999)] {
+            assert_ne!(full.get_pixel(x, y).0[..3], [0, 0, 0], "{way}: {x}, {y} is black");
+        }
+        toggle(&mut screen);
+        eventually(SOON, || screen.place(window) == before);
+        same(
+            &screen,
+            &settled(&screen, VIEWPORT),
+            &whole,
+            "the screen filled and given back changed the picture",
+        );
+    }
+    screen.close(window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+    assert!(!editor.log().contains("ERROR"), "{}", editor.log());
+}
