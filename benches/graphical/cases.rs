@@ -87,7 +87,7 @@ fn basis(mode: Mode) -> Scenario {
         edits: Edits::Small,
         rate: Rate::EVERY_MILLISECOND,
         period: HERTZ_60,
-        length: milliseconds(20, 220, 600),
+        length: milliseconds(20, 220, 500),
         warm_up: milliseconds(5, 40, 100),
         graphics_stall: None,
         main_stall: None,
