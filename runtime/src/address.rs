@@ -53,7 +53,7 @@ impl<M: Send + 'static> Address<M> {
     }
 
     fn with<C: Content>(thread: &Arc<Shared>, receiver: u32, flavour: Flavour<M>) -> Self {
-        let (thread, row) = (Arc::clone(thread), thread.mailbox.row::<C>());
+        let (thread, row) = (Arc::clone(thread), thread.mailbox.0.row::<C>());
         Self(Arc::new(Route { thread, receiver, row, flavour }))
     }
 
@@ -72,7 +72,7 @@ impl<M: Send + 'static> Address<M> {
             Flavour::Latest(waiting) => self.replace(waiting, message),
             Flavour::Bounded { .. } => {
                 let Some(weight) = self.0.admit(&message) else {
-                    self.0.thread.tallies.refused.add(1);
+                    self.0.thread.tallies.0.refused.add(1);
                     return Err(SendError::Full(message));
                 };
                 let letter = Weighed(message, weight, Arc::clone(&self.0));
@@ -117,12 +117,12 @@ impl<M: Send + 'static> Address<M> {
 
     /// How many messages its thread has stored for the next iteration, for all receivers.
     pub fn queue_len(&self) -> usize {
-        self.0.thread.mailbox.len()
+        self.0.thread.mailbox.0.len()
     }
 
     /// Has the thread stopped, so that every send fails?
     pub fn is_stopped(&self) -> bool {
-        self.0.thread.mailbox.is_closed()
+        self.0.thread.mailbox.0.is_closed()
     }
 
     /// A caller's mistake, not a thing that happens: addresses are not mixed up by chance.
@@ -148,7 +148,7 @@ impl<M: Send + 'static> Address<M> {
         let early = planted("announced_too_long").then(|| waiting.with(|waiting| waiting.is_some()));
         let old = waiting.with(|waiting| waiting.replace(message));
         if early.unwrap_or(old.is_some()) {
-            self.0.thread.tallies.replaced.add(1);
+            self.0.thread.tallies.0.replaced.add(1);
             return Ok(());
         }
         // When it stopped meanwhile, and a newer one came between, that one is given back.

@@ -2,7 +2,7 @@
 //! the order between the rows.
 //!
 //! ```text
-//! order    1 1 0 1
+//! order    2 of row 1, 1 of row 0, 1 of row 1
 //! row 0    [resize]                each row an array of one type,
 //! row 1    [edit][edit][edit]      whose room is used again and again
 //! ```
@@ -12,6 +12,7 @@
 
 use crate::Context;
 use crate::object::short_type_name;
+use crate::sync::planted;
 use crate::trace::Stamped;
 use std::any::Any;
 use std::collections::VecDeque;
@@ -66,29 +67,38 @@ impl<W: Wrapped> Content for W {
 /// Letters in the order in which they were stored.
 #[derive(Default)]
 pub(crate) struct Batch {
-    /// The row of each.
-    order: VecDeque<u32>,
+    /// Which row, and how many of it one after the other.
+    order: VecDeque<(u32, u32)>,
     /// By number; `None` where nothing of that type has come yet.
     rows: Vec<Option<Box<dyn Row>>>,
+    len: usize,
     /// How many there were at most, which is how many there is room for.
     most: usize,
+    /// How many batches in turn have left most of the room unused.
+    calm: u32,
 }
 
 /// Letters of one type, which is forgotten.
 trait Row: Any + Send {
     fn describe(&self, place: usize) -> (u32, &'static str);
-    fn deliver(&mut self, place: usize, thread: &mut Context);
+    /// Delivers up to `count` from `place` on, while the thread takes them, and counts them off.
+    fn deliver(&mut self, place: usize, count: &mut u32, thread: &mut Context);
     fn append(&mut self, newer: &mut dyn Row);
     fn discard(&mut self) -> usize;
 }
 
-/// Room for so many letters is always kept; room for more is given back when it is no longer used.
-const KEPT: usize = 4096;
+/// Room for so many letters is always kept; room for more is given back after so many batches that
+/// did not use it.
+const KEPT: (usize, u32) = (4096, 16);
 
 impl Batch {
     /// Stores `letter` in row number `row`, which holds its type.
     pub(crate) fn push<C: Content>(&mut self, row: u32, letter: Letter<C>) {
-        self.order.push_back(row);
+        match self.order.back_mut() {
+            Some((last, count)) if *last == row => *count += 1,
+            _ => self.order.push_back((row, 1)),
+        }
+        self.len += 1;
         let row = row as usize;
         if self.rows.len() <= row {
             self.rows.resize_with(row + 1, || None);
@@ -99,13 +109,13 @@ impl Batch {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.order.len()
+        self.len
     }
 
     /// Puts all of `newer` behind what is here; `newer` is empty then, and has room.
     pub(crate) fn append(&mut self, newer: &mut Self) {
-        if self.order.is_empty() {
-            std::mem::swap(self, newer);
+        if self.len == 0 {
+            return std::mem::swap(self, newer);
         }
         self.rows.resize_with(self.rows.len().max(newer.rows.len()), || None);
         for (mine, theirs) in self.rows.iter_mut().zip(&mut newer.rows) {
@@ -115,28 +125,53 @@ impl Batch {
             }
         }
         self.order.append(&mut newer.order);
+        self.len += std::mem::take(&mut newer.len);
     }
 
-    /// Delivers the letter at `index` before all others; `false` when there is none. It is out of
-    /// the batch before that, so that a panic takes no other with it.
-    pub(crate) fn deliver(&mut self, index: usize, thread: &mut Context) -> bool {
-        let Some(row) = self.order.remove(index) else { return false };
-        let place = self.place(row, index);
-        self.rows[row as usize].iter_mut().for_each(|row| row.deliver(place, thread));
-        true
+    /// Delivers in order, while the thread takes it.
+    pub(crate) fn deliver(&mut self, thread: &mut Context) {
+        while let Some((row, count)) = self.order.front_mut() {
+            let (before, reversed) = (*count, planted("reversed_batch") as usize);
+            if let Some(row) = &mut self.rows[*row as usize] {
+                // Counted off one by one, and outside of what a panic unwinds.
+                let place = (before as usize - 1) * reversed;
+                thread.contain("message", "drop", |thread| row.deliver(place, count, thread));
+            }
+            self.len -= (before - *count) as usize;
+            if *count == before {
+                return;
+            } else if *count == 0 {
+                self.order.pop_front();
+            }
+        }
+    }
+
+    /// Delivers the letter at `index` of [`describe`](Self::describe) before all others; `false`
+    /// when there is none, or the thread takes none.
+    pub(crate) fn deliver_at(&mut self, index: usize, thread: &mut Context) -> bool {
+        let Some((run, row, place)) = self.places().nth(index) else { return false };
+        let mut left = 1;
+        self.rows[row].iter_mut().for_each(|row| row.deliver(place, &mut left, thread));
+        self.order[run].1 -= 1 - left;
+        self.order.retain(|(_, count)| *count > 0);
+        self.len -= (1 - left) as usize;
+        left == 0
     }
 
     /// Whom each letter is for, and its name, in order.
     pub(crate) fn describe(&self) -> impl Iterator<Item = (u32, &'static str)> {
-        self.order.iter().enumerate().filter_map(|(index, row)| {
-            let place = self.place(*row, index);
-            Some(self.rows[*row as usize].as_ref()?.describe(place))
-        })
+        self.places().filter_map(|(_, row, place)| Some(self.rows[row].as_ref()?.describe(place)))
     }
 
-    /// Where in its row the letter at `index` of all is.
-    fn place(&self, row: u32, index: usize) -> usize {
-        self.order.iter().take(index).filter(|other| **other == row).count()
+    /// Of each letter, in order: its run, its row, and its place there.
+    fn places(&self) -> impl Iterator<Item = (usize, usize, usize)> {
+        let mut next = vec![0; self.rows.len()];
+        let all = self.order.iter().enumerate();
+        let all = all.flat_map(|(run, (row, count))| (0..*count).map(move |_| (run, *row as usize)));
+        all.map(move |(run, row)| {
+            next[row] += 1;
+            (run, row, next[row] - 1)
+        })
     }
 
     /// Throws everything away: how many messages of the program that was.
@@ -148,7 +183,8 @@ impl Batch {
     /// is empty now, had `letters`.
     pub(crate) fn shrink(&mut self, letters: usize) {
         self.most = self.most.max(letters);
-        if self.most > KEPT && letters < self.most / 4 && self.order.is_empty() {
+        self.calm = if letters < self.most / 4 { self.calm + 1 } else { 0 };
+        if self.most > KEPT.0 && self.calm > KEPT.1 && self.len == 0 {
             *self = Self::default();
         }
     }
@@ -159,9 +195,13 @@ impl<C: Content> Row for VecDeque<Letter<C>> {
         (self[place].to, self[place].content.name())
     }
 
-    fn deliver(&mut self, place: usize, thread: &mut Context) {
-        if let Some(Letter { to, stamp, content }) = self.remove(place) {
-            content.deliver(to, stamp, thread);
+    fn deliver(&mut self, place: usize, count: &mut u32, thread: &mut Context) {
+        while *count > 0 && !thread.halted() {
+            let letter = if place == 0 { self.pop_front() } else { self.remove(place) };
+            *count -= 1;
+            if let Some(Letter { to, stamp, content }) = letter {
+                content.deliver(to, stamp, thread);
+            }
         }
     }
 

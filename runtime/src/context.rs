@@ -22,6 +22,7 @@ pub struct Context {
     pub(crate) batch: Batch,
     pub(crate) again: bool,
     pub(crate) stopped: bool,
+    pub(crate) ended: bool,
     pub(crate) sleep_until: Option<Instant>,
     pub(crate) spin: Duration,
     /// One for each object at most. Few, so a list is quicker than a map, and keeps its memory.
@@ -43,6 +44,7 @@ impl Context {
             batch: Batch::default(),
             again: false,
             stopped: false,
+            ended: false,
             sleep_until: None,
             spin: Duration::ZERO,
             alarms: Vec::new(),

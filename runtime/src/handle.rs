@@ -99,7 +99,7 @@ impl ThreadHandle {
         self.shared.stopping.store(true, Ordering::SeqCst);
         // Nothing to do when it has stopped already.
         let _ = self.ask("stop", Context::stop);
-        self.shared.mailbox.wake_now();
+        self.shared.mailbox.0.wake_now();
     }
 
     /// Lets the thread sleep for `duration`, behind all messages queued so far; see
@@ -119,7 +119,7 @@ impl ThreadHandle {
     pub fn resume(&self) {
         self.shared.paused.store(false, Ordering::SeqCst);
         if !planted("silent_resume") {
-            self.shared.mailbox.wake_now();
+            self.shared.mailbox.0.wake_now();
         }
     }
 
@@ -130,12 +130,12 @@ impl ThreadHandle {
 
     /// How many messages are stored for the next iteration.
     pub fn queue_len(&self) -> usize {
-        self.shared.mailbox.len()
+        self.shared.mailbox.0.len()
     }
 
     /// What happened in the thread so far.
     pub fn counters(&self) -> Counters {
-        self.shared.tallies.read()
+        self.shared.tallies.0.read()
     }
 
     /// Tells `observer`, in that thread, of every panic there; see [`Context::observe`].
@@ -177,7 +177,7 @@ impl ThreadHandle {
     }
 
     fn ask(&self, name: &'static str, job: impl Job) -> Result<(), Asked> {
-        let row = self.shared.mailbox.row::<Asked>();
+        let row = self.shared.mailbox.0.row::<Asked>();
         self.shared.send(0, row, Asked { name, job: Box::new(job) })
     }
 }
@@ -194,7 +194,7 @@ impl Content for Asked {
     }
 
     fn deliver(self, _: u32, _: Stamped, thread: &mut Context) {
-        thread.shown(RUN, "run", |thread| thread.contain("run", "run", self.job));
+        thread.shown(RUN, &"run".into(), |thread| thread.contain("run", "run", self.job));
     }
 
     fn discard(self) -> usize {

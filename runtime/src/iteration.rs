@@ -31,11 +31,11 @@ pub enum Next {
 
 impl Context {
     pub(crate) fn iterate(&mut self) -> Next {
-        if self.shared().mailbox.is_closed() {
+        if self.ended {
             return Next::Stopped;
         }
-        self.shared().mailbox.stay_awake();
         if let Some(next) = self.suspended() {
+            self.shared().mailbox.0.stay_awake(); // What comes need not wake it.
             return next;
         }
         self.again = false;
@@ -43,7 +43,7 @@ impl Context {
             let now = self.now(); // A look at the clock costs as much as a message.
             self.alarms.retain(|(_, when)| *when > now);
         }
-        self.shared().tallies.iterations.add_own(1);
+        self.shared().tallies.0.iterations.add_own(1);
         self.dispatch_messages();
         self.update_workers();
         self.next()
@@ -56,21 +56,14 @@ impl Context {
         // Out of the context meanwhile, which the deliveries need whole.
         let mut batch = std::mem::take(&mut self.batch);
         let letters = batch.len();
-        while batch.len() > 0 && !self.halted() {
-            // Calls are guarded themselves; this is for messages that panic when they are dropped.
-            self.contain("message", "drop", |thread| {
-                while batch.len() > 0 && !thread.halted() {
-                    batch.deliver(if planted("reversed_batch") { batch.len() - 1 } else { 0 }, thread);
-                }
-            });
-        }
+        batch.deliver(self);
         batch.shrink(letters);
         self.batch = batch;
     }
 
     /// Takes over what is stored, behind what an earlier iteration left undelivered.
     pub(crate) fn fetch_messages(&mut self) {
-        self.handle.shared.mailbox.empty_into(&mut self.batch);
+        self.handle.shared.mailbox.0.empty_into(&mut self.batch);
     }
 
     /// Hands a message to its receiver, if that is still there.
@@ -85,9 +78,9 @@ impl Context {
         });
         let tallies = &self.shared().tallies;
         if end != End::Undeliverable {
-            return tallies.delivered.add_own(1);
+            return tallies.0.delivered.add_own(1);
         }
-        tallies.undeliverable.add_own(1);
+        tallies.0.undeliverable.add_own(1);
         let (thread, name) = (&self.shared().name, short_type_name::<M>());
         tracing::debug!(%thread, receiver = to, message = name, "undeliverable");
     }
@@ -123,7 +116,7 @@ impl Context {
         let end = object.map_or(End::Undeliverable, |object| self.call_object(id, object, message));
         if let (Some(trace), Some(begin)) = (&mut self.trace, begin) {
             let took = self.handle.shared.clock.now().saturating_duration_since(begin);
-            let iteration = self.handle.shared.tallies.iterations.get();
+            let iteration = self.handle.shared.tallies.0.iterations.get();
             let event = event(label.unwrap_or_default(), begin, end);
             trace.add(Record { iteration, at: begin, took, event });
         }
@@ -163,7 +156,7 @@ impl Context {
             if let (Ok(object), Some(slot)) = (made, self.objects.get_mut(&id)) {
                 slot.object = Some(object);
                 slot.factory = Some(factory);
-                self.shared().tallies.restarts.add_own(1);
+                self.shared().tallies.0.restarts.add_own(1);
                 return Outcome::Restarted;
             }
         }
@@ -172,7 +165,7 @@ impl Context {
     }
 
     fn report(&mut self, object: &str, call: &'static str, payload: &(dyn Any + Send), outcome: Outcome) {
-        self.shared().tallies.panics.add_own(1);
+        self.shared().tallies.0.panics.add_own(1);
         let thread = Arc::clone(&self.shared().name);
         let object = object.into();
         let reason = reason(payload);
@@ -206,7 +199,7 @@ impl Context {
 
     /// Runs `call`, which must not panic, while the watchdog sees what is running, and what is sent
     /// bears its name.
-    pub(crate) fn shown<A>(&mut self, id: u32, name: &str, call: impl FnOnce(&mut Self) -> A) -> A {
+    pub(crate) fn shown<A>(&mut self, id: u32, name: &Arc<str>, call: impl FnOnce(&mut Self) -> A) -> A {
         let sender = trace::sender(&self.shared().name, name);
         let outer = sender.map(|sender| trace::send_as(Some(sender)));
         self.shared().show_running(id);
@@ -225,7 +218,7 @@ impl Context {
         if let Some(next) = self.suspended() {
             return next;
         }
-        if self.again || self.batch.len() > 0 || !self.shared().mailbox.fall_asleep() {
+        if self.again || self.batch.len() > 0 || !self.shared().mailbox.0.fall_asleep() {
             return Next::Now;
         }
         let first = self.alarms.iter().map(|(_, when)| *when).min();
@@ -256,16 +249,16 @@ impl Context {
     /// Ends the thread: refuses messages, then drops all objects, users before what they use,
     /// which is in reverse order of registration, and workers first; then tells who waits.
     pub(crate) fn finish(&mut self) {
-        if self.shared().mailbox.is_closed() {
+        if std::mem::replace(&mut self.ended, true) {
             return;
         }
         if planted("finished_too_early") {
             self.shared().finish();
         }
         let mut left = std::mem::take(&mut self.batch);
-        left.append(&mut self.shared().mailbox.close());
+        left.append(&mut self.shared().mailbox.0.close());
         let left = left.discard();
-        self.shared().tallies.undelivered.add_own(left);
+        self.shared().tallies.0.undelivered.add_own(left);
         while let Some((_, slot)) = self.objects.pop_last() {
             self.drop_slot(slot);
         }

@@ -22,6 +22,8 @@ use std::any::TypeId;
 const AWAKE: u8 = 0;
 const ASLEEP: u8 = 1;
 const CLOSED: u8 = 2;
+/// Does nothing but look at the state: as good as asleep, but need not be woken.
+const LOOKING: u8 = 3;
 
 /// The queue of one thread. Any thread may [`send`](Self::send); everything else is the owner's.
 pub(crate) struct Mailbox {
@@ -68,7 +70,7 @@ impl Mailbox {
             }
             stored.batch.push(row, letter);
             let state = early.unwrap_or(state);
-            if state == ASLEEP {
+            if state != AWAKE {
                 self.state.store(AWAKE, Ordering::SeqCst);
             }
             Ok(state)
@@ -104,9 +106,27 @@ impl Mailbox {
         })
     }
 
-    /// Puts everything stored so far behind what is in `batch`.
+    /// The owner has fallen asleep, but looks for messages as long as `patient` says, before it
+    /// really sleeps.
+    pub(crate) fn look(&self, patient: impl Fn() -> bool) {
+        let change = |from, to| {
+            self.stored.with(|_| {
+                if self.state() == from {
+                    self.state.store(to, Ordering::SeqCst);
+                }
+            })
+        };
+        change(ASLEEP, LOOKING);
+        while self.state() == LOOKING && patient() {}
+        change(LOOKING, ASLEEP);
+    }
+
+    /// The owner is up, and puts everything stored so far behind what is in `batch`.
     pub(crate) fn empty_into(&self, batch: &mut Batch) {
-        self.stored.with(|stored| batch.append(&mut stored.batch));
+        self.stored.with(|stored| {
+            self.stay_awake();
+            batch.append(&mut stored.batch);
+        });
     }
 
     /// Refuses what comes from now on: what was stored before.

@@ -11,11 +11,16 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{self as std_atomic, AtomicU32, AtomicU64, AtomicUsize};
 
+/// Has cache lines to itself: who changes it all the time does not take what lies beside it from
+/// those who only read.
+#[repr(align(128))]
+pub(crate) struct Apart<T>(pub(crate) T);
+
 /// Shared by a thread's loop, its handles and the addresses of its receivers.
 pub(crate) struct Shared {
     pub(crate) name: Arc<str>,
     pub(crate) clock: Clock,
-    pub(crate) mailbox: Mailbox,
+    pub(crate) mailbox: Apart<Mailbox>,
     /// Nothing is delivered or called while this is set.
     pub(crate) paused: AtomicBool,
     /// A stop is in the queue: no sleep and no pause may keep the thread from reaching it.
@@ -27,10 +32,10 @@ pub(crate) struct Shared {
     /// What the objects are called, for a watchdog; empty without one.
     pub(crate) labels: Held<BTreeMap<u32, Label>>,
     next_id: AtomicU32,
-    running: AtomicU64,
+    running: Apart<AtomicU64>,
     /// Do senders stamp what they send here?
     pub(crate) traced: std_atomic::AtomicBool,
-    pub(crate) tallies: Counters<Tally>,
+    pub(crate) tallies: Apart<Counters<Tally>>,
 }
 
 impl Shared {
@@ -38,16 +43,16 @@ impl Shared {
         Arc::new(Self {
             name: name.into(),
             clock,
-            mailbox: Mailbox::new(wake),
+            mailbox: Apart(Mailbox::new(wake)),
             paused: AtomicBool::new(false),
             stopping: AtomicBool::new(false),
             finished: AtomicBool::new(false),
             waiters: Held::new(Vec::new()),
             labels: Held::new(BTreeMap::new()),
             next_id: AtomicU32::new(1),
-            running: AtomicU64::new(0),
+            running: Apart(AtomicU64::new(0)),
             traced: std_atomic::AtomicBool::new(false),
-            tallies: Counters::default(),
+            tallies: Apart(Counters::default()),
         })
     }
 
@@ -65,7 +70,7 @@ impl Shared {
     pub(crate) fn send<C: Content>(&self, to: u32, row: u32, content: C) -> Result<(), C> {
         let traced = self.traced.load(std_atomic::Ordering::Relaxed);
         let stamp = traced.then(|| Box::new(trace::Stamp::now(&self.clock)));
-        self.mailbox.send(row, Letter { to, stamp, content })
+        self.mailbox.0.send(row, Letter { to, stamp, content })
     }
 
     /// Says that the loop has ended and all objects are dropped, and wakes who waits for it.
@@ -78,12 +83,12 @@ impl Shared {
     /// Lets the watchdog see which object is running, and that it is another call than before.
     pub(crate) fn show_running(&self, id: u32) {
         let calls = (self.running() >> 32) + 1;
-        self.running.store(calls << 32 | u64::from(id), std_atomic::Ordering::Relaxed);
+        self.running.0.store(calls << 32 | u64::from(id), std_atomic::Ordering::Relaxed);
     }
 
     /// The number of the object being called, 0 for none; above it the number of the call.
     pub(crate) fn running(&self) -> u64 {
-        self.running.load(std_atomic::Ordering::Relaxed)
+        self.running.0.load(std_atomic::Ordering::Relaxed)
     }
 }
 

@@ -108,7 +108,7 @@ impl Stage {
         let context = self.context(thread);
         context.fetch_messages();
         let mut batch = std::mem::take(&mut context.batch);
-        let found = batch.deliver(index, context);
+        let found = batch.deliver_at(index, context);
         context.batch = batch;
         found
     }

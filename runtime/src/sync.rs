@@ -47,7 +47,7 @@ impl<T> Held<T> {
     }
 
     pub(crate) fn with<R>(&self, briefly: impl FnOnce(&mut T) -> R) -> R {
-        alone::enter();
+        alone::inside(true);
         #[cfg(not(tsan))]
         // What runs inside cannot panic half way; and a message more or less is no broken promise.
         let mut content = self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
@@ -55,7 +55,7 @@ impl<T> Held<T> {
         let mut content = self.0.lock();
         let answer = briefly(&mut content);
         drop(content);
-        alone::leave();
+        alone::inside(false);
         answer
     }
 }
@@ -65,14 +65,9 @@ mod alone {
     #[cfg(all(debug_assertions, not(any(loom, shuttle))))]
     thread_local!(static INSIDE: std::cell::Cell<bool> = const { std::cell::Cell::new(false) });
 
-    pub(super) fn enter() {
+    pub(super) fn inside(_now: bool) {
         #[cfg(all(debug_assertions, not(any(loom, shuttle))))]
-        assert!(!INSIDE.replace(true), "a lock was taken inside another");
-    }
-
-    pub(super) fn leave() {
-        #[cfg(all(debug_assertions, not(any(loom, shuttle))))]
-        INSIDE.set(false);
+        assert!(!(INSIDE.replace(_now) && _now), "a lock was taken inside another");
     }
 }
 

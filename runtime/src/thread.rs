@@ -4,6 +4,7 @@ use crate::clock::Clock;
 use crate::shared::Shared;
 use crate::sync::{Held, park, planted, thread};
 use crate::{Context, Next, ThreadHandle};
+use std::cell::Cell;
 use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -125,34 +126,36 @@ fn thread_proc(cradle: &Held<Option<Arc<Shared>>>) {
         };
         let left = |deadline: Instant| deadline.saturating_duration_since(Instant::now());
         let due = || deadline.is_some_and(|deadline| left(deadline).is_zero());
-        let asleep = || context.shared().mailbox.is_asleep();
-        // Who was told to sleep is awake in this sense, and looks for nothing.
-        if !context.spin.is_zero() && asleep() {
-            let limit = deadline.map_or(context.spin, |deadline| left(deadline).min(context.spin));
-            spin(limit, || !asleep());
+        let mailbox = &context.shared().mailbox.0;
+        // Who was told to sleep or to pause is awake in this sense, and looks for nothing.
+        if !context.spin.is_zero() && mailbox.is_asleep() {
+            mailbox
+                .look(patience(deadline.map_or(context.spin, |deadline| left(deadline).min(context.spin))));
+            if !mailbox.is_asleep() {
+                continue;
+            }
         }
-        // A wake-up that nobody meant, which the system allows itself, is slept through. Who was
-        // told to sleep or to pause is woken by nothing else.
+        // A wake-up that nobody meant, which the system allows itself, is slept through.
         park(deadline);
-        while !due() && asleep() {
+        while !due() && mailbox.is_asleep() {
             park(deadline);
         }
     }
 }
 
-/// Waits for `done` without sleep, for `limit` at most.
-///
-/// After each short while whoever waits for this core has a turn: it may be the one that is waited for.
-fn spin(limit: Duration, done: impl Fn() -> bool) {
-    let begin = Instant::now();
-    while begin.elapsed() < limit {
-        for _ in 0..64 {
-            if done() {
-                return;
-            }
-            std::hint::spin_loop();
+/// Looks on for as long as `limit`. In between whoever waits for this core has a turn, soon: it
+/// may be the one that is waited for.
+fn patience(limit: Duration) -> impl Fn() -> bool {
+    const LOOKS: u32 = 16;
+    let (begin, looks) = (Instant::now(), Cell::new(0));
+    move || {
+        looks.set(looks.get() + 1);
+        std::hint::spin_loop();
+        if looks.get() % LOOKS != 0 {
+            return true;
         }
         thread::yield_now();
+        begin.elapsed() < limit
     }
 }
 

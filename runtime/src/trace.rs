@@ -117,25 +117,28 @@ pub(crate) struct Stamp {
 /// On messages to a traced thread only.
 pub(crate) type Stamped = Option<Box<Stamp>>;
 
+/// Thread and object that are sending.
+pub(crate) type Sender = Option<(Arc<str>, Arc<str>)>;
+
 thread_local! {
     /// Which object of which runtime thread is being called on this OS thread.
-    static SENDER: RefCell<Option<Arc<str>>> = const { RefCell::new(None) };
+    static SENDER: RefCell<Sender> = const { RefCell::new(None) };
 }
 
 impl Stamp {
     pub(crate) fn now(clock: &Clock) -> Self {
-        let from = SENDER.with_borrow(Clone::clone).unwrap_or_default();
-        let sent = clock.now();
-        Self { from, sent }
+        let name = |(thread, object): &(Arc<str>, Arc<str>)| format!("{thread}/{object}").into();
+        let from = SENDER.with_borrow(|sender| sender.as_ref().map(name)).unwrap_or_default();
+        Self { from, sent: clock.now() }
     }
 }
 
-/// The name of an object as a sender. `None`, and next to free, while no thread is traced.
-pub(crate) fn sender(thread: &str, object: &str) -> Option<Arc<str>> {
-    (TRACED_THREADS.load(Ordering::Relaxed) > 0).then(|| format!("{thread}/{object}").into())
+/// The names of an object as a sender. `None`, and next to free, while no thread is traced.
+pub(crate) fn sender(thread: &Arc<str>, object: &Arc<str>) -> Sender {
+    (TRACED_THREADS.load(Ordering::Relaxed) > 0).then(|| (Arc::clone(thread), Arc::clone(object)))
 }
 
 /// From now on what this OS thread sends is stamped with `sender`; returns who it was before.
-pub(crate) fn send_as(sender: Option<Arc<str>>) -> Option<Arc<str>> {
+pub(crate) fn send_as(sender: Sender) -> Sender {
     SENDER.replace(sender)
 }

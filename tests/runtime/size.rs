@@ -1,10 +1,10 @@
-//! A newcomer reads the runtime in an hour: it stays under 1,650 lines of code, comments apart.
+//! A newcomer reads the runtime in an hour: it stays under 1,700 lines of code, comments apart.
 
 use std::fs;
 use std::path::Path;
 
 /// Lines of code that the runtime may have.
-const LIMIT: usize = 1650;
+const LIMIT: usize = 1700;
 
 /// Lines that are neither empty nor a comment.
 fn lines_of_code(source: &str) -> usize {
