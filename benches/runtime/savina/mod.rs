@@ -12,11 +12,11 @@
 //! | `fork_join_throughput` | 60 actors, 10,000 messages each | 1 | 1/4 |
 //! | `fork_join_creation` | 40,000 actors | 1 | 1/4 |
 //! | `thread_ring` | 100 actors, 100,000 hops | 1 | 1/5 |
-//! | `chameneos` | 100 creatures, 200,000 meetings | 1/2 | 1/10 |
+//! | `chameneos` | 100 creatures, 200,000 meetings | 1 | 1/10 |
 //! | `big` | 120 actors, 20,000 pings each | 1/5 | 1/20 |
 //! | `dictionary` | 20 workers, 10,000 requests each, one in ten writes | 1 | 1/10 |
 //! | `bounded_buffer` | 40 producers, 1,000 items each, 40 consumers, room for 50 | 1 | 1/5 |
-//! | `philosophers` | 20 philosophers, 10,000 meals each | 1/2 | 1/10 |
+//! | `philosophers` | 20 philosophers, 10,000 meals each | 1 | 1/10 |
 //! | `barber` | 5,000 haircuts, 1,000 seats | 1/2 of both | 1/5 of both |
 //! | `smokers` | 200 smokers, 1,000 rounds | 1 | 1 |
 //!

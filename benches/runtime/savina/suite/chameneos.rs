@@ -7,7 +7,7 @@ use super::super::{Actor, Address, Cx, World};
 use crate::Mode;
 
 pub(super) fn start(world: &mut World, mode: Mode) {
-    let (creatures, meetings) = mode.pick((10, 100), (100, 20_000), (100, 100_000));
+    let (creatures, meetings) = mode.pick((10, 100), (100, 20_000), (100, 200_000));
     let mall =
         Mall { waiting: None, left: meetings, meetings, creatures: Vec::new(), counted: 0, met: 0, faded: 0 };
     let mall = world.spawn(0, mall);

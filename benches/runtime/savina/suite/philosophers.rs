@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(super) fn start(world: &mut World, mode: Mode) {
-    let (philosophers, meals) = mode.pick((5, 20), (20, 1_000), (20, 5_000));
+    let (philosophers, meals) = mode.pick((5, 20), (20, 1_000), (20, 10_000));
     let table = Arc::new(Table { held: (0..philosophers).map(|_| AtomicBool::new(false)).collect() });
     let arbitrator = Arbitrator {
         table: Arc::clone(&table),

@@ -2,6 +2,10 @@
 //!
 //! An actor is started in the arbiter of its place, directly when that is the arbiter it is created in. Messages go
 //! through `Addr::do_send`, which never waits, whatever the mailbox's capacity.
+//!
+//! An actor holds its own address, so it lives until it stops itself. Otherwise it lives as long as somebody has its
+//! address, and who sends the last message and lets the address go may find that the message is never handled: between
+//! its look into an empty mailbox and its look whether anybody has its address, both may have happened.
 
 use super::super::run::{Finish, Run};
 use crate::Mode;
@@ -43,14 +47,16 @@ impl World {
 impl Team {
     fn spawn<A: Actor>(self: &Arc<Self>, place: usize, actor: A) -> Address<A> {
         let place = place % self.arbiters.len();
-        let cell = Cell { actor, place, team: Arc::clone(self) };
-        Cell::start_in_arbiter(&self.arbiters[place], move |_| cell)
+        let team = Arc::clone(self);
+        let make = move |context: &mut actix::Context<_>| Cell { actor, me: context.address(), place, team };
+        Cell::start_in_arbiter(&self.arbiters[place], make)
     }
 }
 
 /// An actor in actix's sense.
-struct Cell<A> {
+struct Cell<A: Actor> {
     actor: A,
+    me: Address<A>,
     place: usize,
     team: Arc<Team>,
 }
@@ -70,27 +76,29 @@ impl<A: Actor> Handler<Letter<A::Message>> for Cell<A> {
     type Result = ();
 
     fn handle(&mut self, Letter(message): Letter<A::Message>, context: &mut actix::Context<Self>) {
-        let Self { actor, place, team } = self;
-        team.run.watch(|| actor.receive(message, &mut Cx { context, place: *place, team }));
+        let Self { actor, me, place, team } = self;
+        team.run.watch(|| actor.receive(message, &mut Cx { context, me, place: *place, team }));
     }
 }
 
 struct Cx<'a, A: Actor> {
     context: &'a mut actix::Context<Cell<A>>,
+    me: &'a Address<A>,
     place: usize,
     team: &'a Arc<Team>,
 }
 
 impl<A: Actor> Cx<'_, A> {
     fn me(&self) -> Address<A> {
-        self.context.address()
+        self.me.clone()
     }
 
     fn spawn<B: Actor>(&mut self, place: usize, actor: B) -> Address<B> {
         if place % self.team.arbiters.len() != self.place {
             return self.team.spawn(place, actor);
         }
-        Cell { actor, place: self.place, team: Arc::clone(self.team) }.start()
+        let (place, team) = (self.place, Arc::clone(self.team));
+        Cell::create(move |context| Cell { actor, me: context.address(), place, team })
     }
 
     fn send<B: Actor>(&mut self, to: &Address<B>, message: B::Message) {

@@ -25,20 +25,17 @@ trait Actor: Sized + 'static {
 
 type Address<A> = stakker::Actor<Cell<A>>;
 
-/// The run, and whether it has been given up: nobody else could end what keeps this thread busy.
-struct Shared {
-    run: Run,
-    given_up: Arc<AtomicBool>,
-}
+/// Has the run been given up? Nobody else could end what keeps this thread busy.
+static GIVEN_UP: AtomicBool = AtomicBool::new(false);
 
 struct World<'a> {
     stakker: &'a mut Stakker,
-    shared: Arc<Shared>,
+    run: Arc<Run>,
 }
 
 impl World<'_> {
     fn spawn<A: Actor>(&mut self, _place: usize, actor: A) -> Address<A> {
-        spawn(self.stakker, &self.shared, actor)
+        spawn(self.stakker, &self.run, actor)
     }
 
     fn send<A: Actor>(&mut self, to: &Address<A>, message: A::Message) {
@@ -46,37 +43,37 @@ impl World<'_> {
     }
 }
 
-fn spawn<A: Actor>(core: &mut Core, shared: &Arc<Shared>, actor: A) -> Address<A> {
+fn spawn<A: Actor>(core: &mut Core, run: &Arc<Run>, actor: A) -> Address<A> {
     let owner = actor_new!(core, Cell<A>, ret_nop!());
     let address = owner.access_actor().clone();
-    call!([address], <Cell<A>>::init(actor, Arc::clone(shared), owner));
+    call!([address], <Cell<A>>::init(actor, Arc::clone(run), owner));
     address
 }
 
 /// An actor in stakker's sense.
 struct Cell<A: Actor> {
     actor: A,
-    shared: Arc<Shared>,
+    run: Arc<Run>,
     _owner: ActorOwn<Self>,
 }
 
 impl<A: Actor> Cell<A> {
-    fn init(_: CX![], actor: A, shared: Arc<Shared>, owner: ActorOwn<Self>) -> Option<Self> {
-        Some(Self { actor, shared, _owner: owner })
+    fn init(_: CX![], actor: A, run: Arc<Run>, owner: ActorOwn<Self>) -> Option<Self> {
+        Some(Self { actor, run, _owner: owner })
     }
 
     fn receive(&mut self, context: CX![], message: A::Message) {
-        let Self { actor, shared, .. } = self;
-        if shared.given_up.load(Ordering::Relaxed) {
+        let Self { actor, run, .. } = self;
+        if GIVEN_UP.load(Ordering::Relaxed) {
             return context.stop();
         }
-        shared.run.watch(|| actor.receive(message, &mut Cx { context, shared }));
+        run.watch(|| actor.receive(message, &mut Cx { context, run }));
     }
 }
 
 struct Cx<'a, 'b, A: Actor> {
     context: &'a mut stakker::Cx<'b, Cell<A>>,
-    shared: &'a Arc<Shared>,
+    run: &'a Arc<Run>,
 }
 
 impl<A: Actor> Cx<'_, '_, A> {
@@ -85,7 +82,7 @@ impl<A: Actor> Cx<'_, '_, A> {
     }
 
     fn spawn<B: Actor>(&mut self, _place: usize, actor: B) -> Address<B> {
-        spawn(self.context, self.shared, actor)
+        spawn(self.context, self.run, actor)
     }
 
     fn send<B: Actor>(&mut self, to: &Address<B>, message: B::Message) {
@@ -97,38 +94,36 @@ impl<A: Actor> Cx<'_, '_, A> {
     }
 
     fn finish(&mut self, messages: u64, retries: Option<u64>) {
-        self.shared.run.finish(messages, retries);
+        self.run.finish(messages, retries);
     }
 }
 
 pub(super) fn play(benchmark: &str, mode: Mode) -> Result<Finish, String> {
-    let given_up = Arc::new(AtomicBool::new(false));
+    GIVEN_UP.store(false, Ordering::Relaxed);
     let played = thread::scope(|scope| {
         let (over, ended) = mpsc::channel::<()>();
-        let given_up = &given_up;
         let give_up = move || {
             if ended.recv_timeout(DEADLINE) == Err(RecvTimeoutError::Timeout) {
-                given_up.store(true, Ordering::Relaxed);
+                GIVEN_UP.store(true, Ordering::Relaxed);
             }
         };
         let timer = thread::Builder::new().name("deadline".into()).spawn_scoped(scope, give_up);
         timer.expect("the system has a thread left");
-        let played = catch_unwind(AssertUnwindSafe(|| play_through(benchmark, mode, given_up)));
+        let played = catch_unwind(AssertUnwindSafe(|| play_through(benchmark, mode)));
         drop(over);
         played
     });
     match played {
-        _ if given_up.load(Ordering::Relaxed) => Err(format!("no end within {DEADLINE:?}")),
+        _ if GIVEN_UP.load(Ordering::Relaxed) => Err(format!("no end within {DEADLINE:?}")),
         Ok(finish) => finish,
         Err(_) => Err("an actor panicked".into()),
     }
 }
 
-fn play_through(benchmark: &str, mode: Mode, given_up: &Arc<AtomicBool>) -> Result<Finish, String> {
+fn play_through(benchmark: &str, mode: Mode) -> Result<Finish, String> {
     let mut stakker = Stakker::new(Instant::now());
     let (run, verdict) = Run::begin();
-    let shared = Arc::new(Shared { run, given_up: Arc::clone(given_up) });
-    suite::start(benchmark, &mut World { stakker: &mut stakker, shared }, mode);
+    suite::start(benchmark, &mut World { stakker: &mut stakker, run: Arc::new(run) }, mode);
     // Until nobody has anything left to do.
     stakker.run(Instant::now(), false);
     verdict.now()
