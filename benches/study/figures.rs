@@ -46,8 +46,9 @@ pub enum Kind {
     Ratios(&'static str, &'static str, &'static [&'static str]),
 }
 
-/// The files of raw data, each written by the bench of that name.
-pub const FILES: [&str; 2] = ["runtime", "graphical"];
+/// The files of raw data: two are written by the benches of their names; the third is two runs of the first, before and
+/// after what it found was mended.
+pub const FILES: [&str; 3] = ["runtime", "graphical", "mended"];
 
 const fn runtime(cases: &'static [&'static str]) -> Source {
     Source { file: "runtime", cases }
@@ -71,7 +72,7 @@ const QUESTIONS: &[&str] = &["question/*"];
 const TELLING: &[&str] = &[
     "messages",
     "messages, newest",
-    "messages, on demand",
+    "messages, batched",
     "mutex, frame",
     "mutex, poses",
     "mutex, cow",
@@ -123,6 +124,17 @@ pub const TABLES: &[Table] = &[
             ("per_message", "a message"),
             ("send", "of it the sender"),
             ("allocations", "allocations"),
+        ],
+    },
+    Table {
+        name: "mended",
+        source: Source { file: "mended", cases: &["*"] },
+        columns: &[
+            ("per_message", "a message"),
+            ("allocations", "allocations"),
+            ("send", "to send one"),
+            ("drain", "to take one"),
+            ("trip.p50", "there and back, p50"),
         ],
     },
     Table {

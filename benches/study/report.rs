@@ -4,6 +4,7 @@ use crate::amount;
 use crate::chart;
 use crate::design;
 use crate::figures::{CHARTS, Chart, FILES, Kind, Source, TABLES, Table};
+use crate::goal::{self, Spread};
 use crate::record::{self, Row};
 use crate::summary::{Summary, summarise};
 use crate::table;
@@ -71,6 +72,7 @@ pub fn render(data: &Data, readme: &str) -> Result<Vec<(PathBuf, String)>, Faile
     for one in TABLES {
         blocks.insert(format!("table: {}", one.name), table_block(data, one)?);
     }
+    blocks.insert("table: goals".into(), goals_block(data));
     blocks.insert("table: design-cost".into(), design::tables::cost());
     blocks.insert("table: design-mistakes".into(), design::tables::mistakes());
     for one in CHARTS {
@@ -105,6 +107,28 @@ fn table_block(data: &Data, one: &Table) -> Result<String, Failed> {
         text = format!("<details><summary>The numbers: {lines} rows</summary>\n\n{text}\n</details>\n");
     }
     Ok(format!("{text}\n{}", from(&one.source, &shown)))
+}
+
+/// What our runtime was to reach beside its peers, and whether it did.
+fn goals_block(data: &Data) -> String {
+    let Some(rows) = data.0.get("runtime") else { return NOTHING.to_owned() };
+    let mut text = String::from(
+        "| goal | ours | beside | theirs | ratio | at most | |\n|---|--:|---|--:|--:|--:|---|\n",
+    );
+    for goal in goal::goals(rows) {
+        let shown = |of: &Spread| amount::spread(of.median, of.low, of.high, &goal.unit);
+        text += &format!(
+            "| {} | {} | {} | {} | {:.2} | {:.2} | {} |\n",
+            goal.name.trim(),
+            shown(&goal.ours),
+            goal.rival,
+            shown(&goal.theirs),
+            goal.ratio(),
+            goal.demanded,
+            if goal.is_reached() { "reached" } else { "**not reached**" },
+        );
+    }
+    text + "\n*From [runtime.csv](results/runtime.csv); a ratio of medians.*"
 }
 
 /// What stands between the markers of a chart, and the chart's file.
