@@ -1,11 +1,13 @@
 //! The document thread opens, fails, gives up, and always says so.
 
+use crate::arm;
 use dragonfly::document::{
-    Cancel, Document, DocumentReply, LoadError, LoadedModel, Progress, Source, images, load_model,
+    Cancel, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Progress, Source, images,
+    load_model,
 };
 use dragonfly_anim::data::Image;
 use dragonfly_kit::eventually;
-use dragonfly_runtime::{Context, Receiver, Thread};
+use dragonfly_runtime::{Context, Receiver, Stage, Thread, ThreadHandle};
 use std::cell::RefCell;
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -165,4 +167,89 @@ fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays
     wait(&|heard| views(heard) == 2);
     document.stop();
     Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
+}
+
+/// Opens every file at once, as the same small model with the file's name.
+fn opens_anything(
+    source: &Source,
+    _: &mut dyn FnMut(Progress),
+    _: &Cancel,
+) -> Result<LoadedModel, LoadError> {
+    let loaded = std::sync::Arc::into_inner(arm::loaded()).unwrap();
+    Ok(LoadedModel { title: source.title(), ..loaded })
+}
+
+/// Main and document thread, turned by hand.
+struct Bench {
+    stage: Stage,
+    main: ThreadHandle,
+    thread: ThreadHandle,
+    document: DocumentHandle,
+    heard: Heard,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let (mut stage, heard) = (Stage::default(), Heard::default());
+        let (main, thread) = (stage.start("main"), stage.start("document"));
+        let replies = stage.context(&main).register_receiver(heard.clone());
+        let document = Document::start_in(&thread, opens_anything, replies);
+        stage.iterate(&thread);
+        Self { stage, main, thread, document, heard }
+    }
+
+    /// Opens a file, up to the change that this is; the iteration of the document's thread goes on.
+    fn change(&mut self, name: &str) {
+        self.document.open(Source::File(name.into()));
+        assert!(self.stage.deliver(&self.thread, 0), "what was asked for");
+        // The job answers from a thread of its own.
+        eventually(Duration::from_secs(30), || self.stage.deliver(&self.thread, 0));
+    }
+
+    /// Turns the main thread once: the views that came, and the models that were said to be open.
+    fn deliver(&mut self) -> (Vec<(u64, String)>, Vec<String>) {
+        self.stage.iterate(&self.main);
+        let (mut views, mut opened) = (Vec::new(), Vec::new());
+        for reply in self.heard.0.borrow_mut().drain(..) {
+            match reply {
+                DocumentReply::View(view) => views.push((view.generation, view.loaded.title.clone())),
+                DocumentReply::Opened(loaded) => opened.push(loaded.title.clone()),
+                other => panic!("{other:?}"),
+            }
+        }
+        (views, opened)
+    }
+}
+
+#[test]
+fn a_hundred_changes_of_one_iteration_are_one_view_the_newest() {
+    let mut bench = Bench::new();
+    let names: Vec<String> = (1..=100).map(|number| format!("{number}.glb")).collect();
+    for name in &names {
+        bench.change(name);
+    }
+    assert_eq!(bench.main.counters().replaced, 0);
+    let (views, opened) = bench.deliver();
+    assert!(views.is_empty(), "nothing half done is shown: {views:?}");
+    assert_eq!(opened, names, "nothing is lost of what each one says");
+    bench.stage.iterate(&bench.thread);
+    assert_eq!(bench.deliver().0, [(100, "100.glb".to_owned())]);
+    assert_eq!(bench.main.counters().replaced, 0, "one was sent");
+    bench.stage.iterate(&bench.thread);
+    assert!(bench.deliver().0.is_empty(), "without a change there is no other");
+}
+
+#[test]
+fn views_do_not_pile_up_before_a_main_thread_that_is_busy() {
+    let mut bench = Bench::new();
+    for number in 1..=10 {
+        bench.change(&format!("{number}.glb"));
+        bench.stage.iterate(&bench.thread);
+    }
+    let (views, opened) = bench.deliver();
+    assert_eq!(views, [(10, "10.glb".to_owned())]);
+    assert_eq!(opened.len(), 10);
+    bench.change("last.glb");
+    bench.stage.iterate(&bench.thread);
+    assert_eq!(bench.deliver().0, [(11, "last.glb".to_owned())], "the next one comes as well");
 }
