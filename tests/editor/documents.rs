@@ -2,7 +2,7 @@
 
 use crate::arm;
 use dragonfly::document::{
-    Cancel, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Progress, Source, images,
+    Cancel, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Progress, Source, View, images,
     load_model,
 };
 use dragonfly_anim::data::Image;
@@ -21,6 +21,18 @@ impl Receiver for Heard {
 
     fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
         self.0.borrow_mut().push(reply);
+    }
+}
+
+/// What is shown; in these tests by whichever thread.
+#[derive(Clone, Default)]
+struct Picture(Rc<RefCell<Vec<View>>>);
+
+impl Receiver for Picture {
+    type Message = View;
+
+    fn receive(&mut self, view: View, _thread: &mut Context) {
+        self.0.borrow_mut().push(view);
     }
 }
 
@@ -59,7 +71,8 @@ fn what_is_open_stays_when_the_next_file_fails() {
     let heard = Heard::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
-    let document = Document::start(replies).unwrap();
+    let picture = main.context().register_receiver(Picture::default());
+    let document = Document::start(replies, picture).unwrap();
     document.open(Source::BuiltIn);
     let mut wait = |what: fn(&DocumentReply) -> bool| {
         eventually(Duration::from_secs(30), || {
@@ -143,7 +156,8 @@ fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays
     let heard = Heard::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
-    let document = Document::start_with(panics_on_files, replies).unwrap();
+    let picture = main.context().register_receiver(Picture::default());
+    let document = Document::start_with(panics_on_files, replies, picture).unwrap();
     let mut wait = |what: &dyn Fn(&[DocumentReply]) -> bool| {
         eventually(Duration::from_secs(30), || {
             main.iterate();
@@ -179,23 +193,27 @@ fn opens_anything(
     Ok(LoadedModel { title: source.title(), ..loaded })
 }
 
-/// Main and document thread, turned by hand.
+/// The three threads, turned by hand.
 struct Bench {
     stage: Stage,
     main: ThreadHandle,
     thread: ThreadHandle,
+    graphics: ThreadHandle,
     document: DocumentHandle,
     heard: Heard,
+    picture: Picture,
 }
 
 impl Bench {
     fn new() -> Self {
         let (mut stage, heard) = (Stage::default(), Heard::default());
-        let (main, thread) = (stage.start("main"), stage.start("document"));
+        let [main, thread, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
+        let picture = Picture::default();
+        let shown = stage.context(&graphics).register_receiver(picture.clone());
         let replies = stage.context(&main).register_receiver(heard.clone());
-        let document = Document::start_in(&thread, opens_anything, replies);
+        let document = Document::start_in(&thread, opens_anything, replies, shown);
         stage.iterate(&thread);
-        Self { stage, main, thread, document, heard }
+        Self { stage, main, thread, graphics, document, heard, picture }
     }
 
     /// Opens a file, up to the change that this is; the iteration of the document's thread goes on.
@@ -252,4 +270,21 @@ fn views_do_not_pile_up_before_a_main_thread_that_is_busy() {
     bench.change("last.glb");
     bench.stage.iterate(&bench.thread);
     assert_eq!(bench.deliver().0, [(11, "last.glb".to_owned())], "the next one comes as well");
+}
+
+#[test]
+fn the_picture_gets_the_newest_view_while_the_main_thread_stands_still() {
+    let mut bench = Bench::new();
+    for number in 1..=10 {
+        bench.change(&format!("{number}.glb"));
+        bench.stage.iterate(&bench.thread);
+    }
+    bench.stage.iterate(&bench.graphics);
+    let generations: Vec<u64> = bench.picture.0.borrow().iter().map(|view| view.generation).collect();
+    assert_eq!(generations, [10], "one that falls behind finds the newest only");
+    bench.change("last.glb");
+    bench.stage.iterate(&bench.thread);
+    bench.stage.iterate(&bench.graphics);
+    assert_eq!(bench.picture.0.borrow()[1].loaded.title, "last.glb");
+    assert!(bench.heard.0.borrow().is_empty(), "the main thread had no part in it");
 }

@@ -3,8 +3,10 @@
 use crate::arm;
 use crate::complaints::NoComplaints;
 use dragonfly::camera::Camera;
+use dragonfly::document::{Document, DocumentReply, Source, View};
 use dragonfly::graphics::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
 use dragonfly::playback::Playback;
+use dragonfly_kit::eventually;
 use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
 use glam::Vec3;
 use image::RgbaImage;
@@ -66,7 +68,7 @@ impl Bench {
     /// Shows the arm.
     fn with_arm() -> Option<Self> {
         let mut bench = Self::new()?;
-        bench.graphics.show_model(arm::loaded());
+        bench.graphics.show(View { generation: 1, loaded: arm::loaded() });
         bench.graphics.set_camera(Camera { target: Vec3::Y * 1.5, distance: 8.0, ..Camera::default() });
         bench.graphics.set_look(Look { viewport: [20, 10, 280, 180], skeleton: true, ..Look::default() });
         bench.settle();
@@ -231,4 +233,41 @@ fn a_question_gets_its_answer_and_the_newest_camera_wins() {
         _ => None,
     });
     assert_eq!(picked, Some((Some(1), 7)));
+}
+
+/// Hears the document, when its thread gets to it.
+struct Panels(Rc<RefCell<Vec<DocumentReply>>>);
+
+impl Receiver for Panels {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
+        self.0.borrow_mut().push(reply);
+    }
+}
+
+#[test]
+fn a_model_is_shown_while_the_main_thread_stands_still() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    let path = scratch("stalled.png");
+    let before = bench.capture(&path);
+    let heard = Rc::new(RefCell::new(Vec::new()));
+    let replies = bench.main.context().register_receiver(Panels(Rc::clone(&heard)));
+    let document = Document::start(replies, bench.graphics.views().clone()).unwrap();
+    document.open(Source::BuiltIn);
+    // From here on nobody turns the main thread.
+    eventually(Duration::from_secs(30), || {
+        bench.graphics.capture(path.clone());
+        bench.settle();
+        let now = image::open(&path).unwrap().into_rgba8();
+        crate::picture::difference(&before, &now) > 100
+    });
+    assert!(heard.borrow().is_empty());
+    bench.main.iterate();
+    assert!(
+        heard.borrow().iter().any(|reply| matches!(reply, DocumentReply::View(_))),
+        "then it hears of it"
+    );
+    document.stop();
+    Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
 }

@@ -23,7 +23,7 @@ pub enum DocumentMessage {
 #[derive(Debug)]
 pub struct NewsBox(JobNews);
 
-/// What the document tells the main thread.
+/// What the document tells the main thread, for the panels.
 #[derive(Debug)]
 pub enum DocumentReply {
     /// The newest state; it takes the place of one that still waits, so it may overtake what else is said.
@@ -60,6 +60,8 @@ pub struct Document {
     replies: Address<DocumentReply>,
     /// The same, where the newest view takes the place of one that waits.
     views: Address<DocumentReply>,
+    /// Who draws what is open, likewise.
+    picture: Address<View>,
     /// Jobs send here.
     own: Address<DocumentMessage>,
 }
@@ -80,20 +82,29 @@ pub struct DocumentHandle {
 }
 
 impl Document {
-    /// Starts the document thread; it answers to `replies`.
-    pub fn start(replies: Address<DocumentReply>) -> std::io::Result<DocumentHandle> {
-        Self::start_with(load_model, replies)
+    /// Starts the document thread; it answers to `replies`, and shows every state to `picture` without a detour.
+    pub fn start(replies: Address<DocumentReply>, picture: Address<View>) -> std::io::Result<DocumentHandle> {
+        Self::start_with(load_model, replies, picture)
     }
 
     /// The same, with another way to open a model: one that fails as a test wants it to.
-    pub fn start_with(load: Loader, replies: Address<DocumentReply>) -> std::io::Result<DocumentHandle> {
+    pub fn start_with(
+        load: Loader,
+        replies: Address<DocumentReply>,
+        picture: Address<View>,
+    ) -> std::io::Result<DocumentHandle> {
         let thread = Thread::start("document")?;
-        let handle = Self::start_in(thread.handle(), load, replies);
+        let handle = Self::start_in(thread.handle(), load, replies, picture);
         Ok(DocumentHandle { _owner: Some(thread), ..handle })
     }
 
     /// The same in a thread that somebody else owns and may turn by hand.
-    pub fn start_in(thread: &ThreadHandle, load: Loader, replies: Address<DocumentReply>) -> DocumentHandle {
+    pub fn start_in(
+        thread: &ThreadHandle,
+        load: Loader,
+        replies: Address<DocumentReply>,
+        picture: Address<View>,
+    ) -> DocumentHandle {
         let address = thread.reserve_address();
         let own = address.clone();
         // Fails only for a thread that has stopped, and then there is nobody to hear of it.
@@ -107,6 +118,7 @@ impl Document {
                 tickets: 0,
                 load,
                 views: replies.latest(),
+                picture: picture.latest(),
                 replies,
                 own,
             }));
@@ -167,7 +179,8 @@ impl Document {
     fn publish(&mut self) {
         let Some(loaded) = self.open.clone() else { return };
         let view = View { generation: self.generation, loaded };
-        // As in `reply`.
+        // As in `reply`; the picture first, because nobody has to be quick for it.
+        let _ = self.picture.send(view.clone());
         let _ = self.views.send(DocumentReply::View(view));
     }
 
