@@ -50,7 +50,8 @@ pub enum DocumentReply {
 
 /// The document, as its own thread sees it.
 pub struct Document {
-    open: Option<Arc<LoadedModel>>,
+    /// The state as it is now.
+    open: Option<View>,
     generation: u64,
     /// Has it changed since the last view?
     changed: bool,
@@ -157,8 +158,7 @@ impl Document {
             }
             JobNews::Done(Ok(loaded)) => {
                 let loaded = Arc::new(loaded);
-                self.open = Some(Arc::clone(&loaded));
-                self.change();
+                self.change(View::opened(self.generation + 1, Arc::clone(&loaded)));
                 self.reply(DocumentReply::Opened(loaded));
             }
             JobNews::Done(Err(LoadError::Cancelled)) => self.reply(DocumentReply::Cancelled),
@@ -169,16 +169,16 @@ impl Document {
         }
     }
 
-    /// To be called with every change; the view of it follows when all that came with it is done.
-    fn change(&mut self) {
-        self.generation += 1;
+    /// The state is `view` from now on; it is published when all that came with this change is done.
+    fn change(&mut self, view: View) {
+        self.generation = view.generation;
+        self.open = Some(view);
         self.changed = true;
     }
 
     /// Shows the newest state to everybody.
     fn publish(&mut self) {
-        let Some(loaded) = self.open.clone() else { return };
-        let view = View { generation: self.generation, loaded };
+        let Some(view) = self.open.clone() else { return };
         // As in `reply`; the picture first, because nobody has to be quick for it.
         let _ = self.picture.send(view.clone());
         let _ = self.views.send(DocumentReply::View(view));

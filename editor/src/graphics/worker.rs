@@ -142,8 +142,8 @@ impl Graphics {
         let _ = self.replies.send(reply);
     }
 
-    fn show(stage: &mut Stage, view: View) {
-        stage.scene.show_model(view.loaded);
+    fn show(stage: &mut Stage, view: &View) {
+        stage.scene.show(view);
         stage.touch_scene();
     }
 
@@ -198,7 +198,7 @@ impl Receiver for Graphics {
         };
         let stage = &mut *stage.borrow_mut();
         match message {
-            GraphicsMessage::Show(view) => Self::show(stage, view),
+            GraphicsMessage::Show(view) => Self::show(stage, &view),
             GraphicsMessage::Play(playback) => Self::play(stage, playback),
             GraphicsMessage::Camera(camera) => Self::set_camera(stage, camera),
             GraphicsMessage::Look(look) => Self::set_look(stage, *look),
