@@ -1,11 +1,13 @@
 //! The document thread opens, fails, gives up, and always says so.
 
+use crate::arm;
 use dragonfly::document::{
-    Cancel, Document, DocumentReply, LoadError, LoadedModel, Progress, Source, images, load_model,
+    Cancel, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Progress, Source, View, images,
+    load_model,
 };
 use dragonfly_anim::data::Image;
 use dragonfly_kit::eventually;
-use dragonfly_runtime::{Context, Receiver, Thread};
+use dragonfly_runtime::{Context, Receiver, Stage, Thread, ThreadHandle};
 use std::cell::RefCell;
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -19,6 +21,18 @@ impl Receiver for Heard {
 
     fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
         self.0.borrow_mut().push(reply);
+    }
+}
+
+/// What is shown; in these tests by whichever thread.
+#[derive(Clone, Default)]
+struct Picture(Rc<RefCell<Vec<View>>>);
+
+impl Receiver for Picture {
+    type Message = View;
+
+    fn receive(&mut self, view: View, _thread: &mut Context) {
+        self.0.borrow_mut().push(view);
     }
 }
 
@@ -57,7 +71,8 @@ fn what_is_open_stays_when_the_next_file_fails() {
     let heard = Heard::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
-    let document = Document::start(replies).unwrap();
+    let picture = main.context().register_receiver(Picture::default());
+    let document = Document::start(replies, picture).unwrap();
     document.open(Source::BuiltIn);
     let mut wait = |what: fn(&DocumentReply) -> bool| {
         eventually(Duration::from_secs(30), || {
@@ -141,7 +156,8 @@ fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays
     let heard = Heard::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
-    let document = Document::start_with(panics_on_files, replies).unwrap();
+    let picture = main.context().register_receiver(Picture::default());
+    let document = Document::start_with(panics_on_files, replies, picture).unwrap();
     let mut wait = |what: &dyn Fn(&[DocumentReply]) -> bool| {
         eventually(Duration::from_secs(30), || {
             main.iterate();
@@ -165,4 +181,110 @@ fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays
     wait(&|heard| views(heard) == 2);
     document.stop();
     Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
+}
+
+/// Opens every file at once, as the same small model with the file's name.
+fn opens_anything(
+    source: &Source,
+    _: &mut dyn FnMut(Progress),
+    _: &Cancel,
+) -> Result<LoadedModel, LoadError> {
+    let loaded = std::sync::Arc::into_inner(arm::loaded()).unwrap();
+    Ok(LoadedModel { title: source.title(), ..loaded })
+}
+
+/// The three threads, turned by hand.
+struct Bench {
+    stage: Stage,
+    main: ThreadHandle,
+    thread: ThreadHandle,
+    graphics: ThreadHandle,
+    document: DocumentHandle,
+    heard: Heard,
+    picture: Picture,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let (mut stage, heard) = (Stage::default(), Heard::default());
+        let [main, thread, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
+        let picture = Picture::default();
+        let shown = stage.context(&graphics).register_receiver(picture.clone());
+        let replies = stage.context(&main).register_receiver(heard.clone());
+        let document = Document::start_in(&thread, opens_anything, replies, shown);
+        stage.iterate(&thread);
+        Self { stage, main, thread, graphics, document, heard, picture }
+    }
+
+    /// Opens a file, up to the change that this is; the iteration of the document's thread goes on.
+    fn change(&mut self, name: &str) {
+        self.document.open(Source::File(name.into()));
+        assert!(self.stage.deliver(&self.thread, 0), "what was asked for");
+        // The job answers from a thread of its own.
+        eventually(Duration::from_secs(30), || self.stage.deliver(&self.thread, 0));
+    }
+
+    /// Turns the main thread once: the views that came, and the models that were said to be open.
+    fn deliver(&mut self) -> (Vec<(u64, String)>, Vec<String>) {
+        self.stage.iterate(&self.main);
+        let (mut views, mut opened) = (Vec::new(), Vec::new());
+        for reply in self.heard.0.borrow_mut().drain(..) {
+            match reply {
+                DocumentReply::View(view) => views.push((view.generation, view.loaded.title.clone())),
+                DocumentReply::Opened(loaded) => opened.push(loaded.title.clone()),
+                other => panic!("{other:?}"),
+            }
+        }
+        (views, opened)
+    }
+}
+
+#[test]
+fn a_hundred_changes_of_one_iteration_are_one_view_the_newest() {
+    let mut bench = Bench::new();
+    let names: Vec<String> = (1..=100).map(|number| format!("{number}.glb")).collect();
+    for name in &names {
+        bench.change(name);
+    }
+    assert_eq!(bench.main.counters().replaced, 0);
+    let (views, opened) = bench.deliver();
+    assert!(views.is_empty(), "nothing half done is shown: {views:?}");
+    assert_eq!(opened, names, "nothing is lost of what each one says");
+    bench.stage.iterate(&bench.thread);
+    assert_eq!(bench.deliver().0, [(100, "100.glb".to_owned())]);
+    assert_eq!(bench.main.counters().replaced, 0, "one was sent");
+    bench.stage.iterate(&bench.thread);
+    assert!(bench.deliver().0.is_empty(), "without a change there is no other");
+}
+
+#[test]
+fn views_do_not_pile_up_before_a_main_thread_that_is_busy() {
+    let mut bench = Bench::new();
+    for number in 1..=10 {
+        bench.change(&format!("{number}.glb"));
+        bench.stage.iterate(&bench.thread);
+    }
+    let (views, opened) = bench.deliver();
+    assert_eq!(views, [(10, "10.glb".to_owned())]);
+    assert_eq!(opened.len(), 10);
+    bench.change("last.glb");
+    bench.stage.iterate(&bench.thread);
+    assert_eq!(bench.deliver().0, [(11, "last.glb".to_owned())], "the next one comes as well");
+}
+
+#[test]
+fn the_picture_gets_the_newest_view_while_the_main_thread_stands_still() {
+    let mut bench = Bench::new();
+    for number in 1..=10 {
+        bench.change(&format!("{number}.glb"));
+        bench.stage.iterate(&bench.thread);
+    }
+    bench.stage.iterate(&bench.graphics);
+    let generations: Vec<u64> = bench.picture.0.borrow().iter().map(|view| view.generation).collect();
+    assert_eq!(generations, [10], "one that falls behind finds the newest only");
+    bench.change("last.glb");
+    bench.stage.iterate(&bench.thread);
+    bench.stage.iterate(&bench.graphics);
+    assert_eq!(bench.picture.0.borrow()[1].loaded.title, "last.glb");
+    assert!(bench.heard.0.borrow().is_empty(), "the main thread had no part in it");
 }

@@ -87,7 +87,7 @@ pub(crate) fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]
         images: Vec::new(),
         warnings: vec!["material 0 uses KHR_materials_clearcoat, which is not shown".to_owned()],
     };
-    View { generation: 1, loaded: Arc::new(loaded) }
+    View::opened(1, Arc::new(loaded))
 }
 
 /// A file that was read and holds nothing.

@@ -3,14 +3,19 @@
 use crate::arm;
 use crate::complaints::NoComplaints;
 use dragonfly::camera::Camera;
+use dragonfly::document::{Document, DocumentReply, Source, View};
+use dragonfly::graphics::scene::Scene;
 use dragonfly::graphics::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
 use dragonfly::playback::Playback;
+use dragonfly_anim::data::{ModelData, Take};
+use dragonfly_kit::eventually;
 use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
 use glam::Vec3;
 use image::RgbaImage;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 const SIZE: [u32; 2] = [320, 200];
@@ -66,7 +71,7 @@ impl Bench {
     /// Shows the arm.
     fn with_arm() -> Option<Self> {
         let mut bench = Self::new()?;
-        bench.graphics.show_model(arm::loaded());
+        bench.graphics.show(View::opened(1, arm::loaded()));
         bench.graphics.set_camera(Camera { target: Vec3::Y * 1.5, distance: 8.0, ..Camera::default() });
         bench.graphics.set_look(Look { viewport: [20, 10, 280, 180], skeleton: true, ..Look::default() });
         bench.settle();
@@ -231,4 +236,87 @@ fn a_question_gets_its_answer_and_the_newest_camera_wins() {
         _ => None,
     });
     assert_eq!(picked, Some((Some(1), 7)));
+}
+
+/// Hears the document, when its thread gets to it.
+struct Panels(Rc<RefCell<Vec<DocumentReply>>>);
+
+impl Receiver for Panels {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
+        self.0.borrow_mut().push(reply);
+    }
+}
+
+#[test]
+fn a_model_is_shown_while_the_main_thread_stands_still() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    let path = scratch("stalled.png");
+    let before = bench.capture(&path);
+    let heard = Rc::new(RefCell::new(Vec::new()));
+    let replies = bench.main.context().register_receiver(Panels(Rc::clone(&heard)));
+    let document = Document::start(replies, bench.graphics.views().clone()).unwrap();
+    document.open(Source::BuiltIn);
+    // From here on nobody turns the main thread.
+    eventually(Duration::from_secs(30), || {
+        bench.graphics.capture(path.clone());
+        bench.settle();
+        let now = image::open(&path).unwrap().into_rgba8();
+        crate::picture::difference(&before, &now) > 100
+    });
+    assert!(heard.borrow().is_empty());
+    bench.main.iterate();
+    assert!(
+        heard.borrow().iter().any(|reply| matches!(reply, DocumentReply::View(_))),
+        "then it hears of it"
+    );
+    document.stop();
+    Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
+}
+
+#[test]
+fn a_changed_take_is_shown_as_if_it_had_been_opened_like_that() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    let opened = View::opened(1, arm::loaded());
+    let still = Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) };
+    let changed = View { generation: 2, takes: [Arc::new(still.clone())].into(), ..opened.clone() };
+    let mut model = ModelData::clone(&opened.loaded.model);
+    model.animation.takes = vec![Arc::new(still)];
+    let mut reopened = Arc::into_inner(arm::loaded()).unwrap();
+    reopened.model = Arc::new(model);
+    let end = Playback { take: Some(0), length: arm::LENGTH, ..Playback::rest(Instant::now()) };
+    bench.graphics.play(end.seek(arm::LENGTH, end.anchor));
+    let [bent, straight, like_that, again] =
+        [opened.clone(), changed, View::opened(3, Arc::new(reopened)), opened].map(|view| {
+            bench.graphics.show(view);
+            bench.capture(&scratch("takes.png"))
+        });
+    assert!(crate::picture::difference(&bent, &straight) > 100);
+    assert_eq!(crate::picture::difference(&straight, &like_that), 0);
+    assert_eq!(crate::picture::difference(&bent, &again), 0);
+}
+
+#[test]
+fn a_changed_take_keeps_what_the_device_has_of_the_model() {
+    let opened = View::opened(1, arm::loaded());
+    let mut scene = Scene::new(Instant::now());
+    let mut shown = |view: &View| {
+        scene.show(view);
+        scene.playback = Playback { take: Some(0), length: arm::LENGTH, ..Playback::rest(Instant::now()) };
+        scene.playback = scene.playback.seek(arm::LENGTH, Instant::now());
+        scene.prepare(Instant::now());
+        let model = scene.model().unwrap();
+        (Arc::as_ptr(model.loaded()), model.items().as_ptr(), model.to_root().to_vec())
+    };
+    let (model, items, bent) = shown(&opened);
+    let still = Arc::new(Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) });
+    // As many as before, one more, none.
+    for takes in [vec![Arc::clone(&still)], vec![still; 2], Vec::new()] {
+        let changed = View { generation: 2, takes: takes.into(), ..opened.clone() };
+        let (same, kept, straight) = shown(&changed);
+        assert_eq!((same, kept), (model, items), "nothing was made anew, so nothing is uploaded");
+        assert_ne!(straight, bent);
+        assert_eq!(shown(&opened).2, bent);
+    }
 }

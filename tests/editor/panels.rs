@@ -249,3 +249,28 @@ fn what_reaches_beyond_the_panels_comes_back_as_an_effect() {
     harness.run_steps(4);
     assert_eq!(harness.state().effects, [Effect::OpenDialog]);
 }
+
+#[test]
+fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
+    let opened = fixture::full();
+    let mut state = Bench::new(Some(opened.clone())).state;
+    let (selected, camera) = (Some(3), state.camera);
+    state.selected = selected;
+    state.playback = state.playback.seek(1.5, state.now);
+    let with = |generation, length: f32| {
+        let mut takes = opened.takes.to_vec();
+        takes[0] = std::sync::Arc::new(dragonfly_anim::data::Take { length, ..(*takes[0]).clone() });
+        View { generation, takes: takes.into(), ..opened.clone() }
+    };
+    state.show(with(2, 2.0));
+    assert_eq!((state.playback.take, state.playback.length, state.time()), (Some(0), 2.0, 1.5));
+    state.show(with(3, 1.0));
+    assert_eq!((state.playback.length, state.time()), (1.0, 1.0), "the end is where it ends now");
+    assert_eq!((state.selected, state.camera), (selected, camera), "all else is as the person left it");
+    state.begin(state.now);
+    assert_eq!((state.digest.takes.len(), state.digest.takes[0].length), (3, 1.0));
+    state.show(View { generation: 4, takes: [].into(), ..opened });
+    assert_eq!((state.playback.take, state.time()), (None, 0.0));
+    state.begin(state.now);
+    assert!(state.digest.takes.is_empty());
+}

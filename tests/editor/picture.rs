@@ -95,7 +95,7 @@ fn a_skeleton_without_any_surface_is_seen() {
     // The editor shows the bones, although its settings do not ask for them.
     let mut state = State::new(Settings::default(), Instant::now());
     assert!(!state.settings.look.skeleton && !state.shows_skeleton());
-    state.show(View { generation: 1, loaded: Arc::clone(&loaded) });
+    state.show(View::opened(1, Arc::clone(&loaded)));
     assert!(state.shows_skeleton());
 
     let Some(mut studio) = studio::studio() else { return };

@@ -23,7 +23,7 @@ impl Receiver for Replies {
     fn receive(&mut self, reply: DocumentReply, _main: &mut Context) {
         let mut interface = self.interface.borrow_mut();
         let state = &mut interface.state;
-        let ends = !matches!(reply, DocumentReply::Loading { .. });
+        let ends = !matches!(reply, DocumentReply::Loading { .. } | DocumentReply::View(_));
         let passed_over = if ends { std::mem::take(&mut state.passed_over) } else { 0 };
         match reply {
             DocumentReply::Loading { title, progress } => state.loading = Some(Loading { title, progress }),
@@ -40,19 +40,20 @@ impl Receiver for Replies {
                 state.status.say(Level::Error, reason);
             }
             DocumentReply::View(view) => {
-                state.loading = None;
-                if let Some(path) = &view.loaded.path {
-                    state.settings.remember(path);
-                }
-                for warning in &view.loaded.warnings {
-                    state.status.say(Level::Warning, format!("{}: {warning}", view.loaded.title));
-                }
-                let title = view.loaded.title.clone();
                 state.now = Instant::now();
                 state.show(view);
-                state.status.say(Level::Info, format!("Opened {title}"));
+            }
+            DocumentReply::Opened(loaded) => {
+                state.loading = None;
+                if let Some(path) = &loaded.path {
+                    state.settings.remember(path);
+                }
+                for warning in &loaded.warnings {
+                    state.status.say(Level::Warning, format!("{}: {warning}", loaded.title));
+                }
+                state.status.say(Level::Info, format!("Opened {}", loaded.title));
                 say_passed_over(&mut state.status, passed_over);
-                interface.set_title(&title);
+                interface.set_title(&loaded.title);
             }
         }
         interface.redraw();

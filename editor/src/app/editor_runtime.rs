@@ -51,7 +51,6 @@ struct Sent {
     playback: Option<Playback>,
     camera: Option<Camera>,
     look: Option<Look>,
-    generation: Option<u64>,
 }
 
 impl EditorRuntime {
@@ -115,7 +114,7 @@ impl BaseRuntime for EditorRuntime {
         parts.interface.borrow_mut().state.passed_over = self.options.passed_over;
         let replies = main.register_receiver(Replies { interface: Rc::clone(&parts.interface) });
         let answers = main.register_receiver(Answers(Rc::clone(&parts.interface)));
-        let document = match Document::start(replies.clone()) {
+        let document = match Document::start(replies.clone(), parts.graphics.views().clone()) {
             Ok(document) => {
                 report_faults(document.thread(), &parts.interface, main);
                 Some(document)
@@ -242,15 +241,10 @@ impl Running {
 }
 
 impl Sent {
-    /// Sends what differs from what was sent last. The model first: times and bones are about it.
+    /// Sends what differs from what was sent last. What these times and bones are about comes from the document itself,
+    /// and was sent before the view that they were chosen for.
     fn update(&mut self, graphics: &GraphicsHandle, interface: &Interface) {
         let state = &interface.state;
-        if let Some(view) = &state.view
-            && self.generation != Some(view.generation)
-        {
-            self.generation = Some(view.generation);
-            graphics.show_model(std::sync::Arc::clone(&view.loaded));
-        }
         if self.playback != Some(state.playback) {
             self.playback = Some(state.playback);
             graphics.play(state.playback);

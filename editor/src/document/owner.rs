@@ -2,7 +2,9 @@
 
 use super::job::{JobNews, LoadJob};
 use super::{LoadError, LoadedModel, Loader, Progress, Source, View, load_model};
-use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle};
+use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// What other threads may tell the document.
@@ -21,11 +23,13 @@ pub enum DocumentMessage {
 #[derive(Debug)]
 pub struct NewsBox(JobNews);
 
-/// What the document tells the main thread.
+/// What the document tells the main thread, for the panels.
 #[derive(Debug)]
 pub enum DocumentReply {
-    /// The newest state.
+    /// The newest state; it takes the place of one that still waits, so it may overtake what else is said.
     View(View),
+    /// What was on its way is open: said once for each, in order with the other answers.
+    Opened(Arc<LoadedModel>),
     /// A model is on its way.
     Loading {
         /// Its title.
@@ -46,12 +50,19 @@ pub enum DocumentReply {
 
 /// The document, as its own thread sees it.
 pub struct Document {
-    open: Option<Arc<LoadedModel>>,
+    /// The state as it is now.
+    open: Option<View>,
     generation: u64,
+    /// Has it changed since the last view?
+    changed: bool,
     job: Option<Running>,
     tickets: u64,
     load: Loader,
     replies: Address<DocumentReply>,
+    /// The same, where the newest view takes the place of one that waits.
+    views: Address<DocumentReply>,
+    /// Who draws what is open, likewise.
+    picture: Address<View>,
     /// Jobs send here.
     own: Address<DocumentMessage>,
 }
@@ -65,32 +76,57 @@ struct Running {
 
 /// The document, as other threads see it: the same names, as messages.
 pub struct DocumentHandle {
-    thread: Thread,
+    thread: ThreadHandle,
     address: Address<DocumentMessage>,
+    /// `None` where somebody else owns the thread.
+    _owner: Option<Thread>,
 }
 
 impl Document {
-    /// Starts the document thread; it answers to `replies`.
-    pub fn start(replies: Address<DocumentReply>) -> std::io::Result<DocumentHandle> {
-        Self::start_with(load_model, replies)
+    /// Starts the document thread; it answers to `replies`, and shows every state to `picture` without a detour.
+    pub fn start(replies: Address<DocumentReply>, picture: Address<View>) -> std::io::Result<DocumentHandle> {
+        Self::start_with(load_model, replies, picture)
     }
 
     /// The same, with another way to open a model: one that fails as a test wants it to.
-    pub fn start_with(load: Loader, replies: Address<DocumentReply>) -> std::io::Result<DocumentHandle> {
+    pub fn start_with(
+        load: Loader,
+        replies: Address<DocumentReply>,
+        picture: Address<View>,
+    ) -> std::io::Result<DocumentHandle> {
         let thread = Thread::start("document")?;
-        let handle = thread.handle();
-        let address = handle.reserve_address();
+        let handle = Self::start_in(thread.handle(), load, replies, picture);
+        Ok(DocumentHandle { _owner: Some(thread), ..handle })
+    }
+
+    /// The same in a thread that somebody else owns and may turn by hand.
+    pub fn start_in(
+        thread: &ThreadHandle,
+        load: Loader,
+        replies: Address<DocumentReply>,
+        picture: Address<View>,
+    ) -> DocumentHandle {
+        let address = thread.reserve_address();
         let own = address.clone();
-        handle.register_receiver_at(&address, move |_| Self {
-            open: None,
-            generation: 0,
-            job: None,
-            tickets: 0,
-            load,
-            replies,
-            own,
+        // Fails only for a thread that has stopped, and then there is nobody to hear of it.
+        let _ = thread.run(move |context| {
+            let at = own.clone();
+            let document = Rc::new(RefCell::new(Self {
+                open: None,
+                generation: 0,
+                changed: false,
+                job: None,
+                tickets: 0,
+                load,
+                views: replies.latest(),
+                picture: picture.latest(),
+                replies,
+                own,
+            }));
+            context.register_receiver_at(&at, Rc::clone(&document));
+            context.register_worker(document);
         });
-        Ok(DocumentHandle { thread, address })
+        DocumentHandle { thread: thread.clone(), address, _owner: None }
     }
 
     fn open(&mut self, source: Source) {
@@ -122,9 +158,8 @@ impl Document {
             }
             JobNews::Done(Ok(loaded)) => {
                 let loaded = Arc::new(loaded);
-                self.open = Some(Arc::clone(&loaded));
-                self.generation += 1;
-                self.reply(DocumentReply::View(View { generation: self.generation, loaded }));
+                self.change(View::opened(self.generation + 1, Arc::clone(&loaded)));
+                self.reply(DocumentReply::Opened(loaded));
             }
             JobNews::Done(Err(LoadError::Cancelled)) => self.reply(DocumentReply::Cancelled),
             JobNews::Done(Err(error)) => {
@@ -132,6 +167,21 @@ impl Document {
                 self.reply(DocumentReply::Failed { source: running.source, reason });
             }
         }
+    }
+
+    /// The state is `view` from now on; it is published when all that came with this change is done.
+    fn change(&mut self, view: View) {
+        self.generation = view.generation;
+        self.open = Some(view);
+        self.changed = true;
+    }
+
+    /// Shows the newest state to everybody.
+    fn publish(&mut self) {
+        let Some(view) = self.open.clone() else { return };
+        // As in `reply`; the picture first, because nobody has to be quick for it.
+        let _ = self.picture.send(view.clone());
+        let _ = self.views.send(DocumentReply::View(view));
     }
 
     fn reply(&self, reply: DocumentReply) {
@@ -152,6 +202,16 @@ impl Receiver for Document {
     }
 }
 
+impl Worker for Document {
+    /// Behind all messages of the iteration: however many changes they brought, one view goes out.
+    fn update(&mut self, _thread: &mut Context) -> bool {
+        if std::mem::take(&mut self.changed) {
+            self.publish();
+        }
+        true
+    }
+}
+
 impl DocumentHandle {
     /// See [`DocumentMessage::Open`].
     pub fn open(&self, source: Source) {
@@ -165,12 +225,12 @@ impl DocumentHandle {
 
     /// Its thread.
     pub fn thread(&self) -> &ThreadHandle {
-        self.thread.handle()
+        &self.thread
     }
 
     /// Ends the thread behind what it was told so far; jobs are cancelled.
     pub fn stop(&self) {
-        self.thread.handle().remote_stop();
+        self.thread.remote_stop();
     }
 
     fn send(&self, message: DocumentMessage) {

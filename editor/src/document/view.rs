@@ -1,7 +1,7 @@
 //! What the document publishes: immutable, shared, never locked.
 
 use dragonfly_anim::bounds::Bounds;
-use dragonfly_anim::data::ModelData;
+use dragonfly_anim::data::{AnimationData, ModelData, Take};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ pub struct LoadedModel {
     pub path: Option<PathBuf>,
     /// "glb", "gltf".
     pub format: String,
-    /// The data.
+    /// The data as it was read; which takes there are now is in the [`View`].
     pub model: Arc<ModelData>,
     /// How much room it takes at the begin of its first take, or in the rest pose when it has none.
     pub bounds: Bounds,
@@ -41,6 +41,23 @@ pub struct LoadedModel {
 pub struct View {
     /// Grows with every change.
     pub generation: u64,
-    /// The model.
+    /// The model as it was opened.
     pub loaded: Arc<LoadedModel>,
+    /// Its takes as they are now. They are apart from the model, so that a change of one keeps everything else, on the
+    /// device as well: who has a model shown compares the `loaded` of two views.
+    pub takes: Arc<[Arc<Take>]>,
+}
+
+impl View {
+    /// `loaded`, unchanged.
+    pub fn opened(generation: u64, loaded: Arc<LoadedModel>) -> Self {
+        let takes = loaded.model.animation.takes.as_slice().into();
+        Self { generation, loaded, takes }
+    }
+
+    /// The skeleton and the takes as they are now.
+    pub fn animation(&self) -> AnimationData {
+        let skeleton = Arc::clone(&self.loaded.model.animation.skeleton);
+        AnimationData { skeleton, takes: self.takes.to_vec() }
+    }
 }

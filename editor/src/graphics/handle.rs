@@ -2,7 +2,7 @@
 
 use super::message::{GraphicsMessage, Look, PanelsFrame};
 use crate::camera::Camera;
-use crate::document::LoadedModel;
+use crate::document::View;
 use crate::playback::Playback;
 use dragonfly_runtime::{Address, Thread, ThreadHandle};
 use std::path::PathBuf;
@@ -14,6 +14,7 @@ use std::sync::Arc;
 pub struct GraphicsHandle {
     thread: ThreadHandle,
     address: Address<GraphicsMessage>,
+    views: Address<View>,
     /// Where the newest camera takes the place of one that waits; likewise the others.
     camera: Address<GraphicsMessage>,
     look: Address<GraphicsMessage>,
@@ -27,10 +28,11 @@ impl GraphicsHandle {
     pub(super) fn new(
         thread: ThreadHandle,
         address: Address<GraphicsMessage>,
+        views: Address<View>,
         owner: Option<Thread>,
     ) -> Self {
         let [camera, look, playback, size] = [(); 4].map(|()| address.latest());
-        Self { thread, address, camera, look, playback, size, _owner: owner.map(Arc::new) }
+        Self { thread, address, views, camera, look, playback, size, _owner: owner.map(Arc::new) }
     }
 
     /// Its thread.
@@ -56,9 +58,14 @@ impl GraphicsHandle {
         let _ = address.send(message);
     }
 
-    /// Shows `loaded` instead of what is shown.
-    pub fn show_model(&self, loaded: Arc<LoadedModel>) {
-        self.send(GraphicsMessage::ShowModel(loaded));
+    /// Where the document shows its states, so that no other thread has to carry them.
+    pub fn views(&self) -> &Address<View> {
+        &self.views
+    }
+
+    /// Shows `view` instead of what is shown.
+    pub fn show(&self, view: View) {
+        self.send(GraphicsMessage::Show(view));
     }
 
     /// Shows this time of this take.

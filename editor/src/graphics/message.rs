@@ -1,11 +1,10 @@
 //! What other threads may tell the graphics thread, and what it answers.
 
 use crate::camera::Camera;
-use crate::document::LoadedModel;
+use crate::document::View;
 use crate::playback::Playback;
 use dragonfly_anim::data::BoneIndex;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// How bones are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -108,8 +107,8 @@ impl Drop for PanelsFrame {
 
 /// Messages of the graphics thread.
 pub enum GraphicsMessage {
-    /// Shows this model instead of what is shown.
-    ShowModel(Arc<LoadedModel>),
+    /// Shows this instead of what is shown.
+    Show(View),
     /// Which time of which take.
     Play(Playback),
     /// From where.

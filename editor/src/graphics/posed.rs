@@ -3,7 +3,7 @@
 use super::message::Look;
 use super::shape::SkeletonShape;
 use super::uniform::{Affine, DrawUniform};
-use crate::document::LoadedModel;
+use crate::document::{LoadedModel, View};
 use dragonfly_anim::animation::{Animation, final_poses};
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AlphaMode, ModelData, Primitive};
@@ -92,6 +92,18 @@ impl PosedModel {
         posed
     }
 
+    /// Exchanges the takes for those of `view`, which must be of this model. Everything else stays; the next
+    /// [`pose`](Self::pose) is one of theirs.
+    pub fn show_takes(&mut self, view: &View) {
+        if self.animation.data().takes.len() == view.takes.len() {
+            for (index, take) in view.takes.iter().enumerate() {
+                self.animation.replace_take(index, Arc::clone(take));
+            }
+        } else {
+            self.animation = Animation::new(view.animation());
+        }
+    }
+
     /// What is shown.
     pub fn loaded(&self) -> &Arc<LoadedModel> {
         &self.loaded
@@ -153,7 +165,7 @@ impl PosedModel {
         for (matrix, instance) in self.palettes[self.rigid_start..].iter_mut().zip(&model.instances) {
             *matrix = rigid(instance, to_root).into();
         }
-        let take = take.and_then(|take| model.animation.takes.get(take)).map(Arc::as_ref);
+        let take = take.and_then(|take| self.animation.data().takes.get(take)).map(Arc::as_ref);
         for (index, (instance, &(start, count))) in
             model.instances.iter().zip(&self.weight_ranges).enumerate()
         {

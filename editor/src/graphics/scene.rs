@@ -6,7 +6,7 @@ use super::message::{Look, Shading};
 use super::posed::PosedModel;
 use super::uniform::FrameUniform;
 use crate::camera::{Camera, Projection, Ray};
-use crate::document::LoadedModel;
+use crate::document::{LoadedModel, View};
 use crate::playback::Playback;
 use dragonfly_anim::bounds::{Bounds, Sphere};
 use glam::{Mat4, Vec2, Vec3, Vec4};
@@ -40,9 +40,21 @@ impl Scene {
         }
     }
 
-    /// Shows `loaded` instead of what is shown.
+    /// Shows `view` instead of what is shown. Of the model that is shown already only the takes are exchanged.
+    pub fn show(&mut self, view: &View) {
+        match &mut self.model {
+            Some(model) if Arc::ptr_eq(model.loaded(), &view.loaded) => model.show_takes(view),
+            _ => {
+                let mut model = PosedModel::new(Arc::clone(&view.loaded));
+                model.show_takes(view);
+                self.model = Some(model);
+            }
+        }
+    }
+
+    /// Shows `loaded` as it was opened.
     pub fn show_model(&mut self, loaded: Arc<LoadedModel>) {
-        self.model = Some(PosedModel::new(loaded));
+        self.show(&View::opened(0, loaded));
     }
 
     /// The model in the pose prepared last.

@@ -10,13 +10,12 @@ use super::stage::{Event, Opened, Stage};
 use super::surface::SurfaceSource;
 use super::{GraphicsHandle, Look};
 use crate::camera::Camera;
-use crate::document::LoadedModel;
+use crate::document::View;
 use crate::playback::Playback;
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Frames a second where nothing else sets the pace.
@@ -58,8 +57,7 @@ impl Graphics {
     ) -> std::io::Result<GraphicsHandle> {
         let thread = Thread::start("graphics")?;
         let parameters = DeviceParameters { source: Some(source), ..DeviceParameters::default() };
-        let address = Self::register(thread.handle(), parameters, size, replies);
-        Ok(GraphicsHandle::new(thread.handle().clone(), address, Some(thread)))
+        Ok(Self::register(&thread.handle().clone(), Some(thread), parameters, size, replies))
     }
 
     /// The same in a thread that somebody else owns and may turn by hand, with or without a window.
@@ -69,18 +67,18 @@ impl Graphics {
         size: [u32; 2],
         replies: Address<GraphicsReply>,
     ) -> GraphicsHandle {
-        let address = Self::register(thread, parameters, size, replies);
-        GraphicsHandle::new(thread.clone(), address, None)
+        Self::register(thread, None, parameters, size, replies)
     }
 
     fn register(
         thread: &ThreadHandle,
+        owner: Option<Thread>,
         parameters: DeviceParameters,
         size: [u32; 2],
         replies: Address<GraphicsReply>,
-    ) -> Address<GraphicsMessage> {
-        let address = thread.reserve_address();
-        let own = address.clone();
+    ) -> GraphicsHandle {
+        let (address, views) = (thread.reserve_address(), thread.reserve_address());
+        let (own, shows) = (address.clone(), views.clone());
         // Fails only for a thread that has stopped, and then there is nobody to hear of it.
         let _ = thread.run(move |context| {
             let graphics = Rc::new(RefCell::new(Self {
@@ -93,9 +91,10 @@ impl Graphics {
                 failed: false,
             }));
             context.register_receiver_at(&own, Rc::clone(&graphics));
+            context.register_receiver_at(&shows, Views(Rc::clone(&graphics)));
             context.register_worker(graphics);
         });
-        address
+        GraphicsHandle::new(thread.clone(), address, views, owner)
     }
 
     /// First call in the thread: makes the device and the workers that draw with it.
@@ -143,8 +142,8 @@ impl Graphics {
         let _ = self.replies.send(reply);
     }
 
-    fn show_model(stage: &mut Stage, loaded: Arc<LoadedModel>) {
-        stage.scene.show_model(loaded);
+    fn show(stage: &mut Stage, view: &View) {
+        stage.scene.show(view);
         stage.touch_scene();
     }
 
@@ -189,13 +188,17 @@ impl Receiver for Graphics {
     fn receive(&mut self, message: GraphicsMessage, thread: &mut Context) {
         let Some(stage) = self.stage.clone() else {
             if !self.failed {
+                if let GraphicsMessage::Show(_) = message {
+                    // Only the newest will be seen.
+                    self.waiting.retain(|message| !matches!(message, GraphicsMessage::Show(_)));
+                }
                 self.waiting.push(message);
             }
             return;
         };
         let stage = &mut *stage.borrow_mut();
         match message {
-            GraphicsMessage::ShowModel(loaded) => Self::show_model(stage, loaded),
+            GraphicsMessage::Show(view) => Self::show(stage, &view),
             GraphicsMessage::Play(playback) => Self::play(stage, playback),
             GraphicsMessage::Camera(camera) => Self::set_camera(stage, camera),
             GraphicsMessage::Look(look) => Self::set_look(stage, *look),
@@ -219,6 +222,17 @@ impl Receiver for Graphics {
                 stage.touch_window();
             }
         }
+    }
+}
+
+/// Takes what the document shows. It has a type of its own, so that the document need not know who draws.
+struct Views(Rc<RefCell<Graphics>>);
+
+impl Receiver for Views {
+    type Message = View;
+
+    fn receive(&mut self, view: View, thread: &mut Context) {
+        self.0.borrow_mut().receive(GraphicsMessage::Show(view), thread);
     }
 }
 

@@ -1,7 +1,7 @@
 //! What panels need to know about a view, computed once when it changes and not every frame.
 
 use crate::document::{LoadedModel, View};
-use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::data::{BoneIndex, Take};
 use std::sync::Arc;
 
 /// A line of the skeleton's tree.
@@ -76,7 +76,7 @@ impl Digest {
             let loaded = &view.loaded;
             *self = Self {
                 rows: rows(loaded),
-                takes: takes(loaded),
+                takes: takes(&view.takes),
                 totals: totals(loaded),
                 generation: Some(view.generation),
                 ..Self::default()
@@ -84,7 +84,7 @@ impl Digest {
         }
         let key = (view.generation, take, bone);
         if self.lanes_of != Some(key) {
-            self.lanes = lanes(&view.loaded, take, bone);
+            self.lanes = lanes(&view.takes, take, bone);
             self.lanes_of = Some(key);
         }
     }
@@ -122,8 +122,8 @@ fn rows(loaded: &LoadedModel) -> Vec<Row> {
     rows
 }
 
-fn takes(loaded: &LoadedModel) -> Vec<TakeRow> {
-    let takes = loaded.model.animation.takes.iter().enumerate();
+fn takes(takes: &[Arc<Take>]) -> Vec<TakeRow> {
+    let takes = takes.iter().enumerate();
     takes
         .map(|(index, take)| TakeRow {
             name: if take.name.is_empty() { format!("Take {}", index + 1) } else { take.name.clone() },
@@ -146,8 +146,8 @@ fn totals(loaded: &LoadedModel) -> Totals {
     totals
 }
 
-fn lanes(loaded: &LoadedModel, take: Option<usize>, bone: Option<BoneIndex>) -> Lanes {
-    let Some(take) = take.and_then(|take| loaded.model.animation.takes.get(take)) else {
+fn lanes(takes: &[Arc<Take>], take: Option<usize>, bone: Option<BoneIndex>) -> Lanes {
+    let Some(take) = take.and_then(|take| takes.get(take)) else {
         return Lanes::default();
     };
     match bone {

@@ -113,7 +113,7 @@ fn show_model(ui: &mut Ui, state: &State) {
     }
     widgets::caption(ui, "Animation");
     fact(ui, "Bones", &widgets::grouped(model.animation.skeleton.len()));
-    fact(ui, "Takes", &widgets::grouped(model.animation.takes.len()));
+    fact(ui, "Takes", &widgets::grouped(state.digest.takes.len()));
     fact(ui, "Keys", &widgets::grouped(state.digest.takes.iter().map(|take| take.keys).sum()));
     // A skeleton alone needs no six lines that say so.
     if !(model.meshes.is_empty() && model.materials.is_empty() && model.images.is_empty()) {

@@ -127,9 +127,8 @@ impl Posed {
             self.animation = None;
             self.at = None;
         }
-        let (_, animation) = self
-            .animation
-            .get_or_insert_with(|| (view.generation, Animation::new(view.loaded.model.animation.clone())));
+        let (_, animation) =
+            self.animation.get_or_insert_with(|| (view.generation, Animation::new(view.animation())));
         if self.at != Some((take, time)) {
             animation.to_root_bone_poses(take, time);
             self.at = Some((take, time));
@@ -244,13 +243,13 @@ impl State {
         let fresh = self.view.as_ref().is_none_or(|old| !std::sync::Arc::ptr_eq(&old.loaded, &view.loaded));
         self.view = Some(view);
         if !fresh {
-            return;
+            return self.keep_take();
         }
         self.selected = None;
         self.hovered = None;
         self.pointed = None;
         self.framed = false;
-        let has_takes = self.loaded().is_some_and(|loaded| !loaded.model.animation.takes.is_empty());
+        let has_takes = self.view.as_ref().is_some_and(|view| !view.takes.is_empty());
         self.show_take(has_takes.then_some(0));
         self.playback = self.playback.with(has_takes, self.settings.speed, self.settings.repeat, self.now);
         self.frame_all();
@@ -263,6 +262,18 @@ impl State {
         self.playback.take = bounds.and(index);
         (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
         self.playback = self.playback.seek(self.playback.start, self.now);
+    }
+
+    /// Goes on with the take that is shown, at the same time of it, where it begins or ends elsewhere now or is gone.
+    fn keep_take(&mut self) {
+        let time = self.playback.time_at(self.now);
+        let bounds = self.take().map(|take| (take.start, take.length));
+        if bounds == Some((self.playback.start, self.playback.length)) {
+            return;
+        }
+        self.playback.take = bounds.and(self.playback.take);
+        (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
+        self.playback = self.playback.seek(time, self.now);
     }
 
     /// Puts everything into the middle of the picture.
@@ -306,7 +317,7 @@ impl State {
     }
 
     fn take_of(&self, index: Option<usize>) -> Option<&Take> {
-        self.loaded()?.model.animation.takes.get(index?).map(|take| &**take)
+        self.view.as_ref()?.takes.get(index?).map(|take| &**take)
     }
 
     /// Seconds in the take, now.
