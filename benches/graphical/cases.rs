@@ -174,7 +174,7 @@ fn compare(study: &mut Study, case: &str, bed: &Bed, scenario: Scenario, field: 
         })
     });
     let first = study.rows().len();
-    study.compare(case, study.mode.pick(1, 1, 5), variants.collect());
+    study.compare(case, study.mode.pick(1, 1, 3), variants.collect());
     if study.mode != Mode::Check {
         table::print(case, &ways.iter().map(|way| way.name).collect::<Vec<_>>(), &study.rows()[first..]);
     }
