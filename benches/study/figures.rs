@@ -117,6 +117,7 @@ pub const TABLES: &[Table] = &[
     Table { name: "machine-graphical", source: graphical(&["machine"]), columns: MACHINE },
     Table { name: "round-trip-queues", source: runtime(&["queue/round_trip/*"]), columns: TRIP },
     Table { name: "round-trip-actors", source: runtime(&["actor/round_trip/*"]), columns: TRIP },
+    Table { name: "round-trip-bound", source: runtime(&["?actor/round_trip_bound/*"]), columns: TRIP },
     Table {
         name: "one-way",
         source: runtime(ONE_WAY),

@@ -116,7 +116,7 @@ fn goals_block(data: &Data) -> String {
         "| goal | ours | beside | theirs | ratio | at most | |\n|---|--:|---|--:|--:|--:|---|\n",
     );
     for goal in goal::goals(rows) {
-        let shown = |of: &Spread| amount::spread(of.median, of.low, of.high, &goal.unit);
+        let shown = |of: &Spread| amount::spread(of.median(), of.low(), of.high(), &goal.unit);
         text += &format!(
             "| {} | {} | {} | {} | {:.2} | {:.2} | {} |\n",
             goal.name.trim(),
@@ -125,7 +125,7 @@ fn goals_block(data: &Data) -> String {
             shown(&goal.theirs),
             goal.ratio(),
             goal.demanded,
-            if goal.is_reached() { "reached" } else { "**not reached**" },
+            goal.verdict().as_str(),
         );
     }
     text + "\n*From [runtime.csv](results/runtime.csv); a ratio of medians.*"

@@ -227,6 +227,35 @@ fn scrubbing_the_timeline_moves_the_time_and_gives_it_back() {
     assert!(harness.state().state.playback.playing, "and goes on afterwards");
 }
 
+/// On a slow frame a click lasts longer than a click may, and must not be lost for it.
+#[test]
+fn a_press_on_the_timeline_moves_the_time_before_it_is_a_click_or_a_drag() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    let track = harness.get_by_label("Time track").rect();
+    let middle = egui::pos2((track.left() + 16.0 + track.right() - 20.0) / 2.0, track.top() + 12.0);
+    harness.hover_at(middle);
+    harness.run_steps(1);
+    harness.drag_at(middle);
+    harness.run_steps(1);
+    let time = harness.state().state.time();
+    assert!((time - 3.417 / 2.0).abs() < 0.02, "{time}");
+    // Another button does nothing.
+    harness.drop_at(middle);
+    harness.run_steps(2);
+    let right = egui::PointerButton::Secondary;
+    let early = track.left_top() + egui::vec2(60.0, 12.0);
+    harness.hover_at(early);
+    harness.event(egui::Event::PointerButton {
+        pos: early,
+        button: right,
+        pressed: true,
+        modifiers: egui::Modifiers::NONE,
+    });
+    harness.run_steps(2);
+    assert_eq!(harness.state().state.time(), time);
+}
+
 #[test]
 fn the_palette_runs_what_is_found() {
     let mut harness = harness(Bench::new(Some(fixture::full())));

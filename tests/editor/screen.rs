@@ -30,6 +30,8 @@ pub(crate) struct Screen {
     hand: Wire,
     test_extension: u8,
     frames: Folder,
+    /// The process whose window is looked at.
+    pub(crate) program: Option<u32>,
 }
 
 impl Screen {
@@ -53,7 +55,7 @@ impl Screen {
         let number = line.trim().parse().expect("the number of the display");
         let mut hand = Wire::connect(number);
         let test_extension = hand.extension("XTEST");
-        Self { server, number, hand, test_extension, frames }
+        Self { server, number, hand, test_extension, frames, program: None }
     }
 
     /// What `DISPLAY` must be for a program to open its window here.

@@ -64,6 +64,7 @@ impl Editor {
         let mut editor = Self { child, said, lines: Vec::new(), window: 0, variables, _settings: settings };
         editor.hears("Opened Fox.glb", 1, SOON);
         editor.window = screen.window("Fox.glb", SOON);
+        screen.program = Some(editor.child.id());
         screen.focus(editor.window);
         // The arrow is part of the picture.
         screen.point(i16::MAX, i16::MAX);
@@ -131,7 +132,8 @@ impl Drop for Editor {
     }
 }
 
-/// What a part of the screen shows once it does not change any more.
+/// What a part of the screen shows once it does not change any more and the program has nothing left to do:
+/// on a busy machine a picture can stand still for a second because the program had no turn.
 #[track_caller]
 pub(crate) fn settled(screen: &Screen, part: [u32; 4]) -> RgbaImage {
     let deadline = Instant::now() + SOON;
@@ -144,11 +146,21 @@ pub(crate) fn settled(screen: &Screen, part: [u32; 4]) -> RgbaImage {
         }
         pass(Duration::from_millis(100));
         let now = screen.part(part);
-        if now != last {
+        if now != last || screen.program.is_some_and(works) {
             (last, since) = (now, Instant::now());
         }
     }
     last
+}
+
+/// Whether a thread of this program runs or waits for a processor.
+fn works(program: u32) -> bool {
+    let threads = std::fs::read_dir(format!("/proc/{program}/task")).into_iter().flatten().flatten();
+    let stat = |thread: std::fs::DirEntry| std::fs::read_to_string(thread.path().join("stat")).ok();
+    // The state follows the name, which is in brackets and may hold any.
+    threads.filter_map(stat).any(|stat| {
+        stat.rsplit(')').next().is_some_and(|rest| rest.starts_with(" R") || rest.starts_with(" D"))
+    })
 }
 
 /// How many different colours there are: a blank or broken picture has few.

@@ -17,9 +17,11 @@ use super::cases::{self, Cases};
 use super::own::peer::Dragonfly;
 use super::own::spin::Spinning;
 use super::peer::{Message, Words};
-use super::work::round_trip;
+use super::work::round_trip::{self, placed};
+use super::work::threads::Place;
 use crate::{Study, Variant};
 use chain::Plan;
+use std::time::Duration;
 
 /// Measures every case.
 pub fn all(study: &mut Study) {
@@ -35,7 +37,36 @@ pub fn all(study: &mut Study) {
     cases.add::<Dragonfly>("dragonfly");
     cases.round_trips("dragonfly, spinning", round_trip::run::<Spinning>);
     cases::measure(study, cases);
+    bound(study);
     on_one_thread(study);
+}
+
+/// Round trips with both ends bound to cores. Left to itself the system puts them on one core or on two as it likes,
+/// which makes more difference than any crate.
+fn bound(study: &mut Study) {
+    let repeats = study.mode.pick(1, 3, 7);
+    let at_once = round_trip::Plan { trips: study.mode.pick(50, 2_000, 20_000), rest: None };
+    let rest = Some(Duration::from_micros(300));
+    let rested = round_trip::Plan { trips: study.mode.pick(10, 150, 500), rest };
+    let (one, two) = ([Place::First, Place::First], [Place::First, Place::Last]);
+    for (case, plan, places) in [
+        ("actor/round_trip_bound/two_cores", at_once, two),
+        ("actor/round_trip_bound/two_cores_rested", rested, two),
+        ("actor/round_trip_bound/one_core", at_once, one),
+    ] {
+        study.compare(
+            case,
+            repeats,
+            vec![
+                Variant::new("actix", move |out| placed::<actix::Actix>(plan, places, out)),
+                Variant::new("kameo", move |out| placed::<kameo::CurrentThread>(plan, places, out)),
+                Variant::new("ractor", move |out| placed::<ractor::CurrentThread>(plan, places, out)),
+                Variant::new("stakker", move |out| stakker::placed(plan, places, out)),
+                Variant::new("tonari-actor", move |out| placed::<tonari::Tonari>(plan, places, out)),
+                Variant::new("dragonfly", move |out| placed::<Dragonfly>(plan, places, out)),
+            ],
+        );
+    }
 }
 
 fn on_one_thread(study: &mut Study) {

@@ -6,7 +6,7 @@
 
 use crate::runtime::peer::{Message, Peer, Small, Take};
 use crate::runtime::work::round_trip::{self, First, Plan, Step};
-use crate::runtime::work::threads;
+use crate::runtime::work::threads::{self, Place};
 use crate::{Distribution, Measured};
 use ::stakker::sync::{Channel, ChannelGuard, PipedThread};
 use ::stakker::{ActorOwn, CX, Fwd, call, fwd_do, fwd_to, ret_shutdown};
@@ -101,10 +101,12 @@ struct Traveller {
 }
 
 impl Traveller {
-    fn init(cx: CX![], first: First, plan: Plan, open: ChannelGuard) -> Option<Self> {
+    fn init(cx: CX![], first: First, plan: Plan, place: Option<Place>, open: ChannelGuard) -> Option<Self> {
         let home: Fwd<Small> = fwd_to!([cx], receive() as (Small));
         let away = PipedThread::spawn(home, fwd_do!(|_| ()), cx, move |link| {
             let mut back = round_trip::second(plan);
+            // Where it cannot be bound, nor can the other end, and nothing is written down.
+            place.map(threads::stay);
             while let Some(ping) = link.recv() {
                 link.send(ping);
                 if back() == ControlFlow::Break(()) {
@@ -126,14 +128,28 @@ impl Traveller {
 
 /// Round trips in stakker's way: there cannot be a second one, so the other end is its `PipedThread`.
 pub fn round_trips(plan: Plan, measured: &mut Measured) {
+    measured.distribution("trip", &trips(plan, None));
+}
+
+/// The same, both ends bound to their places.
+pub fn placed(plan: Plan, [away, here]: [Place; 2], measured: &mut Measured) {
+    // It runs on the thread that measures, which is let go afterwards.
+    if threads::stay(here) {
+        let all = trips(plan, Some(away));
+        if threads::roam() {
+            measured.distribution("trip", &all);
+        }
+    }
+}
+
+fn trips(plan: Plan, away: Option<Place>) -> Distribution {
     let (first, result) = First::new(plan);
     let mut stakker = Loop::new();
     let core = &mut stakker.stakker;
     let actor: ActorOwn<Traveller> = ::stakker::actor_new!(core, Traveller, ret_shutdown!(core));
     let (channel, open) = Channel::new(core, fwd_to!([actor], receive() as (Small)));
-    call!([actor], Traveller::init(first, plan, open));
+    call!([actor], Traveller::init(first, plan, away, open));
     let result = round_trip::ask(plan, result, move |message| Stakker::send(&channel, message));
     stakker.run();
-    let all: Distribution = threads::join(result);
-    measured.distribution("trip", &all);
+    threads::join(result)
 }

@@ -6,7 +6,7 @@
 use super::peer::{Dragonfly, wait_for};
 use crate::runtime::peer::{Message, Peer, Take};
 use crate::runtime::queue::channels::{Crossbeam, Kanal};
-use crate::runtime::work::round_trip::{self, Plan};
+use crate::runtime::work::round_trip::{Plan, placed};
 use crate::runtime::work::threads::{self, Place};
 use crate::{Distribution, Measured, Mode, Study, Variant};
 use dragonfly_runtime::{Address, Thread};
@@ -94,16 +94,4 @@ fn variants(plan: Plan, places: [Place; 2]) -> Vec<Variant<'static>> {
         Variant::new("dragonfly", move |measured| placed::<Dragonfly>(plan, places, measured)),
         Variant::new("dragonfly, spinning", move |measured| placed::<Spinning>(plan, places, measured)),
     ]
-}
-
-/// Each consumer on its core. Measures nothing where threads cannot be bound to cores.
-fn placed<P: Peer>(plan: Plan, places: [Place; 2], measured: &mut Measured) {
-    // A thread starts where the one is that starts it; this one ends with the measurement.
-    let trips = threads::start("places", move || {
-        let mut places = places.into_iter();
-        round_trip::trips::<P>(plan, || places.next().is_some_and(threads::stay))
-    });
-    if let Some(all) = threads::join(trips) {
-        measured.distribution("trip", &all);
-    }
 }

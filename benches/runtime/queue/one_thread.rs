@@ -23,24 +23,26 @@ pub fn all(study: &mut Study) {
     study.compare("queue/one_thread/64_bytes", study.mode.pick(1, 5, 11), variants::<Words<8>>(rounds));
 }
 
+/// A channel whose two ends stay on the thread that measures.
+macro_rules! channel {
+    ($name:literal, $rounds:ident, $make:expr) => {
+        Variant::new($name, move |measured| {
+            let (enter, leave) = $make;
+            let send = |message: M| enter.send(message).expect(HERE);
+            batches($rounds, measured, send, || leave.recv().expect(HERE));
+        })
+    };
+}
+
+/// Why nothing fails.
+const HERE: &str = "the other end lives here as well";
+
 fn variants<M: Message>(rounds: u64) -> Vec<Variant<'static>> {
     vec![
-        Variant::new("std", move |measured| {
-            let (enter, leave) = mpsc::channel::<M>();
-            batches(rounds, measured, |message| enter.send(message).unwrap(), || leave.recv().unwrap());
-        }),
-        Variant::new("crossbeam", move |measured| {
-            let (enter, leave) = crossbeam_channel::unbounded::<M>();
-            batches(rounds, measured, |message| enter.send(message).unwrap(), || leave.recv().unwrap());
-        }),
-        Variant::new("flume", move |measured| {
-            let (enter, leave) = flume::unbounded::<M>();
-            batches(rounds, measured, |message| enter.send(message).unwrap(), || leave.recv().unwrap());
-        }),
-        Variant::new("kanal", move |measured| {
-            let (enter, leave) = kanal::unbounded::<M>();
-            batches(rounds, measured, |message| enter.send(message).unwrap(), || leave.recv().unwrap());
-        }),
+        channel!("std", rounds, mpsc::channel()),
+        channel!("crossbeam", rounds, crossbeam_channel::unbounded()),
+        channel!("flume", rounds, flume::unbounded()),
+        channel!("kanal", rounds, kanal::unbounded()),
         Variant::new("dragonfly", move |measured| dragonfly::<M>(rounds, measured)),
     ]
 }
@@ -62,7 +64,7 @@ fn dragonfly<M: Message>(rounds: u64, measured: &mut Measured) {
         ControlFlow::Continue(())
     }));
     timed(rounds, measured, || {
-        (0..BATCH).for_each(|number| address.send(black_box(M::of(number))).unwrap());
+        (0..BATCH).for_each(|number| address.send(black_box(M::of(number))).expect(HERE));
         thread.iterate();
         sum.take()
     });

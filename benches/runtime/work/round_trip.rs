@@ -1,6 +1,6 @@
 //! There and back between two consumers, each in its thread.
 
-use super::threads;
+use super::threads::{self, Place};
 use crate::runtime::peer::{Message, Peer, Small};
 use crate::{Distribution, Measured};
 use std::ops::ControlFlow;
@@ -24,6 +24,18 @@ pub struct Plan {
 /// Between two consumers of `P`.
 pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
     measured.distribution("trip", &trips::<P>(plan, || true).expect("nothing was in the way"));
+}
+
+/// Between two consumers of `P`, each bound to its place. Measures nothing where threads cannot be bound.
+pub fn placed<P: Peer>(plan: Plan, places: [Place; 2], measured: &mut Measured) {
+    // A thread starts where the one is that starts it; this one ends with the measurement.
+    let trips = threads::start("places", move || {
+        let mut places = places.into_iter();
+        trips::<P>(plan, || places.next().is_some_and(threads::stay))
+    });
+    if let Some(all) = threads::join(trips) {
+        measured.distribution("trip", &all);
+    }
 }
 
 /// All trips but those for warming up. `before` is asked before each of the two consumers starts; `None` when it says

@@ -1,8 +1,8 @@
 //! Threads that are no part of what is measured: producers, and who makes noise.
 
 use std::process::Command;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -63,21 +63,35 @@ pub enum Place {
     Last,
 }
 
+/// The cores that this program could use before any thread was bound, as Linux lists them; nothing where it does not.
+fn cores() -> &'static str {
+    static CORES: OnceLock<String> = OnceLock::new();
+    CORES.get_or_init(|| {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let list = status.lines().find_map(|line| line.strip_prefix("Cpus_allowed_list:"));
+        list.unwrap_or_default().trim().to_owned()
+    })
+}
+
 /// Binds the calling thread, and those it starts from now on, to a core. `false` where that cannot be done.
-///
-/// With the program that Linux has for it: the system call would want code that is not safe, or a dependency.
 pub fn stay(place: Place) -> bool {
-    let cores = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let list = cores.lines().find_map(|line| line.strip_prefix("Cpus_allowed_list:")).unwrap_or_default();
-    let mut numbers = list.split([',', '-']).map(str::trim);
+    let mut numbers = cores().split([',', '-']);
     let core = match place {
         Place::First => numbers.next(),
         Place::Last => numbers.next_back(),
     };
-    let (Some(core), Some(id)) = (core, own_id()) else {
-        return false;
-    };
-    let bind = Command::new("taskset").args(["-p", "-c", core, &id]).output();
+    bind(core.unwrap_or_default())
+}
+
+/// Lets the calling thread run anywhere again.
+pub fn roam() -> bool {
+    bind(cores())
+}
+
+/// With the program that Linux has for it: the system call would want code that is not safe, or a dependency.
+fn bind(cores: &str) -> bool {
+    let Some(id) = own_id().filter(|_| !cores.is_empty()) else { return false };
+    let bind = Command::new("taskset").args(["-p", "-c", cores, &id]).output();
     bind.is_ok_and(|output| output.status.success())
 }
 

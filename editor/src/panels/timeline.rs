@@ -65,18 +65,22 @@ impl Timeline {
         let response = ui.interact(track, ui.scope_id().with("track"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::slider(true, f64::from(state.time()), "Time track"));
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        if response.drag_started_by(egui::PointerButton::Primary) && state.playback.playing {
+        // From the press on, as a hand expects: not only once a movement has made it a drag, and not only
+        // once a quick release has made it a click, which it is not any more when a frame took long.
+        let primary = ui.input(|input| input.pointer.primary_down());
+        let down = response.is_pointer_button_down_on() && primary;
+        if down && state.playback.playing && self.resume.is_none() {
             // Time stands while it is held, and goes on as it went before.
             let command = if state.playback.speed < 0.0 { Id::PlayBackwards } else { Id::PlayPause };
             self.resume = Some(command);
             requests.push(Request::Command(command));
         }
-        let held = response.dragged_by(egui::PointerButton::Primary) || response.clicked();
-        if held && let Some(pointer) = response.interact_pointer_pos() {
+        if (down || response.clicked())
+            && let Some(pointer) = response.interact_pointer_pos()
+        {
             requests.push(Request::Seek(ruler.time_at(pointer.x)));
         }
-        let let_go = !response.is_pointer_button_down_on() && !response.dragged();
-        if let_go && let Some(command) = self.resume.take() {
+        if !down && let Some(command) = self.resume.take() {
             requests.push(Request::Command(command));
         }
         if response.hovered() {

@@ -4,7 +4,7 @@
 //! go through `tell(…).try_send()`, which does not wait.
 
 use super::super::run::{Finish, Run};
-use super::tokio::Workers;
+use super::tokio;
 use crate::Mode;
 use kameo::actor::{ActorRef, Spawn};
 use kameo::error::Infallible;
@@ -101,16 +101,5 @@ impl<A: Actor> Cx<'_, A> {
 }
 
 pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
-    let workers = Workers::start(threads);
-    let inside = workers.handle().enter();
-    let (run, verdict) = Run::begin();
-    suite::start(benchmark, &mut World { run: Arc::new(run) }, mode);
-    let finish = verdict.wait();
-    drop(inside);
-    if finish.is_err() {
-        workers.abandon();
-        return finish;
-    }
-    workers.stop();
-    if verdict.is_clean() { finish } else { Err("an actor panicked behind the end".into()) }
+    tokio::play(threads, |run| suite::start(benchmark, &mut World { run: Arc::new(run) }, mode))
 }

@@ -4,7 +4,7 @@
 //! `ActorRef::send_message`. Its mailboxes are unbounded.
 
 use super::super::run::{Finish, Run};
-use super::tokio::Workers;
+use super::tokio;
 use crate::Mode;
 use ractor::{ActorProcessingErr, ActorRef, ActorRuntime};
 use std::marker::PhantomData;
@@ -107,16 +107,5 @@ impl<A: Actor> Cx<'_, A> {
 }
 
 pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
-    let workers = Workers::start(threads);
-    let inside = workers.handle().enter();
-    let (run, verdict) = Run::begin();
-    suite::start(benchmark, &mut World { run: Arc::new(run) }, mode);
-    let finish = verdict.wait();
-    drop(inside);
-    if finish.is_err() {
-        workers.abandon();
-        return finish;
-    }
-    workers.stop();
-    if verdict.is_clean() { finish } else { Err("an actor panicked behind the end".into()) }
+    tokio::play(threads, |run| suite::start(benchmark, &mut World { run: Arc::new(run) }, mode))
 }

@@ -1,5 +1,6 @@
 //! The threads of tokio, for the systems whose actors are its tasks.
 
+use super::super::run::{Finish, Run};
 use std::mem;
 use std::thread::{self, JoinHandle};
 use tokio::runtime::{Builder, Handle, Runtime};
@@ -7,13 +8,13 @@ use tokio::sync::oneshot;
 
 /// A runtime on threads of its own: with one, tokio's single-threaded flavour, which is the quicker one then; with
 /// more, its work-stealing one.
-pub(super) enum Workers {
+enum Workers {
     One { handle: Handle, stop: oneshot::Sender<()>, thread: JoinHandle<()> },
     Many(Runtime),
 }
 
 impl Workers {
-    pub(super) fn start(threads: usize) -> Self {
+    fn start(threads: usize) -> Self {
         if threads > 1 {
             let runtime = Builder::new_multi_thread().worker_threads(threads).build();
             return Self::Many(runtime.expect("the system has threads left"));
@@ -28,7 +29,7 @@ impl Workers {
         Self::One { handle, stop, thread: thread.expect("the system has a thread left") }
     }
 
-    pub(super) fn handle(&self) -> &Handle {
+    fn handle(&self) -> &Handle {
         match self {
             Self::One { handle, .. } => handle,
             Self::Many(runtime) => runtime.handle(),
@@ -36,7 +37,7 @@ impl Workers {
     }
 
     /// Ends the runtime and drops its tasks.
-    pub(super) fn stop(self) {
+    fn stop(self) {
         match self {
             Self::One { stop, thread, .. } => {
                 stop.send(()).expect("it waits for this");
@@ -47,7 +48,23 @@ impl Workers {
     }
 
     /// Leaves the runtime to itself: a task in it may never end.
-    pub(super) fn abandon(self) {
+    fn abandon(self) {
         mem::forget(self);
     }
+}
+
+/// Lets `start` make the first actors on `threads` threads, and waits for the end.
+pub(super) fn play(threads: usize, start: impl FnOnce(Run)) -> Result<Finish, String> {
+    let workers = Workers::start(threads);
+    let inside = workers.handle().enter();
+    let (run, verdict) = Run::begin();
+    start(run);
+    let finish = verdict.wait();
+    drop(inside);
+    if finish.is_err() {
+        workers.abandon();
+        return finish;
+    }
+    workers.stop();
+    if verdict.is_clean() { finish } else { Err("an actor panicked behind the end".into()) }
 }
