@@ -79,6 +79,7 @@ impl Receiver for Answers {
 
     fn receive(&mut self, answer: Answer, _main: &mut Context) {
         let mut interface = self.0.borrow_mut();
+        interface.asking = false;
         match answer {
             Answer::File(path) => interface.effects.push(Effect::Open(Source::File(path))),
             Answer::Nothing { quick: true } => {

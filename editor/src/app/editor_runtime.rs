@@ -80,11 +80,18 @@ impl EditorRuntime {
         let mut interface = running.parts.interface.borrow_mut();
         match effect {
             Effect::Open(_) => {}
+            Effect::OpenDialog if interface.asking => {
+                interface.state.status.say(Level::Info, "The dialog for opening files is open already");
+            }
             Effect::OpenDialog => {
                 let recent = interface.state.settings.recent.first();
                 let folder = recent.and_then(|path| path.parent()).map(std::path::Path::to_owned);
-                if let Err(error) = open_dialog::ask(folder, running.answers.clone()) {
-                    interface.state.status.say(Level::Error, format!("No dialog could be opened: {error}"));
+                match open_dialog::ask(folder, running.answers.clone()) {
+                    Ok(()) => interface.asking = true,
+                    Err(error) => {
+                        let text = format!("No dialog could be opened: {error}");
+                        interface.state.status.say(Level::Error, text);
+                    }
                 }
             }
             Effect::CancelLoading => {

@@ -26,6 +26,8 @@ pub struct Interface {
     pub state: State,
     /// What they asked for and only others can do.
     pub effects: Vec<Effect>,
+    /// The system's dialog for opening files is open: one is enough.
+    pub(super) asking: bool,
     graphics: Option<GraphicsHandle>,
     store: Store,
     saved: Settings,
@@ -54,6 +56,7 @@ impl Interface {
             desk,
             state: State::new(settings, now),
             effects: Vec::new(),
+            asking: false,
             graphics: None,
             store,
             saved,
