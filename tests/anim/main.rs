@@ -9,6 +9,7 @@ mod damage;
 mod degenerate;
 mod degenerate_import;
 mod determinism;
+mod dfm;
 mod doors;
 mod fixture;
 mod formats;

@@ -6,6 +6,7 @@
 //!
 //! A new format is a module with a `pub const …: Format` and a line in the list.
 
+pub mod dfm;
 mod door;
 mod error;
 #[cfg(feature = "gltf")]
@@ -39,6 +40,7 @@ pub struct Format {
 
 /// Every format that can be read.
 pub const FORMATS: &[Format] = &[
+    dfm::DFM,
     #[cfg(feature = "gltf")]
     gltf::GLB,
     #[cfg(feature = "gltf")]
