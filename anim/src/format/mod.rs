@@ -18,6 +18,7 @@ mod options;
 pub mod uri;
 
 pub use door::{AssetError, AssetFs, NoFiles};
+pub(crate) use error::one_line;
 pub use error::{ImportError, Place, Warning};
 pub use options::{ByteBudget, OverBudget, ReadOptions};
 

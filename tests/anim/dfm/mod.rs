@@ -2,7 +2,7 @@
 
 mod damage;
 mod frame;
-mod golden;
+pub(crate) mod golden;
 mod hostile;
 mod import;
 mod made;

@@ -100,13 +100,14 @@ fn ending(bytes: &[u8]) -> Result<(usize, bool), ImportError> {
         let reason = format!("the file ends with {magic:02x?} where {ENDING_MAGIC:02x?} should stand");
         return Err(invalid(at + 12, DFM_ENDING, reason));
     }
-    if directory_at < 4 || directory_at > at - HEADER {
-        let reason = format!("the directory cannot begin at byte {directory_at}");
+    let begins = |from: usize| bytes[from..at].starts_with(&DIRECTORY_TAG);
+    if directory_at < 4 || directory_at > at - HEADER || !begins(directory_at) {
+        let reason = format!("no directory begins at byte {directory_at}, as is written here");
         return Err(invalid(at, DFM_ENDING, reason));
     }
     let computed = Checksum::START.with(&bytes[directory_at..at + 8]).value();
     if computed != checksum {
-        return Err(altered(directory_at, "directory", computed, checksum));
+        return Err(altered(directory_at, "checksums", computed, checksum));
     }
     if major != VERSION.0 {
         let feature = format!("version {major}.{minor} of the format (this is {}.{})", VERSION.0, VERSION.1);

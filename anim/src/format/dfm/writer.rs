@@ -56,7 +56,7 @@ impl Writer {
             .iter()
             .map(|layout| (layout.part.header_bytes() + self.parts[layout.part as usize].len()) as u64);
         let bytes = 4 + parts.sum::<u64>() + 12 + 16 * (PARTS.len() as u64 + 1);
-        let total = u32::try_from(bytes).map_err(|_| WriteError::TooLarge { bytes })?;
+        let total = total(bytes)?;
         let mut file = Vec::with_capacity(bytes as usize);
         // Filled in at the end, as the thesis has it.
         file.u32(0);
@@ -89,6 +89,11 @@ impl Writer {
     }
 }
 
+/// The first four bytes of a file of so many.
+fn total(bytes: u64) -> Result<u32, WriteError> {
+    u32::try_from(bytes).map_err(|_| WriteError::TooLarge { bytes })
+}
+
 /// The directory of the parts, and the last 16 bytes.
 fn ending(file: &mut Vec<u8>, entries: &[u8]) {
     let at = file.len();
@@ -102,4 +107,18 @@ fn ending(file: &mut Vec<u8>, entries: &[u8]) {
     let checksum = Checksum::START.with(&file[at..]).value();
     file.u32(checksum);
     file.extend_from_slice(&ENDING_MAGIC);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::total;
+    use crate::format::dfm::WriteError;
+
+    #[test]
+    fn four_bytes_end_at_four_gibibytes() {
+        assert_eq!(total(u32::MAX.into()), Ok(u32::MAX));
+        let error = total(1 << 32).unwrap_err();
+        assert_eq!(error, WriteError::TooLarge { bytes: 1 << 32 });
+        assert_eq!(error.to_string(), "file: 4294967296 bytes, at most 4294967295");
+    }
 }
