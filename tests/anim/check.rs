@@ -135,13 +135,16 @@ fn a_good_model_has_no_finding() {
 
 #[test]
 fn each_way_to_break_a_model_is_found_by_its_rule_alone() {
+    let mut wrong = Vec::new();
     for (number, (rule, break_it)) in BREAKS.iter().enumerate() {
         let mut model = golden::model();
         break_it(&mut model);
-        let findings = check(&model);
-        let fired: BTreeSet<&str> = findings.iter().map(|finding| finding.rule).collect();
-        assert!(fired == BTreeSet::from([*rule]), "break {number}, of {rule}: {findings:#?}");
+        let fired: BTreeSet<&str> = check(&model).iter().map(|finding| finding.rule).collect();
+        if fired != BTreeSet::from([*rule]) {
+            wrong.push(format!("break {number}, of {rule}: {fired:?}"));
+        }
     }
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), BREAKS.len(), wrong.join("\n"));
 }
 
 #[test]

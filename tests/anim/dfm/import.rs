@@ -52,7 +52,7 @@ fn the_limits_of_importers_hold() {
             name: String::new(),
             parent: index.checked_sub(1),
             node: None,
-            ..(*self::model().animation.skeleton).bones[0].clone()
+            ..self::model().animation.skeleton.bones[0].clone()
         };
         let mut model = ModelData::default();
         model.animation.skeleton = Arc::new(Skeleton { bones: (0..bones).map(bone).collect() });

@@ -74,7 +74,9 @@ impl Maker {
     }
 
     fn node(&mut self) -> Option<u32> {
-        self.chance(0.5).then(|| self.random.bits() as u32 | u32::from(self.random.unit() < 0.2) * u32::MAX)
+        let number = self.random.bits() as u32;
+        // The largest number is one like any other here.
+        if self.chance(0.2) { Some(u32::MAX) } else { self.chance(0.5).then_some(number) }
     }
 
     fn interpolation(&mut self) -> Interpolation {
