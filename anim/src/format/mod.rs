@@ -11,7 +11,7 @@ mod door;
 mod error;
 #[cfg(feature = "gltf")]
 pub mod gltf;
-// Used by every importer, so by none where all are left out.
+// Some of it is for glTF alone.
 #[cfg_attr(not(feature = "gltf"), allow(dead_code))]
 mod guard;
 mod options;
