@@ -112,6 +112,7 @@ const BREAKS: &[(&str, Break)] = &[
     ("TAKE_RANGE", |model| take(model).length = 3.0),
     ("TAKE_RANGE", |model| take(model).start = f32::NAN),
     ("KEY_SCALE_ZERO", |model| scales(model, Vec3::new(1.0, 0.0, 1.0))),
+    ("KEY_SCALE_ZERO", |model| scales(model, Vec3::splat(1e-7))),
     ("KEY_MIRRORED", |model| scales(model, Vec3::new(-1.0, 1.0, 1.0))),
     ("ROTATION_FLIP", |model| rotations(model, &[0.0, 2.0], &[HALF, -HALF])),
     ("ROTATION_JUMP", |model| rotations(model, &[0.0, 0.01, 2.0], &[Quat::IDENTITY, HALF, HALF])),

@@ -44,10 +44,10 @@ use glam::Vec3;
 /// How far from 1 the length of a unit vector or quaternion may be: what half floats lose is less.
 const UNIT_TOLERANCE: f32 = 2e-3;
 
-/// Has one axis no extent beside the longest, or none at all?
+/// Has one axis no extent beside the longest, or are all a million times smaller than they should be?
 fn is_flat(scale: Vec3) -> bool {
     let scale = scale.abs();
-    scale.is_finite() && (scale.min_element() <= 1e-5 * scale.max_element() || scale.max_element() < 1e-12)
+    scale.is_finite() && (scale.min_element() <= 1e-5 * scale.max_element() || scale.max_element() < 1e-6)
 }
 
 /// Does it turn left into right: an odd number of negative factors?
