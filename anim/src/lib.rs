@@ -20,6 +20,7 @@
 
 pub mod animation;
 pub mod bounds;
+pub mod check;
 pub mod data;
 pub mod evaluator;
 pub mod format;

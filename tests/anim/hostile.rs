@@ -35,9 +35,9 @@ const HOSTILE: [f32; 18] = [
 ];
 
 /// Random parts of a model; `hostile` is the chance that a number is one of [`HOSTILE`].
-struct Maker {
-    random: Random,
-    hostile: f32,
+pub(crate) struct Maker {
+    pub(crate) random: Random,
+    pub(crate) hostile: f32,
 }
 
 impl Maker {
@@ -142,7 +142,7 @@ impl Maker {
         Primitive { vertices, morph_targets, ..Primitive::default() }
     }
 
-    fn model(&mut self) -> ModelData {
+    pub(crate) fn model(&mut self) -> ModelData {
         let bones = self.list(4, Self::bone);
         let take = Take {
             start: self.number(),

@@ -6,17 +6,19 @@
 //!
 //! A new format is a module with a `pub const …: Format` and a line in the list.
 
+pub mod dfm;
 mod door;
 mod error;
 #[cfg(feature = "gltf")]
 pub mod gltf;
-// Used by every importer, so by none where all are left out.
+// Some of it is for glTF alone.
 #[cfg_attr(not(feature = "gltf"), allow(dead_code))]
 mod guard;
 mod options;
 pub mod uri;
 
 pub use door::{AssetError, AssetFs, NoFiles};
+pub(crate) use error::one_line;
 pub use error::{ImportError, Place, Warning};
 pub use options::{ByteBudget, OverBudget, ReadOptions};
 
@@ -39,6 +41,7 @@ pub struct Format {
 
 /// Every format that can be read.
 pub const FORMATS: &[Format] = &[
+    dfm::DFM,
     #[cfg(feature = "gltf")]
     gltf::GLB,
     #[cfg(feature = "gltf")]

@@ -1,0 +1,312 @@
+//! Everything wrong with a model or a take, as a list with places.
+//!
+//! Nothing is mended here and nothing is refused: [`check`] looks, and says what it saw, where, and how much it matters.
+//! It never panics, whatever the model holds, and takes time in proportion to the model's size.
+//!
+//! | severity | meaning |
+//! |---|---|
+//! | [`Severity::Error`] | a promise of the data types is broken: what is shown is a stand-in, or wrong |
+//! | [`Severity::Warning`] | allowed, but probably not meant, and visible |
+//! | [`Severity::Note`] | allowed and often meant; worth knowing when something looks odd |
+//!
+//! A new rule is a file in `rule/` and a line in [`RULES`].
+//!
+//! ```
+//! # let model = dragonfly_anim::data::ModelData::default();
+//! for finding in dragonfly_anim::check::check(&model) {
+//!     println!("{finding}");
+//! }
+//! ```
+
+mod column;
+mod place;
+mod rule;
+
+pub use place::{Kind, Place, Step};
+
+use crate::data::{ModelData, Skeleton, Take};
+use std::fmt;
+
+/// How much a finding matters. Sorts with the worst first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// A promise of the data types is broken.
+    Error,
+    /// Probably not meant.
+    Warning,
+    /// Worth knowing.
+    Note,
+}
+
+/// What a rule looks at.
+#[derive(Clone, Copy)]
+pub(crate) enum Look {
+    /// The model without its takes.
+    Model(fn(&ModelData, &mut Findings)),
+    /// One take and the skeleton it moves.
+    Take(fn(&TakeOf<'_>, &mut Findings)),
+}
+
+/// One rule.
+#[derive(Clone, Copy)]
+pub struct Rule {
+    /// Short and in capitals: `"KEY_TIMES_FALL"`.
+    pub id: &'static str,
+    /// How much breaking it matters.
+    pub severity: Severity,
+    /// What is wrong when it is broken, in a sentence.
+    pub meaning: &'static str,
+    look: Look,
+}
+
+impl Rule {
+    const fn model(
+        id: &'static str,
+        severity: Severity,
+        meaning: &'static str,
+        look: fn(&ModelData, &mut Findings),
+    ) -> Self {
+        Self { id, severity, meaning, look: Look::Model(look) }
+    }
+
+    const fn take(
+        id: &'static str,
+        severity: Severity,
+        meaning: &'static str,
+        look: fn(&TakeOf<'_>, &mut Findings),
+    ) -> Self {
+        Self { id, severity, meaning, look: Look::Take(look) }
+    }
+}
+
+/// Something that breaks a rule. Shown as `severity: place: text`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// [`Rule::id`].
+    pub rule: &'static str,
+    /// [`Rule::severity`].
+    pub severity: Severity,
+    /// Where.
+    pub place: Place,
+    /// What, with the numbers.
+    pub text: String,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let severity = match self.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        };
+        write!(f, "{severity}: {}: {}", self.place, self.text)
+    }
+}
+
+/// Findings of one rule that are told one by one; the rest of a [`check`] is counted.
+pub const MOST_OF_A_RULE: usize = 100;
+
+/// Collects what one rule finds.
+pub(crate) struct Findings {
+    rule: &'static Rule,
+    list: Vec<Finding>,
+    untold: usize,
+}
+
+impl Findings {
+    /// Adds a finding; `tell` is only asked while there is room for more.
+    pub(crate) fn add(&mut self, tell: impl FnOnce() -> (Place, String)) {
+        if self.list.len() >= MOST_OF_A_RULE {
+            self.untold += 1;
+            return;
+        }
+        let (place, text) = tell();
+        self.list.push(Finding { rule: self.rule.id, severity: self.rule.severity, place, text });
+    }
+}
+
+/// A take with what it moves.
+pub(crate) struct TakeOf<'a> {
+    pub(crate) take: &'a Take,
+    pub(crate) skeleton: &'a Skeleton,
+    /// Number of the take in its model.
+    pub(crate) number: usize,
+    /// The model, where the take was not given by itself.
+    pub(crate) model: Option<&'a ModelData>,
+}
+
+impl TakeOf<'_> {
+    /// The take as a place.
+    pub(crate) fn place(&self) -> Place {
+        Place::of(Kind::Take, self.number, &self.take.name)
+    }
+
+    /// A bone of the skeleton, within the take.
+    pub(crate) fn bone(&self, bone: usize) -> Place {
+        let name = self.skeleton.bones.get(bone).map_or("", |bone| bone.name.as_str());
+        self.place().then(Kind::Bone, bone, name)
+    }
+}
+
+/// Everything wrong with `model`, the worst first, then in the order of [`RULES`].
+pub fn check(model: &ModelData) -> Vec<Finding> {
+    let takes = model.animation.takes.iter().enumerate().map(|(number, take)| TakeOf {
+        take,
+        skeleton: &model.animation.skeleton,
+        number,
+        model: Some(model),
+    });
+    let takes: Vec<TakeOf<'_>> = takes.collect();
+    run(|look, findings| match look {
+        Look::Model(look) => look(model, findings),
+        Look::Take(look) => takes.iter().for_each(|take| look(take, findings)),
+    })
+}
+
+/// Everything wrong with `take` as one that moves `skeleton`; places name it as number 0.
+pub fn check_take(take: &Take, skeleton: &Skeleton) -> Vec<Finding> {
+    let of = TakeOf { take, skeleton, number: 0, model: None };
+    run(|look, findings| match look {
+        Look::Model(_) => {}
+        Look::Take(look) => look(&of, findings),
+    })
+}
+
+fn run(mut look: impl FnMut(Look, &mut Findings)) -> Vec<Finding> {
+    let mut all = Vec::new();
+    for rule in RULES {
+        let mut findings = Findings { rule, list: Vec::new(), untold: 0 };
+        look(rule.look, &mut findings);
+        all.append(&mut findings.list);
+        if findings.untold > 0 {
+            let text = format!("and {} more of these", findings.untold);
+            all.push(Finding { rule: rule.id, severity: rule.severity, place: Place::default(), text });
+        }
+    }
+    all.sort_by_key(|finding| finding.severity);
+    all
+}
+
+use Severity::{Error, Note, Warning};
+
+/// Every rule.
+pub static RULES: &[Rule] = &[
+    Rule::model("NOT_FINITE", Error, "A number of the model is NaN or infinite.", rule::not_finite::look),
+    Rule::model(
+        "COLUMN_LENGTH",
+        Error,
+        "A column is not as long as it should be.",
+        rule::column_length::look,
+    ),
+    Rule::model("INDEX", Error, "An index names nothing.", rule::index::look),
+    Rule::model("PARENT_ORDER", Error, "A parent does not come before its child.", rule::parent_order::look),
+    Rule::model(
+        "JOINT_MISSING",
+        Error,
+        "An influence names a joint that the skin lacks.",
+        rule::joint_missing::look,
+    ),
+    Rule::model(
+        "WEIGHT_NEGATIVE",
+        Error,
+        "The weight of an influence is negative.",
+        rule::weight_negative::look,
+    ),
+    Rule::model("WEIGHT_SUM", Error, "The weights of a vertex do not sum to 1.", rule::weight_sum::look),
+    Rule::model(
+        "REST_NOT_UNIT",
+        Error,
+        "The rotation of a rest pose is not of unit length.",
+        rule::rest_not_unit::look,
+    ),
+    Rule::model("OFFSET_SINGULAR", Error, "An offset cannot be inverted.", rule::offset_singular::look),
+    Rule::model("NORMAL_NOT_UNIT", Warning, "A normal is not of unit length.", rule::normal_not_unit::look),
+    Rule::model(
+        "REST_SCALE_ZERO",
+        Warning,
+        "A bone rests without extent along an axis.",
+        rule::rest_scale_zero::look,
+    ),
+    Rule::model("BONE_NAME_TWICE", Warning, "Two bones have one name.", rule::bone_name_twice::look),
+    Rule::model("REST_MIRRORED", Note, "The rest pose of a bone is mirrored.", rule::rest_mirrored::look),
+    Rule::model(
+        "REST_NOT_UNIFORM",
+        Note,
+        "A bone's rest scale differs along its axes.",
+        rule::rest_not_uniform::look,
+    ),
+    Rule::model("BONE_UNUSED", Note, "A bone and those below it move nothing.", rule::bone_unused::look),
+    Rule::model("TRIANGLE_DEGENERATE", Note, "A triangle has no area.", rule::triangle_degenerate::look),
+    Rule::take(
+        "TRACK_OF_NO_BONE",
+        Error,
+        "A track is that of a bone that is not there.",
+        rule::track_of_no_bone::look,
+    ),
+    Rule::take("TRACK_TWICE", Error, "Two tracks of a take are of one bone.", rule::track_twice::look),
+    Rule::take("TRACK_ORDER", Error, "Tracks are not one a bone in bone order.", rule::track_order::look),
+    Rule::take(
+        "KEY_COUNT",
+        Error,
+        "A channel has not as many values as its times need.",
+        rule::key_count::look,
+    ),
+    Rule::take(
+        "KEY_NOT_FINITE",
+        Error,
+        "A key's time, value or tangent is NaN or infinite.",
+        rule::key_not_finite::look,
+    ),
+    Rule::take("KEY_TIMES_FALL", Error, "A key comes before its predecessor.", rule::key_times_fall::look),
+    Rule::take("KEY_TIME_TWICE", Error, "Two keys of a channel have one time.", rule::key_time_twice::look),
+    Rule::take(
+        "KEY_NOT_UNIT",
+        Error,
+        "The rotation of a key is not of unit length.",
+        rule::key_not_unit::look,
+    ),
+    Rule::take("MORPH_TRACK", Error, "A morph track does not fit its instance.", rule::morph_track::look),
+    Rule::take(
+        "TAKE_RANGE",
+        Error,
+        "Start and length of a take are not those of its keys.",
+        rule::take_range::look,
+    ),
+    Rule::take(
+        "KEY_SCALE_ZERO",
+        Warning,
+        "A key leaves a bone without extent along an axis.",
+        rule::key_scale_zero::look,
+    ),
+    Rule::take(
+        "KEY_MIRRORED",
+        Warning,
+        "A key mirrors a bone that rests unmirrored, or back.",
+        rule::key_mirrored::look,
+    ),
+    Rule::take(
+        "ROTATION_FLIP",
+        Warning,
+        "Neighbouring rotation keys lie in opposite hemispheres.",
+        rule::rotation_flip::look,
+    ),
+    Rule::take(
+        "ROTATION_JUMP",
+        Warning,
+        "A rotation turns faster than half a turn a frame.",
+        rule::rotation_jump::look,
+    ),
+    Rule::take("KEY_TIME_NEGATIVE", Note, "A key comes before time 0.", rule::key_time_negative::look),
+    Rule::take(
+        "BONE_STRETCHED",
+        Note,
+        "A translation track changes the length of a bone.",
+        rule::bone_stretched::look,
+    ),
+    Rule::take(
+        "TAKE_WITHOUT_LENGTH",
+        Note,
+        "A take is a single pose, or nothing.",
+        rule::take_without_length::look,
+    ),
+];

@@ -1,0 +1,17 @@
+//! Names that do not tell bones apart: what binds takes by name takes the first.
+
+use crate::check::{Findings, Kind, Place};
+use crate::data::ModelData;
+use std::collections::HashMap;
+
+pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
+    let mut first = HashMap::new();
+    let bones = &model.animation.skeleton.bones;
+    for (number, bone) in bones.iter().enumerate().filter(|(_, bone)| !bone.name.is_empty()) {
+        let earlier = *first.entry(bone.name.as_str()).or_insert(number);
+        if earlier != number {
+            let text = format!("bone {earlier} has the same name");
+            findings.add(|| (Place::of(Kind::Bone, number, &bone.name), text));
+        }
+    }
+}

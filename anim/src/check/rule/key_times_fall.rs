@@ -1,0 +1,12 @@
+//! Keys that are not found, because times are searched as if they rose.
+
+use super::neighbours;
+use crate::check::{Findings, TakeOf};
+
+pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
+    neighbours(of, |place, before, after| {
+        if after < before {
+            findings.add(|| (place(), format!("at {after} s, after one at {before} s")));
+        }
+    });
+}

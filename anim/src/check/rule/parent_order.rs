@@ -1,0 +1,13 @@
+//! The order that lets one forward pass meet parents first, and rules out cycles.
+
+use crate::check::{Findings, Kind, Place};
+use crate::data::ModelData;
+
+pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
+    for (number, bone) in model.animation.skeleton.bones.iter().enumerate() {
+        if let Some(parent) = bone.parent.filter(|&parent| parent as usize >= number) {
+            let text = || format!("its parent {parent} does not come before it");
+            findings.add(|| (Place::of(Kind::Bone, number, &bone.name), text()));
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! Bones whose rest pose turns left into right: an odd number of negative factors.
+
+use super::is_mirrored;
+use crate::check::{Findings, Kind, Place};
+use crate::data::ModelData;
+
+pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
+    for (number, bone) in model.animation.skeleton.bones.iter().enumerate() {
+        if is_mirrored(bone.rest.scale) {
+            let text = || format!("the rest scale is {}", bone.rest.scale);
+            findings.add(|| (Place::of(Kind::Bone, number, &bone.name), text()));
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Rest rotations that would scale.
+
+use super::UNIT_TOLERANCE;
+use crate::check::{Findings, Kind, Place};
+use crate::data::ModelData;
+
+pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
+    for (number, bone) in model.animation.skeleton.bones.iter().enumerate() {
+        let length = bone.rest.rotation.length();
+        if length.is_finite() && (length - 1.0).abs() > UNIT_TOLERANCE {
+            let text = || format!("the rest rotation has length {length}");
+            findings.add(|| (Place::of(Kind::Bone, number, &bone.name), text()));
+        }
+    }
+}

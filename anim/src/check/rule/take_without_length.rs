@@ -1,0 +1,10 @@
+//! Takes that do not play.
+
+use crate::check::{Findings, TakeOf};
+
+pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
+    if of.take.length == 0.0 {
+        let keys = of.take.keys();
+        findings.add(|| (of.place(), format!("0 s long, with {keys} keys")));
+    }
+}

@@ -1,0 +1,21 @@
+//! Tracks that do not stand at the position of their bone, where sampling looks for them.
+
+use crate::check::{Findings, Kind, TakeOf};
+
+pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
+    let (tracks, bones) = (&of.take.tracks, of.skeleton.len());
+    let named: std::collections::BTreeSet<u32> = tracks.iter().map(|track| track.bone).collect();
+    // Tracks of no bone, and of one bone twice, have rules of their own.
+    let each_once = named.len() == tracks.len() && named.iter().all(|&bone| (bone as usize) < bones);
+    if !each_once {
+        return;
+    }
+    if tracks.len() != bones {
+        findings.add(|| (of.place(), format!("{} tracks for {bones} bones", tracks.len())));
+    }
+    for (number, track) in tracks.iter().enumerate().filter(|(number, track)| track.bone as usize != *number)
+    {
+        let text = || format!("the track of bone {} is not at its place", track.bone);
+        findings.add(|| (of.place().then(Kind::Track, number, ""), text()));
+    }
+}

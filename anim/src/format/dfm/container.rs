@@ -1,0 +1,195 @@
+//! From the bytes of a file to its parts: length, ending, checksums, headers. Nothing inside a part is looked at here.
+
+use super::checksum::Checksum;
+use super::code::{DFM_CHECKSUM, DFM_ENDING, DFM_LENGTH, DFM_NEWER, DFM_PARTS, DFM_SIZE};
+use super::part::{PARTS, Part};
+use super::record::{Fields, Record};
+use super::take::{KeyframeRecord, TrackRecord};
+use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, invalid};
+use crate::format::guard::Guard;
+use crate::format::{ImportError, Place};
+use crate::limits::CANCEL_EVERY;
+
+/// Bytes of the ending: offset of the directory, version, checksum, magic.
+const ENDING: usize = 16;
+
+/// Bytes of one entry of the directory, and of its header.
+const ENTRY: usize = 16;
+const HEADER: usize = 12;
+
+/// A part as found in the file.
+pub(super) struct Found<'a> {
+    /// Offset of the part in the file.
+    pub(super) at: usize,
+    /// Number of elements.
+    pub(super) count: u32,
+    /// Bytes of one element; for takes: of a take, a track, a key-frame.
+    pub(super) sizes: [usize; 3],
+    /// The elements.
+    pub(super) bytes: &'a [u8],
+}
+
+/// Finds every part, in the order of [`PARTS`].
+pub(super) fn open<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Vec<Found<'a>>, ImportError> {
+    length(bytes)?;
+    let (directory_at, newer) = ending(bytes)?;
+    let directory = &bytes[directory_at..bytes.len() - ENDING];
+    let mut header = Fields::new(directory);
+    let tag: [u8; 4] = header.take();
+    let (count, size) = (header.u32() as usize, header.u32() as usize);
+    let entries = &directory[HEADER..];
+    if tag != DIRECTORY_TAG || size != ENTRY || Some(entries.len()) != count.checked_mul(ENTRY) {
+        let reason = format!("a directory of {count} entries of {size} bytes in {} bytes", entries.len());
+        return Err(invalid(directory_at, DFM_PARTS, reason));
+    }
+    let entries = entries.chunks_exact(ENTRY);
+    check_count(entries.len(), newer, directory_at)?;
+    let mut found = guard.vec(&Place::Byte(directory_at as u64), PARTS.len())?;
+    let mut at = 4;
+    for (number, entry) in entries.enumerate() {
+        let entry_at = directory_at + HEADER + number * ENTRY;
+        let layout = PARTS.get(number);
+        let part =
+            extent(bytes, entry, (entry_at, at, directory_at), layout.map(|layout| layout.tag), guard)?;
+        if let Some(layout) = layout {
+            found.push(header_of(layout.part, at, part, newer)?);
+        }
+        at += part.len();
+    }
+    if at != directory_at {
+        let reason = format!("the parts end here, the directory begins at byte {directory_at}");
+        return Err(invalid(at, DFM_PARTS, reason));
+    }
+    if newer {
+        let text = "written by a newer version; what this one does not know is left out";
+        guard.warn(Place::File, DFM_NEWER, text);
+    }
+    Ok(found)
+}
+
+/// Is the file as long as it says?
+fn length(bytes: &[u8]) -> Result<(), ImportError> {
+    let len = bytes.len();
+    let Some(total) = bytes.first_chunk::<4>().map(|total| u32::from_le_bytes(*total) as usize) else {
+        return Err(invalid(len, DFM_LENGTH, "the file ends within its first number".to_owned()));
+    };
+    if len < total {
+        return Err(invalid(
+            len,
+            DFM_LENGTH,
+            format!("the file ends here; it says that it has {total} bytes"),
+        ));
+    }
+    if len > total {
+        let reason = format!("the file goes on to byte {len}; it says that it ends here");
+        return Err(invalid(total, DFM_LENGTH, reason));
+    }
+    if len < 4 + HEADER + ENDING {
+        return Err(invalid(len, DFM_LENGTH, "the file is too short for its ending".to_owned()));
+    }
+    Ok(())
+}
+
+/// Offset of the directory, and whether the file is of a newer minor version.
+fn ending(bytes: &[u8]) -> Result<(usize, bool), ImportError> {
+    let at = bytes.len() - ENDING;
+    let mut fields = Fields::new(&bytes[at..]);
+    let (directory_at, major, minor) = (fields.u32() as usize, fields.u16(), fields.u16());
+    let (checksum, magic): (u32, [u8; 4]) = (fields.u32(), fields.take());
+    if magic != ENDING_MAGIC {
+        let reason = format!("the file ends with {magic:02x?} where {ENDING_MAGIC:02x?} should stand");
+        return Err(invalid(at + 12, DFM_ENDING, reason));
+    }
+    let begins = |from: usize| bytes[from..at].starts_with(&DIRECTORY_TAG);
+    if directory_at < 4 || directory_at > at - HEADER || !begins(directory_at) {
+        let reason = format!("no directory begins at byte {directory_at}, as is written here");
+        return Err(invalid(at, DFM_ENDING, reason));
+    }
+    let computed = Checksum::START.with(&bytes[directory_at..at + 8]).value();
+    if computed != checksum {
+        return Err(altered(directory_at, "checksums", computed, checksum));
+    }
+    if major != VERSION.0 {
+        let feature = format!("version {major}.{minor} of the format (this is {}.{})", VERSION.0, VERSION.1);
+        return Err(ImportError::Unsupported { place: Place::Byte((at + 4) as u64), feature });
+    }
+    Ok((directory_at, minor > VERSION.1))
+}
+
+fn altered(at: usize, what: &str, computed: u32, written: u32) -> ImportError {
+    let reason = format!("the {what} here were altered: checksum {computed:08x}, written {written:08x}");
+    invalid(at, DFM_CHECKSUM, reason)
+}
+
+/// A newer file may have more parts; one of this version has exactly these.
+fn check_count(count: usize, newer: bool, at: usize) -> Result<(), ImportError> {
+    if count == PARTS.len() || (newer && count > PARTS.len()) {
+        return Ok(());
+    }
+    Err(invalid(at, DFM_PARTS, format!("{count} parts, this version has {}", PARTS.len())))
+}
+
+/// The bytes of the part that `entry` describes, which must begin at `at`, end before the directory, and be unaltered.
+fn extent<'a>(
+    bytes: &'a [u8],
+    entry: &[u8],
+    (entry_at, at, directory_at): (usize, usize, usize),
+    expected: Option<[u8; 4]>,
+    guard: &Guard<'_>,
+) -> Result<&'a [u8], ImportError> {
+    let mut fields = Fields::new(entry);
+    let tag: [u8; 4] = fields.take();
+    let (offset, size, checksum) = (fields.u32() as usize, fields.u32() as usize, fields.u32());
+    if let Some(expected) = expected.filter(|&expected| expected != tag) {
+        let reason = format!("part {} where {} should stand", tag.escape_ascii(), expected.escape_ascii());
+        return Err(invalid(entry_at, DFM_PARTS, reason));
+    }
+    if offset != at || size > directory_at - at {
+        let reason = format!("part {} of {size} bytes at byte {offset}, not at {at}", tag.escape_ascii());
+        return Err(invalid(entry_at, DFM_PARTS, reason));
+    }
+    let part = &bytes[at..at + size];
+    let mut computed = Checksum::START;
+    for piece in part.chunks(CANCEL_EVERY) {
+        guard.work(piece.len())?;
+        computed = computed.with(piece);
+    }
+    let name = PARTS.iter().find(|layout| layout.tag == tag).map_or("unknown elements", |layout| layout.name);
+    if computed.value() != checksum {
+        return Err(altered(at, name, computed.value(), checksum));
+    }
+    Ok(part)
+}
+
+/// Splits `bytes`, found at `at`, into header and elements.
+fn header_of(part: Part, at: usize, bytes: &[u8], newer: bool) -> Result<Found<'_>, ImportError> {
+    let layout = part.layout();
+    let Some((header, elements)) = bytes.split_at_checked(part.header_bytes()) else {
+        let reason = format!("the {} end within their header", layout.name);
+        return Err(invalid(at + bytes.len(), DFM_SIZE, reason));
+    };
+    let mut fields = Fields::new(header);
+    if !part.is_of_thesis() {
+        let tag: [u8; 4] = fields.take();
+        if tag != layout.tag {
+            let reason = format!("{} where {} should stand", tag.escape_ascii(), layout.tag.escape_ascii());
+            return Err(invalid(at, DFM_PARTS, reason));
+        }
+    }
+    let (count, size) = (fields.u32(), fields.u32() as usize);
+    let mut sizes = [size, 0, 0];
+    let mut known = [layout.size, 0, 0];
+    if part == Part::Takes {
+        sizes = [size, fields.u32() as usize, fields.u32() as usize];
+        known = [layout.size, TrackRecord::SIZE, KeyframeRecord::SIZE];
+    } else if (count as usize).checked_mul(size) != Some(elements.len()) {
+        let reason = format!("{count} {} of {size} bytes in {} bytes", layout.name, elements.len());
+        return Err(invalid(at, DFM_SIZE, reason));
+    }
+    let fits = |(&size, &known): (&usize, &usize)| size == known || (newer && size > known);
+    if !sizes.iter().zip(&known).all(fits) {
+        let reason = format!("{}: elements of {sizes:?} bytes, this version has {known:?}", layout.name);
+        return Err(invalid(at, DFM_SIZE, reason));
+    }
+    Ok(Found { at, count, sizes, bytes: elements })
+}

@@ -1,0 +1,287 @@
+//! Meshes: how the vertices and indices of the thesis's part are cut, and their further columns.
+
+use super::code::{DFM_INDEX, DFM_VALUE};
+use super::part::Part;
+use super::reader::Reader;
+use super::record::{Fields, Put, Record, only_bits, or_none, some};
+use super::vertex::{FIRST_INFLUENCES, InfluenceRecord, VertexRecord};
+use super::writer::Writer;
+use super::{WriteError, refuse};
+use crate::data::{Influence, MAX_INFLUENCES, Mesh, ModelData, Primitive, Skin, Vertices};
+use crate::format::ImportError;
+use crate::limits::VERTICES;
+
+/// Which columns a primitive has.
+const NORMALS: u32 = 1;
+const TEXTURE_COORDINATES: [u32; 2] = [2, 4];
+const TANGENTS: u32 = 8;
+const COLORS: u32 = 16;
+
+/// Numbers of a mesh's primitives and morph targets.
+pub(super) struct MeshRecord {
+    primitives: u32,
+    targets: u32,
+}
+
+impl Record for MeshRecord {
+    const SIZE: usize = 8;
+
+    fn put(&self, out: &mut Vec<u8>) {
+        out.u32(self.primitives);
+        out.u32(self.targets);
+    }
+
+    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+        Ok(Self { primitives: fields.u32(), targets: fields.u32() })
+    }
+}
+
+/// What a primitive takes of the parts that hold columns.
+pub(super) struct PrimitiveRecord {
+    vertices: u32,
+    indices: u32,
+    material: u32,
+    columns: u32,
+    influences: u32,
+}
+
+impl Record for PrimitiveRecord {
+    const SIZE: usize = 20;
+
+    fn put(&self, out: &mut Vec<u8>) {
+        for number in [self.vertices, self.indices, self.material, self.columns, self.influences] {
+            out.u32(number);
+        }
+    }
+
+    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+        let (vertices, indices, material) = (fields.u32(), fields.u32(), fields.u32());
+        let columns = only_bits(fields.u32(), 31)?;
+        let influences = fields.u32();
+        if influences as usize > MAX_INFLUENCES {
+            return Err(format!("{influences} influences a vertex, at most {MAX_INFLUENCES}"));
+        }
+        Ok(Self { vertices, indices, material, columns, influences })
+    }
+}
+
+/// Writes every mesh of `model`.
+pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteError> {
+    for (number, mesh) in model.meshes.iter().enumerate() {
+        let targets = mesh.morph_weights.len() as u32;
+        writer.text(&mesh.name);
+        writer.put(Part::Meshes, &MeshRecord { primitives: mesh.primitives.len() as u32, targets });
+        writer.put_all(Part::Weights, &mesh.morph_weights);
+        let uses = |instance: &&crate::data::MeshInstance| instance.mesh as usize == number;
+        let skin = model.instances.iter().filter(uses).find_map(|instance| instance.skin);
+        let skin = skin.and_then(|skin| model.skins.get(skin as usize));
+        for (index, primitive) in mesh.primitives.iter().enumerate() {
+            let place = || format!("/meshes/{number}/primitives/{index}");
+            columns_fit(primitive, mesh).map_err(|reason| refuse(place(), reason))?;
+            write_primitive(primitive, skin, writer).map_err(|reason| refuse(place(), reason))?;
+        }
+    }
+    Ok(())
+}
+
+/// Is each column empty or as long as there are vertices?
+fn columns_fit(primitive: &Primitive, mesh: &Mesh) -> Result<(), String> {
+    let vertices = &primitive.vertices;
+    let count = vertices.len();
+    let [first, second] = &vertices.texture_coordinates;
+    let columns = [
+        ("normals", vertices.normals.len()),
+        ("tangents", vertices.tangents.len()),
+        ("texture coordinates", first.len()),
+        ("texture coordinates", second.len()),
+        ("colours", vertices.colors.len()),
+    ];
+    let targets = primitive.morph_targets.iter().flat_map(|target| {
+        [target.positions.len(), target.normals.len(), target.tangents.len()].map(|len| ("differences", len))
+    });
+    for (what, len) in columns.into_iter().chain(targets) {
+        if len != 0 && len != count {
+            return Err(format!("{len} {what} for {count} vertices"));
+        }
+    }
+    let per_vertex = vertices.influences_per_vertex;
+    if per_vertex > MAX_INFLUENCES || vertices.influences.len() != count * per_vertex {
+        let influences = vertices.influences.len();
+        return Err(format!("{influences} influences for {count} vertices with {per_vertex} each"));
+    }
+    if primitive.morph_targets.len() != mesh.morph_weights.len() {
+        let (targets, weights) = (primitive.morph_targets.len(), mesh.morph_weights.len());
+        return Err(format!("{targets} morph targets, the mesh has {weights} weights"));
+    }
+    Ok(())
+}
+
+fn write_primitive(primitive: &Primitive, skin: Option<&Skin>, writer: &mut Writer) -> Result<(), String> {
+    let vertices = &primitive.vertices;
+    let base = writer.count(Part::Vertices);
+    for &index in &primitive.indices {
+        let global = u32::try_from(base + index as usize).ok().filter(|_| (index as usize) < vertices.len());
+        let reason = || format!("index {index} names none of {} vertices", vertices.len());
+        writer.put(Part::Indices, &global.ok_or_else(reason)?);
+    }
+    for index in 0..vertices.len() {
+        write_vertex(primitive, index, skin, writer);
+    }
+    let flag = |present: bool, bit: u32| if present { bit } else { 0 };
+    let [first, second] = &vertices.texture_coordinates;
+    let columns = flag(!vertices.normals.is_empty(), NORMALS)
+        | flag(!first.is_empty(), TEXTURE_COORDINATES[0])
+        | flag(!second.is_empty(), TEXTURE_COORDINATES[1])
+        | flag(!vertices.tangents.is_empty(), TANGENTS)
+        | flag(!vertices.colors.is_empty(), COLORS);
+    let record = PrimitiveRecord {
+        vertices: vertices.len() as u32,
+        indices: primitive.indices.len() as u32,
+        material: or_none(primitive.material),
+        columns,
+        influences: vertices.influences_per_vertex as u32,
+    };
+    writer.put(Part::Primitives, &record);
+    writer.put_all(Part::Tangents, &vertices.tangents);
+    writer.put_all(Part::Colors, &vertices.colors);
+    super::morph::write_targets(&primitive.morph_targets, writer);
+    Ok(())
+}
+
+/// One vertex, its attribute, and its influences beyond the fourth.
+fn write_vertex(primitive: &Primitive, index: usize, skin: Option<&Skin>, writer: &mut Writer) {
+    let Some(vertex) = primitive.vertex(index) else { return };
+    let (mut influences, mut bones) = ([Influence::default(); FIRST_INFLUENCES], [0; FIRST_INFLUENCES]);
+    for ((slot, bone), &influence) in influences.iter_mut().zip(&mut bones).zip(&vertex.influences) {
+        *slot = influence;
+        let named = skin.and_then(|skin| skin.bones.get(usize::from(influence.joint)));
+        *bone = named.copied().unwrap_or(0);
+    }
+    for &influence in vertex.influences.iter().skip(FIRST_INFLUENCES) {
+        writer.put(Part::Influences, &InfluenceRecord(influence));
+    }
+    let material = or_none(primitive.material);
+    writer.put(Part::Attributes, &material);
+    writer.put(
+        Part::Vertices,
+        &VertexRecord {
+            position: vertex.position,
+            normal: vertex.normal,
+            texture_coordinates: vertex.texture_coordinates,
+            bones,
+            material,
+            influences,
+        },
+    );
+}
+
+/// Every mesh, and the largest joint that its vertices name.
+pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<(Vec<Mesh>, Vec<Option<u16>>), ImportError> {
+    let count = reader.count(Part::Meshes);
+    reader.limit("vertices", reader.count(Part::Vertices), VERTICES)?;
+    let mut meshes = reader.vec(Part::Meshes, 0, count)?;
+    let mut largest = reader.vec(Part::Meshes, 0, count)?;
+    for _ in 0..count {
+        let name = reader.text()?;
+        let record: MeshRecord = reader.get(Part::Meshes)?;
+        let morph_weights = reader.list(Part::Weights, record.targets as usize)?;
+        let mut primitives = reader.vec(Part::Primitives, 0, record.primitives as usize)?;
+        let mut joint = None;
+        for _ in 0..record.primitives {
+            let primitive = read_primitive(reader, record.targets as usize)?;
+            joint = joint.max(primitive.vertices.influences.iter().map(|influence| influence.joint).max());
+            primitives.push(primitive);
+        }
+        meshes.push(Mesh { name, primitives, morph_weights });
+        largest.push(joint);
+    }
+    Ok((meshes, largest))
+}
+
+fn read_primitive(reader: &mut Reader<'_, '_>, targets: usize) -> Result<Primitive, ImportError> {
+    let record: PrimitiveRecord = reader.get(Part::Primitives)?;
+    let material = some(record.material);
+    if material.is_some_and(|material| material as usize >= reader.count(Part::Materials)) {
+        let reason = format!("there is no material {}", record.material);
+        return Err(reader.wrong(DFM_INDEX, reason));
+    }
+    if !record.indices.is_multiple_of(3) {
+        let reason = format!("{} indices are no whole triangles", record.indices);
+        return Err(reader.wrong(DFM_VALUE, reason));
+    }
+    let base = reader.count(Part::Vertices) - reader.left(Part::Vertices);
+    let mut vertices = read_vertices(reader, &record)?;
+    let count = vertices.len();
+    if record.columns & TANGENTS != 0 {
+        vertices.tangents = reader.list(Part::Tangents, count)?;
+    }
+    if record.columns & COLORS != 0 {
+        vertices.colors = reader.list(Part::Colors, count)?;
+    }
+    let mut indices = reader.vec(Part::Indices, 0, record.indices as usize)?;
+    for _ in 0..record.indices {
+        let global: u32 = reader.get(Part::Indices)?;
+        match (global as usize).checked_sub(base).filter(|&index| index < count) {
+            Some(index) => indices.push(index as u32),
+            None => {
+                let reason = format!("index {global} is not among vertices {base}..{}", base + count);
+                return Err(reader.wrong(DFM_INDEX, reason));
+            }
+        }
+    }
+    let morph_targets = super::morph::read_targets(reader, targets, count)?;
+    Ok(Primitive { vertices, indices, material, morph_targets })
+}
+
+/// The columns that the thesis's part holds.
+fn read_vertices(reader: &mut Reader<'_, '_>, record: &PrimitiveRecord) -> Result<Vertices, ImportError> {
+    let count = record.vertices as usize;
+    let (columns, per_vertex) = (record.columns, record.influences as usize);
+    let bones = reader.count(Part::Bones);
+    let room = |present: bool| if present { count } else { 0 };
+    let mut vertices = Vertices {
+        positions: reader.vec(Part::Vertices, 0, count)?,
+        normals: reader.vec(Part::Vertices, 0, room(columns & NORMALS != 0))?,
+        tangents: Vec::new(),
+        texture_coordinates: [
+            reader.vec(Part::Vertices, 0, room(columns & TEXTURE_COORDINATES[0] != 0))?,
+            reader.vec(Part::Vertices, 0, room(columns & TEXTURE_COORDINATES[1] != 0))?,
+        ],
+        colors: Vec::new(),
+        influences: reader.guard.vec(&reader.place(), count * per_vertex)?,
+        influences_per_vertex: per_vertex,
+    };
+    for _ in 0..count {
+        let vertex: VertexRecord = reader.get(Part::Vertices)?;
+        repeats(reader, vertex.material, record.material)?;
+        if let Some(bone) = vertex.bones.iter().find(|&&bone| bone != 0 && bone as usize >= bones) {
+            return Err(reader.wrong(DFM_INDEX, format!("there is no bone {bone}")));
+        }
+        vertices.positions.push(vertex.position);
+        if columns & NORMALS != 0 {
+            vertices.normals.push(vertex.normal);
+        }
+        for (set, bit) in TEXTURE_COORDINATES.into_iter().enumerate() {
+            if columns & bit != 0 {
+                vertices.texture_coordinates[set].push(vertex.texture_coordinates[set]);
+            }
+        }
+        vertices.influences.extend(vertex.influences.iter().take(per_vertex));
+        for _ in FIRST_INFLUENCES..per_vertex {
+            vertices.influences.push(reader.get::<InfluenceRecord>(Part::Influences)?.0);
+        }
+        let attribute = reader.get(Part::Attributes)?;
+        repeats(reader, attribute, record.material)?;
+    }
+    Ok(vertices)
+}
+
+/// The material that a vertex repeats for who reads no further is that of its primitive.
+fn repeats(reader: &Reader<'_, '_>, said: u32, material: u32) -> Result<(), ImportError> {
+    if said == material {
+        return Ok(());
+    }
+    let name = |index| some(index).map_or("none".to_owned(), |index| index.to_string());
+    let reason = format!("a vertex has material {}, its primitive {}", name(said), name(material));
+    Err(reader.wrong(DFM_INDEX, reason))
+}

@@ -1,0 +1,110 @@
+//! The parts of a file, in their order: the thesis's six, then those with a tag.
+
+use super::record::Record;
+use super::{bone, image, material, mesh, scene, take, vertex};
+
+/// A part of the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Vertices,
+    Indices,
+    Attributes,
+    Materials,
+    Bones,
+    Takes,
+    TextLengths,
+    Text,
+    Meshes,
+    Primitives,
+    Tangents,
+    Colors,
+    Influences,
+    MorphTargets,
+    Differences,
+    Weights,
+    Instances,
+    Skins,
+    Joints,
+    Images,
+    ImageBytes,
+    Slopes,
+    MorphTracks,
+    MorphKeys,
+}
+
+/// What a part is called and made of.
+pub(super) struct Layout {
+    pub(super) part: Part,
+    /// Written before the part where it is not the thesis's, and in the directory.
+    pub(super) tag: [u8; 4],
+    /// For messages.
+    pub(super) name: &'static str,
+    /// Bytes of one element; of takes: of the fixed part of one.
+    pub(super) size: usize,
+}
+
+const fn layout(part: Part, tag: &[u8; 4], name: &'static str, size: usize) -> Layout {
+    Layout { part, tag: *tag, name, size }
+}
+
+/// Every part, in the order of the file.
+pub(super) const PARTS: [Layout; 24] = [
+    layout(Part::Vertices, b"VERT", "vertices", vertex::VertexRecord::SIZE),
+    layout(Part::Indices, b"INDX", "indices", u32::SIZE),
+    layout(Part::Attributes, b"ATTR", "attributes", u32::SIZE),
+    layout(Part::Materials, b"MATL", "materials", material::MaterialRecord::SIZE),
+    layout(Part::Bones, b"BONE", "bones", bone::BoneRecord::SIZE),
+    layout(Part::Takes, b"TAKE", "takes", take::TakeRecord::SIZE),
+    layout(Part::TextLengths, b"TLEN", "text lengths", u32::SIZE),
+    layout(Part::Text, b"TEXT", "text bytes", u8::SIZE),
+    layout(Part::Meshes, b"MESH", "meshes", mesh::MeshRecord::SIZE),
+    layout(Part::Primitives, b"PRIM", "primitives", mesh::PrimitiveRecord::SIZE),
+    layout(Part::Tangents, b"TANG", "tangents", glam::Vec4::SIZE),
+    layout(Part::Colors, b"COLR", "colours", glam::Vec4::SIZE),
+    layout(Part::Influences, b"INFL", "further influences", vertex::InfluenceRecord::SIZE),
+    layout(Part::MorphTargets, b"MORF", "morph targets", u32::SIZE),
+    layout(Part::Differences, b"DIFF", "differences", glam::Vec3::SIZE),
+    layout(Part::Weights, b"WGHT", "morph weights", f32::SIZE),
+    layout(Part::Instances, b"INST", "instances", scene::InstanceRecord::SIZE),
+    layout(Part::Skins, b"SKIN", "skins", u32::SIZE),
+    layout(Part::Joints, b"JOIN", "joints", scene::JointRecord::SIZE),
+    layout(Part::Images, b"IMAG", "images", image::ImageRecord::SIZE),
+    layout(Part::ImageBytes, b"IDAT", "image bytes", u8::SIZE),
+    layout(Part::Slopes, b"SLOP", "tangents of keys", f32::SIZE),
+    layout(Part::MorphTracks, b"MTRK", "morph tracks", take::MorphTrackRecord::SIZE),
+    layout(Part::MorphKeys, b"MKEY", "numbers of morph keys", f32::SIZE),
+];
+
+impl Part {
+    /// How it is written.
+    pub(super) fn layout(self) -> &'static Layout {
+        &PARTS[self as usize]
+    }
+
+    /// Is it one of the thesis's, which have no tag?
+    pub(super) fn is_of_thesis(self) -> bool {
+        self as usize <= Self::Takes as usize
+    }
+
+    /// Bytes before the first element: the tag where there is one, the count, the size; takes have three sizes.
+    pub(super) fn header_bytes(self) -> usize {
+        match self {
+            Self::Takes => 16,
+            part if part.is_of_thesis() => 8,
+            _ => 12,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PARTS;
+
+    #[test]
+    fn the_list_is_in_the_order_of_the_parts_and_tags_differ() {
+        for (index, layout) in PARTS.iter().enumerate() {
+            assert_eq!(layout.part as usize, index, "{}", layout.name);
+            assert!(PARTS[..index].iter().all(|other| other.tag != layout.tag), "{}", layout.name);
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Numbers to bytes and back, little-endian, and elements made of them.
+
+use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
+
+/// An index that names nothing.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// `index`, or [`NONE`].
+pub(super) fn or_none(index: Option<u32>) -> u32 {
+    index.unwrap_or(NONE)
+}
+
+/// What [`or_none`] was made of.
+pub(super) fn some(index: u32) -> Option<u32> {
+    (index != NONE).then_some(index)
+}
+
+/// One element of a part: always as many bytes.
+pub(super) trait Record: Sized {
+    /// Bytes written.
+    const SIZE: usize;
+    /// Appends it to `out`.
+    fn put(&self, out: &mut Vec<u8>);
+    /// Takes it from the front; an error says which number is none of those allowed.
+    fn get(fields: &mut Fields<'_>) -> Result<Self, String>;
+}
+
+/// The bytes of one element, taken from the front.
+pub(super) struct Fields<'a> {
+    bytes: &'a [u8],
+    /// Was every float so far neither NaN nor infinite?
+    pub(super) finite: bool,
+}
+
+impl<'a> Fields<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, finite: true }
+    }
+
+    /// The next bytes; zeros past the end, which the size of the record rules out.
+    pub(super) fn take<const N: usize>(&mut self) -> [u8; N] {
+        debug_assert!(self.bytes.len() >= N, "a record is smaller than its fields");
+        let mut taken = [0; N];
+        let (now, rest) = self.bytes.split_at(N.min(self.bytes.len()));
+        taken[..now.len()].copy_from_slice(now);
+        self.bytes = rest;
+        taken
+    }
+
+    pub(super) fn u16(&mut self) -> u16 {
+        u16::from_le_bytes(self.take())
+    }
+
+    pub(super) fn u32(&mut self) -> u32 {
+        u32::from_le_bytes(self.take())
+    }
+
+    pub(super) fn f32(&mut self) -> f32 {
+        let number = f32::from_le_bytes(self.take());
+        self.finite &= number.is_finite();
+        number
+    }
+
+    pub(super) fn floats<const N: usize>(&mut self) -> [f32; N] {
+        [(); N].map(|()| self.f32())
+    }
+
+    pub(super) fn vec2(&mut self) -> Vec2 {
+        Vec2::from_array(self.floats())
+    }
+
+    pub(super) fn vec3(&mut self) -> Vec3 {
+        Vec3::from_array(self.floats())
+    }
+
+    pub(super) fn vec4(&mut self) -> Vec4 {
+        Vec4::from_array(self.floats())
+    }
+
+    pub(super) fn quat(&mut self) -> Quat {
+        Quat::from_array(self.floats())
+    }
+
+    pub(super) fn mat4(&mut self) -> Mat4 {
+        Mat4::from_cols_array(&self.floats())
+    }
+}
+
+/// Appends numbers.
+pub(super) trait Put {
+    fn u32(&mut self, number: u32);
+    fn floats(&mut self, numbers: &[f32]);
+}
+
+impl Put for Vec<u8> {
+    fn u32(&mut self, number: u32) {
+        self.extend_from_slice(&number.to_le_bytes());
+    }
+
+    fn floats(&mut self, numbers: &[f32]) {
+        for number in numbers {
+            self.extend_from_slice(&number.to_le_bytes());
+        }
+    }
+}
+
+/// Records that are one field.
+macro_rules! plain {
+    ($($type:ty, $size:literal, $put:expr, $get:ident;)*) => {$(
+        impl Record for $type {
+            const SIZE: usize = $size;
+
+            fn put(&self, out: &mut Vec<u8>) {
+                let put: fn(&Self, &mut Vec<u8>) = $put;
+                put(self, out);
+            }
+
+            fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+                Ok(fields.$get())
+            }
+        }
+    )*};
+}
+
+plain! {
+    u32, 4, |number, out| out.u32(*number), u32;
+    f32, 4, |number, out| out.floats(&[*number]), f32;
+    Vec3, 12, |vector, out| out.floats(&vector.to_array()), vec3;
+    Vec4, 16, |vector, out| out.floats(&vector.to_array()), vec4;
+}
+
+impl Record for u8 {
+    const SIZE: usize = 1;
+
+    fn put(&self, out: &mut Vec<u8>) {
+        out.push(*self);
+    }
+
+    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+        Ok(fields.take::<1>()[0])
+    }
+}
+
+/// The value of a list of choices that `number` stands for.
+pub(super) fn choice<T: Copy>(choices: &[T], number: u8, what: &str) -> Result<T, String> {
+    choices
+        .get(usize::from(number))
+        .copied()
+        .ok_or_else(|| format!("{what} {number} is not below {}", choices.len()))
+}
+
+/// The number that stands for `value` in a list of choices.
+pub(super) fn number_of<T: PartialEq>(choices: &[T], value: &T) -> u8 {
+    choices.iter().position(|choice| choice == value).unwrap_or(0) as u8
+}
+
+/// Refuses bits that mean nothing.
+pub(super) fn only_bits(flags: u32, known: u32) -> Result<u32, String> {
+    if flags & !known == 0 { Ok(flags) } else { Err(format!("flags {flags:#x} have unknown bits")) }
+}

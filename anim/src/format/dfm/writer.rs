@@ -1,0 +1,124 @@
+//! Collects the parts of a file and puts them one behind the other, the total and the checksums last.
+
+use super::checksum::Checksum;
+use super::part::{PARTS, Part};
+use super::record::{Put, Record};
+use super::take::{KeyframeRecord, TrackRecord};
+use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, WriteError};
+
+/// A file under way.
+pub(super) struct Writer {
+    /// The elements of each part, without its header.
+    parts: [Vec<u8>; PARTS.len()],
+    /// Number of takes: their elements are not of one size.
+    pub(super) takes: usize,
+}
+
+impl Writer {
+    pub(super) fn new() -> Self {
+        Self { parts: [const { Vec::new() }; PARTS.len()], takes: 0 }
+    }
+
+    /// Appends an element to `part`.
+    pub(super) fn put<R: Record>(&mut self, part: Part, record: &R) {
+        record.put(&mut self.parts[part as usize]);
+    }
+
+    /// Appends elements to `part`.
+    pub(super) fn put_all<R: Record>(&mut self, part: Part, records: &[R]) {
+        for record in records {
+            self.put(part, record);
+        }
+    }
+
+    /// Appends bytes to `part`, whose elements are bytes.
+    pub(super) fn bytes(&mut self, part: Part, bytes: &[u8]) {
+        self.parts[part as usize].extend_from_slice(bytes);
+    }
+
+    /// Appends a text; texts are read in the order they were written.
+    pub(super) fn text(&mut self, text: &str) {
+        self.put(Part::TextLengths, &(text.len() as u32));
+        self.bytes(Part::Text, text.as_bytes());
+    }
+
+    /// How many elements `part` has so far.
+    pub(super) fn count(&self, part: Part) -> usize {
+        match part {
+            Part::Takes => self.takes,
+            part => self.parts[part as usize].len() / part.layout().size,
+        }
+    }
+
+    /// The whole file; refused above the 4 GiB that the first four bytes can say.
+    pub(super) fn finish(self) -> Result<Vec<u8>, WriteError> {
+        let parts = PARTS
+            .iter()
+            .map(|layout| (layout.part.header_bytes() + self.parts[layout.part as usize].len()) as u64);
+        let bytes = 4 + parts.sum::<u64>() + 12 + 16 * (PARTS.len() as u64 + 1);
+        let total = total(bytes)?;
+        let mut file = Vec::with_capacity(bytes as usize);
+        // Filled in at the end, as the thesis has it.
+        file.u32(0);
+        let mut directory = Vec::new();
+        for layout in &PARTS {
+            let at = file.len();
+            self.header(layout.part, &mut file);
+            file.extend_from_slice(&self.parts[layout.part as usize]);
+            directory.extend_from_slice(&layout.tag);
+            directory.u32(at as u32);
+            directory.u32((file.len() - at) as u32);
+            directory.u32(Checksum::START.with(&file[at..]).value());
+        }
+        ending(&mut file, &directory);
+        debug_assert_eq!(file.len() as u64, bytes);
+        file[..4].copy_from_slice(&total.to_le_bytes());
+        Ok(file)
+    }
+
+    fn header(&self, part: Part, file: &mut Vec<u8>) {
+        if !part.is_of_thesis() {
+            file.extend_from_slice(&part.layout().tag);
+        }
+        file.u32(self.count(part) as u32);
+        file.u32(part.layout().size as u32);
+        if part == Part::Takes {
+            file.u32(TrackRecord::SIZE as u32);
+            file.u32(KeyframeRecord::SIZE as u32);
+        }
+    }
+}
+
+/// The first four bytes of a file of so many.
+fn total(bytes: u64) -> Result<u32, WriteError> {
+    u32::try_from(bytes).map_err(|_| WriteError::TooLarge { bytes })
+}
+
+/// The directory of the parts, and the last 16 bytes.
+fn ending(file: &mut Vec<u8>, entries: &[u8]) {
+    let at = file.len();
+    file.extend_from_slice(&DIRECTORY_TAG);
+    file.u32((entries.len() / 16) as u32);
+    file.u32(16);
+    file.extend_from_slice(entries);
+    file.u32(at as u32);
+    file.extend_from_slice(&VERSION.0.to_le_bytes());
+    file.extend_from_slice(&VERSION.1.to_le_bytes());
+    let checksum = Checksum::START.with(&file[at..]).value();
+    file.u32(checksum);
+    file.extend_from_slice(&ENDING_MAGIC);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::total;
+    use crate::format::dfm::WriteError;
+
+    #[test]
+    fn four_bytes_end_at_four_gibibytes() {
+        assert_eq!(total(u32::MAX.into()), Ok(u32::MAX));
+        let error = total(1 << 32).unwrap_err();
+        assert_eq!(error, WriteError::TooLarge { bytes: 1 << 32 });
+        assert_eq!(error.to_string(), "file: 4294967296 bytes, at most 4294967295");
+    }
+}
