@@ -1,5 +1,6 @@
 //! The system's dialog for opening files, asked in a thread of its own: it may take minutes to answer.
 
+use dragonfly_anim::format::FORMATS;
 use dragonfly_runtime::Address;
 use std::path::PathBuf;
 
@@ -23,9 +24,10 @@ const HUMAN: f32 = 0.25;
 pub(super) fn ask(folder: Option<PathBuf>, to: Address<Answer>) -> std::io::Result<()> {
     std::thread::Builder::new().name("open dialog".to_owned()).spawn(move || {
         let begun = std::time::Instant::now();
+        let models: Vec<&str> = FORMATS.iter().flat_map(|format| format.extensions).copied().collect();
         let mut dialog = rfd::AsyncFileDialog::new()
             .set_title("Open a model")
-            .add_filter("Models", &["glb", "gltf"])
+            .add_filter("Models", &models)
             .add_filter("All files", &["*"]);
         if let Some(folder) = folder {
             dialog = dialog.set_directory(folder);

@@ -12,7 +12,7 @@ pub(super) const BUILT_IN: &str = "demo:";
 /// Which model.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct File {
-    /// A model (.glb, .gltf), or `demo:` for the built-in dragonfly
+    /// A model (.glb, .gltf, .dfm), or `demo:` for the built-in dragonfly
     #[arg(value_name = "FILE")]
     path: PathBuf,
 }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// What the editor opens.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct Arguments {
-    /// Models to open (.glb, .gltf); without any, the built-in dragonfly
+    /// Models to open (.glb, .gltf, .dfm); without any, the built-in dragonfly
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Loses the graphics device after every so many drawn frames, to show that nothing is lost with it

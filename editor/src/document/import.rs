@@ -11,7 +11,7 @@ use std::path::Path;
 pub(super) struct Imported {
     /// The data.
     pub(super) model: ModelData,
-    /// "glb", "gltf".
+    /// "glb", "gltf", "dfm".
     pub(super) format: String,
     /// What is not shown or was mended.
     pub(super) warnings: Vec<String>,

@@ -23,7 +23,7 @@ pub struct LoadedModel {
     pub title: String,
     /// `None` for the built-in model.
     pub path: Option<PathBuf>,
-    /// "glb", "gltf".
+    /// "glb", "gltf", "dfm".
     pub format: String,
     /// The data as it was read; which takes there are now is in the [`View`].
     pub model: Arc<ModelData>,

@@ -133,7 +133,7 @@ const fn command(
 pub const ALL: &[Command] = {
     use Category as C;
     &[
-        command(Id::Open, C::File, "Open…", &[key(CTRL, Key::O)], "Opens a model (glTF 2.0: .glb, .gltf)"),
+        command(Id::Open, C::File, "Open…", &[key(CTRL, Key::O)], "Opens a model (glTF 2.0: .glb, .gltf; Dragonfly: .dfm)"),
         command(Id::OpenPath, C::File, "Open by path…", &[key(CTRL.plus(SHIFT), Key::O)], "Opens a model whose path is typed or pasted"),
         command(Id::OpenBuiltIn, C::File, "Built-in dragonfly", &[], "Opens the model that is part of the program"),
         command(Id::CancelLoading, C::File, "Stop loading", &[], "Keeps what is open and forgets what is being loaded"),

@@ -105,6 +105,7 @@ fn show_model(ui: &mut Ui, state: &State) {
         (None, _) => "Part of the program".to_owned(),
         (Some(_), "glb") => "glTF 2.0, binary".to_owned(),
         (Some(_), "gltf") => "glTF 2.0, text".to_owned(),
+        (Some(_), "dfm") => "Dragonfly model".to_owned(),
         (Some(_), other) => other.to_uppercase(),
     };
     let kind = ui.label(RichText::new(kind).color(theme.weak));
