@@ -1,10 +1,15 @@
 //! Promises of the crate, one module each.
 
+mod additional_turns;
+mod additive;
 mod agreement;
+mod attachments;
 mod bad_files;
+mod blending;
 mod bombs;
 mod bounds;
 mod budget;
+mod cross_fades;
 mod damage;
 mod degenerate;
 mod degenerate_import;
