@@ -15,9 +15,11 @@ mod degenerate;
 mod degenerate_import;
 mod determinism;
 mod doors;
+mod examples;
 mod fixture;
 mod formats;
 mod hostile;
+mod joint_limits;
 mod poses;
 mod rules;
 mod sampling;
@@ -27,6 +29,7 @@ mod soundness;
 mod support;
 mod textures;
 mod trial;
+mod two_takes;
 mod uris;
 
 /// Counts what each thread allocates, for the promises that playing allocates nothing.

@@ -4,8 +4,8 @@ use super::ellipse::nearest_in_ellipse;
 use super::{AngleRange, direction, mirrored_axis};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
-/// No swing goes further, radians: 179°. Straight back the twist could no longer be told from the direction.
-const MOST: f64 = 179.0 / 180.0 * std::f64::consts::PI;
+/// No swing goes further, radians: 175°. Straight back the twist could no longer be told from the direction.
+const MOST: f64 = 175.0 / 180.0 * std::f64::consts::PI;
 
 /// A ball joint: a shoulder, a hip, a neck.
 ///
@@ -24,7 +24,7 @@ const MOST: f64 = 179.0 / 180.0 * std::f64::consts::PI;
 /// * The twist is held in its range, which does not depend on the swing.
 ///
 /// A half-angle of 0 allows no swing about that side: with `swing_up` = 0 the bone swings in one plane only. Negative
-/// and NaN count as 0, more than 179° as 179°.
+/// and NaN count as 0, more than 175° as 175°.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
     /// Along the bone, in its axes as it rests; any length but 0.

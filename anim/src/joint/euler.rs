@@ -3,8 +3,8 @@
 use super::AngleRange;
 use glam::{DQuat, EulerRot};
 
-/// The second angle goes no further, radians: 89°. At 90° the first and the third turn about the same line.
-const MOST: f64 = 89.0 / 180.0 * std::f64::consts::PI;
+/// The second angle goes no further, radians: 88°. At 90° the first and the third turn about the same line.
+const MOST: f64 = 88.0 / 180.0 * std::f64::consts::PI;
 
 /// In which order three turns follow each other, each about an axis that the turns before it have moved along
 /// (intrinsic). `Xyz` is the product `x * y * z`.
@@ -61,7 +61,7 @@ impl EulerOrder {
 /// ```
 ///
 /// Angle by angle, so what comes out is not the allowed rotation nearest to the turn. The second angle is held within
-/// ±89°; put the axis that bends furthest (an elbow's) first or last.
+/// ±88°; put the axis that bends furthest (an elbow's) first or last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Euler {
     /// Which turn is first.

@@ -39,9 +39,11 @@ pub use range::AngleRange;
 use crate::sample::Value;
 use glam::{DQuat, Quat, Vec3};
 
-/// Radians (about 0.0001°): nearer to an allowed rotation than this is allowed. Far more than the rounding of `f32`
-/// quaternions, far less than anybody sees.
-pub const SLACK: f32 = 2e-6;
+/// Radians (about 0.0006°, or 0.01 mm at the end of a bone of 1 m): nearer to an allowed rotation than this is allowed.
+///
+/// A `f32` quaternion is right to about 2e-7 rad. Where two angles of a limit turn about nearly the same line, they are
+/// known less well by 1 / cos of the angle between; the limits end where that makes 30-fold.
+pub const SLACK: f32 = 1e-5;
 
 /// The range of motion of one joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +89,7 @@ impl JointLimit {
         let clamped = (exact_rest * allowed).normalize();
         // In the hemisphere of what was given, so that nothing flips where the joint reaches its limit.
         let clamped = if clamped.dot(exact) < 0.0 { -clamped } else { clamped };
-        Clamped { rotation: clamped.as_quat().normalize(), by: by as f32 }
+        Clamped { rotation: clamped.as_quat(), by: by as f32 }
     }
 
     /// The limit of the same joint on the other side: mirrored at the plane through the joint whose normal is the x, y or

@@ -45,11 +45,13 @@ impl AngleRange {
         (min.is_finite() && max.is_finite() && half < PI).then(|| (0.5 * (min + max), half.max(0.0)))
     }
 
-    /// The nearest allowed angle on the circle. Exactly opposite the middle both ends are as near: `max`.
+    /// The nearest allowed angle on the circle. Exactly opposite the middle both ends are as near, and it is one of them.
     ///
     /// An angle that is allowed comes back as it is; any other as the end of the range, −π..=π.
     pub(super) fn clamp(self, angle: f64) -> f64 {
         let Some((middle, half)) = self.middle() else { return angle };
+        // First the middle, which may be any number of turns away.
+        let middle = from_minus_pi(middle);
         let off = from_minus_pi(angle - middle);
         if off.abs() <= half { angle } else { from_minus_pi(middle + off.clamp(-half, half)) }
     }
