@@ -402,6 +402,19 @@ fn hostile_poses_and_weights_give_numbers() {
 }
 
 #[test]
+fn numbers_at_the_end_of_f32_blend_to_numbers() {
+    let pose = |x: f32| [Transform { translation: Vec3::splat(x), scale: Vec3::splat(-x), ..REST }];
+    let (most, nearly) = (pose(f32::MAX), pose(f32::MAX.next_down()));
+    for count in 2..100 {
+        let layers: Vec<Layer> =
+            (0..count).map(|at| Layer::new(if at % 2 == 0 { &most } else { &nearly }, 1.0)).collect();
+        let mut out = [REST];
+        blend(&[REST], &layers, &mut out);
+        assert!(out[0].is_finite() && out[0].translation.x > 3.4e38, "{count}: {:?}", out[0]);
+    }
+}
+
+#[test]
 fn blending_allocates_nothing() {
     let poses = vec![[REST; 50]; 4];
     let mask = Mask::uniform(50, 0.5);
