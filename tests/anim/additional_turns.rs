@@ -176,8 +176,9 @@ fn only_the_named_parts_are_touched() {
 #[test]
 fn entries_that_cannot_be_applied_are_passed_over() {
     let skeleton = chain(2);
-    let running = [Transform { scale: Vec3::ZERO, ..REST }, Transform { translation: Vec3::Y, ..REST }];
     let turn = Quat::from_rotation_y(0.4);
+    let bent = Transform { translation: Vec3::Y, rotation: Quat::from_rotation_x(1.0), scale: Vec3::X };
+    let running = [Transform { scale: Vec3::ZERO, ..REST }, bent];
     let nan = Transform { translation: Vec3::NAN, ..REST };
     let mut poses = running;
     apply(

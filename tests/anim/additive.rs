@@ -87,6 +87,27 @@ fn a_scale_of_zero_has_no_factor() {
 }
 
 #[test]
+fn parts_without_a_difference_keep_every_bit() {
+    let base =
+        Transform { translation: Vec3::new(-0.0, 1e-45, 0.1), scale: Vec3::new(-0.0, 0.1, 3.0), ..REST };
+    let turn = Transform { rotation: Quat::from_rotation_y(0.5), ..REST };
+    for weight in [0.3, 1.0, 2.0] {
+        let added = add_to(base, turn, weight);
+        assert_eq!(bits(Transform { rotation: base.rotation, ..added }), bits(base), "{weight}");
+    }
+}
+
+#[test]
+fn very_different_scales_come_back_too() {
+    let (tiny, huge) =
+        (Transform { scale: Vec3::splat(1.1e-6), ..REST }, Transform { scale: Vec3::splat(3.3e4), ..REST });
+    for (pose, reference) in [(tiny, huge), (huge, tiny)] {
+        let got = add_to(reference, difference_of(pose, reference), 1.0).scale.x;
+        assert!((got / pose.scale.x - 1.0).abs() < 1e-6, "{got}");
+    }
+}
+
+#[test]
 fn a_mask_says_which_bones_get_how_much() {
     let step = [Transform { translation: Vec3::X, ..REST }; 4];
     let mask = Mask::from_weights([0.0, 0.5, 1.0]);

@@ -102,6 +102,17 @@ fn each_take_plays_at_its_own_speed_when_it_is_alone() {
 }
 
 #[test]
+fn a_step_of_many_rounds_ends_where_it_should() {
+    let cycle = || Cycle::new(0.0, 1.0).with_marks([0.1, 0.4]);
+    let mut fade = CrossFade::new(cycle(), cycle(), 1.0, FadeCurve::Linear);
+    // Phase 0 is the first mark.
+    let now = fade.advance(7.25);
+    assert!((now.to_time - 0.35).abs() < 1e-6 && now.weight == 1.0, "{now:?}");
+    let now = fade.advance(1e6);
+    assert!((now.to_time - 0.35).abs() < 1e-5, "{now:?}");
+}
+
+#[test]
 fn half_way_a_round_takes_the_mean_of_both() {
     // 3 s and 1 s: at weight ½ a round takes 2 s. A very long linear fade stands nearly still in the middle.
     let mut fade = CrossFade::new(Cycle::new(0.0, 3.0), Cycle::new(0.0, 1.0), 2e6, FadeCurve::Linear);

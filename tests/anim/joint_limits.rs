@@ -130,7 +130,8 @@ proptest! {
         let turn = |angle: f32| Quat::from_axis_angle(about, angle);
         let cone = JointLimit::Ball(Ball::round(Vec3::Y, 0.6, AngleRange::NONE));
         let clamped = cone.clamp(turn(swing), Quat::IDENTITY);
-        prop_assert!(angle_between(clamped.rotation, turn(swing.min(0.6))) < 2e-6);
+        // What is nearer to the border than the slack stays where it is.
+        prop_assert!(angle_between(clamped.rotation, turn(swing.min(0.6))) < SLACK + 2e-6);
     }
 
     #[test]

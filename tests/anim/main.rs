@@ -20,6 +20,7 @@ mod fixture;
 mod formats;
 mod hostile;
 mod joint_limits;
+mod masks;
 mod poses;
 mod rules;
 mod sampling;

@@ -24,13 +24,13 @@ pub(super) fn apply_one(skeleton: &Skeleton, additional: &Additional, poses: &mu
         Change::Add => added(pose, &additional, parent),
         Change::Replace => replaced(bone, &additional, parent),
     };
-    let full = healthy(full, pose);
     let parts = additional.parts;
     let full = Transform {
         translation: if parts.translation { full.translation } else { pose.translation },
         rotation: if parts.rotation { full.rotation } else { pose.rotation },
         scale: if parts.scale { full.scale } else { pose.scale },
     };
+    // Which also takes what is not a number from `pose`.
     poses[index] = mix_poses(pose, full, weight);
 }
 

@@ -23,11 +23,9 @@ use glam::Mat4;
 ///
 /// `socket_to_root` is where it is held, `handle` the to-root of the point (or bone) of the object that lies there, in
 /// the object's own scene space: the identity when the object is held at its origin. A handle without an inverse counts
-/// as the identity, and a product that is not finite is the socket's place.
+/// as the identity: a product that is not finite is the socket's place.
 pub fn attached_root(socket_to_root: Mat4, handle: Mat4) -> Mat4 {
-    let inverse = handle.inverse();
-    let inverse = if inverse.is_finite() { inverse } else { Mat4::IDENTITY };
-    let root = socket_to_root * inverse;
+    let root = socket_to_root * handle.inverse();
     if root.is_finite() { root } else { socket_to_root }
 }
 

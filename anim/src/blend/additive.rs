@@ -1,15 +1,6 @@
 //! A movement on top of another: what one pose has more than a reference, added to any pose.
 //!
-//! ```text
-//! difference(p, r):  translation p - r      rotation p * r⁻¹      scale p / r
-//! add(b, d, w):      translation b + w * d  rotation d^w * b      scale b * (1 + w * (d - 1))
-//! ```
-//!
-//! Rotations are differences in the parent's space, applied from the left, so a nod stays a nod about the neck's axes
-//! whatever the animation below does; the editor's changes are kept in the same form. `d^w` turns about `d`'s axis by `w`
-//! times its angle, the short way.
-//!
-//! A difference is itself a list of [`Transform`]s, [`Transform::IDENTITY`] where nothing differs.
+//! Formulas and reasons stand at [`difference`] and [`add`].
 
 use super::{Mask, usable, weight_or_zero};
 use crate::data::Transform;
@@ -17,6 +8,14 @@ use crate::sample::{Value, healthy};
 use glam::{Quat, Vec3};
 
 /// What `poses` have more than `reference`, bone by bone.
+///
+/// ```text
+/// translation p - r        rotation p * r⁻¹        scale p / r
+/// ```
+///
+/// Rotations are differences in the parent's space, applied from the left, so a nod stays a nod about the neck's axes
+/// whatever the animation below does; the editor's changes are kept in the same form. A difference is itself a list of
+/// [`Transform`]s, [`Transform::IDENTITY`] where nothing differs.
 ///
 /// Added to `reference` with weight 1 it gives `poses` back, within rounding; a value that is the same in both gives
 /// exactly no difference. Where `poses` or `reference` is shorter than `out`: no difference. Allocates nothing.
@@ -55,6 +54,13 @@ pub fn difference_of(pose: Transform, reference: Transform) -> Transform {
 }
 
 /// Adds `differences` to `base`, bone by bone, each as far as `weight` × `mask` says.
+///
+/// ```text
+/// w           = weight * mask at this bone
+/// translation = b + w * d        rotation = d^w * b        scale = b * (1 + w * (d - 1))
+/// ```
+///
+/// `d^w` turns about `d`'s axis by `w` times its angle, the short way.
 ///
 /// Weight 0 (also a negative one and NaN) leaves the base bit for bit, and so does a difference of nothing. 1 adds
 /// all; more exaggerates. Where `differences` is shorter the base stays; where `base` is shorter the identity stands in.

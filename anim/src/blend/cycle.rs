@@ -1,17 +1,17 @@
 //! Takes that repeat, and how far through them one is.
-//!
-//! The *phase* is the fraction of a cycle that has passed, 0..1. With marks (moments that correspond, such as the foot
-//! touching the ground) it counts from mark to mark, so equal phases mean corresponding moments:
-//!
-//! ```text
-//! phase = (k + f) / n      n marks; mark k was the last one, f of the way to mark k + 1 is done
-//! ```
-//!
-//! Without marks the start of the cycle is the only one, and the phase is `(time - start) / length`.
 
 use crate::data::Take;
 
 /// A take that repeats: where it starts, how long it is, and which moments in it are marked.
+///
+/// The *phase* is the fraction of a cycle that has passed, 0..1. With marks (moments that correspond, such as the foot
+/// touching the ground) it counts from mark to mark, so equal phases mean corresponding moments:
+///
+/// ```text
+/// phase = (k + f) / n      n marks; mark k was the last one, f of the way to mark k + 1 is done
+/// ```
+///
+/// Without marks the start of the cycle is the only one, and the phase is `(time - start) / length`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
     /// Seconds, finite.

@@ -1,34 +1,6 @@
 //! Any number of layers, each with a weight and perhaps a mask.
 //!
-//! For each bone, over all layers that have a say in it (weight × mask above 0):
-//!
-//! ```text
-//! w_i         = weight of layer i * its mask at this bone
-//! W           = Σ w_i
-//! share_i     = w_i / max(W, 1)        share of the base = 1 - Σ share_i      (blend)
-//! share_i     = w_i / W                the base only where W = 0              (blend_normalised)
-//! translation = Σ share_i * translation_i
-//! scale       = Σ share_i * scale_i
-//! rotation    = Σ share_i * ±rotation_i, divided by its length
-//! ```
-//!
-//! # Why rotations are blended this way
-//!
-//! `q` and `-q` are the same rotation, so before the sum each rotation is taken in the hemisphere (of the four-dimensional
-//! unit ball) of one of them, the one with the largest share. Between equal shares the values of the rotations decide,
-//! so the order of the layers never matters. The sum then cannot vanish: it points at least as far as that largest share.
-//! Two rotations exactly 180° apart lie on the border of the hemispheres and are used as they are stored.
-//!
-//! The normalised sum (nlerp of many) is the mean that minimises the weighted squares of the distances `|q - q_i|`. It
-//! has no order, needs one division, and goes the same way as slerp, only not at quite the same speed: for two rotations
-//! an angle apart it is off by at most
-//!
-//! | apart | 30° | 60° | 90° | 120° | 180° |
-//! |---|---|---|---|---|---|
-//! | nlerp − slerp | 0.034° | 0.27° | 0.92° | 2.3° | 8.2° |
-//!
-//! and by nothing at 0, ½ and 1. Where that is too much for two layers: [`super::blend_two`]. A slerp of three or more
-//! would depend on the order.
+//! Formulas and reasons stand at [`blend`].
 
 use super::{Mask, usable, weight_or_zero};
 use crate::data::Transform;
@@ -71,6 +43,18 @@ impl<'a> Layer<'a> {
 
 /// Blends `layers`; where the weights of a bone sum to less than 1, `base` takes the rest.
 ///
+/// For each bone, over all layers that have a say in it (weight × mask above 0):
+///
+/// ```text
+/// w_i         = weight of layer i * its mask at this bone
+/// W           = Σ w_i
+/// share_i     = w_i / max(W, 1)        share of the base = 1 - Σ share_i      (blend)
+/// share_i     = w_i / W                the base only where W = 0              (blend_normalised)
+/// translation = Σ share_i * translation_i
+/// scale       = Σ share_i * scale_i
+/// rotation    = Σ share_i * ±rotation_i, divided by its length
+/// ```
+///
 /// `base` is usually the rest pose. Sums above 1 are divided by themselves, so from there on all weights may be
 /// multiplied by one factor without changing anything; a bone with no weight at all is the base, bit for bit.
 ///
@@ -79,7 +63,25 @@ impl<'a> Layer<'a> {
 /// * A bone with one layer alone, of weight 1 or more, is that layer bit for bit; so masks of 0 and 1 select.
 /// * Sums within a millionth of 1 count as 1.
 ///
-/// See the formulas and rules in [`super`] and above [`Layer`]'s file. O(bones × layers); allocates nothing.
+/// Rules for lengths and broken numbers: see [`super`]. O(bones × layers); allocates nothing (thesis §2.1.4.1).
+///
+/// # Rotations
+///
+/// `q` and `-q` are the same rotation, so before the sum each rotation is taken in the hemisphere (of the four-dimensional
+/// unit ball) of one of them, the one with the largest share. Between equal shares the values of the rotations decide,
+/// so the order of the layers never matters. The sum then cannot vanish: it points at least as far as that largest share.
+/// Two rotations exactly 180° apart lie on the border of the hemispheres and are used as they are stored.
+///
+/// The normalised sum (nlerp of many) is the mean that minimises the weighted squares of the distances `|q - q_i|`. It
+/// has no order, needs one division, and goes the same way as slerp, only not at quite the same speed: for two rotations
+/// an angle apart it is off by at most
+///
+/// | apart | 30° | 60° | 90° | 120° | 180° |
+/// |---|---|---|---|---|---|
+/// | nlerp − slerp | 0.034° | 0.27° | 0.92° | 2.3° | 8.2° |
+///
+/// and by nothing at 0, ½ and 1. Where that is too much for two layers: [`super::blend_two`]. A slerp of three or more
+/// would depend on the order.
 pub fn blend(base: &[Transform], layers: &[Layer], out: &mut [Transform]) {
     blend_each(base, layers, out, |sum| if sum >= WHOLE { 0.0 } else { 1.0 - sum });
 }

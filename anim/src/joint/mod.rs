@@ -1,4 +1,5 @@
-//! How far joints can turn: the physical range of motion of an elbow, a shoulder, a neck.
+//! How far joints can turn: the physical range of motion of an elbow, a shoulder, a neck, which the article of the first
+//! Dragonfly lists among what a joint has.
 //!
 //! A limit is about a bone's rotation *relative to its rest pose*, in the axes of the bone as it rests:
 //!
