@@ -44,7 +44,8 @@ pub(crate) fn main() -> Result<(), NoSuchSocketBone> {
     let offset = Transform { translation: Vec3::X * 0.1, ..Transform::IDENTITY };
     let socket = Socket { offset, ..Socket::on(&skeleton, "hand")? };
     let staff = attached_root(socket.to_root(&matrices), Mat4::from_translation(Vec3::Y * 0.4));
-    println!("the staff reaches from {:.2} to {:.2}", staff.w_axis, staff.transform_point3(Vec3::Y * 1.8));
+    let ends = [Vec3::ZERO, Vec3::Y * 1.8].map(|end| staff.transform_point3(end));
+    println!("the staff reaches from {:.2} to {:.2}", ends[0], ends[1]);
 
     // The other hand holds it 80 cm further up; inverse kinematics brings its bone there.
     let on_object = Transform { translation: Vec3::Y * 1.2, ..Transform::IDENTITY };
