@@ -18,12 +18,17 @@
 
 #![forbid(unsafe_code)]
 
+pub mod additional;
 pub mod animation;
+pub mod attach;
+mod axes;
+pub mod blend;
 pub mod bounds;
 pub mod check;
 pub mod data;
 pub mod evaluator;
 pub mod format;
+pub mod joint;
 pub mod limits;
 pub mod sample;
 pub mod skin;

@@ -1,30 +1,38 @@
 //! Promises of the crate, one module each.
 
+mod additional_turns;
+mod additive;
 mod agreement;
+mod attachments;
 mod bad_files;
+mod blending;
 mod bombs;
 mod bounds;
 mod budget;
 mod check;
+mod cross_fades;
 mod damage;
 mod degenerate;
 mod degenerate_import;
 mod determinism;
 mod dfm;
 mod doors;
+mod examples;
 mod fixture;
 mod formats;
 mod hostile;
+mod joint_limits;
+mod masks;
 mod poses;
 mod rules;
 mod sampling;
 mod seeds;
 mod skinning;
 mod soundness;
-mod store_examples;
 mod support;
 mod textures;
 mod trial;
+mod two_takes;
 mod uris;
 
 /// Counts what each thread allocates, for the promises that playing allocates nothing.

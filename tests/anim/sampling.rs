@@ -3,7 +3,8 @@
 use crate::support::{about_z, along_x, angle_between, bone, take};
 use dragonfly_anim::data::{Channel, Interpolation, Keyframe, MorphTrack, Skeleton, Take, Track, Transform};
 use dragonfly_anim::sample::{
-    PlayMode, find_keys, keyframe_at, sample_channel, sample_morph_weights, sample_take, sample_track,
+    PlayMode, find_keys, keyframe_at, sample_channel, sample_channel_with, sample_morph_weights, sample_take,
+    sample_track,
 };
 use glam::{Quat, Vec3};
 
@@ -207,4 +208,23 @@ fn morph_weights_are_mixed_like_any_other_value() {
     // Half way: mean of the values + 2/8 · (out-tangent − in-tangent).
     assert_eq!(sampled(&cubic, 3, 1.0), [0.5 + 0.25 * 8.0, 0.5, 0.0]);
     assert_eq!(sampled(&cubic, 3, 2.0), [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn an_interpolation_of_ones_own_is_asked_only_between_keys_and_must_answer_a_number() {
+    let channel = along_x(&[(1.0, 10.0), (2.0, 20.0), (4.0, 40.0)], Interpolation::Step);
+    let x = |value: f32| Vec3::new(value, 0.0, 0.0);
+    for (time, value) in [(0.0, 10.0), (1.0, 10.0), (2.0, 20.0), (4.0, 40.0), (9.0, 40.0), (f32::NAN, 10.0)] {
+        let got = sample_channel_with(&channel, x(7.0), time, |_| panic!("asked at {time}"));
+        assert_eq!(got, x(value), "{time}");
+    }
+    let got = sample_channel_with(&channel, x(7.0), 2.5, |between| {
+        assert_eq!((between.before, between.after, between.seconds), (x(20.0), x(40.0), 2.0));
+        assert_eq!((between.keys.before, between.keys.after, between.keys.mix), (1, 2, 0.25));
+        x(33.0)
+    });
+    assert_eq!(got, x(33.0));
+    assert_eq!(sample_channel_with(&channel, x(7.0), 2.5, |_| Vec3::NAN), x(20.0), "the key before");
+    let empty = Channel::<Vec3>::default();
+    assert_eq!(sample_channel_with(&empty, x(7.0), 2.5, |_| panic!("no key")), x(7.0));
 }

@@ -1,6 +1,6 @@
 //! One property at one time: the four ways to find what lies between two keys.
 
-use super::{Value, find_keys};
+use super::{Keys, Value, find_keys};
 use crate::data::{Channel, Interpolation};
 
 /// Value of `channel` at `time` seconds; clamped outside its keys, `rest` when it has no key.
@@ -15,24 +15,65 @@ use crate::data::{Channel, Interpolation};
 /// On a key: its value, bit for bit. The result is finite when `rest` is (see the rules in [`super`]); a column shorter
 /// than the times counts as rest values.
 pub fn sample_channel<T: Value>(channel: &Channel<T>, rest: T, time: f32) -> T {
+    sample_channel_with(channel, rest, time, |between| match channel.interpolation {
+        Interpolation::Step => between.before,
+        Interpolation::Closest if between.keys.mix < 0.5 => between.before,
+        Interpolation::Closest => between.after,
+        Interpolation::Linear => T::linear(between.before, between.after, between.keys.mix),
+        Interpolation::CubicSpline => {
+            let out_tangent = tangent(channel, between.keys.before * 3 + 2);
+            let in_tangent = tangent(channel, between.keys.after * 3);
+            let Between { before, after, seconds, keys } = between;
+            T::cubic(before, out_tangent, in_tangent, after, seconds, keys.mix)
+        }
+    })
+}
+
+/// What an interpolation is given: a time strictly between two keys.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Between<T> {
+    /// Value of the key before the time, without tangents; usable, see [`Value::healed`].
+    pub before: T,
+    /// Value of the key after it, likewise.
+    pub after: T,
+    /// Seconds from one key to the other.
+    pub seconds: f32,
+    /// Which keys they are, and how far between them the time lies; an interpolation that looks further finds their
+    /// neighbours by [`Channel::value`].
+    pub keys: Keys,
+}
+
+/// Value of `channel` at `time` seconds by an interpolation of the caller's own (thesis §2.1.5.2: any other is valid
+/// too); [`Channel::interpolation`] says no more than how the columns are laid out.
+///
+/// `interpolate` is asked only strictly between two keys. Everything else is as in [`sample_channel`], which is this
+/// function with the four of [`Interpolation`]: on a key and outside the keys the key's value, without keys `rest`,
+/// and where the answer is not finite the key before. A rotation has to be answered with unit length.
+///
+/// ```
+/// use dragonfly_anim::data::{Channel, Interpolation};
+/// use dragonfly_anim::sample::{Value, sample_channel_with};
+/// let channel = Channel::new([0.0, 1.0], [2.0, 4.0], Interpolation::Linear);
+/// // Begins slowly: the square of the way.
+/// let slow = sample_channel_with(&channel, 0.0, 0.5, |between| {
+///     f32::linear(between.before, between.after, between.keys.mix * between.keys.mix)
+/// });
+/// assert_eq!(slow, 2.5);
+/// ```
+pub fn sample_channel_with<T: Value>(
+    channel: &Channel<T>,
+    rest: T,
+    time: f32,
+    interpolate: impl FnOnce(Between<T>) -> T,
+) -> T {
     let Some(keys) = find_keys(&channel.times, time) else { return rest };
     let value = |key| channel.value(key).map_or(rest, |value: T| value.healed(rest));
     let before = value(keys.before);
     if keys.mix == 0.0 {
         return before;
     }
-    let mixed = match channel.interpolation {
-        Interpolation::Step => before,
-        Interpolation::Closest if keys.mix < 0.5 => before,
-        Interpolation::Closest => value(keys.after),
-        Interpolation::Linear => T::linear(before, value(keys.after), keys.mix),
-        Interpolation::CubicSpline => {
-            let span = channel.times[keys.after] - channel.times[keys.before];
-            let out_tangent = tangent(channel, keys.before * 3 + 2);
-            let in_tangent = tangent(channel, keys.after * 3);
-            T::cubic(before, out_tangent, in_tangent, value(keys.after), span, keys.mix)
-        }
-    };
+    let seconds = channel.times[keys.after] - channel.times[keys.before];
+    let mixed = interpolate(Between { before, after: value(keys.after), seconds, keys });
     if mixed.is_finite() { mixed } else { before }
 }
 

@@ -22,7 +22,7 @@ mod morph;
 mod time;
 mod value;
 
-pub use channel::sample_channel;
+pub use channel::{Between, sample_channel, sample_channel_with};
 pub use keys::{Keys, find_keys};
 pub use morph::sample_morph_weights;
 pub use time::{PlayMode, clamp_time, loop_time};

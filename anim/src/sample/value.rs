@@ -1,4 +1,4 @@
-//! What a channel can animate: vectors and rotations.
+//! What a channel can animate: vectors, rotations, and single numbers such as weights.
 
 use super::mix;
 use glam::{Quat, Vec3};
@@ -20,6 +20,27 @@ pub trait Value: Copy {
 
     /// Itself bit for bit where it is a usable value, else the nearest usable one, else `fallback`.
     fn healed(self, fallback: Self) -> Self;
+}
+
+impl Value for f32 {
+    const ZERO: Self = 0.0;
+
+    fn linear(a: Self, b: Self, mix: f32) -> Self {
+        mix::lerp(a, b, mix)
+    }
+
+    fn cubic(a: Self, out_tangent: Self, in_tangent: Self, b: Self, span: f32, mix: f32) -> Self {
+        mix::hermite(a, out_tangent, in_tangent, b, span, mix)
+    }
+
+    fn is_finite(self) -> bool {
+        f32::is_finite(self)
+    }
+
+    /// Any finite number is usable.
+    fn healed(self, fallback: Self) -> Self {
+        if f32::is_finite(self) { self } else { fallback }
+    }
 }
 
 impl Value for Vec3 {

@@ -1,0 +1,27 @@
+//! Where the parent of a bone is.
+
+use crate::animation::to_parent;
+use crate::data::{Skeleton, Transform};
+use crate::sample::rest_pose;
+use glam::Mat4;
+
+/// To-root of the parent of bone number `index`, for the given poses: parent space → scene space; identity for a root.
+///
+/// The same product as [`crate::animation::to_root`](crate::animation::to_root()), for one chain only and from the bone
+/// upwards; a parent that does not come before its child counts as none.
+pub(super) fn parent_to_root(skeleton: &Skeleton, index: usize, poses: &[Transform]) -> Mat4 {
+    let mut to_root = Mat4::IDENTITY;
+    let mut index = index;
+    while let Some(parent) = parent_of(skeleton, index) {
+        let bone = &skeleton.bones[parent];
+        let pose = poses.get(parent).copied().unwrap_or_else(|| rest_pose(bone));
+        to_root = to_parent(bone, pose) * to_root;
+        index = parent;
+    }
+    to_root
+}
+
+fn parent_of(skeleton: &Skeleton, index: usize) -> Option<usize> {
+    let parent = skeleton.bones.get(index)?.parent? as usize;
+    (parent < index).then_some(parent)
+}

@@ -1,0 +1,161 @@
+//! From one repeating take to another while both keep in step: from walking to running without a stumble.
+
+use super::cycle::{Cycle, wrapped};
+
+/// How the weight of the second take grows while the fade lasts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum FadeCurve {
+    /// `x`: evenly.
+    Linear,
+    /// `3 x² - 2 x³`: begins and ends gently.
+    #[default]
+    SmoothStep,
+}
+
+impl FadeCurve {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Linear, Self::SmoothStep];
+
+    /// Weight of the second take when `x` of the fade has passed: 0 at 0, 1 at 1, never falling. `x` is held within
+    /// 0..=1; NaN counts as 0.
+    pub fn weight(self, x: f64) -> f64 {
+        let x = if x > 0.0 { x.min(1.0) } else { 0.0 };
+        match self {
+            Self::Linear => x,
+            Self::SmoothStep => x * x * (3.0 - 2.0 * x),
+        }
+    }
+}
+
+/// What to sample and how to blend it: take `from` at `from_time`, take `to` at `to_time`, `weight` of the way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Faded {
+    /// Seconds inside the first take.
+    pub from_time: f32,
+    /// Seconds inside the second take.
+    pub to_time: f32,
+    /// 0: the first take alone; 1: the second alone. What [`super::blend_two`] takes as `mix`.
+    pub weight: f32,
+}
+
+/// A fade between two cycles with synchronised phases.
+///
+/// Both takes are always at the same phase (see [`Cycle`]), and their speeds change so that they stay there: one step
+/// from mark to mark takes
+///
+/// ```text
+/// seconds = (1 - weight) * seconds in the first take  +  weight * seconds in the second
+/// ```
+///
+/// so at the beginning the first plays at its own speed, and at the end the second. Two cycles with different numbers of
+/// marks have no marks that correspond: then marks do not count, and the phase is the plain fraction of the cycle.
+///
+/// The state is two numbers, changed only by [`Self::advance`]: the same steps give the same bits. After the fade the
+/// second take runs on at its own speed, and [`Self::now`] says at which time of it another fade may begin.
+///
+/// ```
+/// use dragonfly_anim::blend::{CrossFade, Cycle, FadeCurve};
+/// let (walk, run) = (Cycle::new(0.0, 1.0), Cycle::new(0.0, 0.5));
+/// let mut fade = CrossFade::new(walk, run, 0.25, FadeCurve::Linear).starting_at(0.5);
+/// let now = fade.advance(0.125);
+/// assert_eq!(now.weight, 0.5);
+/// // Half way through one is half way through the other.
+/// assert_eq!(now.from_time, now.to_time * 2.0);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct CrossFade {
+    from: Cycle,
+    to: Cycle,
+    /// How long the fade lasts: finite, 0 or more.
+    seconds: f64,
+    curve: FadeCurve,
+    /// Seconds since the fade began, at most `seconds`.
+    elapsed: f64,
+    /// Of both cycles, 0..1.
+    phase: f64,
+}
+
+impl CrossFade {
+    /// A fade that lasts `seconds`, with both cycles at phase 0.
+    ///
+    /// Seconds that are negative, zero or NaN: the second take at once; infinite: the largest `f32`.
+    pub fn new(from: Cycle, to: Cycle, seconds: f32, curve: FadeCurve) -> Self {
+        let alike = from.marks() == to.marks();
+        let (from, to) = if alike { (from, to) } else { (from.without_marks(), to.without_marks()) };
+        let seconds = f64::from(super::weight_or_zero(seconds));
+        Self { from, to, seconds, curve, elapsed: 0.0, phase: 0.0 }
+    }
+
+    /// The same beginning where the first take is now: `time` seconds inside it.
+    pub fn starting_at(mut self, time: f32) -> Self {
+        self.phase = self.from.phase_at(time);
+        self
+    }
+
+    /// Lets `dt` seconds pass; then as [`Self::now`]. Negative and NaN count as 0. Allocates nothing.
+    ///
+    /// During the fade the weight of a step is the mean of those at its two ends, so the phase hardly depends on the
+    /// size of the steps. The part of `dt` after the end of the fade passes at the speed of the second take.
+    pub fn advance(&mut self, dt: f32) -> Faded {
+        let dt = f64::from(super::weight_or_zero(dt));
+        let fading = dt.min(self.seconds - self.elapsed);
+        let before = self.weight();
+        self.elapsed += fading;
+        if fading >= dt {
+            self.turn(dt, 0.5 * (before + self.weight()));
+        } else {
+            self.elapsed = self.seconds;
+            self.turn(fading, 0.5 * (before + 1.0));
+            self.turn(dt - fading, 1.0);
+        }
+        self.now()
+    }
+
+    /// Where both takes are, and how much the second counts. Allocates nothing.
+    pub fn now(&self) -> Faded {
+        Faded {
+            from_time: self.from.time_at(self.phase),
+            to_time: self.to.time_at(self.phase),
+            weight: self.weight() as f32,
+        }
+    }
+
+    /// The phase of both, 0..1.
+    pub fn phase(&self) -> f64 {
+        self.phase
+    }
+
+    /// Is the second take alone?
+    pub fn is_done(&self) -> bool {
+        self.elapsed >= self.seconds
+    }
+
+    fn weight(&self) -> f64 {
+        if self.is_done() { 1.0 } else { self.curve.weight(self.elapsed / self.seconds) }
+    }
+
+    /// Moves the phase on by `dt` seconds with a fixed weight, from mark to mark.
+    fn turn(&mut self, dt: f64, weight: f64) {
+        let mixed = |from: f64, to: f64| (1.0 - weight) * from + weight * to;
+        let round = mixed(f64::from(self.from.length()), f64::from(self.to.length()));
+        // Whole rounds change nothing, and neither does a round without length.
+        if dt <= 0.0 || round <= 0.0 {
+            return;
+        }
+        let mut left = dt % round;
+        let marks = self.from.marks();
+        let (mut mark, mut fraction) = self.from.split(self.phase);
+        // Once for each mark, and once more for the rest of the first.
+        for _ in 0..=marks {
+            let seconds = mixed(self.from.seconds_after(mark), self.to.seconds_after(mark));
+            let to_next = (1.0 - fraction) * seconds;
+            if left < to_next {
+                fraction += left / seconds;
+                break;
+            }
+            left -= to_next;
+            (mark, fraction) = ((mark + 1) % marks, 0.0);
+        }
+        self.phase = wrapped((mark as f64 + fraction) / marks as f64);
+    }
+}

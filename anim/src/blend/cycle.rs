@@ -1,0 +1,149 @@
+//! Takes that repeat, and how far through them one is.
+
+use crate::data::Take;
+
+/// A take that repeats: where it starts, how long it is, and which moments in it are marked.
+///
+/// The *phase* is the fraction of a cycle that has passed, 0..1. With marks (moments that correspond, such as the foot
+/// touching the ground) it counts from mark to mark, so equal phases mean corresponding moments:
+///
+/// ```text
+/// phase = (k + f) / n      n marks; mark k was the last one, f of the way to mark k + 1 is done
+/// ```
+///
+/// Without marks the start of the cycle is the only one, and the phase is `(time - start) / length`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle {
+    /// Seconds, finite.
+    start: f32,
+    /// Seconds, finite, 0 or more.
+    length: f32,
+    /// Seconds after `start`, ascending, in `0..length`; never empty.
+    marks: Vec<f32>,
+}
+
+impl Cycle {
+    /// A cycle of `length` seconds from `start`, without marks.
+    ///
+    /// A start that is not finite counts as 0; a length that is not finite or negative as 0, which is a pose that stands.
+    pub fn new(start: f32, length: f32) -> Self {
+        let start = if start.is_finite() { start } else { 0.0 };
+        let length = if length.is_finite() { length.max(0.0) } else { 0.0 };
+        Self { start, length, marks: vec![0.0] }
+    }
+
+    /// The whole of a take.
+    pub fn of(take: &Take) -> Self {
+        Self::new(take.start, take.length)
+    }
+
+    /// The same with marks at `times` (seconds, as keys of the take are).
+    ///
+    /// They are put in order. Marks outside the cycle are left out, and so is a second one at the same time; one at the
+    /// end is the same as one at the start. Where none is left, the start is the only one.
+    pub fn with_marks(mut self, times: impl IntoIterator<Item = f32>) -> Self {
+        let length = self.length;
+        let inside = times.into_iter().map(|time| time - self.start);
+        let inside = inside.filter(|mark| (0.0..=length).contains(mark));
+        self.marks = inside.map(|mark| if mark < length { mark + 0.0 } else { 0.0 }).collect();
+        self.marks.sort_by(f32::total_cmp);
+        self.marks.dedup();
+        if self.marks.is_empty() {
+            self.marks.push(0.0);
+        }
+        self
+    }
+
+    /// The same without marks.
+    pub fn without_marks(mut self) -> Self {
+        self.marks.clear();
+        self.marks.push(0.0);
+        self
+    }
+
+    /// Seconds that one round takes.
+    pub fn length(&self) -> f32 {
+        self.length
+    }
+
+    /// Number of marks; 1 without any, the start.
+    pub fn marks(&self) -> usize {
+        self.marks.len()
+    }
+
+    /// The time inside the take that belongs to a phase: `start ..= start + length`.
+    ///
+    /// A phase outside 0..1 is that of another round; one that is not finite is 0.
+    pub fn time_at(&self, phase: f64) -> f32 {
+        let (mark, fraction) = self.split(phase);
+        let inside = f64::from(self.marks[mark]) + fraction * self.seconds_after(mark);
+        let length = f64::from(self.length);
+        let inside = if inside > length { inside - length } else { inside };
+        // The sum in f64: it is rounded once, and only then held inside.
+        let time = (f64::from(self.start) + inside) as f32;
+        time.clamp(self.start, (self.start + self.length).min(f32::MAX))
+    }
+
+    /// The phase at a time of the take: 0 or more, less than 1.
+    ///
+    /// Times outside the cycle are those of other rounds; one that is not finite counts as the start, and a cycle without
+    /// length has phase 0 always.
+    pub fn phase_at(&self, time: f32) -> f64 {
+        let length = f64::from(self.length);
+        let inside = (f64::from(time) - f64::from(self.start)).rem_euclid(length);
+        if !inside.is_finite() {
+            return 0.0;
+        }
+        // Before the first mark one is still on the way from the last.
+        let passed = self.marks.partition_point(|&mark| f64::from(mark) <= inside);
+        let (mark, since) = match passed.checked_sub(1) {
+            Some(mark) => (mark, inside - f64::from(self.marks[mark])),
+            None => {
+                let last = self.marks.len() - 1;
+                (last, inside + length - f64::from(self.marks[last]))
+            }
+        };
+        let fraction = since / self.seconds_after(mark);
+        let fraction = if fraction.is_finite() { fraction } else { 0.0 };
+        wrapped((mark as f64 + fraction) / self.marks.len() as f64)
+    }
+
+    /// Seconds from mark `mark` to the next one, which after the last is the first of the next round.
+    pub(super) fn seconds_after(&self, mark: usize) -> f64 {
+        let at = |mark: usize| self.marks.get(mark).copied().map(f64::from);
+        let here = at(mark).unwrap_or(0.0);
+        at(mark + 1).unwrap_or(f64::from(self.marks[0]) + f64::from(self.length)) - here
+    }
+
+    /// The mark before a phase, and the fraction of the way to the next.
+    pub(super) fn split(&self, phase: f64) -> (usize, f64) {
+        let place = wrapped(phase) * self.marks.len() as f64;
+        let mark = (place as usize).min(self.marks.len() - 1);
+        (mark, place - mark as f64)
+    }
+}
+
+/// A phase brought into 0..1; 0 where it is not finite.
+pub(super) fn wrapped(phase: f64) -> f64 {
+    let inside = phase.rem_euclid(1.0);
+    // A tiny negative number wraps to 1 by rounding.
+    if inside < 1.0 { inside } else { 0.0 }
+}
+
+/// Seconds that one round takes when cycles of several lengths run in step: their mean, weighted.
+///
+/// ```text
+/// Σ weight * length / Σ weight
+/// ```
+///
+/// `cycles` are pairs of (length in seconds, weight). Negative and NaN count as 0, infinite as the largest `f32`; 0
+/// without any weight. Play each at `length / common` times its own speed.
+pub fn common_length(cycles: impl IntoIterator<Item = (f32, f32)>) -> f32 {
+    let (mut seconds, mut weights) = (0.0_f64, 0.0_f64);
+    for (length, weight) in cycles {
+        let weight = f64::from(super::weight_or_zero(weight));
+        seconds += weight * f64::from(super::weight_or_zero(length));
+        weights += weight;
+    }
+    if weights > 0.0 { (seconds / weights) as f32 } else { 0.0 }
+}

@@ -1,0 +1,53 @@
+//! Exactly two poses, rotations by slerp.
+
+use super::{Mask, fraction, usable};
+use crate::data::Transform;
+use crate::sample::{healthy, mix};
+use glam::{Quat, Vec3};
+
+/// Blends two poses, `mix` of the way from `from` to `to`; rotations turn at constant speed ([`mix::slerp`]).
+///
+/// ```text
+/// m           = mix * mask at this bone, held within 0..=1
+/// translation = (1 - m) * from + m * to            scale likewise
+/// rotation    = slerp(from, to, m), the short way
+/// ```
+///
+/// Where `m` is 0 the result is `from`, where it is 1 `to`, where both are the same that pose: bit for bit. Where `from`
+/// is shorter the identity stands in; where `to` is shorter `from` stays. Rules: see [`super`]. Allocates nothing.
+pub fn blend_two(from: &[Transform], to: &[Transform], mix: f32, mask: Option<&Mask>, out: &mut [Transform]) {
+    for (bone, out) in out.iter_mut().enumerate() {
+        let from = from.get(bone).copied().unwrap_or_default();
+        let to = to.get(bone).copied().unwrap_or(from);
+        *out = mix_poses(from, to, fraction(mix) * mask.map_or(1.0, |mask| mask.weight(bone)));
+    }
+}
+
+/// One bone of [`blend_two`]: `mix` of the way from one pose to another.
+pub fn mix_poses(from: Transform, to: Transform, mix: f32) -> Transform {
+    let from = usable(from);
+    let to = healthy(to, from);
+    let mix = fraction(mix);
+    if mix == 0.0 {
+        return from;
+    }
+    if mix == 1.0 {
+        return to;
+    }
+    Transform {
+        translation: vector(from.translation, to.translation, mix),
+        rotation: rotation(from.rotation, to.rotation, mix),
+        scale: vector(from.scale, to.scale, mix),
+    }
+}
+
+/// Linear; two equal ones without rounding.
+fn vector(from: Vec3, to: Vec3, mix: f32) -> Vec3 {
+    let mixed = mix::lerp(from, to, mix);
+    if from == to || !mixed.is_finite() { from } else { mixed }
+}
+
+/// The short way; two equal ones without rounding.
+fn rotation(from: Quat, to: Quat, mix: f32) -> Quat {
+    if from == to || from == -to { from } else { mix::slerp(from, to, mix) }
+}

@@ -1,0 +1,109 @@
+//! A joint that swings in all directions and twists.
+
+use super::ellipse::nearest_in_ellipse;
+use super::{AngleRange, direction, mirrored_axis};
+use glam::{DQuat, DVec2, DVec3, Vec3};
+
+/// No swing goes further, radians: 175°. Straight back the twist could no longer be told from the direction.
+const MOST: f64 = 175.0 / 180.0 * std::f64::consts::PI;
+
+/// A ball joint: a shoulder, a hip, a neck.
+///
+/// The turn is taken apart into a twist about the bone and then a swing that moves the bone:
+///
+/// ```text
+/// turn   = swing * twist
+/// twist  = (axis * (xyz · axis), w), divided by its length;   none where that is 0
+/// swing  = turn * twist⁻¹ = a turn by σ about an axis at right angles to the bone
+/// s      = σ * that axis, in the plane of `side` and `axis × side`
+/// ```
+///
+/// * The swing is allowed where `(s·side / swing_side)² + (s·up / swing_up)² ≤ 1`, with `up = axis × side`: a cone whose
+///   section is an ellipse, measured in angles. Otherwise the nearest point of that ellipse is taken. So the limit is
+///   continuous also for flat cones, where shrinking `s` towards 0 would jump.
+/// * The twist is held in its range, which does not depend on the swing.
+///
+/// A half-angle of 0 allows no swing about that side: with `swing_up` = 0 the bone swings in one plane only. Negative
+/// and NaN count as 0, more than 175° as 175°.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Along the bone, in its axes as it rests; any length but 0.
+    pub axis: Vec3,
+    /// A direction across the bone; only the part at right angles to `axis` counts, and without one any direction is
+    /// taken.
+    pub side: Vec3,
+    /// How far it swings about `side`: half of the cone's opening, radians.
+    pub swing_side: f32,
+    /// How far it swings about `axis × side`: half of the cone's opening, radians.
+    pub swing_up: f32,
+    /// The twist about `axis`, right-handed.
+    pub twist: AngleRange,
+}
+
+impl Ball {
+    /// With a round cone: as far in every direction.
+    pub fn round(axis: Vec3, swing: f32, twist: AngleRange) -> Self {
+        Self { axis, side: Vec3::ZERO, swing_side: swing, swing_up: swing, twist }
+    }
+
+    pub(super) fn allowed(&self, turn: DQuat) -> DQuat {
+        let Some(axis) = direction(self.axis) else { return turn };
+        let side = self.side.as_dvec3();
+        let side = side - axis * side.dot(axis);
+        let side = side.try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+        let up = axis.cross(side);
+
+        let (swing, twist) = swing_twist(turn, axis);
+        let swing = rotation_vector(swing);
+        let swing = DVec2::new(swing.dot(side), swing.dot(up));
+        let halves = DVec2::new(half(self.swing_side), half(self.swing_up));
+        let swing = nearest_in_ellipse(swing, halves);
+        let swing = DQuat::from_scaled_axis(side * swing.x + up * swing.y);
+
+        swing * DQuat::from_axis_angle(axis, self.twist.clamp(twist))
+    }
+
+    pub(super) fn mirrored(&self, normal: usize) -> Self {
+        Self { axis: mirrored_axis(self.axis, normal), side: mirrored_axis(self.side, normal), ..*self }
+    }
+}
+
+fn half(angle: f32) -> f64 {
+    // NaN fails the comparison.
+    if angle > 0.0 { f64::from(angle).min(MOST) } else { 0.0 }
+}
+
+/// The swing, and the angle of the twist about `axis` (radians, −π..=π), with `turn = swing * twist`.
+fn swing_twist(turn: DQuat, axis: DVec3) -> (DQuat, f64) {
+    let along = turn.xyz().dot(axis);
+    let angle = 2.0 * along.atan2(turn.w);
+    let twist = DQuat::from_axis_angle(axis, angle);
+    (turn * twist.conjugate(), angle)
+}
+
+/// Axis times angle, the short way: 0..=π long.
+fn rotation_vector(rotation: DQuat) -> DVec3 {
+    let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
+    let sine = rotation.xyz().length();
+    if sine == 0.0 { DVec3::ZERO } else { rotation.xyz() * (2.0 * sine.atan2(rotation.w) / sine) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn swing_after_twist_is_the_turn_and_the_swing_does_not_twist() {
+        let axis = DVec3::new(0.3, 0.9, -0.2).normalize();
+        for turn in [
+            DQuat::IDENTITY,
+            DQuat::from_axis_angle(axis, 2.0),
+            DQuat::from_xyzw(0.1, -0.7, 0.5, 0.2).normalize(),
+            DQuat::from_axis_angle(axis.any_orthonormal_vector(), std::f64::consts::PI),
+        ] {
+            let (swing, twist) = swing_twist(turn, axis);
+            assert!((swing * DQuat::from_axis_angle(axis, twist)).dot(turn).abs() > 1.0 - 1e-12);
+            assert!(rotation_vector(swing).dot(axis).abs() < 1e-12, "{turn}");
+        }
+    }
+}

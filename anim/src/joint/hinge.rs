@@ -1,0 +1,33 @@
+//! A joint with one axis.
+
+use super::{AngleRange, direction, mirrored_axis};
+use glam::{DQuat, Vec3};
+
+/// Turns about one axis, from one angle to another: an elbow, a knee.
+///
+/// ```text
+/// angle   = 2 * atan2(xyz · axis, w)        the twist of the turn about the axis
+/// allowed = turn about axis by the nearest angle of the range
+/// ```
+///
+/// Whatever turns the axis itself is taken away. A turn of 180° about a line across the axis has no angle about it:
+/// it counts as 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinge {
+    /// In the bone's axes as it rests; any length but 0.
+    pub axis: Vec3,
+    /// From the rest pose, right-handed about `axis`.
+    pub range: AngleRange,
+}
+
+impl Hinge {
+    pub(super) fn allowed(&self, turn: DQuat) -> DQuat {
+        let Some(axis) = direction(self.axis) else { return turn };
+        let angle = 2.0 * turn.xyz().dot(axis).atan2(turn.w);
+        DQuat::from_axis_angle(axis, self.range.clamp(angle))
+    }
+
+    pub(super) fn mirrored(&self, normal: usize) -> Self {
+        Self { axis: mirrored_axis(self.axis, normal), ..*self }
+    }
+}
