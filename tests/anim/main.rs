@@ -13,6 +13,7 @@ mod doors;
 mod fixture;
 mod formats;
 mod hostile;
+mod ik;
 mod poses;
 mod rules;
 mod sampling;
