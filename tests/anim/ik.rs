@@ -150,7 +150,8 @@ fn a_limb_with_a_pole_is_where_the_law_of_cosines_in_f64_puts_it() {
         assert!(off(3, end) < 2e-5, "{round} {parent:?}: end off by {}", off(3, end));
         // Near full reach and full fold the height is the root of a small difference: half the digits.
         assert!(off(2, middle) < 2e-3, "{round} {parent:?}: middle off by {}", off(2, middle));
-        let slack = ((f64::from(distance) - f64::from(least)).min(f64::from(most - distance))) / f64::from(most);
+        let slack =
+            ((f64::from(distance) - f64::from(least)).min(f64::from(most - distance))) / f64::from(most);
         assert!(slack < 0.02 || off(2, middle) < 5e-5, "{round}: {} with slack {slack}", off(2, middle));
     }
 }
@@ -208,8 +209,11 @@ fn weight_zero_changes_no_bit_and_half_a_weight_is_half_the_way() {
 
 #[test]
 fn the_bend_goes_to_the_side_of_the_pole_and_without_one_stays_in_its_plane() {
-    let bones =
-        vec![bone("hip", None, Vec3::Y * 2.0), bone("knee", Some(0), -Vec3::Y), bone("foot", Some(1), -Vec3::Y)];
+    let bones = vec![
+        bone("hip", None, Vec3::Y * 2.0),
+        bone("knee", Some(0), -Vec3::Y),
+        bone("foot", Some(1), -Vec3::Y),
+    ];
     let skeleton = Skeleton { bones };
     let rest: Vec<Transform> = skeleton.bones.iter().map(rest_pose).collect();
     let old = matrices(&skeleton, &rest);
@@ -324,7 +328,10 @@ fn a_chain_meets_what_it_can_reach_and_keeps_its_lengths() {
         let least = (2.0 * parts.iter().copied().fold(0.0, f32::max) - most).max(0.0);
         let share = random.choice(&[0.0, 1e-3, 0.1, 0.5, 0.9, 0.99, 0.999, 1.0]);
         let way = if random.below(4) == 0 {
-            old[0].inverse().transform_vector3(origin(&old, links + 1) - origin(&old, 1)).normalize_or(Vec3::X)
+            old[0]
+                .inverse()
+                .transform_vector3(origin(&old, links + 1) - origin(&old, 1))
+                .normalize_or(Vec3::X)
         } else {
             direction(&mut random)
         };

@@ -119,12 +119,7 @@ impl ChainScratch {
     }
 
     /// The row of bones, from the poses.
-    fn load(
-        &mut self,
-        skeleton: &Skeleton,
-        poses: &[Transform],
-        settings: &Chain,
-    ) -> Result<(), IkError> {
+    fn load(&mut self, skeleton: &Skeleton, poses: &[Transform], settings: &Chain) -> Result<(), IkError> {
         self.links.clear();
         let mut bone = settings.end;
         loop {

@@ -196,9 +196,8 @@ impl Points<'_> {
             let back = outlier && length == longest;
             angle += if back { -step } else { step };
             outlier &= !back;
-            self.joints[index + 1] = base
-                + towards * (radius * f64::sin(angle))
-                + side * (radius * (1.0 - f64::cos(angle)));
+            self.joints[index + 1] =
+                base + towards * (radius * f64::sin(angle)) + side * (radius * (1.0 - f64::cos(angle)));
         }
     }
 }

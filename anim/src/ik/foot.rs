@@ -164,7 +164,8 @@ fn check(
             return Err(IkError::NotBelow { above, below });
         }
     }
-    inverse(Mat3::from_mat4(parent_to_root(skeleton, to_root, thigh)?)).ok_or(IkError::Flat { bone: thigh })?;
+    inverse(Mat3::from_mat4(parent_to_root(skeleton, to_root, thigh)?))
+        .ok_or(IkError::Flat { bone: thigh })?;
     let ankle = to_root.get(foot as usize).ok_or(IkError::NoSuchBone { bone: foot })?.w_axis.truncate();
     if ankle.is_finite() { Ok(ankle) } else { Err(IkError::NotFinite { bone: foot }) }
 }

@@ -28,7 +28,7 @@ mod fabrik;
 mod foot;
 mod look_at;
 mod path;
-mod turn;
+pub(crate) mod turn;
 mod two_bone;
 
 pub use chain::{Chain, ChainScratch, Limit, chain};

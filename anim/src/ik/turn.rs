@@ -21,7 +21,7 @@ pub(super) fn arc(from: Vec3, to: Vec3) -> Quat {
 }
 
 /// [`arc`] for vectors of any length, in f64; the identity where one has none.
-pub(super) fn arc_between(from: DVec3, to: DVec3) -> DQuat {
+pub(crate) fn arc_between(from: DVec3, to: DVec3) -> DQuat {
     let (Some(from), Some(to)) = (from.try_normalize(), to.try_normalize()) else { return DQuat::IDENTITY };
     let cross = from.cross(to);
     let w = 0.5 * (from + to).length_squared();

@@ -307,8 +307,7 @@ fn end_rotation(
     let linear = |root: Quat, middle: Quat| {
         let upper = Mat3::from_quat(root) * Mat3::from_diagonal(shape.root.scale);
         let lower = Mat3::from_quat(middle) * Mat3::from_diagonal(shape.middle.scale);
-        let [first, second] =
-            [shape.upper, shape.lower].map(|part| part.between.unwrap_or(Mat3::IDENTITY));
+        let [first, second] = [shape.upper, shape.lower].map(|part| part.between.unwrap_or(Mat3::IDENTITY));
         Mat3::from_mat4(parent) * upper * first * lower * second
     };
     let own = pose_of(skeleton, poses, limb.end)?.rotation;

@@ -12,8 +12,6 @@ pub(super) struct Frame {
     to_root: DMat4,
     from_root: DMat4,
     rotation: DQuat,
-    /// Is it mirrored? Then turning one way in to-root space is turning the other way here.
-    mirrored: bool,
 }
 
 impl Frame {
@@ -35,12 +33,7 @@ impl Frame {
         if to_root.determinant() == 0.0 || !from_root.is_finite() {
             return Err(MotionError::Flat { bone, milliseconds });
         }
-        Ok(Self {
-            to_root,
-            from_root,
-            rotation: rotation_of(DMat3::from_mat4(to_root)),
-            mirrored: to_root.determinant() < 0.0,
-        })
+        Ok(Self { to_root, from_root, rotation: rotation_of(DMat3::from_mat4(to_root)) })
     }
 
     /// A place relative to the parent, in to-root space.
@@ -65,15 +58,13 @@ impl Frame {
 
     /// `R⁻¹ Y R`: a rotation of to-root space as one of the parent's space. Any quaternion, the length is kept.
     pub(super) fn inward(&self, rotation: DQuat) -> DQuat {
-        let back = self.rotation.conjugate();
-        let turned = back * rotation.xyz() * if self.mirrored { -1.0 } else { 1.0 };
+        let turned = self.rotation.conjugate() * rotation.xyz();
         DQuat::from_xyzw(turned.x, turned.y, turned.z, rotation.w)
     }
 
-    /// `R q R⁻¹`: the way back.
-    pub(super) fn outward(&self, rotation: DQuat) -> DQuat {
-        let turned = self.rotation * rotation.xyz() * if self.mirrored { -1.0 } else { 1.0 };
-        DQuat::from_xyzw(turned.x, turned.y, turned.z, rotation.w)
+    /// `R q`: a rotation relative to the parent in to-root space.
+    pub(super) fn turn(&self, rotation: DQuat) -> DQuat {
+        self.rotation * rotation
     }
 }
 
@@ -83,21 +74,12 @@ pub(super) fn ancestors(skeleton: &Skeleton, bone: BoneIndex) -> impl Iterator<I
     std::iter::successors(parent(bone), move |&bone| parent(bone)).map(|bone| bone as usize)
 }
 
-/// The rotation of a matrix; of a mirrored one that of its negative, so that `R` turns axes as the matrix does but for
-/// the sign.
+/// The rotation of a matrix; of a mirrored one that of its negative: `P⁻¹ Y P` and `R⁻¹ Y R` are the same either way.
 fn rotation_of(matrix: DMat3) -> DQuat {
     let matrix = if matrix.determinant() < 0.0 { -matrix } else { matrix };
     let z = matrix.z_axis.normalize_or(DVec3::Z);
-    let y = (matrix.y_axis - z * matrix.y_axis.dot(z)).normalize_or_else(|| z.any_orthonormal_vector());
+    let y = (matrix.y_axis - z * matrix.y_axis.dot(z))
+        .try_normalize()
+        .unwrap_or_else(|| z.any_orthonormal_vector());
     DQuat::from_mat3(&DMat3::from_cols(y.cross(z), y, z)).normalize()
-}
-
-trait OrElse {
-    fn normalize_or_else(self, other: impl FnOnce() -> Self) -> Self;
-}
-
-impl OrElse for DVec3 {
-    fn normalize_or_else(self, other: impl FnOnce() -> Self) -> Self {
-        self.try_normalize().unwrap_or_else(other)
-    }
 }
