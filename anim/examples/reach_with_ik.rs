@@ -34,11 +34,11 @@ pub(crate) fn main() {
         assert!((hand.distance(target) - reach.distance).abs() < 1e-5);
     }
 
-    // The same with a chain, for rows of any number of bones; here no joint may turn more than 60°.
+    // The same with a chain, for rows of any number of bones; here no joint may turn more than 75°.
     let mut scratch = ChainScratch::with_capacity(skeleton.len());
     let mut limit = |_bone, wish: glam::Quat| {
         let (axis, angle) = wish.to_axis_angle();
-        glam::Quat::from_axis_angle(axis, angle.min(60_f32.to_radians()))
+        glam::Quat::from_axis_angle(axis, angle.min(75_f32.to_radians()))
     };
     let target = Vec3::new(0.4, 0.2, 0.0);
     sample_take(None, &skeleton, 0.0, &mut poses);

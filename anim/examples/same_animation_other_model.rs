@@ -14,13 +14,13 @@ fn bone(name: &str, parent: Option<u32>, translation: Vec3, rotation: Quat) -> B
     Bone { name: name.to_owned(), parent, rest, rest_matrix: None, offset: Mat4::IDENTITY, node: None }
 }
 
-/// Hips at `height`, an arm of 0.5 m at the shoulder that rests turned by `rest` about z.
+/// Hips at `height` over a foot, an arm of 0.5 m at the shoulder that rests turned by `rest` about z.
 fn figure(names: [&str; 4], height: f32, rest: f32) -> Skeleton {
     let none = Quat::IDENTITY;
     let bones = vec![
         bone(names[0], None, Vec3::Y * height, none),
-        bone(names[1], Some(0), Vec3::Y * 0.5, none),
-        bone(names[2], Some(1), Vec3::X * 0.2, Quat::from_rotation_z(rest)),
+        bone(names[1], Some(0), Vec3::NEG_Y * height, none),
+        bone(names[2], Some(0), Vec3::new(0.2, 0.5, 0.0), Quat::from_rotation_z(rest)),
         bone(names[3], Some(2), Vec3::X * 0.5, none),
     ];
     Skeleton { bones }
@@ -28,8 +28,8 @@ fn figure(names: [&str; 4], height: f32, rest: f32) -> Skeleton {
 
 pub(crate) fn main() {
     // T-pose here, arms straight down there.
-    let source = figure(["Hips", "Spine", "LeftArm", "LeftHand"], 1.0, 0.0);
-    let target = figure(["mixamorig:Hips", "mixamorig:Spine", "arm.L", "hand_l"], 1.5, -FRAC_PI_2);
+    let source = figure(["Hips", "LeftFoot", "LeftArm", "LeftHand"], 1.0, 0.0);
+    let target = figure(["mixamorig:Hips", "foot.L", "arm.L", "hand_l"], 1.5, -FRAC_PI_2);
     let binding = Binding::by_name(&source, &target);
     assert_eq!((binding.bound(), &binding.unbound_target[..]), (4, &[][..]));
 

@@ -4,7 +4,8 @@
 //! needs fewer sweeps, and it does not depend on the order of the joints. What FABRIK is slow at, targets close to full
 //! reach, is finished in closed form. It works on points, so the rotations are found afterwards, from the first bone to
 //! the last: each turns the short way from where it points to where the next joint shall be. A bone thereby keeps its
-//! twist, and a joint limit is asked for every new rotation; what it takes away is made up for in the next sweep.
+//! twist, and a joint limit is asked for every new rotation; what it takes away is made
+//! up for in the next sweep, and in the end by a few passes of CCD, which sees where a free joint can help a stiff one.
 
 use super::fabrik::Points;
 use super::path::{parent_of, parent_to_root, pose_of};
@@ -166,7 +167,47 @@ impl ChainScratch {
         }
         self.links.iter_mut().for_each(|link| link.rotation = link.best);
         self.place();
+        if let Some(limit) = limit {
+            self.close_in(goal, tolerance, limit);
+        }
         made
+    }
+
+    /// A few passes of turning one bone at a time, last to first, so that the end points at the goal from it (that is
+    /// CCD), where a turn that its limit allows brings the end nearer: a sweep does not see how the joints that are free
+    /// can make up for one that is not.
+    fn close_in(&mut self, goal: DVec3, tolerance: f64, limit: Limit<'_>) {
+        for _ in 0..8 {
+            let before = self.gap(goal);
+            for index in (0..self.lengths.len()).rev() {
+                let nearest = self.gap(goal);
+                let above =
+                    self.links[..index].iter().fold(DMat3::IDENTITY, |above, link| above * link.linear());
+                let (inverse, joint) = (above.inverse(), self.joints[index]);
+                let end = self.joints[self.joints.len() - 1];
+                let (from, to) = (inverse * (end - joint), inverse * (goal - joint));
+                if nearest <= tolerance || !from.is_finite() || !to.is_finite() {
+                    continue;
+                }
+                let link = &mut self.links[index];
+                let wish = (arc_between(from, to) * link.best).as_quat().normalize();
+                link.rotation = limit(link.bone, wish).healed(wish).as_dquat().normalize();
+                self.place();
+                let kept = self.gap(goal) < nearest;
+                let link = &mut self.links[index];
+                if kept {
+                    link.best = link.rotation
+                } else {
+                    link.rotation = link.best
+                }
+                if !kept {
+                    self.place();
+                }
+            }
+            if self.gap(goal) > 0.999 * before || self.gap(goal) <= tolerance {
+                break;
+            }
+        }
     }
 
     fn gap(&self, goal: DVec3) -> f64 {
