@@ -398,6 +398,76 @@ fn a_chain_keeps_its_joint_limits_and_comes_no_farther_from_its_target() {
 }
 
 #[test]
+fn a_chain_with_limits_finds_most_targets_that_can_be_reached_within_them() {
+    let mut random = started(34);
+    let mut scratch = ChainScratch::default();
+    let mut found = 0;
+    for _ in 0..1_000 {
+        let links = 2 + random.below(5);
+        let (skeleton, mut poses) = row(&mut random, links, Parent::Plain);
+        poses.iter_mut().for_each(|pose| pose.rotation = Quat::IDENTITY);
+        let old = matrices(&skeleton, &poses);
+        let mut bent = poses.clone();
+        bent[1..]
+            .iter_mut()
+            .for_each(|pose| pose.rotation = Quat::from_scaled_axis(vector(&mut random) * 0.4));
+        let target = origin(&matrices(&skeleton, &bent), links + 1);
+        let mut limit = |_: u32, wish: Quat| {
+            let wish = if wish.w < 0.0 { -wish } else { wish };
+            let (axis, angle) = wish.to_axis_angle();
+            Quat::from_axis_angle(axis, angle.min(0.7))
+        };
+        let settings = Chain::new(1, links as u32 + 1);
+        let limit: Option<dragonfly_anim::ik::Limit<'_>> = Some(&mut limit);
+        let reach = chain(&skeleton, &old, &settings, target, limit, &mut scratch, &mut poses).unwrap();
+        found += usize::from(reach.distance < 1e-3 * lengths(&poses).iter().sum::<f32>());
+    }
+    println!("{found} of 1000");
+    assert!(found >= 850, "{found}");
+}
+
+#[test]
+fn a_real_animal_reaches_and_looks_in_every_take() {
+    use dragonfly_anim::ik::{Gaze, LookAt, look_at};
+    use dragonfly_anim::sample::sample_take;
+    let model = crate::motion::load(&crate::doors::data().join("gltf/Fox.glb"));
+    let skeleton = &model.animation.skeleton;
+    let named = |part: &str| skeleton.bones.iter().position(|bone| bone.name.contains(part)).unwrap();
+    let [upper, fore, hand] = ["RightUpperArm", "RightForeArm", "RightHand"].map(named);
+    let [tail, tip, neck, head] = ["Tail01", "Tail03", "Neck", "Head"].map(named);
+    let (mut scratch, mut random) = (ChainScratch::default(), started(35));
+    let mut poses = vec![Transform::IDENTITY; skeleton.len()];
+    for take in &model.animation.takes {
+        for step in 0..50 {
+            sample_take(Some(take), skeleton, take.start + take.length * step as f32 / 49.0, &mut poses);
+            let old = matrices(skeleton, &poses);
+            let size = |bones: &[usize]| -> f32 {
+                bones.windows(2).map(|pair| origin(&old, pair[0]).distance(origin(&old, pair[1]))).sum()
+            };
+            let arm = size(&[upper, fore, hand]);
+            let way = origin(&old, hand) - origin(&old, upper) + vector(&mut random) * arm * 0.2;
+            let paw = origin(&old, upper) + way.clamp_length(0.5 * arm, 0.95 * arm);
+            let limb = TwoBone::new(upper as u32, fore as u32, hand as u32);
+            two_bone(skeleton, &old, &limb, paw, &mut poses).unwrap();
+            let wag = origin(&old, tip) + vector(&mut random) * 0.3 * size(&[tail, tip]);
+            let wag =
+                origin(&old, tail) + (wag - origin(&old, tail)).clamp_length_max(0.9 * size(&[tail, tip]));
+            let settings = Chain::new(tail as u32, tip as u32);
+            chain(skeleton, &old, &settings, wag, None, &mut scratch, &mut poses).unwrap();
+            let prey = origin(&old, head) + direction(&mut random) * 200.0;
+            let gazes =
+                [Gaze { share: 0.5, ..Gaze::new(neck as u32, Vec3::X) }, Gaze::new(head as u32, Vec3::X)];
+            look_at(skeleton, &old, &LookAt::new(&gazes), prey, &mut poses).unwrap();
+            let new = matrices(skeleton, &poses);
+            assert!(origin(&new, hand).distance(paw) < 1e-4 * arm, "{}", take.name);
+            assert!(origin(&new, tip).distance(wag) < 1e-4 * size(&[tail, tip]), "{}", take.name);
+            let ahead = new[head].x_axis.truncate().normalize();
+            assert!(ahead.distance((prey - origin(&new, head)).normalize()) < 1e-4, "{}", take.name);
+        }
+    }
+}
+
+#[test]
 fn strange_limbs_have_defined_answers() {
     let mut random = started(30);
     let (skeleton, rest) = row(&mut random, 2, Parent::Plain);

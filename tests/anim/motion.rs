@@ -93,9 +93,12 @@ fn origins(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Mat4> {
 
 /// Keys, times between them, and times outside.
 fn moments(take: &Take) -> Vec<f32> {
-    let keys: Vec<f32> = take.tracks.iter().flat_map(Track::key_times).collect();
+    let keys = take.tracks.iter().flat_map(Track::key_times);
     let steps = (-5..=105).map(|step| take.start + take.length * step as f32 / 100.0);
-    keys.iter().copied().chain(steps).collect()
+    let mut times: Vec<f32> = keys.chain(steps).collect();
+    times.sort_by(f32::total_cmp);
+    times.dedup();
+    times
 }
 
 /// The largest distance between the same bone in two takes, as a share of how far bones get from the origin.
@@ -322,6 +325,45 @@ fn what_has_no_motion_is_an_error_with_its_reason() {
     let error = extract(&take, &skeleton, 1, RootMotionOptions::default()).unwrap_err();
     assert_eq!(error, MotionError::Flat { bone: 1, milliseconds: 0 });
     assert!(error.to_string().contains("scale above it is zero"));
+}
+
+#[test]
+fn whatever_a_take_holds_its_motion_and_what_is_left_are_numbers() {
+    let mut random = started(44);
+    let hostile = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, 1e-45, 1e38, f32::MAX, -1.0];
+    for _ in 0..1_000 {
+        let mut skeleton = figure(&mut random);
+        let kind = random.choice(&KINDS);
+        let mut hips = Track {
+            translation: moving(&mut random, kind),
+            rotation: turning(&mut random, kind),
+            ..Track::default()
+        };
+        for _ in 0..1 + random.below(4) {
+            let number = random.choice(&hostile);
+            let (turns, moves) = (&mut hips.rotation, &mut hips.translation);
+            let (key, value) = (random.below(turns.times.len()), random.below(turns.values.len()));
+            let (time, place) = (random.below(moves.times.len()), random.below(moves.values.len().max(1)));
+            moves.values = if moves.values.is_empty() { [Vec3::X].into() } else { moves.values.clone() };
+            match random.below(6) {
+                0 => std::sync::Arc::make_mut(&mut turns.times)[key] = number,
+                1 => std::sync::Arc::make_mut(&mut turns.values)[value].y = number,
+                2 => std::sync::Arc::make_mut(&mut moves.times)[time] = number,
+                3 => std::sync::Arc::make_mut(&mut moves.values)[place].z = number,
+                4 => moves.values = moves.values[..place].into(),
+                _ => skeleton.bones[0].rest.scale.x = number,
+            }
+        }
+        let take = take(vec![Track::default(), hips]);
+        let Ok((motion, still)) = extract(&take, &skeleton, 1, options(&mut random)) else { continue };
+        let Ok(back) = put_back(&still, &skeleton, &motion) else { continue };
+        for time in [f32::NAN, -1.0, 0.0, 0.5, 1.0, 3.0] {
+            assert!(motion.at(time).is_finite() && motion.delta(0.3, time, PlayMode::Loop).is_finite());
+            for take in [&still, &back] {
+                assert!(origins(&skeleton, take, time).iter().all(|matrix| matrix.is_finite()));
+            }
+        }
+    }
 }
 
 pub(crate) fn load(path: &Path) -> ModelData {

@@ -27,7 +27,8 @@ pub struct RootMotion {
 impl RootMotion {
     /// `M(t)`: from the scene in which the take is in place to that in which it moves, at `time` seconds; scale 1.
     ///
-    /// Clamped to the keys. The identity at the start of the take, unless its keys have been edited.
+    /// Clamped to the keys. The identity at the start of the take, unless its keys have been edited; also where the
+    /// result would be past what f32 can hold.
     pub fn at(&self, time: f32) -> Transform {
         self.rigid(time).to_transform()
     }
@@ -49,8 +50,7 @@ impl RootMotion {
         let once = end.then_inside(self.rigid(self.start).inverse());
         let between = once.repeated(loops_to.saturating_sub(loops_from));
         let delta = self.rigid(from).inverse().then_inside(between).then_inside(self.rigid(to));
-        let delta = delta.to_transform();
-        if delta.is_finite() { delta } else { Transform::IDENTITY }
+        delta.to_transform()
     }
 
     /// How often the take has gone by at `time` of a clock, and the time within it.
@@ -114,6 +114,7 @@ impl Rigid {
 
     fn to_transform(self) -> Transform {
         let rotation = self.rotation.as_quat().normalize();
-        Transform { translation: self.translation.as_vec3(), rotation, scale: Vec3::ONE }
+        let transform = Transform { translation: self.translation.as_vec3(), rotation, scale: Vec3::ONE };
+        if transform.is_finite() { transform } else { Transform::IDENTITY }
     }
 }

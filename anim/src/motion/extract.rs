@@ -67,7 +67,7 @@ pub(super) fn times_above(take: &Take, skeleton: &Skeleton, bone: BoneIndex) -> 
 
 /// Must the translation have keys wherever the rotation has? Where something horizontal stays in the take while the yaw
 /// does not, the yaw turns what stays.
-pub(super) fn is_coupled(horizontal: [bool; 3], up: usize, moves: bool) -> bool {
+fn is_coupled(horizontal: [bool; 3], up: usize, moves: bool) -> bool {
     moves && (0..3).any(|axis| axis != up && !horizontal[axis])
 }
 

@@ -1,6 +1,6 @@
 //! Putting the motion back, and the formula that both ways share.
 
-use super::extract::{is_coupled, map, map_turns, times_above, track_of, with_track};
+use super::extract::{map, map_turns, times_above, track_of, with_track};
 use super::frame::Frame;
 use super::keys::{Refine, slopes, spins};
 use super::{MotionError, RootMotion};
@@ -35,7 +35,7 @@ pub fn put_back(take: &Take, skeleton: &Skeleton, motion: &RootMotion) -> Result
     }
     // Does anything lie off the axis of rotation, so that it is turned?
     let off_axis = !track.translation.is_empty() && has_horizontal(take, skeleton, &track, motion)?;
-    if is_coupled([!off_axis; 3], motion.up as usize, turning) {
+    if off_axis && turning {
         track.translation = Vec3::refined(&track.translation, rest.translation, &motion.rotation.times);
     }
     let track = apply(take, skeleton, &track, motion, Way::Back)?;
