@@ -225,6 +225,8 @@ fn the_bend_goes_to_the_side_of_the_pole_and_without_one_stays_in_its_plane() {
         let side = Vec3::new(pole.x, 0.0, pole.z).normalize();
         let expected = Vec3::new(0.0, 1.4, 0.0) + side * 0.8;
         assert!(knee.distance(expected) < 1e-5, "{pole}: {knee}");
+        // A straight leg bends to that side at once and does not twist.
+        assert!(poses[0].rotation.y.abs() < 1e-6, "{pole}: {}", poses[0].rotation);
     }
     // Bent forward a little, the knee stays in the plane x = 0 however it is lifted.
     let mut poses = rest.clone();
@@ -367,6 +369,31 @@ fn a_chain_out_of_reach_points_straight_at_its_target() {
             let expected = at_distance(&old, &poses, way, distance);
             assert!(origin(&new, index + 2).distance(expected) < 1e-4 * most * poses[0].scale.x, "{round}");
         }
+    }
+}
+
+#[test]
+fn a_chain_that_cannot_fold_so_far_points_at_its_target_from_as_near_as_it_can() {
+    let mut random = started(36);
+    let mut scratch = ChainScratch::default();
+    for round in 0..500 {
+        let links = 2 + random.below(4);
+        let (skeleton, mut poses) = row(&mut random, links, Parent::Plain);
+        let long = 2 + random.below(links);
+        let part = poses[long].translation;
+        poses[long].translation = part.normalize() * 6.0 * links as f32;
+        let old = matrices(&skeleton, &poses);
+        let parts = lengths(&poses);
+        let most: f32 = parts.iter().sum();
+        let least = 2.0 * parts.iter().copied().fold(0.0, f32::max) - most;
+        assert!(least > 0.0);
+        let (way, distance) = (direction(&mut random), least * random.choice(&[0.1, 0.5, 0.9, 0.999]));
+        let target = at_distance(&old, &poses, way, distance);
+        let settings = Chain::new(1, links as u32 + 1);
+        chain(&skeleton, &old, &settings, target, None, &mut scratch, &mut poses).unwrap();
+        let end = origin(&matrices(&skeleton, &poses), links + 1);
+        let expected = at_distance(&old, &poses, way, least);
+        assert!(end.distance(expected) < 1e-4 * most, "{round}: {} of {most}", end.distance(expected));
     }
 }
 

@@ -257,10 +257,15 @@ fn many_small_deltas_make_the_same_way_as_one_over_many_loops() {
         }
         let once = motion.delta(from, to, PlayMode::Loop).to_matrix();
         assert!(place.abs_diff_eq(once, 2e-3), "{from} {to}: {place} {once}");
+        let back = motion.delta(to, from, PlayMode::Loop).to_matrix();
+        assert!((once * back).abs_diff_eq(Mat4::IDENTITY, 1e-4), "{from} {to}: there and back");
     }
     // Four quarter turns, each 2 m ahead: a square, back where it began.
     let square = motion.delta(0.5, 0.5 + 4.0 * 1.5, PlayMode::Loop);
     assert!(square.translation.length() < 1e-5 && angle_between(square.rotation, Quat::IDENTITY) < 1e-5);
+    // Backwards over the seam: the last quarter of the take before the first one is 1/3 m and 45/3° behind.
+    let seam = motion.delta(0.5, 0.25, PlayMode::Loop);
+    assert!(angle_between(seam.rotation, Quat::from_rotation_y(-std::f32::consts::FRAC_PI_2 / 6.0)) < 1e-5);
     // A million loops of a straight walk are a million times the way.
     let straight = RootMotion { rotation: Channel::default(), ..motion.clone() };
     let far = straight.delta(0.5, 0.5 + 1.5 * (1 << 20) as f32, PlayMode::Loop).translation;

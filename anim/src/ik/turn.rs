@@ -51,8 +51,8 @@ pub(super) fn twist_towards(axis: Vec3, from: Vec3, to: Vec3) -> Option<Quat> {
     Some(Quat::from_xyzw(axis.x * along, axis.y * along, axis.z * along, w).normalize())
 }
 
-/// The rotation nearest to `matrix` in its z and y axes: both made perpendicular, the third follows; `None` where an
-/// axis has no length.
+/// The rotation nearest to `matrix` in its z and y axes: both made perpendicular, the third follows, so that a
+/// mirrored matrix has its x axis turned round; `None` where an axis has no length.
 pub(super) fn rotation_of(matrix: Mat3) -> Option<Quat> {
     let z = matrix.z_axis.try_normalize()?;
     let y = (matrix.y_axis - z * matrix.y_axis.dot(z)).try_normalize()?;

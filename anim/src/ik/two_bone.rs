@@ -323,8 +323,7 @@ fn end_rotation(
         EndOrientation::KeepToRoot => kept(Quat::IDENTITY),
         EndOrientation::TurnToRoot(turn) => kept(blend(Quat::IDENTITY, turn.normalize(), weight)),
         EndOrientation::SetToRoot(wanted) => {
-            let mirror = Mat3::from_diagonal(Vec3::new(after.determinant().signum(), 1.0, 1.0));
-            let set = rotation_of(back * Mat3::from_quat(wanted.normalize()) * mirror);
+            let set = rotation_of(back * Mat3::from_quat(wanted.normalize()));
             set.map(|set| blend(own, set, weight))
         }
     };
