@@ -425,6 +425,39 @@ fn a_chain_keeps_its_joint_limits_and_comes_no_farther_from_its_target() {
 }
 
 #[test]
+fn a_straight_chain_bends_within_its_limits_and_a_stubborn_limit_makes_nothing_worse() {
+    let bones = (0..5).map(|index: u32| bone("link", index.checked_sub(1), Vec3::X)).collect();
+    let skeleton = Skeleton { bones };
+    let rest: Vec<Transform> = skeleton.bones.iter().map(rest_pose).collect();
+    let old = matrices(&skeleton, &rest);
+    let mut scratch = ChainScratch::default();
+    let mut solve = |target: Vec3, limit: dragonfly_anim::ik::Limit<'_>| {
+        let mut poses = rest.clone();
+        let row = Chain::new(0, 4);
+        let reach = chain(&skeleton, &old, &row, target, Some(limit), &mut scratch, &mut poses).unwrap();
+        assert!((origin(&matrices(&skeleton, &poses), 4).distance(target) - reach.distance).abs() < 1e-5);
+        reach.distance
+    };
+    let mut cone = |bone: u32, wish: Quat| {
+        let (axis, angle) = if wish.w < 0.0 { -wish } else { wish }.to_axis_angle();
+        if bone == 0 { wish } else { Quat::from_axis_angle(axis, angle.min(1.2)) }
+    };
+    // On the line through the joints: nothing says to which side to bend.
+    for distance in [2.5, 3.0, 3.5, 3.9] {
+        let left = solve(Vec3::X * distance, &mut cone);
+        assert!(left < 0.1 * (4.0 - distance), "at {distance}: {left}");
+    }
+    let mut random = started(37);
+    for _ in 0..200 {
+        let (target, fixed) = (Vec3::X + vector(&mut random) * 4.0, turn(&mut random));
+        let mut stubborn = |bone: u32, wish: Quat| if bone == 2 { fixed } else { wish };
+        assert!(solve(target, &mut stubborn) <= origin(&old, 4).distance(target) * 1.000_01);
+        let mut deaf = |_: u32, _: Quat| fixed;
+        assert!(solve(target, &mut deaf) <= origin(&old, 4).distance(target) * 1.000_01);
+    }
+}
+
+#[test]
 fn a_chain_with_limits_finds_most_targets_that_can_be_reached_within_them() {
     let mut random = started(34);
     let mut scratch = ChainScratch::default();

@@ -63,10 +63,12 @@ struct Link {
 /// Turns the bones of `settings` so that the end meets `target` (to-root space), or comes as near as they can.
 ///
 /// Out of reach, the chain is straight and points at the target; too near (one bone longer than all others together), it
-/// is folded and points at it. A straight chain bends to a side that is always the same. With a `limit` there is no
-/// promise but this: the result is the best that was met, and no farther from the target than the pose was, unless the
-/// pose itself breaks the limits. Bones without length do not turn. Where bones of the row are scaled differently per
-/// axis, their lengths depend on their directions and the sweeps begin anew, at most `iterations` times in all.
+/// is folded and points at it. A straight chain bends to a side that is always the same. Bones without length do not
+/// turn. Where bones of the row are scaled differently per axis, their lengths depend on their directions and the sweeps
+/// begin anew, at most `iterations` times in all.
+///
+/// With a `limit` the search may end early, most of all for a straight chain whose target lies on its own line. The
+/// result is the best that was met, and no farther from the target than the pose was.
 ///
 /// `to_root` is read at the root's parent only. Returns the distance left at full weight, and the sweeps made.
 pub fn chain(
@@ -177,7 +179,7 @@ impl ChainScratch {
     /// CCD), where a turn that its limit allows brings the end nearer: a sweep does not see how the joints that are free
     /// can make up for one that is not.
     fn close_in(&mut self, goal: DVec3, tolerance: f64, limit: Limit<'_>) {
-        for _ in 0..8 {
+        for _ in 0..32 {
             let before = self.gap(goal);
             for index in (0..self.lengths.len()).rev() {
                 let nearest = self.gap(goal);
