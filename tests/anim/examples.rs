@@ -10,6 +10,12 @@ mod check_a_model;
 mod own_interpolation;
 #[path = "../../anim/examples/play_a_take.rs"]
 mod play_a_take;
+#[path = "../../anim/examples/reach_with_ik.rs"]
+mod reach_with_ik;
+#[path = "../../anim/examples/root_motion.rs"]
+mod root_motion;
+#[path = "../../anim/examples/same_animation_other_model.rs"]
+mod same_animation_other_model;
 #[path = "../../anim/examples/save_and_load.rs"]
 mod save_and_load;
 
@@ -41,6 +47,21 @@ fn a_model_is_saved_and_loaded() {
 #[test]
 fn a_model_is_checked() {
     check_a_model::main().unwrap();
+}
+
+#[test]
+fn limbs_reach() {
+    reach_with_ik::main();
+}
+
+#[test]
+fn a_walk_is_parted_from_its_way() {
+    root_motion::main();
+}
+
+#[test]
+fn another_model_moves_alike() {
+    same_animation_other_model::main();
 }
 
 #[test]

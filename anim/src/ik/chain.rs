@@ -1,0 +1,264 @@
+//! Any number of bones in a row: a tail, a spine, a tentacle, an arm with a clavicle.
+//!
+//! FABRIK rather than CCD (cyclic coordinate descent): it bends all bones alike where CCD curls the end up first, it
+//! needs fewer sweeps, and it does not depend on the order of the joints. What FABRIK is slow at, targets close to full
+//! reach, is finished in closed form. It works on points, so the rotations are found afterwards, from the first bone to
+//! the last: each turns the short way from where it points to where the next joint shall be. A bone thereby keeps its
+//! twist, and a joint limit is asked for every new rotation; what it takes away is made
+//! up for in the next sweep, and in the end by a few passes of CCD, which sees where a free joint can help a stiff one.
+
+use super::fabrik::Points;
+use super::path::{parent_of, parent_to_root, pose_of};
+use super::turn::{arc_between, share};
+use super::{IkError, Reach};
+use crate::data::{BoneIndex, Skeleton, Transform};
+use crate::sample::Value;
+use crate::sample::mix::slerp;
+use glam::{DMat3, DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
+
+/// A joint limit: given a bone and the rotation relative to its parent that the solver would like, gives the rotation it
+/// gets. One that is not finite counts as no objection.
+pub type Limit<'a> = &'a mut dyn FnMut(BoneIndex, Quat) -> Quat;
+
+/// A row of bones and how to move it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chain {
+    /// First bone that turns.
+    pub root: BoneIndex,
+    /// Its origin meets the target; below `root`. Does not turn itself. All bones between turn.
+    pub end: BoneIndex,
+    /// Good enough: distance to the target as a share of the chain's length.
+    pub tolerance: f32,
+    /// Most sweeps, 1..=1000. Without limits the target is met anyway; more sweeps bend more evenly.
+    pub iterations: u32,
+    /// 0 keeps the poses bit for bit, 1 is the full solution; between, each rotation is slerped.
+    pub weight: f32,
+}
+
+impl Chain {
+    /// From `root` to `end`, within a hundred-thousandth of its length, in at most 32 sweeps, at full weight.
+    pub fn new(root: BoneIndex, end: BoneIndex) -> Self {
+        Self { root, end, tolerance: 1e-5, iterations: 32, weight: 1.0 }
+    }
+}
+
+/// Working memory of [`chain()`], kept between calls so that they allocate nothing.
+#[derive(Clone, Debug, Default)]
+pub struct ChainScratch {
+    links: Vec<Link>,
+    joints: Vec<DVec3>,
+    lengths: Vec<f64>,
+}
+
+/// One bone of the row.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    bone: BoneIndex,
+    posed: Transform,
+    rotation: DQuat,
+    /// The rotation that came nearest to the target so far.
+    best: DQuat,
+}
+
+/// Turns the bones of `settings` so that the end meets `target` (to-root space), or comes as near as they can.
+///
+/// Out of reach, the chain is straight and points at the target; too near (one bone longer than all others together), it
+/// is folded and points at it. A straight chain bends to a side that is always the same. Bones without length do not
+/// turn. Where bones of the row are scaled differently per axis, their lengths depend on their directions and the sweeps
+/// begin anew, at most `iterations` times in all.
+///
+/// With a `limit` the search may end early, most of all for a straight chain whose target lies on its own line. The
+/// result is the best that was met, and no farther from the target than the pose was.
+///
+/// `to_root` is read at the root's parent only. Returns the distance left at full weight, and the sweeps made.
+pub fn chain(
+    skeleton: &Skeleton,
+    to_root: &[Mat4],
+    settings: &Chain,
+    target: Vec3,
+    mut limit: Option<Limit<'_>>,
+    scratch: &mut ChainScratch,
+    poses: &mut [Transform],
+) -> Result<Reach, IkError> {
+    let parent = parent_to_root(skeleton, to_root, settings.root)?.as_dmat4();
+    scratch.load(skeleton, poses, settings)?;
+    let linear = DMat3::from_mat4(parent);
+    if linear.determinant() == 0.0 || !linear.inverse().is_finite() {
+        return Err(IkError::Flat { bone: settings.root });
+    }
+    let goal = linear.inverse() * (target.as_dvec3() - parent.w_axis.truncate());
+    if !goal.is_finite() || scratch.links.iter().any(|link| !link.posed.is_finite()) {
+        return Err(IkError::NotFinite { bone: settings.root });
+    }
+    let iterations = scratch.solve(settings, goal, &mut limit);
+    let distance = distance(&scratch.joints, &parent, goal);
+    if !(distance.is_finite() && scratch.links.iter().all(|link| link.best.is_finite())) {
+        return Err(IkError::NotFinite { bone: settings.root });
+    }
+    let weight = share(settings.weight);
+    let turning = scratch.links.len() - 1;
+    for link in scratch.links[..turning].iter().filter(|_| weight > 0.0) {
+        let solved = link.best.as_quat().normalize();
+        let own = link.posed.rotation;
+        poses[link.bone as usize].rotation = if weight < 1.0 { slerp(own, solved, weight) } else { solved };
+    }
+    Ok(Reach { distance, iterations })
+}
+
+/// From the last joint to the goal, in to-root space.
+fn distance(joints: &[DVec3], parent: &DMat4, goal: DVec3) -> f32 {
+    let last = joints.last().copied().unwrap_or(goal);
+    parent.transform_vector3(goal - last).length() as f32
+}
+
+impl ChainScratch {
+    /// Room for chains of `bones` bones, so that not even the first call allocates.
+    pub fn with_capacity(bones: usize) -> Self {
+        Self {
+            links: Vec::with_capacity(bones),
+            joints: Vec::with_capacity(bones),
+            lengths: Vec::with_capacity(bones),
+        }
+    }
+
+    /// The row of bones, from the poses.
+    fn load(&mut self, skeleton: &Skeleton, poses: &[Transform], settings: &Chain) -> Result<(), IkError> {
+        self.links.clear();
+        let mut bone = settings.end;
+        loop {
+            let posed = pose_of(skeleton, poses, bone)?;
+            let rotation = posed.rotation.as_dquat().normalize();
+            self.links.push(Link { bone, posed, rotation, best: rotation });
+            if bone == settings.root && self.links.len() > 1 {
+                break;
+            }
+            let below = IkError::NotBelow { above: settings.root, below: settings.end };
+            bone = parent_of(skeleton, bone).ok_or(below)?;
+        }
+        self.links.reverse();
+        self.joints.clear();
+        self.joints.resize(self.links.len(), DVec3::ZERO);
+        self.lengths.clear();
+        self.lengths.resize(self.links.len() - 1, 0.0);
+        Ok(())
+    }
+
+    /// Sweeps until the goal is met or nothing helps; leaves the best rotations and the joints that belong to them.
+    fn solve(&mut self, settings: &Chain, goal: DVec3, limit: &mut Option<Limit<'_>>) -> u32 {
+        self.place();
+        let mut nearest = self.gap(goal);
+        let total: f64 = self.lengths.iter().sum();
+        let tolerance = f64::from(settings.tolerance.max(1e-7)) * total;
+        let (mut made, most) = (0, settings.iterations.clamp(1, 1_000));
+        while nearest > tolerance && made < most {
+            let sweeps = if limit.is_some() { 1 } else { most - made };
+            let mut points = Points { joints: &mut self.joints, lengths: &self.lengths };
+            made += points.reach(goal, sweeps, tolerance).max(1);
+            if limit.is_none() && made >= most {
+                points.finish(goal);
+            }
+            self.turn(limit);
+            let before = nearest;
+            if self.gap(goal) < nearest {
+                nearest = self.gap(goal);
+                self.links.iter_mut().for_each(|link| link.best = link.rotation);
+            }
+            if limit.is_none() && nearest > 0.999 * before {
+                break;
+            }
+        }
+        self.links.iter_mut().for_each(|link| link.rotation = link.best);
+        self.place();
+        if let Some(limit) = limit {
+            self.close_in(goal, tolerance, limit);
+        }
+        made
+    }
+
+    /// A few passes of turning one bone at a time, last to first, so that the end points at the goal from it (that is
+    /// CCD), where a turn that its limit allows brings the end nearer: a sweep does not see how the joints that are free
+    /// can make up for one that is not.
+    fn close_in(&mut self, goal: DVec3, tolerance: f64, limit: Limit<'_>) {
+        for _ in 0..32 {
+            let before = self.gap(goal);
+            for index in (0..self.lengths.len()).rev() {
+                let nearest = self.gap(goal);
+                let above =
+                    self.links[..index].iter().fold(DMat3::IDENTITY, |above, link| above * link.linear());
+                let (inverse, joint) = (above.inverse(), self.joints[index]);
+                let end = self.joints[self.joints.len() - 1];
+                let (from, to) = (inverse * (end - joint), inverse * (goal - joint));
+                if nearest <= tolerance || !from.is_finite() || !to.is_finite() {
+                    continue;
+                }
+                let link = &mut self.links[index];
+                let wish = (arc_between(from, to) * link.best).as_quat().normalize();
+                link.rotation = limit(link.bone, wish).healed(wish).as_dquat().normalize();
+                self.place();
+                let kept = self.gap(goal) < nearest;
+                let link = &mut self.links[index];
+                if kept {
+                    link.best = link.rotation
+                } else {
+                    link.rotation = link.best
+                }
+                if !kept {
+                    self.place();
+                }
+            }
+            if self.gap(goal) > 0.999 * before || self.gap(goal) <= tolerance {
+                break;
+            }
+        }
+    }
+
+    fn gap(&self, goal: DVec3) -> f64 {
+        self.joints.last().map_or(0.0, |last| last.distance(goal))
+    }
+
+    /// Joints and lengths from the rotations.
+    fn place(&mut self) {
+        let mut linear = DMat3::IDENTITY;
+        for index in 0..self.links.len() {
+            let link = self.links[index];
+            let offset = linear * link.posed.translation.as_dvec3();
+            if index == 0 {
+                self.joints[0] = offset;
+            } else {
+                self.joints[index] = self.joints[index - 1] + offset;
+                self.lengths[index - 1] = offset.length();
+            }
+            linear *= link.linear();
+        }
+    }
+
+    /// Rotations from the joints, first to last; then joints and lengths from the rotations.
+    fn turn(&mut self, limit: &mut Option<Limit<'_>>) {
+        let mut linear = DMat3::IDENTITY;
+        let mut position = self.joints[0];
+        for index in 0..self.lengths.len() {
+            let arm = self.links[index + 1].posed.translation.as_dvec3();
+            let link = &mut self.links[index];
+            let inverse = linear.inverse();
+            let wanted = inverse * (self.joints[index + 1] - position);
+            let scaled = link.posed.scale.as_dvec3() * arm;
+            if inverse.is_finite() && wanted.is_finite() {
+                let turn = arc_between(link.rotation * scaled, wanted);
+                link.rotation = (turn * link.rotation).normalize();
+            }
+            if let Some(limit) = limit {
+                let wish = link.rotation.as_quat().normalize();
+                link.rotation = limit(link.bone, wish).healed(wish).as_dquat().normalize();
+            }
+            linear *= link.linear();
+            position += linear * arm;
+        }
+        self.place();
+    }
+}
+
+impl Link {
+    fn linear(&self) -> DMat3 {
+        DMat3::from_quat(self.rotation) * DMat3::from_diagonal(self.posed.scale.as_dvec3())
+    }
+}

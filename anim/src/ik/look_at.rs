@@ -1,0 +1,210 @@
+//! A gaze: a head, or a row of bones up to it, turns towards a point.
+//!
+//! The bones are taken in order. Each turns its forward axis towards the target by its share of the way that is left, so
+//! shares of 0.3, 0.5 and 1.0 for chest, neck and head give a curve, and the last bone closes the gap. In the space of
+//! the bone's parent, with `f` the forward axis and `d` the direction from the bone to the target:
+//!
+//! ```text
+//! turn  = the shortest rotation of f onto d, then (with an up direction) the twist about d that brings the bone's
+//!         up axis nearest to it
+//! θ     = angle of turn
+//! θ'    = soft_distance(θ share fade, limit, softness)         never more than limit
+//! new   = rotation about the axis of turn by θ' · old
+//! ```
+//!
+//! `fade` falls smoothly from 1 to 0 while the target leaves the field of view, measured from the forward axis of the
+//! last bone as posed: a head gives up rather than snap from one shoulder to the other.
+
+use super::path::{parent_of, parent_to_root, pose_of};
+use super::turn::{arc, share, twist_towards};
+use super::two_bone::{inverse, soft_distance};
+use super::{IkError, Reach};
+use crate::animation::to_parent;
+use crate::data::{BoneIndex, Skeleton, Transform};
+use glam::{Mat3, Mat4, Quat, Vec3};
+use std::f32::consts::PI;
+
+/// One bone of a gaze.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gaze {
+    /// Which bone turns.
+    pub bone: BoneIndex,
+    /// Bone space, any length: what shall point at the target.
+    pub forward: Vec3,
+    /// Bone space, any length: what shall stay up. Only used with [`LookAt::up`].
+    pub up: Vec3,
+    /// Bone space: where the eye is; the line from here along `forward` meets the target. Farther from the bone's origin
+    /// than the target is, it counts as the origin.
+    pub eye: Vec3,
+    /// Share of the way that is left when it is this bone's turn, 0..=1.
+    pub share: f32,
+    /// Radians: largest turn away from the pose; π or more is none.
+    pub limit: f32,
+}
+
+impl Gaze {
+    /// Bone `bone` looks along `forward`, all the way, without limit; up is any.
+    pub fn new(bone: BoneIndex, forward: Vec3) -> Self {
+        Self { bone, forward, up: Vec3::ZERO, eye: Vec3::ZERO, share: 1.0, limit: PI }
+    }
+}
+
+/// A row of bones that look.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LookAt<'a> {
+    /// Each one below the one before it; other bones may lie between.
+    pub bones: &'a [Gaze],
+    /// To-root space, any length: where the bones' up axes shall point; `None`: no bone twists.
+    pub up: Option<Vec3>,
+    /// Radians from the last bone's posed forward axis to the target: up to the first all is as written above, from the
+    /// second on nothing moves; smooth between. `[PI, PI]` or more: no target is out of view.
+    pub field: [f32; 2],
+    /// Share of each limit over which the turning slows down, 0..=1; 0 is a hard stop.
+    pub softness: f32,
+    /// 0 keeps the poses bit for bit, 1 turns each bone by its share.
+    pub weight: f32,
+}
+
+impl<'a> LookAt<'a> {
+    /// `bones` look without twist, field of view or softness, at full weight.
+    pub fn new(bones: &'a [Gaze]) -> Self {
+        Self { bones, up: None, field: [PI, PI], softness: 0.0, weight: 1.0 }
+    }
+}
+
+/// Turns the bones of `gaze` towards `target` (to-root space).
+///
+/// A target at a bone's own origin leaves that bone as it is; one exactly behind is turned to about some axis at a
+/// right angle to forward, always the same. `to_root` is read at the parent of the first bone only. On an error no bone
+/// has moved. Returns the distance from the target to the line of the last bone's gaze, or to its eye where the target
+/// is behind it; 0 without bones.
+pub fn look_at(
+    skeleton: &Skeleton,
+    to_root: &[Mat4],
+    gaze: &LookAt<'_>,
+    target: Vec3,
+    poses: &mut [Transform],
+) -> Result<Reach, IkError> {
+    let Some(last) = gaze.bones.last() else { return Ok(Reach { distance: 0.0, iterations: 0 }) };
+    // First over unchanged poses: finds every error before anything moves.
+    let mut above = None;
+    for one in gaze.bones {
+        let parent = space_of(skeleton, to_root, poses, one.bone, above)?;
+        aim(&parent, poses[one.bone as usize], one, gaze, target)?;
+        above = Some((one.bone, parent));
+    }
+    let Some((_, parent)) = above else { return Ok(Reach { distance: 0.0, iterations: 0 }) };
+    let away = angle_to(&parent, poses[last.bone as usize], last, target);
+    let weight = share(gaze.weight) * fade(away, gaze.field);
+    let mut above = None;
+    for one in gaze.bones {
+        let parent = space_of(skeleton, to_root, poses, one.bone, above)?;
+        let pose = &mut poses[one.bone as usize];
+        if weight > 0.0 {
+            pose.rotation = aim(&parent, *pose, one, &LookAt { weight, ..*gaze }, target)?;
+        }
+        above = Some((one.bone, parent));
+    }
+    let parent = above.map_or(Mat4::IDENTITY, |(_, parent)| parent);
+    let distance = miss(parent * poses[last.bone as usize].to_matrix(), last, target);
+    Ok(Reach { distance, iterations: 1 })
+}
+
+/// To-root of the parent of `bone`, from that of the parent of a bone above it; of the first bone: from `to_root`.
+fn space_of(
+    skeleton: &Skeleton,
+    to_root: &[Mat4],
+    poses: &[Transform],
+    bone: BoneIndex,
+    above: Option<(BoneIndex, Mat4)>,
+) -> Result<Mat4, IkError> {
+    pose_of(skeleton, poses, bone)?;
+    let Some((first, to_root_above)) = above else { return parent_to_root(skeleton, to_root, bone) };
+    let mut matrix = Mat4::IDENTITY;
+    let mut at = bone;
+    loop {
+        at = parent_of(skeleton, at).ok_or(IkError::NotBelow { above: first, below: bone })?;
+        matrix = to_parent(&skeleton.bones[at as usize], pose_of(skeleton, poses, at)?) * matrix;
+        if at == first {
+            return Ok(to_root_above * matrix);
+        }
+    }
+}
+
+/// The rotation of one bone that looks.
+fn aim(parent: &Mat4, pose: Transform, one: &Gaze, gaze: &LookAt<'_>, target: Vec3) -> Result<Quat, IkError> {
+    let linear = inverse(Mat3::from_mat4(*parent)).ok_or(IkError::Flat { bone: one.bone })?;
+    let wanted = linear * (target - parent.w_axis.truncate()) - pose.translation;
+    if !wanted.is_finite() || !pose.rotation.is_finite() {
+        return Err(IkError::NotFinite { bone: one.bone });
+    }
+    let forward = pose.rotation * sight(pose.scale * one.forward, pose.scale * one.eye, wanted.length());
+    let (Some(from), Some(to)) = (forward.try_normalize(), wanted.try_normalize()) else {
+        return Ok(pose.rotation);
+    };
+    let mut turn = arc(from, to);
+    if let Some(up) = gaze.up {
+        let own = turn * (pose.rotation * (pose.scale * one.up));
+        turn = twist_towards(to, own, linear * up).map_or(turn, |twist| (twist * turn).normalize());
+    }
+    let (axis, angle) = shortest(turn);
+    let limit = if one.limit >= 0.0 { one.limit.min(PI) } else { 0.0 };
+    let allowed = if limit >= PI { 0.0 } else { gaze.softness };
+    let angle = soft_distance(angle * share(one.share) * share(gaze.weight), limit, allowed);
+    let rotation = (Quat::from_axis_angle(axis, angle) * pose.rotation).normalize();
+    if rotation.is_finite() { Ok(rotation) } else { Err(IkError::NotFinite { bone: one.bone }) }
+}
+
+/// What has to point at a target `distance` away, so that the line from `eye` along `forward` meets it.
+///
+/// The point of that line that is as far from the origin as the target: `eye + t f`, `t = -eye·f + √((eye·f)² + distance² -
+/// |eye|²)` for unit f.
+fn sight(forward: Vec3, eye: Vec3, distance: f32) -> Vec3 {
+    let Some(unit) = forward.try_normalize() else { return Vec3::ZERO };
+    let along = eye.dot(unit);
+    let square = along * along + (distance - eye.length()) * (distance + eye.length());
+    if eye == Vec3::ZERO || !(distance > eye.length() && square.is_finite()) {
+        return unit;
+    }
+    eye + unit * (square.max(0.0).sqrt() - along)
+}
+
+/// Axis and angle of a rotation, 0..=π, exact for small angles.
+fn shortest(turn: Quat) -> (Vec3, f32) {
+    let turn = if turn.w < 0.0 { -turn } else { turn };
+    let sine = turn.xyz().length();
+    let axis = if sine > 0.0 { turn.xyz() / sine } else { Vec3::X };
+    (axis, 2.0 * sine.atan2(turn.w))
+}
+
+/// Radians from the bone's forward axis to the target, in the space of its parent.
+fn angle_to(parent: &Mat4, pose: Transform, one: &Gaze, target: Vec3) -> f32 {
+    let Some(linear) = inverse(Mat3::from_mat4(*parent)) else { return PI };
+    let wanted = linear * (target - parent.w_axis.truncate()) - pose.translation;
+    let forward = pose.rotation * sight(pose.scale * one.forward, pose.scale * one.eye, wanted.length());
+    match (forward.try_normalize(), wanted.try_normalize()) {
+        (Some(from), Some(to)) => 2.0 * (from - to).length().atan2((from + to).length()),
+        _ => 0.0,
+    }
+}
+
+/// 1 up to the first angle, 0 from the second on, `1 - (3 x² - 2 x³)` between.
+fn fade(angle: f32, [full, none]: [f32; 2]) -> f32 {
+    if full >= PI || angle <= full {
+        1.0
+    } else if angle < none {
+        let x = (angle - full) / (none - full);
+        1.0 - x * x * (3.0 - 2.0 * x)
+    } else {
+        0.0
+    }
+}
+
+/// How far the line of sight passes the target.
+fn miss(to_root: Mat4, one: &Gaze, target: Vec3) -> f32 {
+    let eye = to_root.transform_point3(one.eye);
+    let wanted = target - eye;
+    let along = to_root.transform_vector3(one.forward).normalize_or_zero();
+    let distance = (wanted - along * wanted.dot(along).max(0.0)).length();
+    if distance.is_finite() { distance } else { f32::MAX }
+}

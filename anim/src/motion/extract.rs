@@ -1,0 +1,185 @@
+//! Taking the motion out.
+
+use super::frame::{Frame, ancestors};
+use super::keys::{Refine, slopes, spins, union, with_values};
+use super::restore::{Way, apply};
+use super::{MotionError, RootMotion, RootMotionOptions};
+use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take, Track, Transform};
+use crate::sample::{Value, rest_pose, sample_track};
+use glam::{DQuat, DVec3, Quat, Vec3};
+
+/// Takes the motion of `bone` out of `take`: the motion, and the take in place.
+///
+/// A bone without keys whose ancestors do not move gives a motion without keys and the take as it was. Where ancestors
+/// move, the bone gets keys at their key times too. Nothing else of the take is changed.
+///
+/// Everything the options take out is gone at the key times; between them as well if only translations are taken out and
+/// the ancestors rest. With yaw, place and direction between two keys differ from the take by what the mix of two
+/// products differs from the product of two mixes: of second order in the angle between the keys. What [`put_back`](super::put_back())
+/// makes of the two is the take again at all times.
+pub fn extract(
+    take: &Take,
+    skeleton: &Skeleton,
+    bone: BoneIndex,
+    options: RootMotionOptions,
+) -> Result<(RootMotion, Take), MotionError> {
+    let rest = rest_pose(skeleton.bones.get(bone as usize).ok_or(MotionError::NoSuchBone { bone })?);
+    let track = refined(take, skeleton, bone, rest, options);
+    let motion = measure(take, skeleton, &track, rest, options)?;
+    let track = apply(take, skeleton, &track, &motion, Way::Out)?;
+    Ok((motion, with_track(take, track)))
+}
+
+/// The take of [`extract`] alone.
+pub fn in_place(
+    take: &Take,
+    skeleton: &Skeleton,
+    bone: BoneIndex,
+    options: RootMotionOptions,
+) -> Result<Take, MotionError> {
+    extract(take, skeleton, bone, options).map(|(_, take)| take)
+}
+
+/// `take` with another track for one bone.
+pub(super) fn with_track(take: &Take, track: Track) -> Take {
+    let mut take = take.clone();
+    let index = track.bone as usize;
+    while take.tracks.len() <= index {
+        take.tracks.push(Track { bone: take.tracks.len() as BoneIndex, ..Track::default() });
+    }
+    take.tracks[index] = track;
+    take
+}
+
+/// The track of `bone`; an empty one where the take has none.
+pub(super) fn track_of(take: &Take, bone: BoneIndex) -> Track {
+    let track = take.tracks.get(bone as usize).cloned().unwrap_or_default();
+    Track { bone, ..track }
+}
+
+/// Key times of everything above `bone`.
+pub(super) fn times_above(take: &Take, skeleton: &Skeleton, bone: BoneIndex) -> Vec<f32> {
+    let tracks = ancestors(skeleton, bone).filter_map(|ancestor| take.tracks.get(ancestor));
+    let lists =
+        tracks.flat_map(|track| [&track.translation.times, &track.rotation.times, &track.scale.times]);
+    union(lists.map(|times| &times[..]))
+}
+
+/// Must the translation have keys wherever the rotation has? Where something horizontal stays in the take while the yaw
+/// does not, the yaw turns what stays.
+fn is_coupled(horizontal: [bool; 3], up: usize, moves: bool) -> bool {
+    moves && (0..3).any(|axis| axis != up && !horizontal[axis])
+}
+
+/// The track of the bone with all keys that the conversion needs.
+fn refined(
+    take: &Take,
+    skeleton: &Skeleton,
+    bone: BoneIndex,
+    rest: Transform,
+    options: RootMotionOptions,
+) -> Track {
+    let (mut track, above) = (track_of(take, bone), times_above(take, skeleton, bone));
+    if options.yaw {
+        track.rotation = Quat::refined(&track.rotation, rest.rotation, &above);
+    }
+    let moves = !track.translation.is_empty() || !above.is_empty();
+    let turning = options.yaw && !track.rotation.is_empty();
+    if options.translation.contains(&true) || turning {
+        track.translation = Vec3::refined(&track.translation, rest.translation, &above);
+    }
+    if turning && is_coupled(options.translation, options.up as usize, moves) {
+        track.translation = Vec3::refined(&track.translation, rest.translation, &track.rotation.times);
+    }
+    track
+}
+
+/// The motion of a refined track.
+fn measure(
+    take: &Take,
+    skeleton: &Skeleton,
+    track: &Track,
+    rest: Transform,
+    options: RootMotionOptions,
+) -> Result<RootMotion, MotionError> {
+    let (bone, up) = (track.bone, options.up.to_vec3().as_dvec3());
+    let frame = Frame::at(take, skeleton, bone, take.start)?;
+    let start = sample_track(track, &skeleton.bones[bone as usize], take.start);
+    let place = frame.place(start.translation.as_dvec3());
+    let mut motion = RootMotion {
+        bone,
+        up: options.up,
+        pivot: (place - up * place.dot(up)).as_vec3(),
+        start: take.start,
+        length: take.length,
+        ..RootMotion::default()
+    };
+    if options.translation.contains(&true) {
+        let chosen = DVec3::from_array(options.translation.map(|axis| f64::from(u8::from(axis))));
+        motion.translation = map(&track.translation, rest.translation, |time, value, rates| {
+            let frame = Frame::at(take, skeleton, bone, time)?;
+            let moved = chosen * (frame.place(value.as_dvec3()) - place);
+            Ok((moved.as_vec3(), rates.map(|rate| (chosen * frame.direct(rate.as_dvec3())).as_vec3())))
+        })?;
+    }
+    if options.yaw {
+        let back = frame.turn(start.rotation.as_dquat()).conjugate();
+        let mut last = DQuat::IDENTITY;
+        motion.rotation = map_turns(&track.rotation, rest.rotation, |time, value, rates| {
+            let frame = Frame::at(take, skeleton, bone, time)?;
+            let about = |rotation: Quat| along(frame.turn(rotation.as_dquat()) * back, up);
+            let raw = about(value);
+            let length = raw.length();
+            // Half a turn about a horizontal axis: no yaw can be told; it stays as it was.
+            let yaw = if length > 1e-6 { raw / length } else { last };
+            let sign = if yaw.dot(last) < 0.0 { -1.0 } else { 1.0 };
+            last = yaw * sign;
+            let rates = rates.map(|rate| {
+                let rate = about(rate) * (sign / length.max(1e-6));
+                (rate - last * last.dot(rate)).as_quat()
+            });
+            Ok((last.as_quat(), rates))
+        })?;
+    }
+    Ok(motion)
+}
+
+/// The part of a quaternion about `axis`, not normalised.
+fn along(rotation: DQuat, axis: DVec3) -> DQuat {
+    let part = axis * rotation.xyz().dot(axis);
+    DQuat::from_xyzw(part.x, part.y, part.z, rotation.w)
+}
+
+/// A channel with every key's value, and a spline's tangents, changed.
+pub(super) fn map(
+    channel: &Channel<Vec3>,
+    rest: Vec3,
+    mut change: impl FnMut(f32, Vec3, [Vec3; 2]) -> Result<(Vec3, [Vec3; 2]), MotionError>,
+) -> Result<Channel<Vec3>, MotionError> {
+    let cubic = channel.interpolation == Interpolation::CubicSpline;
+    let mut values = Vec::with_capacity(channel.values.len());
+    for (key, &time) in channel.times.iter().enumerate() {
+        let value = channel.value(key).map_or(rest, |value| value.healed(rest));
+        let rates = if cubic { slopes(channel, rest, time) } else { [Vec3::ZERO; 2] };
+        let (value, [before, after]) = change(time, value, rates)?;
+        if cubic { values.extend([before, value, after]) } else { values.push(value) }
+    }
+    Ok(with_values(channel, values))
+}
+
+/// [`map`] for rotations.
+pub(super) fn map_turns(
+    channel: &Channel<Quat>,
+    rest: Quat,
+    mut change: impl FnMut(f32, Quat, [Quat; 2]) -> Result<(Quat, [Quat; 2]), MotionError>,
+) -> Result<Channel<Quat>, MotionError> {
+    let cubic = channel.interpolation == Interpolation::CubicSpline;
+    let mut values = Vec::with_capacity(channel.values.len());
+    for (key, &time) in channel.times.iter().enumerate() {
+        let value = channel.value(key).map_or(rest, |value| value.healed(rest));
+        let rates = if cubic { spins(channel, time) } else { [Quat::from_array([0.0; 4]); 2] };
+        let (value, [before, after]) = change(time, value, rates)?;
+        if cubic { values.extend([before, value, after]) } else { values.push(value) }
+    }
+    Ok(with_values(channel, values))
+}

@@ -1,0 +1,94 @@
+//! Root motion: the way that a take carries its figure through the scene, taken out of the take and put back.
+//!
+//! Let `P(t)` be to-root of the parent of the chosen bone (usually the root or the hips), `x(t)` the bone's translation
+//! and `q(t)` its rotation relative to that parent, and `p = P x` its place in to-root space. With `t₀` the start of the
+//! take, `Π` the choice of axes, `c` the horizontal part of `p(t₀)` and `R` the rotation of `P`:
+//!
+//! ```text
+//! m(t) = Π (p(t) - p(t₀))                               translation of the motion
+//! Y(t) = twist about up of  R q(t) (R q(t₀))⁻¹           rotation of the motion (the identity without yaw)
+//! M(t) = T(c + m(t)) · Y(t) · T(-c)                     the motion as a matrix; M(t₀) is the identity
+//!
+//! in place:   x' = P⁻¹ (c + Y⁻¹ (p - c - m))            q' = (R⁻¹ Y R)⁻¹ q
+//! put back:   x  = P⁻¹ (c + m + Y (P x' - c))           q  =  R⁻¹ Y R     q'
+//! ```
+//!
+//! A figure placed in the scene by the matrix `W` and drawn in place looks like the take when it is drawn with
+//! `W · M(t)`; from frame to frame `W` is multiplied by [`RootMotion::delta`]. The twist of a rotation about an axis is
+//! its part about that axis: `(q·axis, w)` normalised (Dobrowolski, "Swing-twist decomposition in Clifford algebra",
+//! 2015).
+//!
+//! The formulas are applied key by key, so what [`put_back`] gives is the take again, at keys and between them. The
+//! motion's channels have their keys where the bone has its own, and its interpolation; they are plain [`Channel`]s and
+//! may be edited before they are put back.
+
+mod curve;
+mod extract;
+mod frame;
+mod keys;
+mod restore;
+
+pub use curve::RootMotion;
+pub use extract::{extract, in_place};
+pub use restore::put_back;
+
+use crate::data::BoneIndex;
+#[cfg(doc)]
+use crate::data::Channel;
+use glam::Vec3;
+
+/// An axis of to-root space.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Axis {
+    /// (1, 0, 0)
+    X,
+    /// (0, 1, 0), up in glTF.
+    #[default]
+    Y,
+    /// (0, 0, 1)
+    Z,
+}
+
+impl Axis {
+    /// As a unit vector.
+    pub fn to_vec3(self) -> Vec3 {
+        Vec3::AXES[self as usize]
+    }
+}
+
+/// What is motion, and what stays in the take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RootMotionOptions {
+    /// Which way is up.
+    pub up: Axis,
+    /// Take out the movement along x, y, z of to-root space? That along `up` is the height.
+    pub translation: [bool; 3],
+    /// Take out the turning about `up`?
+    pub yaw: bool,
+}
+
+impl Default for RootMotionOptions {
+    /// Y is up; x, z and yaw are motion, height stays in the take.
+    fn default() -> Self {
+        Self { up: Axis::Y, translation: [true, false, true], yaw: true }
+    }
+}
+
+/// Why no root motion could be taken out or put back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MotionError {
+    /// The skeleton has no such bone.
+    #[error("bone {bone} is not in the skeleton")]
+    NoSuchBone {
+        /// The index that was given.
+        bone: BoneIndex,
+    },
+    /// Above the bone, at some key, a scale is zero: to-root space cannot be carried into that of the parent.
+    #[error("the space of the parent of bone {bone} is flat at {milliseconds} ms: a scale above it is zero")]
+    Flat {
+        /// The bone whose motion it is.
+        bone: BoneIndex,
+        /// Where in the take.
+        milliseconds: i64,
+    },
+}

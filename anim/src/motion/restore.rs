@@ -1,0 +1,180 @@
+//! Putting the motion back, and the formula that both ways share.
+
+use super::extract::{map, map_turns, times_above, track_of, with_track};
+use super::frame::Frame;
+use super::keys::{Refine, slopes, spins};
+use super::{MotionError, RootMotion};
+use crate::data::{Channel, Interpolation, Skeleton, Take, Track};
+use crate::sample::{rest_pose, sample_channel};
+use glam::{DQuat, DVec3, Quat, Vec3};
+
+/// Puts `motion` into `take`: what [`extract`](super::extract()) took out moves the figure again.
+///
+/// For the motion and the take in place of one extraction this gives the original again, within rounding, at keys and
+/// between. Either may have been edited: the bone gets keys wherever the motion has some. Where one of the two
+/// is a cubic spline and the other is not, or one has steps and the other has not, the result takes the interpolation of
+/// the bone's own channel (the motion's, where the bone has no keys) and follows the motion at its keys.
+///
+/// The take keeps its start and length; keys of the motion outside them are kept too.
+pub fn put_back(take: &Take, skeleton: &Skeleton, motion: &RootMotion) -> Result<Take, MotionError> {
+    let bone = motion.bone;
+    let rest = rest_pose(skeleton.bones.get(bone as usize).ok_or(MotionError::NoSuchBone { bone })?);
+    let (mut track, above) = (track_of(take, bone), times_above(take, skeleton, bone));
+    if !motion.rotation.is_empty() {
+        let kind = motion.rotation.interpolation;
+        track.rotation = keyed(&track.rotation, rest.rotation, &motion.rotation.times, kind);
+        track.rotation = Quat::refined(&track.rotation, rest.rotation, &above);
+    }
+    if !motion.translation.is_empty() {
+        let kind = motion.translation.interpolation;
+        track.translation = keyed(&track.translation, rest.translation, &motion.translation.times, kind);
+    }
+    let turning = !motion.rotation.is_empty();
+    if turning || !motion.translation.is_empty() {
+        track.translation = Vec3::refined(&track.translation, rest.translation, &above);
+    }
+    // Does anything lie off the axis of rotation, so that it is turned?
+    let off_axis = !track.translation.is_empty() && has_horizontal(take, skeleton, &track, motion)?;
+    if off_axis && turning {
+        track.translation = Vec3::refined(&track.translation, rest.translation, &motion.rotation.times);
+    }
+    let track = apply(take, skeleton, &track, motion, Way::Back)?;
+    Ok(with_track(take, track))
+}
+
+/// `channel` with keys at `times`; without any it becomes one of kind `kind`.
+fn keyed<T: Refine>(channel: &Channel<T>, rest: T, times: &[f32], kind: Interpolation) -> Channel<T> {
+    if !channel.is_empty() {
+        return T::refined(channel, rest, times);
+    }
+    let channel = T::refined(&Channel::default(), rest, times);
+    match kind {
+        Interpolation::CubicSpline => {
+            let values: Vec<T> = channel.values.iter().flat_map(|&value| [T::ZERO, value, T::ZERO]).collect();
+            Channel { times: channel.times, values: values.into(), interpolation: kind }
+        }
+        kind => Channel { interpolation: kind, ..channel },
+    }
+}
+
+/// Does the bone in place ever leave the axis of rotation by more than rounding?
+fn has_horizontal(
+    take: &Take,
+    skeleton: &Skeleton,
+    track: &Track,
+    motion: &RootMotion,
+) -> Result<bool, MotionError> {
+    let (up, pivot) = (motion.up.to_vec3().as_dvec3(), motion.pivot.as_dvec3());
+    for (key, &time) in track.translation.times.iter().enumerate() {
+        let frame = Frame::at(take, skeleton, track.bone, time)?;
+        let place = frame.place(track.translation.value(key).unwrap_or_default().as_dvec3()) - pivot;
+        let off = (place - up * place.dot(up)).length();
+        if off > 1e-5 * (1.0 + place.length() + pivot.length()) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// Which way the formula is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Way {
+    /// Motion out of the take.
+    Out,
+    /// Motion into the take.
+    Back,
+}
+
+/// The track with the motion taken out of its keys, or put into them.
+pub(super) fn apply(
+    take: &Take,
+    skeleton: &Skeleton,
+    track: &Track,
+    motion: &RootMotion,
+    way: Way,
+) -> Result<Track, MotionError> {
+    let rest = rest_pose(&skeleton.bones[track.bone as usize]);
+    let mut result = track.clone();
+    let turning = !motion.rotation.is_empty();
+    if turning || !motion.translation.is_empty() {
+        result.translation = map(&track.translation, rest.translation, |time, value, rates| {
+            let frame = Frame::at(take, skeleton, track.bone, time)?;
+            let moment = Moment::of(motion, time);
+            let sides = [0, 1].map(|side| moment.place(&frame, value, rates[side], side, way));
+            Ok((sides[0].0, sides.map(|side| side.1)))
+        })?;
+    }
+    if turning {
+        result.rotation = map_turns(&track.rotation, rest.rotation, |time, value, rates| {
+            let frame = Frame::at(take, skeleton, track.bone, time)?;
+            let moment = Moment::of(motion, time);
+            let sides = [0, 1].map(|side| moment.turn(&frame, value, rates[side], side, way));
+            Ok((sides[0].0, sides.map(|side| side.1)))
+        })?;
+    }
+    Ok(result)
+}
+
+/// The motion at one time, and how fast it changes before and after.
+struct Moment {
+    pivot: DVec3,
+    moved: DVec3,
+    turned: DQuat,
+    rates: [(DVec3, DQuat); 2],
+}
+
+impl Moment {
+    fn of(motion: &RootMotion, time: f32) -> Self {
+        let speeds = slopes(&motion.translation, Vec3::ZERO, time);
+        let turned = sample_channel(&motion.rotation, Quat::IDENTITY, time).as_dquat().normalize();
+        // A unit quaternion only changes at a right angle to itself; the rest of a difference quotient is rounding.
+        let spins = spins(&motion.rotation, time).map(|spin| spin.as_dquat());
+        let spins = spins.map(|spin| spin - turned * turned.dot(spin));
+        Self {
+            pivot: motion.pivot.as_dvec3(),
+            moved: sample_channel(&motion.translation, Vec3::ZERO, time).as_dvec3(),
+            turned,
+            rates: [0, 1].map(|side| (speeds[side].as_dvec3(), spins[side])),
+        }
+    }
+
+    /// Translation and its rate. With w = Y⁻¹ (p - c - m): p = c + m + Y w, and by the product rule p' = m' + Y' w + Y w'.
+    fn place(&self, frame: &Frame, value: Vec3, rate: Vec3, side: usize, way: Way) -> (Vec3, Vec3) {
+        let (speed, spin) = self.rates[side];
+        let (value, rate) = (frame.place(value.as_dvec3()), frame.direct(rate.as_dvec3()));
+        let base = self.pivot + self.moved;
+        let (value, rate) = match way {
+            Way::Out => {
+                let inner = self.turned.conjugate() * (value - base);
+                let rate = self.turned.conjugate() * (rate - speed - swept(self.turned, spin, inner));
+                (self.pivot + inner, rate)
+            }
+            Way::Back => {
+                let inner = value - self.pivot;
+                (base + self.turned * inner, speed + swept(self.turned, spin, inner) + self.turned * rate)
+            }
+        };
+        (frame.unplace(value).as_vec3(), frame.undirect(rate).as_vec3())
+    }
+
+    /// Rotation and its rate: q = S q' with S = R⁻¹ Y R, and by the product rule.
+    fn turn(&self, frame: &Frame, value: Quat, rate: Quat, side: usize, way: Way) -> (Quat, Quat) {
+        let (turned, spin) = (frame.inward(self.turned), frame.inward(self.rates[side].1));
+        let (value, rate) = (value.as_dquat(), rate.as_dquat());
+        let (value, rate) = match way {
+            Way::Out => {
+                let inner = turned.conjugate() * value;
+                (inner, turned.conjugate() * (rate - spin * inner))
+            }
+            Way::Back => (turned * value, spin * value + turned * rate),
+        };
+        (value.normalize().as_quat(), rate.as_quat())
+    }
+}
+
+/// How fast `vector` moves when it is turned by `turned`, which changes by `spin`: the vector part of
+/// `Y' w Y* + Y w Y'*`.
+fn swept(turned: DQuat, spin: DQuat, vector: DVec3) -> DVec3 {
+    let vector = DQuat::from_xyzw(vector.x, vector.y, vector.z, 0.0);
+    (spin * vector * turned.conjugate() + turned * vector * spin.conjugate()).xyz()
+}
