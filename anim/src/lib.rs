@@ -23,6 +23,8 @@ pub mod bounds;
 pub mod data;
 pub mod evaluator;
 pub mod format;
+pub mod hit;
+pub mod level;
 pub mod limits;
 pub mod sample;
 pub mod skin;

@@ -3,6 +3,7 @@
 mod agreement;
 mod bad_files;
 mod bombs;
+mod bone_bounds;
 mod bounds;
 mod budget;
 mod damage;
@@ -12,7 +13,10 @@ mod determinism;
 mod doors;
 mod fixture;
 mod formats;
+mod hits;
 mod hostile;
+mod levels;
+mod made;
 mod poses;
 mod rules;
 mod sampling;
