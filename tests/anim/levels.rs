@@ -101,7 +101,7 @@ fn border(primitive: &Primitive, indices: &[u32]) -> usize {
 #[test]
 fn a_sheet_gets_down_to_an_eighth_and_stays_a_sheet() {
     let primitive = sheet(40);
-    let progression = simplify(&primitive, &free, &SimplifySettings::default());
+    let progression = simplify(&primitive, &[], &free, &SimplifySettings::default());
     is_sound(&primitive, &progression, "sheet");
     let steps = progression.steps_to(400);
     let indices = after(&progression, &primitive, steps);
@@ -139,7 +139,7 @@ fn a_seam_stays_closed_and_its_sides_stay_apart() {
     for round in 0..60 {
         let model = model(&mut random, Weights::Healthy);
         let primitive = &model.meshes[0].primitives[0];
-        let progression = simplify(primitive, &free, &SimplifySettings::default());
+        let progression = simplify(primitive, &[], &free, &SimplifySettings::default());
         is_sound(primitive, &progression, &format!("round {round}"));
         assert!(progression.steps() > 10, "{round}: {}", progression.steps());
         for steps in [progression.steps() / 2, progression.steps()] {
@@ -162,7 +162,7 @@ fn a_seam_stays_closed_and_its_sides_stay_apart() {
 fn what_is_locked_stays() {
     let primitive = sheet(12);
     let locked = |vertex: usize| vertex.is_multiple_of(3);
-    let progression = simplify(&primitive, &locked, &SimplifySettings::default());
+    let progression = simplify(&primitive, &[], &locked, &SimplifySettings::default());
     assert!(progression.steps() > 20);
     assert!(progression.moves.iter().all(|one| !locked(one.vertex as usize)));
 }
@@ -171,14 +171,14 @@ fn what_is_locked_stays() {
 fn the_same_input_gives_the_same_levels() {
     let model = fox();
     let primitive = &model.meshes[0].primitives[0];
-    let first = simplify(primitive, &free, &SimplifySettings::default());
-    assert_eq!(first, simplify(primitive, &free, &SimplifySettings::default()));
+    let first = simplify(primitive, &[], &free, &SimplifySettings::default());
+    assert_eq!(first, simplify(primitive, &[], &free, &SimplifySettings::default()));
     assert!(first.steps() > 0);
 }
 
 #[test]
-fn vertices_that_other_bones_move_are_kept_apart() {
-    // Flat, so only the influences tell where to keep vertices: all weight changes at the middle.
+fn a_sheet_that_bends_keeps_its_vertices_where_it_bends() {
+    // Flat as stored, so only the influences and the poses tell where vertices are needed: at the middle.
     let mut primitive = sheet(20);
     for (index, position) in primitive.vertices.positions.iter_mut().enumerate() {
         position.z = 0.0;
@@ -186,23 +186,22 @@ fn vertices_that_other_bones_move_are_kept_apart() {
         primitive.vertices.influences[index * 4].weight = 1.0 - right;
         primitive.vertices.influences[index * 4 + 1].weight = right;
     }
-    let spread = |skin: f32| {
-        let settings = SimplifySettings { skin, triangles: 100 };
-        let progression = simplify(&primitive, &free, &settings);
-        let indices = after(&progression, &primitive, progression.steps());
-        let x = |index: u32| primitive.vertices.positions[index as usize].x;
-        let across = indices
-            .chunks_exact(3)
-            .filter(|of| of.iter().any(|&i| x(i) > 0.5) && of.iter().any(|&i| x(i) <= 0.5));
-        let width = |of: &[u32]| {
-            let all = of.iter().map(|&index| x(index));
-            all.clone().fold(0.0, f32::max) - all.fold(1.0, f32::min)
-        };
-        across.map(width).fold(0.0, f32::max)
+    let stored = &primitive.vertices.positions;
+    let bent = |position: &Vec3| {
+        let turned = Vec3::new(0.5, position.y, position.x - 0.5);
+        if position.x > 0.5 { turned } else { *position }
     };
-    let (without, with) = (spread(0.0), spread(1.0));
-    println!("widest triangle between the bones: {without} without, {with} with the influences minded");
-    assert!(with < 0.051 + 1e-3 && without > with, "{without} {with}");
+    let bent: Vec<Vec3> = stored.iter().map(bent).collect();
+    let error = |poses: &[Vec<Vec3>], skin: f32| {
+        let progression = simplify(&primitive, poses, &free, &SimplifySettings { skin, triangles: 60 });
+        let indices = after(&progression, &primitive, progression.steps());
+        assert!(indices.len() / 3 <= 60);
+        furthest(&bent, &bent, &indices)
+    };
+    let (without, with_skin) = (error(&[], 0.0), error(&[], 1.0));
+    let with_pose = error(std::slice::from_ref(&bent), 0.1);
+    println!("bent by 90 degrees: {without} off, {with_skin} with influences, {with_pose} with a pose");
+    assert!(with_skin < without && with_pose < 0.03, "{without} {with_skin} {with_pose}");
 }
 
 #[test]
@@ -241,7 +240,7 @@ fn levels_of_the_fox_have_the_error_they_say() {
             }
         }
         assert!((f64::from(level.error) - largest).abs() < 1e-4 * largest, "{} {largest}", level.error);
-        assert!(level.error < 0.2 * size);
+        assert!(level.error < 0.25 * size);
     }
 }
 
@@ -314,7 +313,7 @@ fn hostile_meshes_come_to_an_end() {
         let indices: Vec<u32> = indices.collect();
         let primitive = Primitive { vertices, indices, ..Primitive::default() };
         let skin = random.choice(&[1.0, f32::NAN, -1.0, f32::INFINITY]);
-        let progression = simplify(&primitive, &free, &SimplifySettings { skin, triangles: 0 });
+        let progression = simplify(&primitive, &[], &free, &SimplifySettings { skin, triangles: 0 });
         let indices = after(&progression, &primitive, progression.steps());
         assert!(indices.len() <= primitive.indices.len(), "{round}");
         let model = ModelData {
@@ -350,7 +349,7 @@ fn one_vertex_in_many_triangles_takes_no_longer() {
     let stack = (0..many).flat_map(|_| [0, 1, 2]).collect();
     for indices in [wheel, pile, stack] {
         let primitive = Primitive { vertices: vertices.clone(), indices, ..Primitive::default() };
-        let progression = simplify(&primitive, &free, &SimplifySettings::default());
+        let progression = simplify(&primitive, &[], &free, &SimplifySettings::default());
         println!("{} steps after {:?}", progression.steps(), begin.elapsed());
     }
     assert!(begin.elapsed().as_secs() < 60, "{:?}", begin.elapsed());
@@ -361,7 +360,7 @@ fn a_large_sheet_is_done_in_seconds() {
     let primitive = sheet(300);
     let begin = Instant::now();
     let progression =
-        simplify(&primitive, &free, &SimplifySettings { triangles: 20_000, ..Default::default() });
+        simplify(&primitive, &[], &free, &SimplifySettings { triangles: 20_000, ..Default::default() });
     println!(
         "{} triangles to {} in {:?}",
         primitive.indices.len() / 3,

@@ -117,7 +117,10 @@ fn tube(random: &mut Random, joints: usize, weights: Weights) -> Mesh {
     let targets = random.below(3);
     let morph_targets = (0..targets).map(|_| {
         let push = vector(random, 0.5);
-        let positions = (0..vertices.len()).map(|index| if index % 3 == 0 { push } else { Vec3::ZERO });
+        // Both sides of the seam alike.
+        let column = |index: usize| index % (around + 1) % around;
+        let positions =
+            (0..vertices.len()).map(|index| if column(index) % 3 == 0 { push } else { Vec3::ZERO });
         MorphTarget { positions: positions.collect(), ..MorphTarget::default() }
     });
     let morph_targets = morph_targets.collect();

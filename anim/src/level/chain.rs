@@ -1,9 +1,12 @@
 //! Levels of a whole model.
 
 use super::collapse::{SimplifySettings, simplify};
-use super::error::skinned_error;
+use super::error::{sample_poses, skinned_error};
 use super::progression::Progression;
-use crate::data::{Mesh, ModelData};
+use crate::data::{Mesh, MeshInstance, ModelData};
+use crate::evaluator::Evaluator;
+use glam::Vec3;
+use std::sync::Arc;
 
 /// One level of a model: other indices for the same vertices.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +33,7 @@ pub struct LevelSettings {
 impl Default for LevelSettings {
     /// A half, a quarter, an eighth; measured in eight poses of each take.
     fn default() -> Self {
-        Self { ratios: vec![0.5, 0.25, 0.125], skin: 1.0, poses: 8 }
+        Self { ratios: vec![0.5, 0.25, 0.125], skin: 0.1, poses: 8 }
     }
 }
 
@@ -43,8 +46,7 @@ pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Level> {
     let original =
         model.meshes.iter().map(|mesh| mesh.primitives.iter().map(|of| of.indices.clone()).collect());
     let mut levels = vec![level(original.collect(), 0.0)];
-    let progressions: Vec<Vec<Progression>> =
-        model.meshes.iter().map(|mesh| progressions(mesh, settings)).collect();
+    let progressions = progressions(model, settings);
     let mut room = Vec::new();
     for &ratio in &settings.ratios {
         let ratio = if (0.0..=1.0).contains(&ratio) { f64::from(ratio) } else { 1.0 };
@@ -72,16 +74,42 @@ fn level(indices: Vec<Vec<Vec<u32>>>, error: f32) -> Level {
     Level { indices, triangles, error }
 }
 
+/// Poses in which collapses are weighed, beside the stored one: more cost time and gain little.
+const WEIGHED: usize = 4;
+
+/// The order of collapses of each primitive of each mesh, weighed in a few of the poses that are measured.
+fn progressions(model: &ModelData, settings: &LevelSettings) -> Vec<Vec<Progression>> {
+    let poses = sample_poses(model, settings.poses);
+    let mut evaluator = Evaluator::new(Arc::new(ModelData { images: Vec::new(), ..model.clone() }));
+    let mut of_meshes: Vec<Vec<Vec<Vec<Vec3>>>> =
+        model.meshes.iter().map(|mesh| vec![Vec::new(); mesh.primitives.len()]).collect();
+    for weighed in 0..WEIGHED.min(poses.len()) {
+        let (take, time) = poses[weighed * poses.len() / WEIGHED.min(poses.len())];
+        evaluator.pose(take, time);
+        for (mesh, of_mesh) in of_meshes.iter_mut().enumerate() {
+            // As the first that shows it does.
+            let shows = |instance: &MeshInstance| instance.mesh as usize == mesh;
+            let Some(instance) = model.instances.iter().position(shows) else { continue };
+            for (index, of_primitive) in of_mesh.iter_mut().enumerate() {
+                let mut positions = vec![Vec3::ZERO; model.meshes[mesh].primitives[index].vertices.len()];
+                evaluator.positions(instance, index, &mut positions);
+                of_primitive.push(positions);
+            }
+        }
+    }
+    model.meshes.iter().zip(of_meshes).map(|(mesh, poses)| of_mesh(mesh, &poses, settings)).collect()
+}
+
 /// The order of collapses of each primitive; where two meet, the vertices of both stay.
-fn progressions(mesh: &Mesh, settings: &LevelSettings) -> Vec<Progression> {
+fn of_mesh(mesh: &Mesh, poses: &[Vec<Vec<Vec3>>], settings: &LevelSettings) -> Vec<Progression> {
     let bits = |primitive: usize, vertex: usize| {
-        let position = mesh.primitives[primitive].vertices.positions[vertex];
+        let position = mesh.primitives[primitive].vertices.positions.get(vertex).copied().unwrap_or_default();
         position.to_array().map(|number| (number + 0.0).to_bits())
     };
     let mut owners: Vec<([u32; 3], usize)> = Vec::new();
     if mesh.primitives.len() > 1 {
         for (index, primitive) in mesh.primitives.iter().enumerate() {
-            owners.extend((0..primitive.vertices.len()).map(|vertex| (bits(index, vertex), index)));
+            owners.extend(primitive.indices.iter().map(|&vertex| (bits(index, vertex as usize), index)));
         }
         owners.sort_unstable();
         owners.dedup();
@@ -96,7 +124,8 @@ fn progressions(mesh: &Mesh, settings: &LevelSettings) -> Vec<Progression> {
             owners[first..].iter().take(2).filter(|owner| owner.0 == place).count() > 1
         };
         let triangles = (primitive.indices.len() as f64 / 3.0 * f64::from(ratio)).ceil() as usize;
-        simplify(primitive, &shared, &SimplifySettings { triangles, skin: settings.skin })
+        let settings = SimplifySettings { triangles, skin: settings.skin };
+        simplify(primitive, &poses[index], &shared, &settings)
     });
     simplified.collect()
 }

@@ -4,7 +4,7 @@ use super::cost::{Quadric, cost, quadrics};
 use super::progression::{Move, Progression};
 use super::surface::{MOST_AROUND, Surface};
 use crate::data::Primitive;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -20,29 +20,33 @@ pub struct SimplifySettings {
     /// Stop when no more triangles than this are left.
     pub triangles: usize,
     /// Weight of the difference in influences between the ends of an edge, 0 for none. With 1 an edge whose ends no
-    /// bone moves together costs as if the surface moved by its whole length.
+    /// bone moves together costs as if the surface moved by its whole length. With poses to measure in, little of it is
+    /// enough.
     pub skin: f32,
 }
 
 impl Default for SimplifySettings {
     /// As far as possible, with the influences minded.
     fn default() -> Self {
-        Self { triangles: 0, skin: 1.0 }
+        Self { triangles: 0, skin: 0.1 }
     }
 }
 
 /// The order in which triangles of `primitive` are best taken away.
 ///
-/// Vertices for which `locked` says so stay where they are. Ends when `settings.triangles` are left or nothing can be
+/// `poses` are positions of all vertices in poses that it should look well in (those of
+/// [`crate::evaluator::Evaluator::positions`]; a few are enough, none is allowed). Vertices for which `locked` says so
+/// stay where they are. Ends when `settings.triangles` are left or nothing can be
 /// taken without tearing or turning over. The rules are those of the [module](super). Total: triangles with two
 /// corners at one place, and those that name vertices which are not there, go with the first step; positions that are
 /// not finite stay. A `skin` that is negative or not finite counts as 0. O(n log n); the same input, the same order.
 pub fn simplify(
     primitive: &Primitive,
+    poses: &[Vec<Vec3>],
     locked: &dyn Fn(usize) -> bool,
     settings: &SimplifySettings,
 ) -> Progression {
-    let surface = Surface::of(primitive, locked);
+    let surface = Surface::of(primitive, poses, locked);
     let skin = f64::from(settings.skin);
     let skin = if skin.is_finite() { skin.max(0.0) } else { 0.0 };
     let mut collapser = Collapser::of(surface, skin);
@@ -94,7 +98,8 @@ impl Eq for Candidate {}
 /// Where the work stands.
 struct Collapser<'a> {
     surface: Surface<'a>,
-    quadrics: Vec<Quadric>,
+    /// One list a pose.
+    quadrics: Vec<Vec<Quadric>>,
     skin: f64,
     /// Of each place: how often its surroundings changed.
     versions: Vec<u32>,
@@ -128,7 +133,7 @@ impl<'a> Collapser<'a> {
         let gone_after =
             surface.triangles.iter().map(|corners| if corners.is_some() { u32::MAX } else { 1 }).collect();
         let normal = |corners: &Option<[u32; 3]>| {
-            corners.map_or(DVec3::ZERO, |corners| normal(corners.map(|at| surface.positions[at as usize])))
+            corners.map_or(DVec3::ZERO, |corners| normal(corners.map(|at| surface.poses[0][at as usize])))
         };
         Self {
             normals: surface.triangles.iter().map(normal).collect(),
@@ -283,19 +288,22 @@ impl<'a> Collapser<'a> {
         best.map(|(member, _)| member)
     }
 
-    /// Does every triangle that stays keep its side up?
+    /// Does every triangle that stays keep its side up, in every pose?
     fn keeps_facing(&self, from: u32, onto: u32, room: &Room) -> bool {
-        let positions = &self.surface.positions;
         room.around.iter().filter(|(.., shared)| !shared).all(|(triangle, corners, _)| {
-            let before = normal(corners.map(|corner| positions[corner as usize]));
-            let after = normal(corners.map(|corner| {
+            let after = corners.map(|corner| {
                 let moves = self.surface.place[corner as usize] == from;
-                positions[if moves { onto } else { corner } as usize]
-            }));
+                if moves { onto } else { corner }
+            });
             let first = self.normals[*triangle as usize];
-            // One without area had no side to keep.
-            first == DVec3::ZERO
-                || (after.dot(before) > TURN * after.length() * before.length() && after.dot(first) > 0.0)
+            self.surface.poses.iter().enumerate().all(|(pose, positions)| {
+                let [before, after] =
+                    [*corners, after].map(|corners| normal(corners.map(|corner| positions[corner as usize])));
+                // One without area had no side to keep.
+                let flat = if pose == 0 { first == DVec3::ZERO } else { before == DVec3::ZERO };
+                flat || (after.dot(before) > TURN * after.length() * before.length()
+                    && (pose != 0 || after.dot(first) > 0.0))
+            })
         })
     }
 
@@ -317,8 +325,10 @@ impl<'a> Collapser<'a> {
         self.progression.moves.extend(moves);
         self.progression.left.push(self.left as u32);
         self.surface.hand_over(from, onto);
-        let gone = self.quadrics[from as usize];
-        self.quadrics[onto as usize].add(&gone);
+        for quadrics in &mut self.quadrics {
+            let gone = quadrics[from as usize];
+            quadrics[onto as usize].add(&gone);
+        }
         self.versions[from as usize] += 1;
         self.versions[onto as usize] += 1;
         let mut next = std::mem::take(&mut self.room.next);

@@ -53,13 +53,19 @@ impl Quadric {
     }
 }
 
-/// The quadric of every place: its triangles, and planes upright on borders and seams that keep those where they are.
-pub(super) fn quadrics(surface: &Surface<'_>) -> Vec<Quadric> {
+/// The quadrics of every place, one list a pose.
+pub(super) fn quadrics(surface: &Surface<'_>) -> Vec<Vec<Quadric>> {
+    surface.poses.iter().map(|positions| quadrics_of(surface, positions)).collect()
+}
+
+/// The quadric of every place in one pose: its triangles, and planes upright on borders and seams that keep those where
+/// they are.
+fn quadrics_of(surface: &Surface<'_>, positions: &[DVec3]) -> Vec<Quadric> {
     let mut quadrics = vec![Quadric::ZERO; surface.place.len()];
     // Each edge as often as it has triangles: places in ascending order, then the sides, then where it was met.
     let mut edges: Vec<([u32; 2], [u32; 2], DVec3)> = Vec::new();
     for corners in surface.triangles.iter().flatten() {
-        let [a, b, c] = corners.map(|corner| surface.positions[corner as usize]);
+        let [a, b, c] = corners.map(|corner| positions[corner as usize]);
         let double = (b - a).cross(c - a);
         let length = double.length();
         let normal = if length > 0.0 { double / length } else { DVec3::ZERO };
@@ -89,7 +95,7 @@ pub(super) fn quadrics(surface: &Surface<'_>) -> Vec<Quadric> {
             _ => continue,
         };
         let [a, b] = edge[0].0;
-        let (from, to) = (surface.positions[a as usize], surface.positions[b as usize]);
+        let (from, to) = (positions[a as usize], positions[b as usize]);
         for (.., normal) in edge {
             let upright = (to - from).cross(*normal).normalize_or_zero();
             let quadric = Quadric::plane(upright, from, weight * from.distance_squared(to));
@@ -125,24 +131,30 @@ fn skin_difference(surface: &Surface<'_>, a: u32, b: u32) -> f64 {
 /// What it costs that the place `from` moves onto `onto`; not finite where it cannot be told.
 ///
 /// ```text
-/// (Q_from + Q_onto)(p_onto) + area * (skin * difference * length)² + area * Σ |morph difference|² + area * 1e-6 * length²
+/// mean over poses of (Q_from + Q_onto)(p_onto)
+///     + area * length² * ((skin * difference)² + 1e-6) + area * Σ |morph difference|²
 /// ```
 ///
-/// `area` is that around `from`, `difference` how differently bones move the two (0..1), `length` that of the edge: where
-/// bones move the ends apart, the surface between is a mix of both, and moving a vertex by `length` moves it
-/// `difference` of the way from one to the other.
-pub(super) fn cost(surface: &Surface<'_>, quadrics: &[Quadric], skin: f64, from: u32, onto: u32) -> f64 {
-    let (p, q) = (surface.positions[from as usize], surface.positions[onto as usize]);
-    let length_squared = p.distance_squared(q);
-    let (own, other) = (&quadrics[from as usize], &quadrics[onto as usize]);
+/// The mean over poses makes the shape that counts the one in motion (Mohr and Gleicher 2003). `area` is that around
+/// `from`, `length` that of the edge, both as stored; `difference` (0..1) is how differently bones move its ends: the
+/// poses show what the takes do, and this stands in for what others may.
+pub(super) fn cost(surface: &Surface<'_>, quadrics: &[Vec<Quadric>], skin: f64, from: u32, onto: u32) -> f64 {
+    let (from_at, onto_at) = (from as usize, onto as usize);
+    let mut moved = 0.0;
+    for (positions, quadrics) in surface.poses.iter().zip(quadrics) {
+        moved += quadrics[from_at].at(positions[onto_at]) + quadrics[onto_at].at(positions[onto_at]);
+    }
+    let stored = &surface.poses[0];
+    let length_squared = stored[from_at].distance_squared(stored[onto_at]);
     let bent = skin * skin_difference(surface, from, onto);
     let mut morph = 0.0;
     for &target in &surface.targets {
         let differences = &surface.primitive.morph_targets[target as usize].positions;
-        let of = |place: u32| differences.get(place as usize).copied().unwrap_or(Vec3::ZERO).as_dvec3();
-        morph += (of(from) - of(onto)).length_squared() * surface.scale * surface.scale;
+        let of = |place: usize| differences.get(place).copied().unwrap_or(Vec3::ZERO).as_dvec3();
+        morph += (of(from_at) - of(onto_at)).length_squared() * surface.scale * surface.scale;
     }
-    own.at(q) + other.at(q) + own.area * (length_squared * (bent * bent + LENGTH) + morph)
+    let area = quadrics[0][from_at].area;
+    moved / quadrics.len() as f64 + area * (length_squared * (bent * bent + LENGTH) + morph)
 }
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ pub fn skinned_error(model: &ModelData, indices: &[Vec<Vec<u32>>], poses: usize)
 }
 
 /// The rest pose, and `poses` of each take.
-fn sample_poses(model: &ModelData, poses: usize) -> Vec<(Option<usize>, f32)> {
+pub(super) fn sample_poses(model: &ModelData, poses: usize) -> Vec<(Option<usize>, f32)> {
     let mut samples = vec![(None, 0.0)];
     for (index, take) in model.animation.takes.iter().enumerate() {
         let last = poses.saturating_sub(1).max(1) as f32;

@@ -23,17 +23,18 @@ pub(super) struct Surface<'a> {
     around: Vec<Vec<u32>>,
     /// Of each place: must it stay?
     pub(super) locked: Vec<bool>,
-    /// Of each vertex: brought near 1, so that no square leaves the range of numbers.
-    pub(super) positions: Vec<DVec3>,
+    /// As stored, and in each pose; of each vertex: brought near 1, so that no square leaves the range of numbers.
+    pub(super) poses: Vec<Vec<DVec3>>,
     /// Morph targets that move anything.
     pub(super) targets: Vec<u32>,
-    /// Lengths are multiplied by this in `positions`.
+    /// Stored lengths are multiplied by this in the first of `poses`.
     pub(super) scale: f64,
 }
 
 impl<'a> Surface<'a> {
-    /// The surface of `primitive`; vertices for which `locked` says so stay.
-    pub(super) fn of(primitive: &'a Primitive, locked: &dyn Fn(usize) -> bool) -> Self {
+    /// The surface of `primitive`, which has the positions `poses` in some poses; vertices for which `locked` says so
+    /// stay. A pose that is too short counts as none.
+    pub(super) fn of(primitive: &'a Primitive, poses: &[Vec<Vec3>], locked: &dyn Fn(usize) -> bool) -> Self {
         let count = primitive.vertices.len();
         let targets = moving_targets(primitive);
         let mut order: Vec<u32> = (0..count as u32).collect();
@@ -50,7 +51,9 @@ impl<'a> Surface<'a> {
                 }
             }
         }
-        let (positions, scale) = near_one(&primitive.vertices.positions);
+        let (stored, scale) = near_one(&primitive.vertices.positions);
+        let poses = poses.iter().filter(|pose| pose.len() >= count).map(|pose| near_one(&pose[..count]).0);
+        let poses = std::iter::once(stored).chain(poses).collect();
         let mut surface = Self {
             primitive,
             place,
@@ -59,7 +62,7 @@ impl<'a> Surface<'a> {
             triangles: Vec::new(),
             around: vec![Vec::new(); count],
             locked: (0..count).map(|vertex| !primitive.vertices.positions[vertex].is_finite()).collect(),
-            positions,
+            poses,
             targets,
             scale,
         };
