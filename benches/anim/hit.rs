@@ -68,26 +68,31 @@ fn compare(name: &str, model: &Arc<ModelData>) {
         let case = format!("anim/hit/{name}/{case}");
         println!("{case:<36} open {open:>12.1} ns   tree {tree:>10.1} ns   {:>7.1} times", open / tree);
     };
-    let open = median(|| ray_open(&evaluator, &positions, &next(), &settings));
-    line("ray", open, median(|| pose.ray(&evaluator, &next(), &settings)));
-    line("any", open, median(|| pose.any(&evaluator, &next(), &settings)));
-    let open = median(|| sphere_open(&evaluator, &positions, next().origin, f32::INFINITY));
-    line("nearest", open, median(|| pose.sphere(&evaluator, next().origin, f32::INFINITY)));
-    let open = median(|| sphere_open(&evaluator, &positions, next().direction, radius));
-    line("sphere", open, median(|| pose.sphere(&evaluator, next().direction, radius)));
-    let open = median(|| skin(&evaluator, &mut room));
-    line("new_pose", open, median(|| pose.refit(&evaluator)));
-    let open = median(|| {
+    let open = least(|| ray_open(&evaluator, &positions, &next(), &settings));
+    line("ray", open, least(|| pose.ray(&evaluator, &next(), &settings)));
+    line("any", open, least(|| pose.any(&evaluator, &next(), &settings)));
+    let open = least(|| sphere_open(&evaluator, &positions, next().origin, f32::INFINITY));
+    line("nearest", open, least(|| pose.sphere(&evaluator, next().origin, f32::INFINITY)));
+    let mut turn = 0;
+    let mut near = || {
+        turn = (turn + 1) % RAYS;
+        positions[turn * 37 % positions.len()] + Vec3::splat(radius * 0.3)
+    };
+    let open = least(|| sphere_open(&evaluator, &positions, near(), radius));
+    line("sphere", open, least(|| pose.sphere(&evaluator, near(), radius)));
+    let open = least(|| skin(&evaluator, &mut room));
+    line("new_pose", open, least(|| pose.refit(&evaluator)));
+    let open = least(|| {
         skin(&evaluator, &mut room);
         ray_open(&evaluator, &room, &next(), &settings)
     });
-    let tree = median(|| {
+    let tree = least(|| {
         pose.refit(&evaluator);
         pose.ray(&evaluator, &next(), &settings)
     });
     line("new_pose_and_ray", open, tree);
-    let exact = median(|| evaluator.bounds());
-    line("bounds", exact, median(|| boxes.bounds(&evaluator)));
+    let exact = least(|| evaluator.bounds());
+    line("bounds", exact, least(|| boxes.bounds(&evaluator)));
 }
 
 /// All positions, without asking for memory.
@@ -117,22 +122,22 @@ fn rays(evaluator: &Evaluator, positions: &[Vec3]) -> (Vec<Ray>, usize) {
     (rays, hits)
 }
 
-/// Nanoseconds a call: the median of batches.
-fn median<T>(mut work: impl FnMut() -> T) -> f64 {
-    let begin = Instant::now();
-    (0..RAYS).for_each(|_| drop(black_box(work())));
-    // Batches of about a millisecond.
-    let once = begin.elapsed().as_secs_f64() / RAYS as f64;
-    let batch = ((1e-3 / once.max(1e-9)) as usize).clamp(RAYS, 100_000);
-    let mut times: Vec<f64> = (0..21)
-        .map(|_| {
+/// Calls that are timed together: few, so that some go through undisturbed on a busy machine.
+const TOGETHER: usize = 16;
+
+/// Nanoseconds a call, over calls that take turns with the rays: of each few the least of many rounds, then the mean.
+fn least<T>(mut work: impl FnMut() -> T) -> f64 {
+    let mut least = [f64::INFINITY; RAYS / TOGETHER];
+    for _ in 0..40 {
+        for least in &mut least {
             let begin = Instant::now();
-            (0..batch).for_each(|_| drop(black_box(work())));
-            begin.elapsed().as_secs_f64() * 1e9 / batch as f64
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
+            for _ in 0..TOGETHER {
+                black_box(work());
+            }
+            *least = least.min(begin.elapsed().as_secs_f64() * 1e9 / TOGETHER as f64);
+        }
+    }
+    least.iter().sum::<f64>() / least.len() as f64
 }
 
 fn load(path: &Path) -> Option<ModelData> {

@@ -300,3 +300,11 @@ fn a_stored_tree_that_is_a_chain_is_refused() {
     let error = HitTree::from_parts(parts, &model).unwrap_err();
     assert_eq!(error, HitTreeError::Deep { depth: leaves as usize });
 }
+
+#[path = "../../anim/examples/hit_test.rs"]
+mod example;
+
+#[test]
+fn the_example_runs() {
+    example::main();
+}

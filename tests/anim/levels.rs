@@ -250,7 +250,9 @@ fn every_file_gets_levels_and_no_level_is_worse_than_it_looks() {
         let name = path.file_name().unwrap().to_str().unwrap();
         let model = load(&path);
         let begin = Instant::now();
-        let chain = levels(&model, &LevelSettings { poses: 2, ..LevelSettings::default() });
+        // Models of many takes would take long.
+        let poses = if model.animation.takes.len() > 4 { 1 } else { 2 };
+        let chain = levels(&model, &LevelSettings { poses, ..LevelSettings::default() });
         let size = Evaluator::new(Arc::clone(&model)).bounds().sphere.radius;
         let said: Vec<String> = chain
             .iter()
@@ -414,4 +416,12 @@ fn sizes_on_the_screen_are_those_of_geometry() {
     }
     let far = Screen { eye: Vec3::Z * 1e6, ..screen };
     assert_eq!(choose_level(&chain, &far, &sphere, 1.0, 0.0, None), 1);
+}
+
+#[path = "../../anim/examples/levels.rs"]
+mod example;
+
+#[test]
+fn the_example_runs() {
+    example::main();
 }

@@ -144,7 +144,9 @@ impl HitPose {
         let pad = self.pad(search.center);
         self.start(|held| distance_to(search.center, held));
         while let Some((node, begin)) = self.stack.pop() {
-            if begin > search.limit() * NEAR_TIE + pad {
+            let (part, of, _) = self.tree.parts_of[node as usize];
+            let other = instance.is_some_and(|instance| part != MIXED && instance != of);
+            if other || begin > search.limit() * NEAR_TIE + pad {
                 continue;
             }
             match self.tree.parts().nodes[node as usize] {
@@ -152,10 +154,6 @@ impl HitPose {
                     self.push(evaluator, node, children, |held| distance_to(search.center, held))
                 }
                 HitNode::Leaf(leaf) => {
-                    let of = self.tree.parts().leaves[leaf as usize].instance;
-                    if instance.is_some_and(|instance| instance != of) {
-                        continue;
-                    }
                     self.for_each_triangle(evaluator, leaf, |primitive, movement, which, corners| {
                         search.test(primitive, movement, which, corners);
                         true
