@@ -6,6 +6,7 @@ use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::hit::{
     HitLeaf, HitNode, HitPose, HitSettings, HitTree, HitTreeError, Ray, ray_open, sphere_open,
 };
+use dragonfly_anim::skin::skin_position;
 use dragonfly_kit::counting::count;
 use dragonfly_kit::random::{Random, seed};
 use glam::Vec3;
@@ -142,6 +143,31 @@ fn heaviest(
         }
     }
     (0..sums.len()).max_by(|&a, &b| sums[a].total_cmp(&sums[b])).map(|bone| bone as u32)
+}
+
+#[test]
+fn one_vertex_asked_for_alone_is_where_it_is_among_all() {
+    let mut random = Random::new(seed(27));
+    for round in 0..60 {
+        let weights = if round % 2 == 0 { Weights::Healthy } else { Weights::Wild };
+        let mut model = model(&mut random, weights).as_ref().clone();
+        model.meshes[0].primitives[0].vertices.positions[3] = Vec3::new(1e38, f32::NAN, 0.0);
+        model.meshes[0].primitives[0].vertices.positions[4] = Vec3::splat(3e38);
+        let mut evaluator = Evaluator::new(Arc::new(model));
+        evaluator.pose(Some(0), random.between(0.0, 2.0));
+        for instance in 0..3 {
+            let primitive = &evaluator.primitives(instance)[0];
+            let mut all = vec![Vec3::ZERO; primitive.vertices.len()];
+            evaluator.positions(instance, 0, &mut all);
+            let (movement, weights) =
+                (evaluator.movement(instance, 0).unwrap(), evaluator.morph_weights(instance));
+            for (index, position) in all.iter().enumerate() {
+                let alone = skin_position(primitive, movement, weights, index);
+                assert_eq!(alone.to_array().map(f32::to_bits), position.to_array().map(f32::to_bits));
+            }
+            assert_eq!(skin_position(primitive, movement, weights, usize::MAX), Vec3::ZERO);
+        }
+    }
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Bounds of a pose from one box a bone: as cheap as the skeleton is small.
 
 use super::axis_box::AxisBox;
-use super::reach::{ReachBuilder, Reaches, moving_targets};
+use super::reach::Reaches;
+use super::reach_builder::{ReachBuilder, moving_targets};
 use super::{Bounds, Sphere, bounds_of_bones};
 use crate::data::{MeshInstance, ModelData, Skin};
 use crate::evaluator::Evaluator;
@@ -12,7 +13,9 @@ use crate::evaluator::Evaluator;
 /// Made once a model; then the box and the sphere of any pose follow from the boxes, moved by the final poses, without
 /// looking at a vertex: O(bones of all skinned instances), nothing allocated. Both never miss a vertex, whatever its
 /// weights and morph targets are; how is told in the source, `bounds/reach.rs`. They are larger than the exact ones of
-/// [`Evaluator::bounds`], because a box also holds what lies between its vertices.
+/// [`Evaluator::bounds`], because a box also holds what lies between its vertices: on the animated characters of the
+/// tests, over all takes, the box has on average 1.01 to 1.11 times the exact diagonal and the sphere 1.01 to 1.23 times the
+/// exact radius; on one whose bones reach far with small weights 1.32 and 1.47; on cubes that morph targets pull apart 1.4.
 ///
 /// ```
 /// use dragonfly_anim::{bounds::BoneBoxes, data::ModelData, evaluator::Evaluator};

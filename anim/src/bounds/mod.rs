@@ -10,6 +10,7 @@
 mod axis_box;
 mod bones;
 pub(crate) mod reach;
+pub(crate) mod reach_builder;
 mod sphere;
 
 pub use axis_box::AxisBox;

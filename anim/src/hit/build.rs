@@ -1,7 +1,7 @@
 //! Which triangles share a leaf, and which leaves a node.
 
 use super::tree::{HitLeaf, HitNode, HitTreeParts, is_sound};
-use crate::data::{MeshInstance, ModelData, Primitive};
+use crate::data::{MAX_INFLUENCES, MeshInstance, ModelData, Primitive};
 use crate::evaluator::Evaluator;
 use glam::Vec3;
 use std::ops::Range;
@@ -72,7 +72,9 @@ fn items(model: &ModelData) -> Vec<Item> {
 /// The bone with the greatest sum of weights over the corners.
 fn greatest_bone(model: &ModelData, instance: &MeshInstance, primitive: &Primitive, corners: &[u32]) -> u32 {
     let Some(skin) = instance.skin else { return instance.bone.unwrap_or(NO_BONE) };
-    let influences = || corners.iter().flat_map(|&corner| primitive.vertices.influences_of(corner as usize));
+    let of_corner =
+        |&corner: &u32| primitive.vertices.influences_of(corner as usize).iter().take(MAX_INFLUENCES);
+    let influences = || corners.iter().flat_map(of_corner);
     let mut greatest = (NO_BONE, 0.0);
     for joint in influences().map(|influence| influence.joint) {
         let own = influences().filter(|influence| influence.joint == joint);

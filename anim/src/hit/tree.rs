@@ -2,14 +2,15 @@
 //! to store it).
 
 use super::build;
-use crate::bounds::reach::{ReachBuilder, Reaches, moving_targets};
+use crate::bounds::reach::Reaches;
+use crate::bounds::reach_builder::{ReachBuilder, moving_targets};
 use crate::data::{ModelData, Primitive};
 
 /// Most triangles of a leaf; a tree that is made has far fewer.
 pub const LEAF_TRIANGLES: usize = 64;
 
-/// Most triangles of a tree, those of every instance counted.
-pub const TREE_TRIANGLES: u64 = 1 << 26;
+/// Most triangles of a tree, those of every instance counted; a tree takes a few hundred bytes for each.
+pub const TREE_TRIANGLES: u64 = 1 << 24;
 
 /// Most nodes on a way down; a tree that is made has fewer than 70.
 pub const TREE_DEPTH: usize = 128;

@@ -1,6 +1,7 @@
 //! What a collapse costs: how far the surface moves, and how differently it will move.
 
 use super::surface::Surface;
+use crate::data::{Influence, MAX_INFLUENCES};
 use glam::{DMat3, DVec3, Vec3};
 
 /// Borders weigh this much more than the planes of triangles: there is nothing beyond that would hide a gap.
@@ -109,8 +110,12 @@ fn quadrics_of(surface: &Surface<'_>, positions: &[DVec3]) -> Vec<Quadric> {
 /// Half the sum of the differences of weights by joint: 0 where two vertices move alike, 1 where no bone moves both.
 fn skin_difference(surface: &Surface<'_>, a: u32, b: u32) -> f64 {
     let vertices = &surface.primitive.vertices;
-    let (of_a, of_b) = (vertices.influences_of(a as usize), vertices.influences_of(b as usize));
-    let weight = |list: &[crate::data::Influence], joint: u16| -> f64 {
+    // No vertex has more; a longer list would only take longer.
+    let [of_a, of_b] = [a, b].map(|vertex| {
+        let list = vertices.influences_of(vertex as usize);
+        &list[..list.len().min(MAX_INFLUENCES)]
+    });
+    let weight = |list: &[Influence], joint: u16| -> f64 {
         let own = list.iter().filter(|influence| influence.joint == joint);
         own.map(|influence| f64::from(influence.weight)).sum()
     };

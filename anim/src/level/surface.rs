@@ -1,6 +1,6 @@
 //! Vertices put together to places, and which triangles are around each.
 
-use crate::bounds::reach::moving_targets;
+use crate::bounds::reach_builder::moving_targets;
 use crate::data::{Influence, Primitive};
 use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
