@@ -101,6 +101,9 @@ fn what_a_hit_says_of_its_place_is_so() {
         for _ in 0..60 {
             let ray = random_ray(&mut random, &evaluator, &positions);
             let Some(hit) = pose.ray(&evaluator, &ray, &HitSettings::default()) else { continue };
+            let front = HitSettings { back_faces: false, ..HitSettings::default() };
+            let from_front = pose.ray(&evaluator, &ray, &front);
+            assert!(from_front.is_none_or(|hit| hit.front) && (!hit.front || from_front == Some(hit)));
             let along = ray.origin + ray.direction.normalize() * hit.distance;
             // f32 has seven digits of the way from the origin.
             assert!(along.distance(hit.position) < 1e-5 * (size + hit.distance), "{hit:?}");
@@ -253,6 +256,34 @@ fn refitting_and_asking_allocate_nothing() {
         hits
     });
     assert_eq!((count.allocations, hits), (0, 60));
+}
+
+#[test]
+fn of_two_hits_as_near_the_first_in_the_file_is_told() {
+    let mut model = model(&mut Random::new(6), Weights::Healthy).as_ref().clone();
+    let primitive = &mut model.meshes[2].primitives[0];
+    // Every triangle a second time, behind all others.
+    let count = primitive.indices.len();
+    primitive.indices.extend_from_within(..);
+    model.instances.drain(..2);
+    let model = Arc::new(model);
+    let (evaluator, mut pose) = pose_of(&model);
+    pose.refit(&evaluator);
+    let (positions, mut random, mut hits) = (evaluator.all_positions(), Random::new(8), 0);
+    for _ in 0..300 {
+        let ray = random_ray(&mut random, &evaluator, &positions);
+        let open = ray_open(&evaluator, &positions, &ray, &HitSettings::default());
+        let found = [
+            open,
+            pose.ray(&evaluator, &ray, &HitSettings::default()),
+            pose.sphere(&evaluator, ray.origin, f32::INFINITY),
+        ];
+        for hit in found.into_iter().flatten() {
+            assert!((hit.triangle as usize) < count / 3, "{hit:?}");
+            hits += 1;
+        }
+    }
+    assert!(hits > 400, "{hits}");
 }
 
 #[test]

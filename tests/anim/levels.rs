@@ -158,6 +158,57 @@ fn a_seam_stays_closed_and_its_sides_stay_apart() {
     }
 }
 
+/// A sheet of 16 × 16 squares with a slit in its picture from the lower edge to the middle; and the vertices on the right
+/// of the slit.
+fn slit() -> (Primitive, std::ops::Range<u32>) {
+    let mut primitive = sheet(16);
+    let first = primitive.vertices.len() as u32;
+    for row in 0..8 {
+        let on_slit = row * 17 + 8;
+        let vertices = &mut primitive.vertices;
+        vertices.positions.push(vertices.positions[on_slit]);
+        vertices.normals.push(Vec3::Z);
+        vertices.texture_coordinates[0].push(vertices.texture_coordinates[0][on_slit] + Vec2::X * 0.3);
+        let influences = vertices.influences_of(on_slit).to_vec();
+        vertices.influences.extend(influences);
+    }
+    let right = |corners: &[u32]| {
+        let x = corners.iter().map(|&corner| primitive.vertices.positions[corner as usize].x);
+        x.fold(0.0, f32::max) > 0.5
+    };
+    let mut indices = primitive.indices.clone();
+    for corners in indices.chunks_exact_mut(3).filter(|corners| right(corners)) {
+        for corner in corners.iter_mut().filter(|corner| **corner % 17 == 8 && **corner / 17 < 8) {
+            *corner = first + *corner / 17;
+        }
+    }
+    primitive.indices = indices;
+    (primitive, first..first + 8)
+}
+
+#[test]
+fn a_seam_that_ends_within_the_surface_keeps_its_sides() {
+    let (primitive, right) = slit();
+    for skin in [0.0, 0.1, 1.0] {
+        let progression = simplify(&primitive, &[], &free, &SimplifySettings { triangles: 20, skin });
+        is_sound(&primitive, &progression, "slit");
+        for part in 1..=20 {
+            let steps = progression.steps() * part / 20;
+            let indices = after(&progression, &primitive, steps);
+            let stays = |triangle: &usize| progression.gone_after[*triangle] as usize > steps;
+            let survivors = (0..progression.gone_after.len()).filter(stays);
+            for (triangle, now) in survivors.zip(indices.chunks_exact(3)) {
+                let before = &primitive.indices[triangle * 3..triangle * 3 + 3];
+                let x = before.iter().map(|&corner| primitive.vertices.positions[corner as usize].x);
+                let was_right = x.fold(0.0, f32::max) > 0.5;
+                let left = |corner: u32| corner % 17 == 8 && corner / 17 < 8 && corner < right.start;
+                let wrong = |&corner: &u32| if was_right { left(corner) } else { right.contains(&corner) };
+                assert!(!now.iter().any(wrong), "{before:?} became {now:?} after part {part}");
+            }
+        }
+    }
+}
+
 #[test]
 fn what_is_locked_stays() {
     let primitive = sheet(12);
@@ -388,7 +439,7 @@ fn the_level_follows_the_distance_and_does_not_flicker() {
     let (mut current, mut changes) = (0, 0);
     for step in (0..2_000).chain((0..2_000).rev()) {
         // A hand that trembles.
-        let distance = 1.5 + step as f32 * 0.2 + if step % 2 == 0 { 0.02 } else { 0.0 };
+        let distance = 2.5 + step as f32 * 0.2 + if step % 2 == 0 { 0.6 } else { -0.6 };
         let next = choose(distance, Some(current));
         assert!(error_in_pixels(&screen(distance), &sphere, chain[next].error) <= 1.0);
         changes += usize::from(next != current);
