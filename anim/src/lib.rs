@@ -30,6 +30,8 @@ pub mod evaluator;
 pub mod format;
 pub mod joint;
 pub mod ik;
+pub mod hit;
+pub mod level;
 pub mod limits;
 pub mod motion;
 pub mod retarget;

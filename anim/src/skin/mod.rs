@@ -14,9 +14,11 @@
 
 mod direction;
 mod position;
+mod vertex;
 
 pub use direction::{normal_matrix, skin_normals, skin_tangents};
 pub use position::skin_positions;
+pub use vertex::skin_position;
 
 use crate::data::{MeshInstance, Primitive};
 use glam::Mat4;

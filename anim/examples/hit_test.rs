@@ -1,0 +1,48 @@
+//! Points at a running fox and says what is hit: `cargo run -p dragonfly-anim --example hit_test`.
+
+use dragonfly_anim::bounds::BoneBoxes;
+use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+use dragonfly_anim::hit::{HitPose, HitSettings, HitTree, Ray};
+use glam::Vec3;
+use std::sync::Arc;
+
+const FOX: &[u8] = include_bytes!("../../tests/data/gltf/Fox.glb");
+
+pub(crate) fn main() {
+    let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a sound file").model;
+    let model = Arc::new(model);
+
+    // Once a model. `tree.parts()` is what can be stored beside it, and taken back with `HitTree::from_parts`.
+    let tree = Arc::new(HitTree::of(&model).expect("a model of usual size"));
+    let boxes = BoneBoxes::of(&model);
+
+    // Once a scene.
+    let mut evaluator = Evaluator::new(Arc::clone(&model));
+    let mut pose = HitPose::new(tree);
+
+    for frame in 0..5 {
+        // Each frame: the pose, then the boxes around it. Nothing is allocated.
+        let time = frame as f32 * 0.1;
+        evaluator.pose(Some(2), time);
+        pose.refit(&evaluator);
+
+        // From the side, at the middle of the fox.
+        let middle = boxes.bounds(&evaluator).center();
+        let ray = Ray { origin: middle + Vec3::X * 200.0, direction: Vec3::NEG_X };
+        match pose.ray(&evaluator, &ray, &HitSettings::default()) {
+            Some(hit) => {
+                let bone = hit.bone.map_or("no bone", |bone| {
+                    let bone = &model.animation.skeleton.bones[bone as usize];
+                    bone.name.as_str()
+                });
+                println!("{time:.1} s: triangle {} at {:.1}, moved by {bone}", hit.triangle, hit.position);
+            }
+            None => println!("{time:.1} s: missed"),
+        }
+
+        // What is near the ground below the head?
+        let paw = pose.sphere(&evaluator, Vec3::new(0.0, 0.0, 40.0), 30.0);
+        println!("       nearest to the ground: {:?}", paw.map(|hit| hit.distance));
+    }
+}

@@ -1,0 +1,196 @@
+//! From a triangle and shares of its corners to everything a hit says; and which of two hits is the better.
+
+use super::triangle::{Line, meet, nearest_on_flat, nearest_on_triangle, normal_of};
+use super::{Hit, HitSettings};
+use crate::data::{BoneIndex, MAX_INFLUENCES, ModelData, Primitive};
+use crate::evaluator::Evaluator;
+use crate::skin::Movement;
+use glam::{DVec3, Mat3, Vec3};
+
+/// Which triangle of the scene; ordered as in the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Which {
+    pub(super) instance: u32,
+    pub(super) primitive: u32,
+    pub(super) triangle: u32,
+}
+
+/// The best so far, before everything is said about it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    pub(super) distance: f64,
+    which: Which,
+    barycentric: DVec3,
+    corners: [Vec3; 3],
+    front: bool,
+}
+
+impl Found {
+    /// Nearer, or as near and earlier in the file: so the answer does not depend on the order of looking.
+    fn replaces(&self, best: Option<&Self>) -> bool {
+        best.is_none_or(|best| {
+            self.distance < best.distance || (self.distance == best.distance && self.which < best.which)
+        })
+    }
+}
+
+/// What a ray looks for.
+pub(super) struct RaySearch {
+    pub(super) line: Line,
+    pub(super) settings: HitSettings,
+    pub(super) best: Option<Found>,
+}
+
+impl RaySearch {
+    /// Nothing further away is of interest.
+    pub(super) fn limit(&self) -> f64 {
+        self.best.map_or(f64::from(self.settings.max_distance), |best| best.distance)
+    }
+
+    /// Takes the triangle where it is hit and better than the best; tells whether it was hit at all.
+    pub(super) fn test(
+        &mut self,
+        primitive: &Primitive,
+        movement: Movement<'_>,
+        which: Which,
+        corners: [Vec3; 3],
+    ) -> bool {
+        let Some(crossing) = meet(&self.line, corners) else { return false };
+        let within = crossing.distance <= f64::from(self.settings.max_distance);
+        let front = crossing.counter_clockwise != mirrored(primitive, movement, which.triangle);
+        if !within || !(front || self.settings.back_faces) {
+            return false;
+        }
+        let (distance, barycentric) = (crossing.distance, crossing.barycentric);
+        let found = Found { distance, which, barycentric, corners, front };
+        if found.replaces(self.best.as_ref()) {
+            self.best = Some(found);
+        }
+        true
+    }
+}
+
+/// What a sphere looks for: the nearest place within.
+pub(super) struct SphereSearch {
+    pub(super) center: DVec3,
+    pub(super) radius: f64,
+    /// Do triangles without area count?
+    pub(super) flat: bool,
+    pub(super) best: Option<Found>,
+}
+
+impl SphereSearch {
+    /// `None` for a sphere that holds nothing: a radius that is negative, or a number that is not finite. An infinite
+    /// radius holds everything.
+    pub(super) fn of(center: Vec3, radius: f32) -> Option<Self> {
+        (center.is_finite() && radius >= 0.0).then(|| Self {
+            center: center.as_dvec3(),
+            radius: f64::from(radius),
+            flat: false,
+            best: None,
+        })
+    }
+
+    /// Nothing further away is of interest.
+    pub(super) fn limit(&self) -> f64 {
+        self.best.map_or(self.radius, |best| best.distance)
+    }
+
+    /// Takes the triangle where it is within and better than the best.
+    pub(super) fn test(
+        &mut self,
+        primitive: &Primitive,
+        movement: Movement<'_>,
+        which: Which,
+        corners: [Vec3; 3],
+    ) {
+        let mut nearest = nearest_on_triangle(self.center, corners);
+        if self.flat {
+            nearest = nearest.or_else(|| nearest_on_flat(self.center, corners));
+        }
+        let Some((barycentric, distance)) = nearest else { return };
+        if distance > self.limit() {
+            return;
+        }
+        let normal = normal_of(corners).unwrap_or(DVec3::Y);
+        let counter_clockwise = normal.dot(self.center - corners[0].as_dvec3()) >= 0.0;
+        let front = counter_clockwise != mirrored(primitive, movement, which.triangle);
+        let found = Found { distance, which, barycentric, corners, front };
+        if found.replaces(self.best.as_ref()) {
+            self.best = Some(found);
+        }
+    }
+}
+
+/// Does the matrix of the triangle's first corner mirror, so that front and back change places?
+fn mirrored(primitive: &Primitive, movement: Movement<'_>, triangle: u32) -> bool {
+    let corner = primitive.indices.get(triangle as usize * 3).copied().unwrap_or(0);
+    let linear = Mat3::from_mat4(movement.matrix(primitive, corner as usize));
+    let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis].map(|axis| axis.as_dvec3());
+    x.cross(y).dot(z) < 0.0
+}
+
+/// Everything about `found`.
+pub(super) fn complete(evaluator: &Evaluator, found: &Found) -> Hit {
+    let Which { instance, primitive, triangle } = found.which;
+    let [a, b, c] = found.corners.map(|corner| corner.as_dvec3());
+    let shares = found.barycentric;
+    let normal = normal_of(found.corners).unwrap_or(DVec3::Y);
+    let movement = evaluator.movement(instance as usize, primitive as usize);
+    let of_instance = evaluator.primitives(instance as usize).get(primitive as usize);
+    let mirrored = match (of_instance, movement) {
+        (Some(primitive), Some(movement)) => mirrored(primitive, movement, triangle),
+        _ => false,
+    };
+    Hit {
+        instance,
+        primitive,
+        triangle,
+        barycentric: shares.as_vec3(),
+        bone: of_instance.and_then(|of| bone_at(evaluator.model(), instance, of, triangle, shares)),
+        position: (a * shares.x + b * shares.y + c * shares.z).as_vec3(),
+        normal: if mirrored { -normal } else { normal }.as_vec3(),
+        distance: found.distance as f32,
+        front: found.front,
+    }
+}
+
+/// The bone with the greatest weight at a place of a triangle; of two as great the one met first.
+fn bone_at(
+    model: &ModelData,
+    instance: u32,
+    primitive: &Primitive,
+    triangle: u32,
+    shares: DVec3,
+) -> Option<BoneIndex> {
+    let instance = model.instances.get(instance as usize)?;
+    let Some(skin) = instance.skin.filter(|_| primitive.vertices.influences_per_vertex > 0) else {
+        return instance.bone.filter(|&bone| (bone as usize) < model.animation.skeleton.len());
+    };
+    let skin = model.skins.get(skin as usize)?;
+    const MOST: usize = 3 * MAX_INFLUENCES;
+    let mut sums = [(0 as BoneIndex, 0.0_f64); MOST];
+    let mut used = 0;
+    let first = triangle as usize * 3;
+    for (&corner, share) in primitive.indices.get(first..first + 3)?.iter().zip(shares.to_array()) {
+        for influence in primitive.vertices.influences_of(corner as usize) {
+            let Some(&bone) = skin.bones.get(usize::from(influence.joint)) else { continue };
+            let weight = f64::from(influence.weight) * share;
+            match sums[..used].iter_mut().find(|(other, _)| *other == bone) {
+                Some((_, sum)) => *sum += weight,
+                None if used < MOST => {
+                    sums[used] = (bone, weight);
+                    used += 1;
+                }
+                None => {}
+            }
+        }
+    }
+    let mut greatest: Option<(BoneIndex, f64)> = None;
+    for &(bone, sum) in &sums[..used] {
+        if sum > greatest.map_or(0.0, |(_, most)| most) {
+            greatest = Some((bone, sum));
+        }
+    }
+    greatest.map(|(bone, _)| bone)
+}

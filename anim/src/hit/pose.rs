@@ -1,0 +1,301 @@
+//! The hierarchy in a pose: its boxes refitted, and the ways down through them.
+
+use super::place::{Found, RaySearch, SphereSearch, Which, complete};
+use super::tree::MIXED;
+use super::triangle::Line;
+use super::{Hit, HitNode, HitSettings, HitTree, Ray, TREE_DEPTH};
+use crate::bounds::AxisBox;
+use crate::data::Primitive;
+use crate::evaluator::Evaluator;
+use crate::skin::{Movement, skin_position};
+use glam::{DVec3, Vec3};
+use std::sync::Arc;
+
+/// How much wider than it is a box counts for a question, relative to the numbers in it: a hundred roundings of `f64`,
+/// so that no triangle is passed over that the formulas would hit by rounding.
+const PAD: f64 = 1e-14;
+
+/// A box this much further away than the best, relative to that, is still looked at: the distance to a triangle that a
+/// ray all but lies in is known to no more digits.
+const NEAR_TIE: f64 = 1.0 + 1e-9;
+
+/// A [`HitTree`] with its boxes around one pose, and room to work in.
+///
+/// [`Self::refit`] after each new pose, then any number of questions; each takes the evaluator that was refitted from,
+/// in the same pose. (With another pose or another model the answer is of no use, but there is one.) Neither
+/// allocates. A box is fitted when a question first comes by it, from the final poses of its joints, and the vertices
+/// of a leaf are skinned when a question first reaches it; both are kept until the next refit. That is why questions
+/// need `&mut self`, and why the first after a refit takes longer than those that follow.
+#[derive(Clone, Debug)]
+pub struct HitPose {
+    tree: Arc<HitTree>,
+    /// Counts refits; what has another number is out of date.
+    now: u32,
+    /// One a node, and when it was fitted.
+    boxes: Vec<(AxisBox, u32)>,
+    /// Beside the tree's vertices: scene space.
+    positions: Vec<Vec3>,
+    /// Of each leaf: when it was skinned.
+    skinned: Vec<u32>,
+    /// Nodes still to visit, and the distance at which each begins.
+    stack: Vec<(u32, f64)>,
+}
+
+impl HitPose {
+    /// In no pose: meets nothing until [`Self::refit`].
+    pub fn new(tree: Arc<HitTree>) -> Self {
+        let parts = tree.parts();
+        Self {
+            now: 0,
+            boxes: vec![(AxisBox::EMPTY, 0); parts.nodes.len()],
+            positions: vec![Vec3::ZERO; tree.vertices.len()],
+            skinned: vec![0; parts.leaves.len()],
+            stack: Vec::with_capacity(TREE_DEPTH + 2),
+            tree,
+        }
+    }
+
+    /// The hierarchy.
+    pub fn tree(&self) -> &Arc<HitTree> {
+        &self.tree
+    }
+
+    /// Forgets the last pose and puts the highest boxes around that of `evaluator`, from the final poses of the joints:
+    /// O(joints of all instances). Looks at no vertex. Allocates nothing.
+    pub fn refit(&mut self, evaluator: &Evaluator) {
+        self.now = self.now.wrapping_add(1);
+        if self.now == 0 {
+            // Once in four thousand million poses: numbers begin anew, so none may be left of before.
+            self.now = 1;
+            self.boxes.iter_mut().for_each(|(_, when)| *when = 0);
+            self.skinned.fill(0);
+        }
+        if !self.boxes.is_empty() {
+            self.fit(evaluator, 0);
+        }
+    }
+
+    /// The box of a node in the pose.
+    fn fit(&mut self, evaluator: &Evaluator, node: u32) -> AxisBox {
+        let (held, when) = self.boxes[node as usize];
+        if when == self.now {
+            return held;
+        }
+        let (part, instance, primitive) = self.tree.parts_of[node as usize];
+        let held = if part != MIXED {
+            let movement = evaluator.movement(instance as usize, primitive as usize);
+            let weights = evaluator.morph_weights(instance as usize);
+            movement
+                .map_or(AxisBox::EMPTY, |movement| self.tree.reaches.fit(part as usize, movement, weights))
+        } else if let HitNode::Inner([left, right]) = self.tree.parts().nodes[node as usize] {
+            // No deeper than the tree.
+            self.fit(evaluator, left).union(self.fit(evaluator, right))
+        } else {
+            AxisBox::EMPTY
+        };
+        self.boxes[node as usize] = (held, self.now);
+        held
+    }
+
+    /// A box around everything in the pose; empty before the first refit and without triangles.
+    pub fn whole(&self) -> AxisBox {
+        self.boxes.first().map_or(AxisBox::EMPTY, |(held, _)| *held)
+    }
+
+    /// The nearest place where `ray` meets the mesh; of two as near the first in the file. The same answer as
+    /// [`super::ray_open`]. `None` when nothing is met. Allocates nothing.
+    pub fn ray(&mut self, evaluator: &Evaluator, ray: &Ray, settings: &HitSettings) -> Option<Hit> {
+        let best = self.search_ray(evaluator, ray, settings, false)?;
+        Some(complete(evaluator, &best))
+    }
+
+    /// Does `ray` meet the mesh anywhere? Stops at the first hit it finds, so it is quicker than [`Self::ray`].
+    /// Allocates nothing.
+    pub fn any(&mut self, evaluator: &Evaluator, ray: &Ray, settings: &HitSettings) -> bool {
+        self.search_ray(evaluator, ray, settings, true).is_some()
+    }
+
+    /// The place of the mesh nearest to `center`, at most `radius` scene units away; of two as near the first in the
+    /// file. The same answer as [`super::sphere_open`]. `None` when nothing is within. Allocates nothing.
+    pub fn sphere(&mut self, evaluator: &Evaluator, center: Vec3, radius: f32) -> Option<Hit> {
+        let best = self.search_sphere(evaluator, SphereSearch::of(center, radius)?, None)?;
+        Some(complete(evaluator, &best))
+    }
+
+    /// Distance from `center` to the nearest place of instance number `instance`, triangles without area counted as
+    /// the lines and points that they are. `None` where the instance has no triangle.
+    pub(crate) fn distance_to_instance(
+        &mut self,
+        evaluator: &Evaluator,
+        center: Vec3,
+        instance: u32,
+    ) -> Option<f64> {
+        let search = SphereSearch { flat: true, ..SphereSearch::of(center, f32::INFINITY)? };
+        self.search_sphere(evaluator, search, Some(instance)).map(|best| best.distance)
+    }
+
+    /// The nearest place, of one instance or of all.
+    fn search_sphere(
+        &mut self,
+        evaluator: &Evaluator,
+        mut search: SphereSearch,
+        instance: Option<u32>,
+    ) -> Option<Found> {
+        let pad = self.pad(search.center);
+        self.start(|held| distance_to(search.center, held));
+        while let Some((node, begin)) = self.stack.pop() {
+            let (part, of, _) = self.tree.parts_of[node as usize];
+            let other = instance.is_some_and(|instance| part != MIXED && instance != of);
+            if other || begin > search.limit() * NEAR_TIE + pad {
+                continue;
+            }
+            match self.tree.parts().nodes[node as usize] {
+                HitNode::Inner(children) => {
+                    self.push(evaluator, node, children, |held| distance_to(search.center, held))
+                }
+                HitNode::Leaf(leaf) => {
+                    self.for_each_triangle(evaluator, leaf, |primitive, movement, which, corners| {
+                        search.test(primitive, movement, which, corners);
+                        true
+                    });
+                }
+            }
+        }
+        search.best
+    }
+
+    /// The nearest hit, or with `any` the first one met.
+    fn search_ray(
+        &mut self,
+        evaluator: &Evaluator,
+        ray: &Ray,
+        settings: &HitSettings,
+        any: bool,
+    ) -> Option<Found> {
+        let line = Line::of(ray)?;
+        let slabs = Slabs { line, inverse: inverse(line.direction), pad: self.pad(line.origin) };
+        let mut search = RaySearch { line, settings: *settings, best: None };
+        self.start(|held| slabs.entry(held));
+        while let Some((node, begin)) = self.stack.pop() {
+            // Equal ones are looked at: the earlier in the file may be there. False where the limit is NaN.
+            let within = begin <= search.limit() * NEAR_TIE;
+            if !within {
+                continue;
+            }
+            match self.tree.parts().nodes[node as usize] {
+                HitNode::Inner(children) => self.push(evaluator, node, children, |held| slabs.entry(held)),
+                HitNode::Leaf(leaf) => {
+                    self.for_each_triangle(evaluator, leaf, |primitive, movement, which, corners| {
+                        !(search.test(primitive, movement, which, corners) && any)
+                    });
+                    if any && search.best.is_some() {
+                        break;
+                    }
+                }
+            }
+        }
+        search.best
+    }
+
+    /// [`PAD`] times the largest number of the question and of the boxes.
+    fn pad(&self, point: DVec3) -> f64 {
+        let whole = self.whole();
+        let largest = if whole.is_empty() { 0.0 } else { whole.min.abs().max(whole.max.abs()).max_element() };
+        (f64::from(largest) + point.abs().max_element()) * PAD
+    }
+
+    /// Begins at the root, where `begin` says how far away it begins, or that it is not met.
+    fn start(&mut self, begin: impl Fn(&AxisBox) -> Option<f64>) {
+        self.stack.clear();
+        if let Some(distance) = self.boxes.first().and_then(|(held, _)| begin(held)) {
+            self.stack.push((0, distance));
+        }
+    }
+
+    /// Adds those of the two nodes below `node` that are met, the nearer to be visited first.
+    fn push(
+        &mut self,
+        evaluator: &Evaluator,
+        node: u32,
+        [left, right]: [u32; 2],
+        begin: impl Fn(&AxisBox) -> Option<f64>,
+    ) {
+        let (of_left, of_right) = (self.fit(evaluator, left), self.fit(evaluator, right));
+        // Seen from below a box is often smaller: the next question gains by it.
+        let below = of_left.union(of_right);
+        let own = &mut self.boxes[node as usize].0;
+        *own = AxisBox { min: own.min.max(below.min), max: own.max.min(below.max) };
+        match (begin(&of_left), begin(&of_right)) {
+            (Some(a), Some(b)) if a <= b => self.stack.extend([(right, b), (left, a)]),
+            (Some(a), Some(b)) => self.stack.extend([(left, a), (right, b)]),
+            (Some(a), None) => self.stack.push((left, a)),
+            (None, Some(b)) => self.stack.push((right, b)),
+            (None, None) => {}
+        }
+    }
+
+    /// Calls `look` with the triangles of a leaf, skinned, until it says `false`.
+    fn for_each_triangle(
+        &mut self,
+        evaluator: &Evaluator,
+        leaf: u32,
+        mut look: impl FnMut(&Primitive, Movement<'_>, Which, [Vec3; 3]) -> bool,
+    ) {
+        let of = self.tree.parts().leaves[leaf as usize];
+        let (instance, index) = (of.instance as usize, of.primitive as usize);
+        let Some(movement) = evaluator.movement(instance, index) else { return };
+        let primitive = &evaluator.primitives(instance)[index];
+        let first = self.tree.first_vertex[leaf as usize] as usize;
+        let end = self.tree.first_vertex[leaf as usize + 1] as usize;
+        if std::mem::replace(&mut self.skinned[leaf as usize], self.now) != self.now {
+            let weights = evaluator.morph_weights(instance);
+            for (position, &vertex) in
+                self.positions[first..end].iter_mut().zip(&self.tree.vertices[first..end])
+            {
+                *position = skin_position(primitive, movement, weights, vertex as usize);
+            }
+        }
+        for at in of.first as usize..(of.first + of.count) as usize {
+            let corners = self.tree.corners[at].map(|corner| self.positions[first + usize::from(corner)]);
+            let triangle = self.tree.parts().triangles[at];
+            let which = Which { instance: of.instance, primitive: of.primitive, triangle };
+            if !look(primitive, movement, which, corners) {
+                return;
+            }
+        }
+    }
+}
+
+/// One over each number; of zero a number so large that only a place on the very plane gives none.
+fn inverse(direction: DVec3) -> DVec3 {
+    // Not infinite: zero times it must stay zero.
+    const LARGEST: f64 = 1e300;
+    (1.0 / direction).clamp(DVec3::splat(-LARGEST), DVec3::splat(LARGEST))
+}
+
+/// A ray ready to be held against many boxes.
+struct Slabs {
+    line: Line,
+    inverse: DVec3,
+    pad: f64,
+}
+
+impl Slabs {
+    /// Where the ray enters the box, not negative; `None` where it does not (the slab test, Kay and Kajiya 1986).
+    fn entry(&self, held: &AxisBox) -> Option<f64> {
+        if held.is_empty() {
+            return None;
+        }
+        let a = (held.min.as_dvec3() - self.pad - self.line.origin) * self.inverse;
+        let b = (held.max.as_dvec3() + self.pad - self.line.origin) * self.inverse;
+        let near = a.min(b).max_element().max(0.0);
+        let far = a.max(b).min_element();
+        (near <= far * NEAR_TIE).then_some(near)
+    }
+}
+
+/// Distance from `point` to the box, zero within; `None` for an empty one.
+fn distance_to(point: DVec3, held: &AxisBox) -> Option<f64> {
+    let nearest = point.max(held.min.as_dvec3()).min(held.max.as_dvec3());
+    (!held.is_empty()).then(|| point.distance(nearest))
+}

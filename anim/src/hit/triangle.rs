@@ -1,0 +1,210 @@
+//! One triangle against a ray and against a point: the formulas.
+
+use super::Ray;
+use glam::{DVec3, Vec3};
+
+/// A triangle whose edges enclose an angle with a smaller sine has no area.
+const DEGENERATE: f64 = 1e-12;
+
+/// A ray that rises less over a plane, per unit of its length, lies in it. With less the distance would not be known to
+/// more than a few digits.
+const PARALLEL: f64 = 1e-6;
+
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Scene units from the ray's origin, not negative.
+    pub distance: f64,
+    /// Shares of the three corners, not negative, together 1.
+    pub barycentric: DVec3,
+    /// Does the ray meet the side from which the corners run counter-clockwise?
+    pub counter_clockwise: bool,
+}
+
+/// A ray in `f64` whose direction has unit length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    pub(super) origin: DVec3,
+    pub(super) direction: DVec3,
+}
+
+impl Line {
+    /// `None` where the ray has no direction, or a number is not finite.
+    pub(super) fn of(ray: &Ray) -> Option<Self> {
+        let direction = ray.direction.as_dvec3();
+        let length = direction.length();
+        let sound = ray.origin.is_finite() && length.is_finite() && length > 0.0;
+        sound.then(|| Self { origin: ray.origin.as_dvec3(), direction: direction / length })
+    }
+}
+
+/// Where `ray` meets the triangle of `corners` (Möller and Trumbore 1997).
+///
+/// ```text
+/// origin + t * direction = a + u * (b - a) + v * (c - a)            three equations, solved by Cramer's rule
+///
+/// e1 = b - a     e2 = c - a     p = direction × e2     s = origin - a     q = s × e1
+/// det = e1 · p   u = s · p / det     v = direction · q / det     t = e2 · q / det
+/// a hit where  0 ≤ u,  0 ≤ v,  u + v ≤ 1,  0 ≤ t
+/// ```
+///
+/// The edges count. `None` also where the triangle has no area, the ray lies in its plane, or a number is not finite.
+pub fn crossing(ray: &Ray, corners: [Vec3; 3]) -> Option<Crossing> {
+    meet(&Line::of(ray)?, corners)
+}
+
+/// [`crossing`] with the ray made ready.
+pub(super) fn meet(line: &Line, corners: [Vec3; 3]) -> Option<Crossing> {
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+    let (e1, e2) = (b - a, c - a);
+    let p = line.direction.cross(e2);
+    let det = e1.dot(p);
+    let s = line.origin - a;
+    let u = s.dot(p) / det;
+    // Most triangles end here; a NaN does too.
+    if !(0.0..=1.0).contains(&u) {
+        return None;
+    }
+    let q = s.cross(e1);
+    let v = line.direction.dot(q) / det;
+    let distance = e2.dot(q) / det;
+    if !(v >= 0.0 && u + v <= 1.0 && distance >= 0.0 && distance.is_finite()) {
+        return None;
+    }
+    let area = normal(e1, e2)?.1;
+    let steep = det.abs() > PARALLEL * area;
+    let barycentric = DVec3::new((1.0 - u - v).max(0.0), u, v);
+    steep.then_some(Crossing { distance, barycentric, counter_clockwise: det > 0.0 })
+}
+
+/// The unit normal of two edges, and the length before it had unit length (twice the area); `None` without area.
+fn normal(e1: DVec3, e2: DVec3) -> Option<(DVec3, f64)> {
+    let normal = e1.cross(e2);
+    let length = normal.length();
+    // False where a number is NaN.
+    let sound = length > DEGENERATE * (e1.length() * e2.length()) && length.is_finite();
+    sound.then(|| (normal / length, length))
+}
+
+/// The unit normal of a triangle, on the side from which its corners run counter-clockwise; `None` without area.
+pub(super) fn normal_of(corners: [Vec3; 3]) -> Option<DVec3> {
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+    normal(b - a, c - a).map(|(normal, _)| normal)
+}
+
+/// The place of the triangle of `corners` that is nearest to `point`: shares of the corners, and the distance
+/// (Ericson 2005, §5.1.5).
+///
+/// The plane around the triangle falls into seven regions, which the signs of dot products tell apart: over a corner
+/// the corner is nearest, over an edge the foot on it, over the inside the foot on the plane. `None` where the triangle
+/// has no area or a number is not finite.
+pub fn nearest_on_triangle(point: DVec3, corners: [Vec3; 3]) -> Option<(DVec3, f64)> {
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+    normal(b - a, c - a)?;
+    let shares = nearest_shares(point, a, b, c);
+    let distance = point.distance(a * shares.x + b * shares.y + c * shares.z);
+    distance.is_finite().then_some((shares, distance))
+}
+
+/// The same for a triangle without area, which is a line or a point: the nearest of its three edges.
+pub(super) fn nearest_on_flat(point: DVec3, corners: [Vec3; 3]) -> Option<(DVec3, f64)> {
+    let corners = corners.map(|corner| corner.as_dvec3());
+    let mut nearest: Option<(DVec3, f64)> = None;
+    for edge in 0..3 {
+        let next = (edge + 1) % 3;
+        let (from, along) = (corners[edge], corners[next] - corners[edge]);
+        let part = (point - from).dot(along) / along.length_squared();
+        let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 };
+        let distance = point.distance(from + along * part);
+        if distance.is_finite() && nearest.is_none_or(|(_, least)| distance < least) {
+            let mut shares = [0.0; 3];
+            (shares[edge], shares[next]) = (1.0 - part, part);
+            nearest = Some((DVec3::from_array(shares), distance));
+        }
+    }
+    nearest
+}
+
+fn nearest_shares(point: DVec3, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
+    let (ab, ac, ap, bp, cp) = (b - a, c - a, point - a, point - b, point - c);
+    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return DVec3::X;
+    }
+    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return DVec3::Y;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        let part = d1 / (d1 - d3);
+        return DVec3::new(1.0 - part, part, 0.0);
+    }
+    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return DVec3::Z;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        let part = d2 / (d2 - d6);
+        return DVec3::new(1.0 - part, 0.0, part);
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        let part = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return DVec3::new(0.0, 1.0 - part, part);
+    }
+    let sum = va + vb + vc;
+    DVec3::new(va / sum, vb / sum, vc / sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CORNERS: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
+
+    fn down(x: f32, y: f32) -> Ray {
+        Ray { origin: Vec3::new(x, y, 2.0), direction: Vec3::NEG_Z * 3.0 }
+    }
+
+    #[test]
+    fn a_ray_meets_a_triangle_where_it_should() {
+        let hit = crossing(&down(0.25, 0.5), CORNERS).unwrap();
+        assert_eq!((hit.distance, hit.barycentric), (2.0, DVec3::new(0.25, 0.25, 0.5)));
+        assert!(hit.counter_clockwise);
+        let [a, b, c] = CORNERS;
+        assert!(!crossing(&down(0.25, 0.5), [a, c, b]).unwrap().counter_clockwise);
+        // Edges and corners count, behind and beside do not.
+        assert!(crossing(&down(0.5, 0.5), CORNERS).is_some() && crossing(&down(0.0, 0.0), CORNERS).is_some());
+        assert_eq!(crossing(&down(0.6, 0.6), CORNERS), None);
+        assert_eq!(crossing(&Ray { direction: Vec3::Z, ..down(0.2, 0.2) }, CORNERS), None);
+    }
+
+    #[test]
+    fn what_has_no_area_or_no_number_is_no_hit() {
+        let ray = down(0.0, 0.0);
+        for corners in [[Vec3::ZERO; 3], [Vec3::ZERO, Vec3::X, Vec3::X * 2.0], [Vec3::NAN, Vec3::X, Vec3::Y]]
+        {
+            assert_eq!(crossing(&ray, corners), None);
+            assert_eq!(nearest_on_triangle(DVec3::ZERO, corners), None);
+        }
+        for direction in [Vec3::ZERO, Vec3::NAN, Vec3::INFINITY] {
+            assert_eq!(crossing(&Ray { direction, ..ray }, CORNERS), None);
+        }
+        assert_eq!(crossing(&Ray { origin: Vec3::ZERO, direction: Vec3::X }, CORNERS), None);
+        assert_eq!(nearest_on_triangle(DVec3::NAN, CORNERS), None);
+    }
+
+    #[test]
+    fn each_region_has_its_nearest_place() {
+        let nearest = |x: f64, y: f64| nearest_on_triangle(DVec3::new(x, y, 0.0), CORNERS).unwrap();
+        assert_eq!(nearest(-1.0, -1.0).0, DVec3::X);
+        assert_eq!(nearest(3.0, 0.0), (DVec3::Y, 2.0));
+        assert_eq!(nearest(0.0, 4.0), (DVec3::Z, 3.0));
+        assert_eq!(nearest(0.5, -1.0), (DVec3::new(0.5, 0.5, 0.0), 1.0));
+        assert_eq!(nearest(-2.0, 0.25), (DVec3::new(0.75, 0.0, 0.25), 2.0));
+        assert_eq!(nearest(1.0, 1.0).0, DVec3::new(0.0, 0.5, 0.5));
+        assert_eq!(nearest(0.25, 0.25), (DVec3::new(0.5, 0.25, 0.25), 0.0));
+    }
+}

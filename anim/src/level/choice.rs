@@ -1,0 +1,84 @@
+//! Which level is good enough, by its size on the screen.
+
+use super::Level;
+use crate::bounds::Sphere;
+use glam::Vec3;
+
+/// A camera, as far as sizes need it: a perspective one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Screen {
+    /// Where the camera is, scene space.
+    pub eye: Vec3,
+    /// Radians from the lower edge of the picture to the upper, above 0 and below π.
+    pub vertical_fov: f32,
+    /// Pixels from the lower edge to the upper.
+    pub height: f32,
+}
+
+impl Screen {
+    /// Pixels that a length of 1 takes at a distance of 1: `height / (2 tan(fov / 2))`.
+    fn focal(&self) -> f32 {
+        self.height / (2.0 * (self.vertical_fov * 0.5).tan())
+    }
+}
+
+/// Radius of the picture of `sphere` in the middle of the screen, pixels.
+///
+/// ```text
+/// focal * radius / √(distance² - radius²)
+/// ```
+///
+/// Infinite where the camera is within the sphere or a number is none. The true outline, which is a little larger than
+/// that of the circle through the centre.
+pub fn radius_in_pixels(screen: &Screen, sphere: &Sphere) -> f32 {
+    let distance = f64::from(screen.eye.distance(sphere.center));
+    let radius = f64::from(sphere.radius);
+    let tangent = (distance * distance - radius * radius).sqrt();
+    let pixels = (f64::from(screen.focal()) * radius / tangent) as f32;
+    if tangent > 0.0 && pixels.is_finite() { pixels } else { f32::INFINITY }
+}
+
+/// Pixels that a length of `error` takes at most, wherever in `sphere` it is.
+///
+/// ```text
+/// focal * error / (distance - radius)
+/// ```
+///
+/// Zero for no error; infinite where the camera is within the sphere or a number is none.
+pub fn error_in_pixels(screen: &Screen, sphere: &Sphere, error: f32) -> f32 {
+    if error == 0.0 {
+        return 0.0;
+    }
+    let nearest = screen.eye.distance(sphere.center) - sphere.radius;
+    let pixels = screen.focal() * error / nearest;
+    if nearest > 0.0 && pixels.is_finite() { pixels } else { f32::INFINITY }
+}
+
+/// The coarsest of `levels` whose error takes at most `pixels` on the screen; the first, the finest, where none does.
+///
+/// `sphere` is around the model in its pose ([`crate::bounds::BoneBoxes`] gives it quickly). `current` is the level shown
+/// last. So that a model at one distance does not change to and fro, a coarser level than that is only taken when its
+/// error is below `pixels * (1 - hysteresis)`; `hysteresis` is 0..1, 0 for none. A sphere that takes less than a
+/// pixel gets the coarsest of all.
+pub fn choose_level(
+    levels: &[Level],
+    screen: &Screen,
+    sphere: &Sphere,
+    pixels: f32,
+    hysteresis: f32,
+    current: Option<usize>,
+) -> usize {
+    if radius_in_pixels(screen, sphere) < 0.5 {
+        return levels.len().saturating_sub(1);
+    }
+    let coarsest = |limit: f32| {
+        let fits = |level: &Level| error_in_pixels(screen, sphere, level.error) <= limit;
+        levels.iter().rposition(fits).unwrap_or(0)
+    };
+    let (now, strict) = (coarsest(pixels), coarsest(pixels * (1.0 - hysteresis.clamp(0.0, 1.0))));
+    match current.filter(|&current| current < levels.len()) {
+        None => now,
+        Some(current) if strict > current => strict,
+        Some(current) => now.min(current),
+    }
+}
