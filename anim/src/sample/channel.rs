@@ -1,6 +1,6 @@
 //! One property at one time: the four ways to find what lies between two keys.
 
-use super::{Value, find_keys};
+use super::{Keys, Value, find_keys};
 use crate::data::{Channel, Interpolation};
 
 /// Value of `channel` at `time` seconds; clamped outside its keys, `rest` when it has no key.
@@ -15,8 +15,18 @@ use crate::data::{Channel, Interpolation};
 /// On a key: its value, bit for bit. The result is finite when `rest` is (see the rules in [`super`]); a column shorter
 /// than the times counts as rest values.
 pub fn sample_channel<T: Value>(channel: &Channel<T>, rest: T, time: f32) -> T {
-    let Some(keys) = find_keys(&channel.times, time) else { return rest };
-    let value = |key| channel.value(key).map_or(rest, |value: T| value.healed(rest));
+    match find_keys(&channel.times, time) {
+        Some(keys) => sample_between(channel, rest, keys),
+        None => rest,
+    }
+}
+
+/// The value of `channel` between two of its keys, whichever they are: what [`sample_channel`] does once it knows them.
+///
+/// Key reduction asks it about keys that are not neighbours yet, and so gets what the shorter channel will give, bit
+/// for bit.
+pub(crate) fn sample_between<T: Value>(channel: &Channel<T>, rest: T, keys: Keys) -> T {
+    let value = |key| key_value(channel, rest, key);
     let before = value(keys.before);
     if keys.mix == 0.0 {
         return before;
@@ -27,13 +37,28 @@ pub fn sample_channel<T: Value>(channel: &Channel<T>, rest: T, time: f32) -> T {
         Interpolation::Closest => value(keys.after),
         Interpolation::Linear => T::linear(before, value(keys.after), keys.mix),
         Interpolation::CubicSpline => {
-            let span = channel.times[keys.after] - channel.times[keys.before];
-            let out_tangent = tangent(channel, keys.before * 3 + 2);
-            let in_tangent = tangent(channel, keys.after * 3);
-            T::cubic(before, out_tangent, in_tangent, value(keys.after), span, keys.mix)
+            let time = |key| channel.times.get(key).copied().unwrap_or(0.0);
+            let span = time(keys.after) - time(keys.before);
+            let (leave, arrive) = (out_tangent(channel, keys.before), in_tangent(channel, keys.after));
+            T::cubic(before, leave, arrive, value(keys.after), span, keys.mix)
         }
     };
     if mixed.is_finite() { mixed } else { before }
+}
+
+/// The value of key number `key` as sampling uses it: usable, and `rest` where there is none.
+pub(crate) fn key_value<T: Value>(channel: &Channel<T>, rest: T, key: usize) -> T {
+    channel.value(key).map_or(rest, |value: T| value.healed(rest))
+}
+
+/// The tangent with which a cubic spline arrives at key number `key`; zero where it is missing or not finite.
+pub(crate) fn in_tangent<T: Value>(channel: &Channel<T>, key: usize) -> T {
+    tangent(channel, key.saturating_mul(3))
+}
+
+/// The tangent with which a cubic spline leaves key number `key`; zero where it is missing or not finite.
+pub(crate) fn out_tangent<T: Value>(channel: &Channel<T>, key: usize) -> T {
+    tangent(channel, key.saturating_mul(3).saturating_add(2))
 }
 
 /// The tangent stored at `position`; zero where it is missing or not finite.
