@@ -28,4 +28,4 @@ pub mod limits;
 pub mod reduce;
 pub mod sample;
 pub mod skin;
-//pub mod tutorial;
+pub mod tutorial;

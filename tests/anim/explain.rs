@@ -328,13 +328,13 @@ fn what_is_explained_is_what_is_played_bit_for_bit() {
         for time in TIMES {
             evaluator.pose(Some(0), time);
             let finals = animation.final_bone_poses(Some(0), time).to_vec();
-            for bone in 0..model.animation.skeleton.len() {
+            for (bone, &final_pose) in finals.iter().enumerate() {
                 let explanation = explain(&model, Some(0), time, What::Bone(bone as u32)).unwrap();
                 let step = explanation.bone(bone as u32).unwrap();
                 assert_eq!(step.to_root, evaluator.to_root()[bone]);
                 assert_eq!(step.pose, animation.poses()[bone]);
                 let Subject::Bone(result) = &explanation.subject else { panic!("a bone was asked for") };
-                assert_eq!(result.final_pose, finals[bone]);
+                assert_eq!(result.final_pose, final_pose);
             }
             for instance in 0..model.instances.len() {
                 let mut positions = vec![Vec3::ZERO; 300];

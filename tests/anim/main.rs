@@ -9,6 +9,7 @@ mod damage;
 mod degenerate;
 mod degenerate_import;
 mod determinism;
+mod docs;
 mod doors;
 mod explain;
 mod fixture;

@@ -82,7 +82,7 @@ pub enum Subject {
     /// Of a bone.
     Bone(BoneResult),
     /// Of a vertex.
-    Vertex(VertexResult),
+    Vertex(Box<VertexResult>),
 }
 
 /// Why there is nothing to explain.

@@ -83,14 +83,14 @@ fn channel<T: Copy>(
 ) -> Result {
     let value = show(step.value);
     let Some(keys) = &step.keys else {
-        return writeln!(out, "    {name:<12}no keys: as in the rest pose      {value}");
+        return writeln!(out, "    {name:<12}no keys: as in the rest pose  {value}");
     };
     writeln!(out, "    {name:<12}{}", method(keys))?;
     let mut line = |what: &str, key: &super::KeyStep<T>| -> Result {
         let (time, index) = (number(key.time), key.index);
-        writeln!(out, "      {what:<7}key {index:>5} at {time} s      {}", show(key.value))?;
+        writeln!(out, "      {what:<7}key {index:>5} at {time} s        {}", show(key.value))?;
         match key.tangent {
-            Some(tangent) => writeln!(out, "{:>34}tangent  {}", "", show(tangent)),
+            Some(tangent) => writeln!(out, "{:>37}tangent  {}", "", show(tangent)),
             None => Ok(()),
         }
     };
@@ -194,7 +194,7 @@ fn named(explanation: &Explanation, bone: BoneIndex) -> String {
 
 /// Two matrices under their names, row by row.
 fn side_by_side(out: &mut Formatter<'_>, left: &str, a: Mat4, right: &str, b: Mat4) -> Result {
-    writeln!(out, "    {left:<44}{right}")?;
+    writeln!(out, "    {left:<47}{right}")?;
     for row in 0..4 {
         let numbers = |matrix: Mat4| matrix.row(row).to_array().map(number).join("");
         writeln!(out, "    [{} ]    [{} ]", numbers(a), numbers(b))?;

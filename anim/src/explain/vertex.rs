@@ -146,7 +146,7 @@ pub(super) fn result(
         final_position: skin_position(part, movement, &weights, index).unwrap_or(Vec3::ZERO),
         final_normal: skin_normal(part, movement, &weights, index),
     };
-    Ok((bones, Subject::Vertex(result)))
+    Ok((bones, Subject::Vertex(Box::new(result))))
 }
 
 /// The instance and its primitive, when they have the vertex.

@@ -81,9 +81,9 @@ pub(super) fn measure_against(
     for (frame, &time) in source.times.iter().enumerate() {
         sample_take(Some(reduced), skeleton, time, &mut poses);
         to_root(skeleton, &poses, &mut matrices);
-        for bone in 0..bones {
+        for (bone, &matrix) in matrices.iter().enumerate() {
             let at = frame * bones + bone;
-            let error = deviation(source.to_root[at], matrices[bone], lengths.shell);
+            let error = deviation(source.to_root[at], matrix, lengths.shell);
             found.note(Deviation {
                 bone: bone as u32,
                 time,

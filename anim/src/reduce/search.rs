@@ -204,8 +204,7 @@ impl<'a> Search<'a> {
             let tolerance = self.source.tolerance(at, self.lengths);
             let known = largest * tolerance;
             let error = deviation_above(self.source.to_root[at], matrix, self.lengths.shell, known);
-            // NaN fails too.
-            if !(error <= tolerance) {
+            if error > tolerance || error.is_nan() {
                 return None;
             }
             largest = largest.max(if error > 0.0 { error / tolerance } else { 0.0 });
