@@ -87,6 +87,10 @@ fn no_more(reduced: &Reduced, original: &Take) {
     for (new, old) in reduced.take.tracks.iter().zip(&original.tracks) {
         assert!(of_original(&new.rotation.times, &old.rotation.times));
         assert_eq!(new.rotation.interpolation, old.rotation.interpolation);
+        if new.rotation.interpolation == Interpolation::Linear {
+            let one_side = |pair: &[Quat]| pair[0].dot(pair[1]) >= 0.0;
+            assert!(new.rotation.values.windows(2).all(one_side), "neighbours lie in one hemisphere");
+        }
         assert_eq!(new.translation.values.len(), new.translation.len() * new.translation.values_per_key());
     }
 }
@@ -476,7 +480,7 @@ fn the_takes_of_the_fox_lose_most_of_their_keys() {
 }
 
 #[test]
-fn the_takes_of_a_captured_walk_lose_most_of_their_keys() {
+fn the_takes_of_a_person_lose_most_of_their_keys() {
     let Some(folder) = shared("assets/bench") else { return };
     report("pab", &model(&folder.join("pab.glb")), 1000.0, &[0.1, 1.0, 5.0]);
 }

@@ -33,9 +33,24 @@
 //! they cannot add up unseen, and bones share the tolerance of a chain as they need it. When no key can go any more, each
 //! channel is laid out anew with the fewest keys that the others allow (a shortest path over its keys).
 //!
-//! Values before → after, a dot is a key removed, for a linear channel: `0 0 0 1 2 3 3` → `· · 0 · · 3 ·`.
+//! Values before → after, a dot is a key removed, for a linear channel of a take whose start and end others mark:
+//! `0 0 0 1 2 3 3` → `· · 0 · · 3 ·`.
 //!
 //! The cost is measured in bones moved on a frame: about (keys) × (frames in a gap) × (bones in a subtree).
+//!
+//! # Figures
+//!
+//! What the example `reduce_keys` prints, with the default settings (contacts searched for) and the unit of the model:
+//!
+//! | take | bones, seconds | keys | within 0.1 mm | 1 mm | 5 mm |
+//! |---|---|---|---|---|---|
+//! | a walk, 41 keys a channel | 67, 1.3 | 8241 | 1090 (13 %) | 831 (10 %) | 538 (7 %) |
+//! | the fox, `Survey` | 25, 3.4 | 1743 | 494 (28 %) | 378 (22 %) | 352 (20 %) |
+//! | the fox, `Run` | 25, 1.2 | 525 | 498 (95 %) | 437 (83 %) | 320 (61 %) |
+//!
+//! `Survey` stands: in its contacts the tolerance is a tenth of a millimetre, whatever it is elsewhere. `Run` has been
+//! thinned out before it was saved. For one channel by itself the result is the fewest keys that there can be: over 60
+//! random curves of 60 keys, 2230 keys in all, as many as an exhaustive search finds.
 
 mod column;
 mod contact;
