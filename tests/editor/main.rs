@@ -8,6 +8,7 @@ mod complaints;
 mod device_loss;
 mod documents;
 mod drag;
+mod explain;
 mod faults;
 mod fixture;
 mod fixture_layer;

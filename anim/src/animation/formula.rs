@@ -36,12 +36,17 @@ pub fn to_root(skeleton: &Skeleton, poses: &[Transform], out: &mut [Mat4]) {
         let pose = poses.get(index).copied().unwrap_or_else(|| rest_pose(bone));
         let to_parent = to_parent(bone, pose);
         let parent = bone.parent.map(|parent| parent as usize).filter(|&parent| parent < index);
-        let (product, fallback) = match parent {
-            Some(parent) => (out[parent] * to_parent, out[parent]),
-            None => (to_parent, Mat4::IDENTITY),
-        };
-        out[index] = if product.is_finite() { product } else { fallback };
+        out[index] = child_to_root(parent.map(|parent| out[parent]), to_parent);
     }
+}
+
+/// `to_root` of one bone from that of its parent: the step that [`to_root()`] does for each.
+pub(crate) fn child_to_root(parent: Option<Mat4>, to_parent: Mat4) -> Mat4 {
+    let (product, fallback) = match parent {
+        Some(parent) => (parent * to_parent, parent),
+        None => (to_parent, Mat4::IDENTITY),
+    };
+    if product.is_finite() { product } else { fallback }
 }
 
 /// `final_pose` of every joint of `skin`, in the skin's order: bind space → scene space.

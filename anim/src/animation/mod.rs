@@ -5,6 +5,7 @@
 
 mod formula;
 
+pub(crate) use formula::child_to_root;
 pub use formula::{final_pose, final_poses, to_parent, to_root};
 
 use crate::data::{AnimationData, ModelData, Skin, Take, Transform};

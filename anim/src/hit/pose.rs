@@ -252,7 +252,8 @@ impl HitPose {
             for (position, &vertex) in
                 self.positions[first..end].iter_mut().zip(&self.tree.vertices[first..end])
             {
-                *position = skin_position(primitive, movement, weights, vertex as usize);
+                *position =
+                    skin_position(primitive, movement, weights, vertex as usize).unwrap_or(Vec3::ZERO);
             }
         }
         for at in of.first as usize..(of.first + of.count) as usize {

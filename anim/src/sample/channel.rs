@@ -15,16 +15,25 @@ use crate::data::{Channel, Interpolation};
 /// On a key: its value, bit for bit. The result is finite when `rest` is (see the rules in [`super`]); a column shorter
 /// than the times counts as rest values.
 pub fn sample_channel<T: Value>(channel: &Channel<T>, rest: T, time: f32) -> T {
-    sample_channel_with(channel, rest, time, |between| match channel.interpolation {
+    match find_keys(&channel.times, time) {
+        Some(keys) => sample_between(channel, rest, keys),
+        None => rest,
+    }
+}
+
+/// The value of `channel` between two of its keys, whichever they are: what [`sample_channel`] does once it knows them.
+///
+/// Key reduction asks it about keys that are not neighbours yet, and so gets what the shorter channel will give, bit
+/// for bit.
+pub(crate) fn sample_between<T: Value>(channel: &Channel<T>, rest: T, keys: Keys) -> T {
+    interpolated(channel, rest, keys, |between| match channel.interpolation {
         Interpolation::Step => between.before,
-        Interpolation::Closest if between.keys.mix < 0.5 => between.before,
+        Interpolation::Closest if keys.mix < 0.5 => between.before,
         Interpolation::Closest => between.after,
-        Interpolation::Linear => T::linear(between.before, between.after, between.keys.mix),
+        Interpolation::Linear => T::linear(between.before, between.after, keys.mix),
         Interpolation::CubicSpline => {
-            let out_tangent = tangent(channel, between.keys.before * 3 + 2);
-            let in_tangent = tangent(channel, between.keys.after * 3);
-            let Between { before, after, seconds, keys } = between;
-            T::cubic(before, out_tangent, in_tangent, after, seconds, keys.mix)
+            let (leave, arrive) = (out_tangent(channel, keys.before), in_tangent(channel, keys.after));
+            T::cubic(between.before, leave, arrive, between.after, between.seconds, keys.mix)
         }
     })
 }
@@ -66,15 +75,42 @@ pub fn sample_channel_with<T: Value>(
     time: f32,
     interpolate: impl FnOnce(Between<T>) -> T,
 ) -> T {
-    let Some(keys) = find_keys(&channel.times, time) else { return rest };
-    let value = |key| channel.value(key).map_or(rest, |value: T| value.healed(rest));
+    match find_keys(&channel.times, time) {
+        Some(keys) => interpolated(channel, rest, keys, interpolate),
+        None => rest,
+    }
+}
+
+fn interpolated<T: Value>(
+    channel: &Channel<T>,
+    rest: T,
+    keys: Keys,
+    interpolate: impl FnOnce(Between<T>) -> T,
+) -> T {
+    let value = |key| key_value(channel, rest, key);
     let before = value(keys.before);
     if keys.mix == 0.0 {
         return before;
     }
-    let seconds = channel.times[keys.after] - channel.times[keys.before];
+    let time = |key| channel.times.get(key).copied().unwrap_or(0.0);
+    let seconds = time(keys.after) - time(keys.before);
     let mixed = interpolate(Between { before, after: value(keys.after), seconds, keys });
     if mixed.is_finite() { mixed } else { before }
+}
+
+/// The value of key number `key` as sampling uses it: usable, and `rest` where there is none.
+pub(crate) fn key_value<T: Value>(channel: &Channel<T>, rest: T, key: usize) -> T {
+    channel.value(key).map_or(rest, |value: T| value.healed(rest))
+}
+
+/// The tangent with which a cubic spline arrives at key number `key`; zero where it is missing or not finite.
+pub(crate) fn in_tangent<T: Value>(channel: &Channel<T>, key: usize) -> T {
+    tangent(channel, key.saturating_mul(3))
+}
+
+/// The tangent with which a cubic spline leaves key number `key`; zero where it is missing or not finite.
+pub(crate) fn out_tangent<T: Value>(channel: &Channel<T>, key: usize) -> T {
+    tangent(channel, key.saturating_mul(3).saturating_add(2))
 }
 
 /// The tangent stored at `position`; zero where it is missing or not finite.

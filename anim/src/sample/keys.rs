@@ -21,7 +21,7 @@ pub struct Keys {
 
 impl Keys {
     /// Exactly on one key, or outside the keys.
-    fn on(key: usize) -> Self {
+    pub(crate) fn on(key: usize) -> Self {
         Self { before: key, after: key, mix: 0.0 }
     }
 }
@@ -45,7 +45,7 @@ pub fn find_keys(times: &[f32], time: f32) -> Option<Keys> {
 }
 
 /// `(time - before) / (after - before)`, 0..=1; 0 where that is undefined (both keys at the same time).
-fn mix_factor(before: f32, after: f32, time: f32) -> f32 {
+pub(crate) fn mix_factor(before: f32, after: f32, time: f32) -> f32 {
     let span = after - before;
     let mix = if span.is_finite() {
         (time - before) / span

@@ -42,16 +42,38 @@ pub fn skin_normals(
 ) -> usize {
     let normals = &primitive.vertices.normals;
     for (index, (&stored, out)) in normals.iter().zip(out.iter_mut()).enumerate() {
-        let normal = morphed(primitive, morph_weights, stored, |target| target.normals.get(index).copied());
-        let matrix = movement.matrix(primitive, index);
-        *out = first_direction([
-            normal_matrix(matrix) * normal,
-            near_one(Mat3::from_mat4(matrix)) * normal,
-            normal,
-            stored,
-        ]);
+        *out = moved_normal(primitive, movement, morph_weights, index, stored);
     }
     normals.len().min(out.len())
+}
+
+/// The normal of vertex `index` of `primitive` in scene space, unit length: what [`skin_normals`] does for one vertex;
+/// `None` where it has none.
+pub fn skin_normal(
+    primitive: &Primitive,
+    movement: Movement<'_>,
+    morph_weights: &[f32],
+    index: usize,
+) -> Option<Vec3> {
+    let stored = *primitive.vertices.normals.get(index)?;
+    Some(moved_normal(primitive, movement, morph_weights, index, stored))
+}
+
+fn moved_normal(
+    primitive: &Primitive,
+    movement: Movement<'_>,
+    morph_weights: &[f32],
+    index: usize,
+    stored: Vec3,
+) -> Vec3 {
+    let normal = morphed(primitive, morph_weights, stored, |target| target.normals.get(index).copied());
+    let matrix = movement.matrix(primitive, index);
+    first_direction([
+        normal_matrix(matrix) * normal,
+        near_one(Mat3::from_mat4(matrix)) * normal,
+        normal,
+        stored,
+    ])
 }
 
 /// Moves the first tangents of `primitive`, as many as `out` has room for, to scene space.

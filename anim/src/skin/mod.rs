@@ -14,11 +14,9 @@
 
 mod direction;
 mod position;
-mod vertex;
 
-pub use direction::{normal_matrix, skin_normals, skin_tangents};
-pub use position::skin_positions;
-pub use vertex::skin_position;
+pub use direction::{normal_matrix, skin_normal, skin_normals, skin_tangents};
+pub use position::{contribution, skin_position, skin_positions};
 
 use crate::data::{MeshInstance, Primitive};
 use glam::Mat4;
@@ -79,7 +77,7 @@ fn final_of(finals: &[Mat4], joint: u16) -> Mat4 {
 }
 
 /// `base` plus the weighted differences that `differences` finds in each morph target.
-fn morphed(
+pub(crate) fn morphed(
     primitive: &Primitive,
     morph_weights: &[f32],
     base: glam::Vec3,

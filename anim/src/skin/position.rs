@@ -1,8 +1,8 @@
 //! Positions: `positionN = Σ final[index_i] * positionO * weight_i` (thesis §2.1.4).
 
 use super::{Movement, final_of, morphed};
-use crate::data::Primitive;
-use glam::Vec3;
+use crate::data::{Influence, Primitive};
+use glam::{Mat4, Vec3};
 
 /// Moves the first vertices of `primitive`, as many as `out` has room for, to scene space.
 ///
@@ -14,27 +14,55 @@ pub fn skin_positions(
     morph_weights: &[f32],
     out: &mut [Vec3],
 ) -> usize {
-    let vertices = &primitive.vertices;
-    for (index, (&stored, out)) in vertices.positions.iter().zip(out.iter_mut()).enumerate() {
-        let position =
-            morphed(primitive, morph_weights, stored, |target| target.positions.get(index).copied());
-        let moved = match movement {
-            Movement::Rigid(matrix) => matrix.transform_point3(position),
-            Movement::Skin(finals) => {
-                let mut sum = Vec3::ZERO;
-                for influence in vertices.influences_of(index) {
-                    // Skipped not for speed: zero times a product that overflowed would be NaN.
-                    if influence.weight != 0.0 {
-                        sum +=
-                            final_of(finals, influence.joint).transform_point3(position) * influence.weight;
-                    }
-                }
-                sum
-            }
-        };
-        *out = first_finite([moved, stored]);
+    let stored = &primitive.vertices.positions;
+    for (index, (&stored, out)) in stored.iter().zip(out.iter_mut()).enumerate() {
+        *out = moved(primitive, movement, morph_weights, index, stored);
     }
-    vertices.len().min(out.len())
+    stored.len().min(out.len())
+}
+
+/// Where vertex `index` of `primitive` is in scene space: what [`skin_positions`] does for one vertex; `None` past the
+/// end.
+pub fn skin_position(
+    primitive: &Primitive,
+    movement: Movement<'_>,
+    morph_weights: &[f32],
+    index: usize,
+) -> Option<Vec3> {
+    let stored = *primitive.vertices.positions.get(index)?;
+    Some(moved(primitive, movement, morph_weights, index, stored))
+}
+
+/// What one influence adds to the position of a vertex: `final[joint] * position * weight`, scene space.
+///
+/// `finals` are the final poses of the skin, `position` that of the vertex after morphing. Zero without weight.
+pub fn contribution(finals: &[Mat4], influence: Influence, position: Vec3) -> Vec3 {
+    // Not for speed: zero times a product that overflowed would be NaN.
+    if influence.weight == 0.0 {
+        return Vec3::ZERO;
+    }
+    final_of(finals, influence.joint).transform_point3(position) * influence.weight
+}
+
+fn moved(
+    primitive: &Primitive,
+    movement: Movement<'_>,
+    morph_weights: &[f32],
+    index: usize,
+    stored: Vec3,
+) -> Vec3 {
+    let position = morphed(primitive, morph_weights, stored, |target| target.positions.get(index).copied());
+    let moved = match movement {
+        Movement::Rigid(matrix) => matrix.transform_point3(position),
+        Movement::Skin(finals) => {
+            let mut sum = Vec3::ZERO;
+            for &influence in primitive.vertices.influences_of(index) {
+                sum += contribution(finals, influence, position);
+            }
+            sum
+        }
+    };
+    first_finite([moved, stored])
 }
 
 /// The first of `candidates` without NaN or infinity; the origin when there is none.

@@ -5,6 +5,7 @@
 
 mod choice;
 mod demo;
+mod explain;
 mod failure;
 mod info;
 mod log;
@@ -34,6 +35,7 @@ trait Command {
 enum Commands {
     Info(info::Arguments),
     Pose(pose::Arguments),
+    Explain(explain::Arguments),
     Render(render::Arguments),
     Demo(demo::Arguments),
 }
@@ -47,6 +49,8 @@ Examples:
                                     a picture, without any window
   dragonfly pose Fox.glb --time 0.5 --json
                                     exact numbers, for other programs
+  dragonfly explain Fox.glb --time 0.5 --bone b_Head_05
+                                    how one bone comes to stand where it stands
 
 FILE may be `demo:` for the built-in model.
 Exit codes: 0 done, 1 a difference was found, 2 wrong input, 3 trouble of the machine.
@@ -95,6 +99,7 @@ fn run(command_line: CommandLine) -> Result<(), Failure> {
         None => command_line.open.run(),
         Some(Commands::Info(arguments)) => arguments.run(),
         Some(Commands::Pose(arguments)) => arguments.run(),
+        Some(Commands::Explain(arguments)) => arguments.run(),
         Some(Commands::Render(arguments)) => arguments.run(),
         Some(Commands::Demo(arguments)) => arguments.run(),
     }

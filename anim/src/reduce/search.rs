@@ -1,0 +1,344 @@
+//! Which keys can go: the cheapest first, each tried on every frame that it touches before it is taken away.
+
+use super::column::{Column, Gap, Property};
+use super::frames::Source;
+use super::measure::deviation_above;
+use super::settings::Lengths;
+use crate::animation::{child_to_root, to_parent};
+use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take, Transform};
+use crate::sample::{Value, rest_pose};
+use glam::Mat4;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Removals are ordered by their cost in steps of this part of the tolerance; among those of one step the shortest gap
+/// goes first, so that gaps grow evenly.
+const STEPS: f64 = 64.0;
+
+/// Rounds over all keys: what could not go in one may in the next, because errors also cancel.
+const ROUNDS: usize = 3;
+
+/// A take that is losing keys, and where every bone is on every frame meanwhile.
+pub(super) struct Search<'a> {
+    pub(super) take: &'a Take,
+    skeleton: &'a Skeleton,
+    pub(super) source: &'a Source,
+    lengths: Lengths,
+    children: Vec<Vec<BoneIndex>>,
+    rests: Vec<Transform>,
+    /// As [`Source::poses`], of what is left of the take.
+    poses: Vec<Transform>,
+    /// As [`Source::to_root`], likewise.
+    to_root: Vec<Mat4>,
+    pub(super) columns: Vec<Column>,
+    /// How many keys are left on the first and on the last frame; `usize::MAX` where something else stands there.
+    ends: [usize; 2],
+    /// Of one frame, while a removal is tried.
+    trial: Vec<Mat4>,
+    open: Vec<BoneIndex>,
+    /// Bones moved on a frame so far.
+    pub(super) work: u64,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(take: &'a Take, skeleton: &'a Skeleton, source: &'a Source, lengths: Lengths) -> Self {
+        let bones = skeleton.len();
+        let mut children = vec![Vec::new(); bones];
+        for (index, bone) in skeleton.bones.iter().enumerate() {
+            if let Some(parent) = bone.parent.filter(|&parent| (parent as usize) < index) {
+                children[parent as usize].push(index as BoneIndex);
+            }
+        }
+        let columns = columns(take, bones, &source.times);
+        Self {
+            take,
+            skeleton,
+            source,
+            lengths,
+            children,
+            rests: skeleton.bones.iter().map(rest_pose).collect(),
+            poses: source.poses.clone(),
+            to_root: source.to_root.clone(),
+            ends: ends(take, &columns, source.times.len()),
+            columns,
+            trial: vec![Mat4::IDENTITY; bones],
+            open: Vec::new(),
+            work: 0,
+        }
+    }
+
+    /// Removes what can be removed.
+    pub(super) fn run(&mut self) {
+        for column in 0..self.columns.len() {
+            self.flatten(column);
+        }
+        for _ in 0..ROUNDS {
+            if !self.round() {
+                break;
+            }
+        }
+    }
+
+    /// Leaves the first key of a channel whose values are all the same.
+    fn flatten(&mut self, column: usize) {
+        let last = self.columns[column].frames.len() - 1;
+        let gap = Gap { before: Some(0), after: None };
+        let on_last = self.columns[column].frames[last] as usize + 1 == self.source.times.len();
+        if last > 0
+            && self.is_constant(column)
+            && !(on_last && self.ends[1] == 1)
+            && self.cost(column, gap).is_some()
+        {
+            self.commit(column, gap);
+        }
+    }
+
+    fn is_constant(&self, column: usize) -> bool {
+        let Column { bone, property, .. } = self.columns[column];
+        let track = &self.take.tracks[bone as usize];
+        match property {
+            Property::Translation => is_constant(&track.translation),
+            Property::Rotation => is_constant(&track.rotation),
+            Property::Scale => is_constant(&track.scale),
+        }
+    }
+
+    /// Tries every key that is left; has any gone?
+    fn round(&mut self) -> bool {
+        let mut queue = BinaryHeap::new();
+        for column in 0..self.columns.len() {
+            let keys: Vec<usize> = self.columns[column].keys().collect();
+            queue.extend(keys.into_iter().filter_map(|key| self.candidate(column, key)).map(Reverse));
+        }
+        let mut gone = false;
+        while let Some(Reverse(tried)) = queue.pop() {
+            let (column, key) = (tried.column as usize, tried.key as usize);
+            match self.candidate(column, key) {
+                None => {}
+                // What is around it has changed since: it has to wait for its new turn.
+                Some(now) if now > tried => queue.push(Reverse(now)),
+                Some(_) => {
+                    self.commit(column, self.columns[column].gap(key));
+                    gone = true;
+                }
+            }
+        }
+        gone
+    }
+
+    /// What it would cost to remove a key; `None` when it cannot go.
+    fn candidate(&mut self, column: usize, key: usize) -> Option<Candidate> {
+        if !self.columns[column].kept[key] || self.holds_an_end(column, key) || self.switches_at(column, key)
+        {
+            return None;
+        }
+        let gap = self.columns[column].gap(key);
+        let cost = (self.cost(column, gap)? * STEPS) as u32;
+        let window = self.columns[column].window(gap, self.source.times.len()).len() as u32;
+        Some(Candidate { cost, window, column: column as u32, key: key as u32 })
+    }
+
+    /// Is the key the last that says when the take starts or ends?
+    fn holds_an_end(&self, column: usize, key: usize) -> bool {
+        let frame = self.columns[column].frames[key] as usize;
+        (frame == 0 && self.ends[0] == 1) || (frame + 1 == self.source.times.len() && self.ends[1] == 1)
+    }
+
+    /// Would a gap here move the moment at which the closest key changes? That lies between frames, where nobody looks.
+    fn switches_at(&self, column: usize, key: usize) -> bool {
+        let Column { bone, property, .. } = self.columns[column];
+        let (track, gap) = (&self.take.tracks[bone as usize], self.columns[column].gap(key));
+        match property {
+            Property::Translation => switches(&track.translation, key, gap),
+            Property::Rotation => switches(&track.rotation, key, gap),
+            Property::Scale => switches(&track.scale, key, gap),
+        }
+    }
+
+    /// The largest share of a tolerance, 0..=1, that is used up anywhere in the subtree of the column's bone once only
+    /// the two keys of `gap` are left there; `None` when a tolerance is exceeded.
+    pub(super) fn cost(&mut self, column: usize, gap: Gap) -> Option<f64> {
+        let mut largest = 0.0_f64;
+        for frame in self.columns[column].window(gap, self.source.times.len()) {
+            if let Some(pose) = self.changed_pose(column, gap, frame) {
+                largest = largest.max(self.cost_of_frame(self.columns[column].bone, pose, frame)?);
+            }
+        }
+        Some(largest)
+    }
+
+    /// The pose of the column's bone on `frame` with only the keys of `gap`; `None` when that changes nothing.
+    fn changed_pose(&self, column: usize, gap: Gap, frame: usize) -> Option<Transform> {
+        let Column { bone, property, .. } = self.columns[column];
+        let (bone, time) = (bone as usize, self.source.times[frame]);
+        let (track, rest) = (&self.take.tracks[bone], self.rests[bone]);
+        let now = self.poses[frame * self.skeleton.len() + bone];
+        let mut pose = now;
+        match property {
+            Property::Translation => {
+                pose.translation = gap.sample(&track.translation, rest.translation, time)
+            }
+            Property::Rotation => pose.rotation = gap.sample(&track.rotation, rest.rotation, time),
+            Property::Scale => pose.scale = gap.sample(&track.scale, rest.scale, time),
+        }
+        (pose != now).then_some(pose)
+    }
+
+    fn cost_of_frame(&mut self, bone: BoneIndex, pose: Transform, frame: usize) -> Option<f64> {
+        let row = frame * self.skeleton.len();
+        let mut largest = 0.0_f64;
+        self.open.clear();
+        self.open.push(bone);
+        while let Some(next) = self.open.pop() {
+            let index = next as usize;
+            let at = row + index;
+            let matrix = if next == bone {
+                let parent = self.parent(index).map(|parent| self.to_root[row + parent]);
+                child_to_root(parent, to_parent(&self.skeleton.bones[index], pose))
+            } else {
+                let parent = self.parent(index).map(|parent| self.trial[parent]);
+                child_to_root(parent, to_parent(&self.skeleton.bones[index], self.poses[at]))
+            };
+            self.trial[index] = matrix;
+            self.work += 1;
+            let tolerance = self.source.tolerance(at, self.lengths);
+            let known = largest * tolerance;
+            let error = deviation_above(self.source.to_root[at], matrix, self.lengths.shell, known);
+            if error > tolerance || error.is_nan() {
+                return None;
+            }
+            largest = largest.max(if error > 0.0 { error / tolerance } else { 0.0 });
+            self.open.extend_from_slice(&self.children[index]);
+        }
+        Some(largest)
+    }
+
+    /// Removes every key inside `gap`, whose cost is known to be allowed.
+    pub(super) fn commit(&mut self, column: usize, gap: Gap) {
+        let frames = self.source.times.len();
+        self.apply(column, gap);
+        let changed = &self.columns[column];
+        let keys = gap.before.map_or(0, |key| key + 1)..gap.after.unwrap_or(changed.frames.len());
+        for key in keys.filter(|&key| changed.kept[key]) {
+            for (end, ends) in [0, frames - 1].into_iter().zip(&mut self.ends) {
+                if changed.frames[key] as usize == end && *ends != usize::MAX {
+                    *ends -= 1;
+                }
+            }
+        }
+        self.columns[column].remove(gap);
+    }
+
+    /// Is the closest key taken in the column?
+    pub(super) fn takes_closest(&self, column: usize) -> bool {
+        let Column { bone, property, .. } = self.columns[column];
+        let track = &self.take.tracks[bone as usize];
+        let interpolation = match property {
+            Property::Translation => track.translation.interpolation,
+            Property::Rotation => track.rotation.interpolation,
+            Property::Scale => track.scale.interpolation,
+        };
+        interpolation == Interpolation::Closest
+    }
+
+    /// May the column have a key here, now that the others are as they are?
+    pub(super) fn can_stand(&mut self, column: usize, key: usize) -> bool {
+        let (frame, on_key) = self.on_key(column, key);
+        let Some(pose) = self.changed_pose(column, on_key, frame) else { return true };
+        self.cost_of_frame(self.columns[column].bone, pose, frame).is_some()
+    }
+
+    /// Leaves exactly `keys` in a column, whose gaps are known to be allowed.
+    pub(super) fn relay(&mut self, column: usize, keys: &[usize]) {
+        self.columns[column].keep(keys);
+        for pair in keys.windows(2) {
+            self.apply(column, Gap { before: Some(pair[0]), after: Some(pair[1]) });
+        }
+        for &key in keys {
+            let (frame, on_key) = self.on_key(column, key);
+            self.apply_on(column, on_key, frame);
+        }
+    }
+
+    /// The frame of a key, and the gap that is sampled as that key's value there.
+    fn on_key(&self, column: usize, key: usize) -> (usize, Gap) {
+        (self.columns[column].frames[key] as usize, Gap { before: Some(key), after: None })
+    }
+
+    /// Moves the bone and all below it on every frame of `gap`.
+    fn apply(&mut self, column: usize, gap: Gap) {
+        for frame in self.columns[column].window(gap, self.source.times.len()) {
+            self.apply_on(column, gap, frame);
+        }
+    }
+
+    fn apply_on(&mut self, column: usize, gap: Gap, frame: usize) {
+        let Some(pose) = self.changed_pose(column, gap, frame) else { return };
+        let (bone, row) = (self.columns[column].bone, frame * self.skeleton.len());
+        self.poses[row + bone as usize] = pose;
+        self.open.push(bone);
+        while let Some(next) = self.open.pop() {
+            let index = next as usize;
+            let parent = self.parent(index).map(|parent| self.to_root[row + parent]);
+            let matrix = to_parent(&self.skeleton.bones[index], self.poses[row + index]);
+            self.to_root[row + index] = child_to_root(parent, matrix);
+            self.open.extend_from_slice(&self.children[index]);
+        }
+    }
+
+    fn parent(&self, bone: usize) -> Option<usize> {
+        self.skeleton.bones[bone].parent.map(|parent| parent as usize).filter(|&parent| parent < bone)
+    }
+}
+
+/// A key that may go. Compared field by field, in this order.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Candidate {
+    cost: u32,
+    window: u32,
+    column: u32,
+    key: u32,
+}
+
+/// Every channel of the take that can lose keys.
+fn columns(take: &Take, bones: usize, times: &[f32]) -> Vec<Column> {
+    let mut columns = Vec::new();
+    for (bone, track) in take.tracks.iter().take(bones).enumerate() {
+        let bone = bone as BoneIndex;
+        columns.extend(Column::new(bone, Property::Translation, &track.translation, times));
+        columns.extend(Column::new(bone, Property::Rotation, &track.rotation, times));
+        columns.extend(Column::new(bone, Property::Scale, &track.scale, times));
+    }
+    columns
+}
+
+/// How many keys of the columns lie on the first and on the last frame; any number, where morph weights have a key there.
+fn ends(take: &Take, columns: &[Column], frames: usize) -> [usize; 2] {
+    [0, frames - 1].map(|end| {
+        let on_end = |column: &&Column| column.frames.iter().any(|&frame| frame as usize == end);
+        let bound = take.morphs.iter().any(|morph| match end {
+            0 => morph.times.first() == Some(&take.start),
+            _ => morph.times.last() == Some(&take.end()),
+        });
+        if bound { usize::MAX } else { columns.iter().filter(on_end).count() }
+    })
+}
+
+/// Is the closest key taken, and is this one not the same as both its neighbours?
+fn switches<T: Value + PartialEq>(channel: &Channel<T>, key: usize, gap: Gap) -> bool {
+    let same = |neighbour: Option<usize>| {
+        neighbour.is_none_or(|neighbour| channel.value(neighbour) == channel.value(key))
+    };
+    channel.interpolation == Interpolation::Closest && !(same(gap.before) && same(gap.after))
+}
+
+/// Are all values of the channel the same, and its tangents zero?
+fn is_constant<T: Value + PartialEq>(channel: &Channel<T>) -> bool {
+    let Some(first) = channel.value(0) else { return false };
+    let cubic = channel.values_per_key() == 3;
+    channel
+        .values
+        .iter()
+        .enumerate()
+        .all(|(at, &value)| if cubic && at % 3 != 1 { value == T::ZERO } else { value == first })
+}

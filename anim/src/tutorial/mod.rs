@@ -1,0 +1,316 @@
+//! An animated model from nothing, in ten steps, for someone who has never done it.
+//!
+//! The model is an arm of two bones that bends at the elbow. Every step has the code, the formula behind it, and the
+//! section of the thesis that explains it. At the end stands everything that a game or an editor does each frame to
+//! move a character; a real one only has more bones.
+//!
+//! The steps are one program: each goes on where the one before has stopped. The lines that begin with `assert` are not
+//! needed; they say what has come out.
+//!
+//! # Step 1: bones, a tree written as a list
+//!
+//! A skeleton is a tree. It is stored as a list, and each bone has only the number of its parent (thesis §2.1.2.2): a
+//! number can be saved and sent to a shader as it is, a pointer cannot. Vertices and animations name bones by the
+//! same numbers (§2.1.3). Parents come before their children, so that one pass through the list meets them first.
+//!
+//! `rest` is where the bone is when nothing moves it, *relative to its parent*. Our arm lies along x. The upper bone
+//! begins in the origin, the lower one a metre further on, at the elbow.
+//!
+//! ```
+//! use dragonfly_anim::data::{Bone, Skeleton, Transform};
+//! use glam::{Mat4, Vec3};
+//!
+//! let bone = |name: &str, parent: Option<u32>, translation: Vec3| Bone {
+//!     name: name.to_owned(),
+//!     parent,
+//!     rest: Transform { translation, ..Transform::IDENTITY },
+//!     rest_matrix: None,
+//!     offset: Mat4::IDENTITY, // step 3
+//!     node: None,
+//! };
+//! let mut skeleton = Skeleton {
+//!     bones: vec![bone("upper", None, Vec3::ZERO), bone("lower", Some(0), Vec3::X)],
+//! };
+//!
+//! assert_eq!(skeleton.find("lower"), Some(1));
+//! assert_eq!(skeleton.children(Some(0)).collect::<Vec<_>>(), [1]);
+//! # assert_eq!(skeleton, dragonfly_anim::tutorial::arm::without_offsets());
+//! ```
+//!
+//! # Step 2: from the parent to the root
+//!
+//! A pose relative to the parent becomes a matrix, `to_parent`: scale first, then turn, then shift. Multiplied with
+//! the matrices of all ancestors it becomes `to_root`, which says where the bone is in the scene (§2.1.5.1):
+//!
+//! ```text
+//! to_parent = translation * rotation * scale
+//! to_root   = to_root of the parent * to_parent          thesis: ToRoot_i = ToParent_i · ToRoot_p
+//! ```
+//!
+//! The thesis writes vectors as rows, we as columns, so its products read the other way round. The numbers are the
+//! same.
+//!
+//! ```
+//! # use dragonfly_anim::{data::Transform, tutorial::arm};
+//! # use glam::{Mat4, Vec3};
+//! # let skeleton = arm::without_offsets();
+//! use dragonfly_anim::animation::to_root;
+//!
+//! let rest: Vec<Transform> = skeleton.bones.iter().map(|bone| bone.rest).collect();
+//! let mut rest_to_root = [Mat4::IDENTITY; 2];
+//! to_root(&skeleton, &rest, &mut rest_to_root);
+//!
+//! // The elbow is one metre along x.
+//! assert_eq!(rest_to_root[1].transform_point3(Vec3::ZERO), Vec3::X);
+//! ```
+//!
+//! # Step 3: offsets
+//!
+//! Geometry is modelled once, around the skeleton in its *binding pose*. The offset of a bone takes a point from
+//! there into the bone's own space; it never changes (§2.1.2.2). When the binding pose is the rest pose, it is the
+//! inverse of `to_root`:
+//!
+//! ```text
+//! offset = (to_root in the binding pose)⁻¹
+//! ```
+//!
+//! ```
+//! # use dragonfly_anim::tutorial::arm;
+//! # use glam::Vec3;
+//! # let mut skeleton = arm::without_offsets();
+//! # let rest_to_root = arm::to_root(&skeleton, None, 0.0);
+//! for (bone, to_root) in skeleton.bones.iter_mut().zip(rest_to_root) {
+//!     bone.offset = to_root.inverse();
+//! }
+//!
+//! // Seen from the elbow, the elbow is the origin.
+//! assert_eq!(skeleton.bones[1].offset.transform_point3(Vec3::X), Vec3::ZERO);
+//! # assert_eq!(skeleton, arm::skeleton());
+//! ```
+//!
+//! # Step 4: vertices, and which bones move them
+//!
+//! A vertex lists the bones that move it and how much each counts (§2.1.2.1): four places a vertex, the strongest
+//! first, the weights summing to 1. Three vertices are enough for an arm: shoulder, elbow, hand. The elbow belongs to
+//! both bones.
+//!
+//! A vertex names *joints*, which are places in the list of a [`Skin`](crate::data::Skin); the skin says which bone
+//! each is, and has the offsets. So several meshes can share a skeleton.
+//!
+//! ```
+//! # use dragonfly_anim::tutorial::arm;
+//! # use glam::Vec3;
+//! # let skeleton = arm::skeleton();
+//! use dragonfly_anim::data::{Influence, Primitive, Skin, Vertices};
+//!
+//! let influences = |joints: &[(u16, f32)]| {
+//!     let mut four = [Influence::default(); 4];
+//!     for (place, &(joint, weight)) in four.iter_mut().zip(joints) {
+//!         *place = Influence { joint, weight };
+//!     }
+//!     four
+//! };
+//! let vertices = Vertices {
+//!     positions: vec![Vec3::ZERO, Vec3::X, 2.0 * Vec3::X],
+//!     influences: [influences(&[(0, 1.0)]), influences(&[(0, 0.5), (1, 0.5)]), influences(&[(1, 1.0)])].concat(),
+//!     influences_per_vertex: 4,
+//!     ..Vertices::default()
+//! };
+//! let arm = Primitive { vertices, indices: vec![0, 1, 2], ..Primitive::default() };
+//! let skin = Skin {
+//!     name: "arm".to_owned(),
+//!     bones: vec![0, 1],
+//!     offsets: skeleton.bones.iter().map(|bone| bone.offset).collect(),
+//! };
+//!
+//! assert_eq!(arm.vertices.influences_of(1)[1], Influence { joint: 1, weight: 0.5 });
+//! # assert_eq!((arm, skin), (arm::primitive(), arm::skin()));
+//! ```
+//!
+//! # Step 5: keys, tracks, a take
+//!
+//! A key says what a value is at a time. The keys of one property of one bone are a
+//! [`Channel`](crate::data::Channel); the channels of a bone are its [`Track`](crate::data::Track); a track for every
+//! bone is a [`Take`](crate::data::Take) (§2.1.2.3, §3.1.2). Each bone has its own keys, so what does not move needs
+//! none: our upper bone has an empty track, and keeps its rest pose.
+//!
+//! In one second the lower bone turns by a right angle.
+//!
+//! ```
+//! use dragonfly_anim::data::{Channel, Interpolation, Take, Track};
+//! use glam::Quat;
+//! use std::f32::consts::FRAC_PI_2;
+//!
+//! let quarter_turn = || Channel::new(
+//!     [0.0, 1.0],
+//!     [Quat::IDENTITY, Quat::from_rotation_z(FRAC_PI_2)],
+//!     Interpolation::Linear,
+//! );
+//! let bend = Take {
+//!     name: "bend".to_owned(),
+//!     start: 0.0,
+//!     length: 1.0,
+//!     tracks: vec![
+//!         Track { bone: 0, ..Track::default() },
+//!         Track { bone: 1, rotation: quarter_turn(), ..Track::default() },
+//!     ],
+//!     morphs: Vec::new(),
+//! };
+//!
+//! assert_eq!((bend.keys(), bend.moving_tracks()), (2, 1));
+//! # assert_eq!(bend, dragonfly_anim::tutorial::arm::bend());
+//! ```
+//!
+//! # Step 6: between two keys
+//!
+//! At half a second there is no key. The one before and the one after are found, and how far the time is between
+//! them; then both are combined (§2.1.5.2: `0.5 * K1 + 0.5 * K2`). Rotations turn from one to the other at constant
+//! speed.
+//!
+//! ```text
+//! mix   = (time - before) / (after - before)
+//! value = (1 - mix) * K1 + mix * K2
+//! ```
+//!
+//! The three properties together are the temporary key-frame of the thesis: the pose of the bone at that time.
+//!
+//! ```
+//! # use dragonfly_anim::{data::Transform, tutorial::arm};
+//! # use glam::Quat;
+//! # use std::f32::consts::FRAC_PI_2;
+//! # let (skeleton, bend) = (arm::skeleton(), arm::bend());
+//! use dragonfly_anim::sample::{find_keys, sample_take};
+//!
+//! let time = 0.5;
+//! let mut poses = [Transform::IDENTITY; 2];
+//! sample_take(Some(&bend), &skeleton, time, &mut poses);
+//!
+//! let keys = find_keys(&bend.tracks[1].rotation.times, time).unwrap();
+//! assert_eq!((keys.before, keys.after, keys.mix), (0, 1, 0.5));
+//! assert!(poses[1].rotation.angle_between(Quat::from_rotation_z(FRAC_PI_2 / 2.0)) < 1e-6);
+//! assert_eq!(poses[0], skeleton.bones[0].rest);
+//! ```
+//!
+//! # Step 7: the pose in the scene
+//!
+//! The formula of step 2 again, now with the poses of this moment (§2.1.5.1). These matrices also draw the skeleton.
+//!
+//! ```text
+//! to_root = to_root of the parent * to_parent
+//! ```
+//!
+//! ```
+//! # use dragonfly_anim::{animation::to_root, data::Transform, sample::sample_take, tutorial::arm};
+//! # use glam::{Mat4, Vec3};
+//! # let (skeleton, mut poses) = (arm::skeleton(), [Transform::IDENTITY; 2]);
+//! # sample_take(Some(&arm::bend()), &skeleton, 0.5, &mut poses);
+//! let mut now_to_root = [Mat4::IDENTITY; 2];
+//! to_root(&skeleton, &poses, &mut now_to_root);
+//!
+//! // A point one metre along the lower bone has left the x axis; the elbow is where it was.
+//! let hand = now_to_root[1].transform_point3(Vec3::X);
+//! let slope = std::f32::consts::FRAC_1_SQRT_2;
+//! assert!(hand.distance(Vec3::new(1.0 + slope, slope, 0.0)) < 1e-6);
+//! assert_eq!(now_to_root[1].transform_point3(Vec3::ZERO), Vec3::X);
+//! ```
+//!
+//! # Step 8: final poses
+//!
+//! Vertices are stored in the binding pose. To move one, it is first taken into the bone's space, then to where the
+//! bone is now (§2.1.5.1). Both together are the final pose, one matrix a joint, and all that a graphics card needs.
+//!
+//! ```text
+//! final = to_root * offset                                thesis: Final_i = Offset_i · ToRoot_i
+//! ```
+//!
+//! ```
+//! # use dragonfly_anim::tutorial::arm;
+//! # use glam::Mat4;
+//! # let (skeleton, skin) = (arm::skeleton(), arm::skin());
+//! # let rest_to_root = arm::to_root(&skeleton, None, 0.0);
+//! # let now_to_root = arm::to_root(&skeleton, Some(&arm::bend()), 0.5);
+//! use dragonfly_anim::animation::final_poses;
+//!
+//! let mut finals = [Mat4::IDENTITY; 2];
+//! final_poses(&skin, &now_to_root, &mut finals);
+//!
+//! // In the binding pose every final pose is the identity: nothing moves.
+//! let mut at_rest = [Mat4::ZERO; 2];
+//! final_poses(&skin, &rest_to_root, &mut at_rest);
+//! assert_eq!(at_rest, [Mat4::IDENTITY; 2]);
+//! ```
+//!
+//! # Step 9: the skin
+//!
+//! Each bone moves the vertex as if it were the only one; the results are summed by weight (§2.1.4).
+//!
+//! ```text
+//! position = Σ final_i * stored position * weight_i
+//! ```
+//!
+//! On the screen a shader does this, for each vertex in each frame. [`skin_positions`](crate::skin::skin_positions)
+//! is the same on the processor.
+//!
+//! ```
+//! # use dragonfly_anim::{animation::final_poses, tutorial::arm};
+//! # use glam::{Mat4, Vec3};
+//! # let now_to_root = arm::to_root(&arm::skeleton(), Some(&arm::bend()), 0.5);
+//! # let (arm, skin, mut finals) = (arm::primitive(), arm::skin(), [Mat4::IDENTITY; 2]);
+//! # final_poses(&skin, &now_to_root, &mut finals);
+//! # let slope = std::f32::consts::FRAC_1_SQRT_2;
+//! use dragonfly_anim::skin::{Movement, skin_positions};
+//!
+//! let mut positions = [Vec3::ZERO; 3];
+//! skin_positions(&arm, Movement::Skin(&finals), &[], &mut positions);
+//!
+//! assert_eq!(positions[0], Vec3::ZERO);
+//! assert!(positions[1].distance(Vec3::X) < 1e-6, "the elbow is where both bones agree");
+//! assert!(positions[2].distance(Vec3::new(1.0 + slope, slope, 0.0)) < 1e-6);
+//! ```
+//!
+//! # Step 10: two takes at once
+//!
+//! Several takes are combined for each bone, *before* the skin, because there are far fewer bones than vertices
+//! (§2.1.4.1). Here a second take lifts the upper bone, and both count half. From the combined poses on, everything
+//! is as before.
+//!
+//! ```
+//! # use dragonfly_anim::{animation::{final_poses, to_root}, data::Transform, sample::sample_take};
+//! # use dragonfly_anim::{skin::{Movement, skin_positions}, tutorial::arm};
+//! # use glam::{Mat4, Vec3};
+//! # let (skeleton, bend, poses) = (arm::skeleton(), arm::bend(), [Transform::IDENTITY; 2]);
+//! # let (arm, skin) = (arm::primitive(), arm::skin());
+//! # let (mut now_to_root, mut finals, mut positions) = ([Mat4::ZERO; 2], [Mat4::ZERO; 2], [Vec3::ZERO; 3]);
+//! # let slope = std::f32::consts::FRAC_1_SQRT_2;
+//! use dragonfly_anim::sample::Value;
+//!
+//! let mut raise = bend.clone();
+//! raise.tracks.swap(0, 1);
+//! let (mut of_bend, mut of_raise) = (poses, poses);
+//! sample_take(Some(&bend), &skeleton, 1.0, &mut of_bend);
+//! sample_take(Some(&raise), &skeleton, 1.0, &mut of_raise);
+//! let mut both = of_bend;
+//! for (pose, other) in both.iter_mut().zip(of_raise) {
+//!     pose.translation = Value::linear(pose.translation, other.translation, 0.5);
+//!     pose.rotation = Value::linear(pose.rotation, other.rotation, 0.5);
+//!     pose.scale = Value::linear(pose.scale, other.scale, 0.5);
+//! }
+//! to_root(&skeleton, &both, &mut now_to_root);
+//! final_poses(&skin, &now_to_root, &mut finals);
+//! skin_positions(&arm, Movement::Skin(&finals), &[], &mut positions);
+//!
+//! // Half a right angle at the shoulder, another half at the elbow.
+//! assert!(positions[1].distance(Vec3::new(slope, slope, 0.0)) < 1e-6);
+//! assert!(positions[2].distance(Vec3::new(slope, slope + 1.0, 0.0)) < 1e-6);
+//! ```
+//!
+//! # Where to go from here
+//!
+//! * [`explain`](crate::explain::explain()) prints all of these steps with their numbers, for any bone or vertex of any model.
+//! * [`Animation`](crate::animation::Animation) and [`Evaluator`](crate::evaluator::Evaluator) do steps 6 to 9 in one call
+//!   and keep their memory, so that playing allocates nothing.
+//! * [`format::read`](crate::format::read) gets a model from a file instead of steps 1 to 5.
+//! * [`reduce`](crate::reduce::reduce()) takes away keys that nobody would miss.
+
+#[doc(hidden)]
+pub mod arm;

@@ -1,0 +1,425 @@
+//! An explanation is what is played, and every step of it can be worked out by hand.
+
+use crate::doors::data;
+use crate::support::{about_z, along_x, animation_data, bone, take};
+use dragonfly_anim::animation::Animation;
+use dragonfly_anim::data::{
+    Channel, Influence, Interpolation, Mesh, MeshInstance, ModelData, MorphTarget, MorphTrack, Primitive,
+    Skin, Track, Transform, Vertices,
+};
+use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_anim::explain::{
+    BoneStep, ChannelStep, ExplainError, Explanation, MovementStep, Subject, VertexResult, What, explain,
+};
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+use glam::{Mat4, Quat, Vec3};
+use std::sync::Arc;
+
+/// The formulas once more, in f64 and by hand, from nothing but the intermediate values of an explanation.
+mod by_hand {
+    pub(super) type Matrix = [[f64; 4]; 4];
+
+    /// Column-major, as glam has it.
+    pub(super) fn matrix(matrix: glam::Mat4) -> Matrix {
+        matrix.to_cols_array_2d().map(|column| column.map(f64::from))
+    }
+
+    pub(super) fn product(a: Matrix, b: Matrix) -> Matrix {
+        let mut out = [[0.0; 4]; 4];
+        for column in 0..4 {
+            for row in 0..4 {
+                out[column][row] = (0..4).map(|k| a[k][row] * b[column][k]).sum();
+            }
+        }
+        out
+    }
+
+    pub(super) fn point(matrix: Matrix, point: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|row| (0..3).map(|k| matrix[k][row] * point[k]).sum::<f64>() + matrix[3][row])
+    }
+
+    /// `T · R · S`, each entry from the quaternion's definition.
+    pub(super) fn to_parent(t: [f64; 3], [x, y, z, w]: [f64; 4], s: [f64; 3]) -> Matrix {
+        let turn = [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)],
+            [2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)],
+            [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)],
+        ];
+        let column = |k: usize| [turn[k][0] * s[k], turn[k][1] * s[k], turn[k][2] * s[k], 0.0];
+        [column(0), column(1), column(2), [t[0], t[1], t[2], 1.0]]
+    }
+
+    /// Between two values, component by component.
+    pub(super) fn lerp<const N: usize>(a: [f64; N], b: [f64; N], mix: f64) -> [f64; N] {
+        std::array::from_fn(|k| a[k] + (b[k] - a[k]) * mix)
+    }
+
+    /// On the arc between two unit quaternions, the short way.
+    pub(super) fn slerp(a: [f64; 4], b: [f64; 4], mix: f64) -> [f64; 4] {
+        let dot: f64 = (0..4).map(|k| a[k] * b[k]).sum();
+        let b = if dot < 0.0 { b.map(|n| -n) } else { b };
+        let angle = dot.abs().min(1.0).acos();
+        let weights = if angle < 1e-9 {
+            [1.0 - mix, mix]
+        } else {
+            [((1.0 - mix) * angle).sin() / angle.sin(), (mix * angle).sin() / angle.sin()]
+        };
+        unit(std::array::from_fn(|k| weights[0] * a[k] + weights[1] * b[k]))
+    }
+
+    /// The Hermite polynomials.
+    pub(super) fn hermite<const N: usize>(ends: [[f64; N]; 4], span: f64, m: f64) -> [f64; N] {
+        let [a, leave, arrive, b] = ends;
+        let h = |k: usize| {
+            (1.0 + 2.0 * m) * (1.0 - m).powi(2) * a[k]
+                + m * (1.0 - m).powi(2) * span * leave[k]
+                + m * m * (3.0 - 2.0 * m) * b[k]
+                + m * m * (m - 1.0) * span * arrive[k]
+        };
+        std::array::from_fn(h)
+    }
+
+    pub(super) fn unit(q: [f64; 4]) -> [f64; 4] {
+        let length = q.iter().map(|n| n * n).sum::<f64>().sqrt();
+        q.map(|n| n / length)
+    }
+}
+
+fn wide<const N: usize>(numbers: [f32; N]) -> [f64; N] {
+    numbers.map(f64::from)
+}
+
+#[track_caller]
+fn near<const N: usize>(got: [f32; N], expected: [f64; N], what: &str) {
+    let largest = expected.iter().copied().map(f64::abs).fold(1.0, f64::max);
+    near_for(largest, got, expected, what);
+}
+
+/// Within what single precision leaves of numbers as large as `largest`: what goes into a sum, not what is left of it.
+#[track_caller]
+fn near_for<const N: usize>(largest: f64, got: [f32; N], expected: [f64; N], what: &str) {
+    for (got, expected) in got.into_iter().zip(expected) {
+        assert!((f64::from(got) - expected).abs() < 2e-5 * largest, "{what}: {got} is not {expected}");
+    }
+}
+
+#[track_caller]
+fn near_matrix(got: Mat4, expected: by_hand::Matrix, what: &str) {
+    near(got.to_cols_array(), expected.concat().try_into().expect("16 numbers"), what);
+}
+
+/// `got` is `a * b`.
+#[track_caller]
+fn near_product(got: Mat4, a: by_hand::Matrix, b: by_hand::Matrix, what: &str) -> by_hand::Matrix {
+    let largest = |matrix: by_hand::Matrix| matrix.concat().into_iter().map(f64::abs).fold(1.0, f64::max);
+    let expected = by_hand::product(a, b);
+    let numbers = expected.concat().try_into().expect("16 numbers");
+    near_for(largest(a) * largest(b), got.to_cols_array(), numbers, what);
+    expected
+}
+
+/// A channel's value from its keys alone; `rotation` says how two values are mixed.
+fn channel<T: Copy, const N: usize>(
+    step: &ChannelStep<T>,
+    time: f32,
+    numbers: impl Fn(T) -> [f32; N],
+    between: impl Fn([f64; N], [f64; N], f64) -> [f64; N],
+) -> [f64; N] {
+    let Some(keys) = &step.keys else { return wide(numbers(step.rest)) };
+    let [before, after] = [&keys.before, &keys.after];
+    let span = f64::from(after.time) - f64::from(before.time);
+    let inside = f64::from(time) > f64::from(before.time) && span > 0.0;
+    let mix = if inside { ((f64::from(time) - f64::from(before.time)) / span).min(1.0) } else { 0.0 };
+    near([keys.mix], [mix], "mix");
+    let value = |key: &dragonfly_anim::explain::KeyStep<T>| wide(numbers(key.value));
+    match keys.interpolation {
+        Interpolation::Step => value(before),
+        Interpolation::Closest if mix < 0.5 => value(before),
+        Interpolation::Closest => value(after),
+        Interpolation::Linear => between(value(before), value(after), mix),
+        Interpolation::CubicSpline => {
+            let tangent = |key: &dragonfly_anim::explain::KeyStep<T>| wide(numbers(key.tangent.unwrap()));
+            by_hand::hermite([value(before), tangent(before), tangent(after), value(after)], span, mix)
+        }
+    }
+}
+
+/// Every step of every bone of the chain; the `to_root` of each, found on the way.
+fn check_bones(explanation: &Explanation) -> Vec<(u32, by_hand::Matrix)> {
+    let mut found: Vec<(u32, by_hand::Matrix)> = Vec::new();
+    for step in &explanation.bones {
+        let BoneStep { translation, rotation, scale, pose, .. } = step;
+        let time = explanation.time;
+        let place = format!("bone {} at {time}", step.bone);
+        let t = channel(translation, time, |v| v.to_array(), by_hand::lerp);
+        let r = by_hand::unit(channel(rotation, time, |q| q.to_array(), by_hand::slerp));
+        let s = channel(scale, time, |v| v.to_array(), by_hand::lerp);
+        near(pose.translation.to_array(), t, &place);
+        near(pose.scale.to_array(), s, &place);
+        near(pose.rotation.to_array(), r, &place);
+        let to_parent = by_hand::to_parent(t, r, s);
+        near_matrix(step.to_parent, to_parent, &place);
+        let parent = step.parent.map(|parent| found.iter().find(|(bone, _)| *bone == parent).unwrap().1);
+        let to_root = parent.map_or(to_parent, |parent| by_hand::product(parent, to_parent));
+        near_matrix(step.to_root, to_root, &place);
+        found.push((step.bone, to_root));
+    }
+    found
+}
+
+/// Position of the vertex from the explanation's own steps.
+fn check_vertex(explanation: &Explanation, vertex: &VertexResult) {
+    let to_roots = check_bones(explanation);
+    let to_root = |bone: u32| to_roots.iter().find(|(found, _)| *found == bone).unwrap().1;
+    let mut position = wide(vertex.position.to_array());
+    for morph in &vertex.morphs {
+        for (k, difference) in wide(morph.difference.to_array()).into_iter().enumerate() {
+            position[k] += difference * f64::from(morph.weight);
+        }
+    }
+    near(vertex.morphed_position.to_array(), position, "morphed");
+    let mut sum = [0.0; 3];
+    match &vertex.movement {
+        MovementStep::Skin { influences, .. } => {
+            for influence in influences {
+                let to_root = to_root(influence.bone.unwrap());
+                let offset = by_hand::matrix(influence.offset);
+                let final_pose = near_product(influence.final_pose, to_root, offset, "final");
+                let moved = by_hand::point(final_pose, position);
+                near(influence.moved.to_array(), moved, "moved");
+                let adds = moved.map(|n| n * f64::from(influence.weight));
+                near(influence.contribution.to_array(), adds, "contribution");
+                for (sum, adds) in sum.iter_mut().zip(adds) {
+                    *sum += adds;
+                }
+            }
+        }
+        MovementStep::Rigid { bone, to_bone } => {
+            let to_bone = by_hand::matrix(*to_bone);
+            let matrix = bone.map_or(to_bone, |bone| by_hand::product(to_root(bone), to_bone));
+            near_matrix(vertex.matrix, matrix, "matrix");
+            sum = by_hand::point(matrix, position);
+        }
+    }
+    near(vertex.final_position.to_array(), sum, "final position");
+    check_normal(vertex);
+}
+
+/// A normal stays at right angles to whatever lay in the surface.
+fn check_normal(vertex: &VertexResult) {
+    let (Some(normal), Some(got)) = (vertex.morphed_normal, vertex.final_normal) else { return };
+    assert!((got.length() - 1.0).abs() < 1e-5);
+    let matrix = vertex.matrix.as_dmat4();
+    for tangent in [normal.any_orthogonal_vector(), normal.cross(normal.any_orthogonal_vector())] {
+        let moved = matrix.transform_vector3(tangent.as_dvec3());
+        assert!(moved.normalize_or_zero().dot(got.as_dvec3()).abs() < 1e-4, "{vertex:?}");
+    }
+}
+
+fn vertex_of(explanation: &Explanation) -> &VertexResult {
+    match &explanation.subject {
+        Subject::Vertex(vertex) => vertex,
+        Subject::Bone(_) => panic!("a bone was explained"),
+    }
+}
+
+fn fox() -> Arc<ModelData> {
+    let bytes = std::fs::read(data().join("gltf/Fox.glb")).unwrap();
+    Arc::new(read("Fox.glb", &bytes, &NoFiles, &ReadOptions::default()).unwrap().model)
+}
+
+/// Two bones, each property with another interpolation; a skinned vertex that a morph target moves, one carried by a
+/// bone, one that stands still.
+fn made() -> Arc<ModelData> {
+    let x = |number: f32| Vec3::new(number, 0.5, -number);
+    let splined = Channel::new(
+        [0.0, 2.0],
+        [x(9.0), x(1.0), x(0.5), x(-0.25), x(2.0), x(9.0)],
+        Interpolation::CubicSpline,
+    );
+    let tracks = vec![
+        Track {
+            translation: splined,
+            rotation: about_z(&[(0.0, 0.2), (0.7, 1.4), (2.0, -0.3)], Interpolation::Linear),
+            scale: Channel::new(
+                [0.0, 1.0],
+                [Vec3::new(1.0, 2.0, 0.5), Vec3::new(3.0, 1.0, -1.0)],
+                Interpolation::Closest,
+            ),
+            ..Track::default()
+        },
+        Track {
+            translation: along_x(&[(0.5, 1.0), (1.5, 4.0)], Interpolation::Step),
+            rotation: about_z(&[(1.0, 0.4)], Interpolation::Linear),
+            ..Track::default()
+        },
+    ];
+    let mut take = take(tracks);
+    let (times, weights) = ([0.0, 2.0].into(), [0.0, 1.0].into());
+    let interpolation = Interpolation::Linear;
+    take.morphs.push(MorphTrack { instance: 0, targets: 1, times, weights, interpolation });
+    let mut bones = vec![bone("upper", None, Vec3::Y), bone("lower", Some(0), Vec3::X)];
+    bones[1].offset = Mat4::from_translation(Vec3::new(-1.0, -1.0, 0.5));
+    let influences = [(1, 0.75), (0, 0.25), (0, 0.0), (0, 0.0)];
+    let influences = influences.map(|(joint, weight)| Influence { joint, weight }).to_vec();
+    let target = MorphTarget { name: "lift".into(), positions: vec![Vec3::Z], ..MorphTarget::default() };
+    let vertices = |influences: Vec<Influence>| Vertices {
+        positions: vec![Vec3::new(1.5, 0.25, 0.125)],
+        normals: vec![Vec3::new(1.0, 2.0, -0.5).normalize()],
+        influences_per_vertex: influences.len(),
+        influences,
+        ..Vertices::default()
+    };
+    let mesh = |vertices, morph_targets| Mesh {
+        name: "patch".into(),
+        primitives: vec![Primitive { vertices, morph_targets, ..Primitive::default() }],
+        ..Mesh::default()
+    };
+    let to_bone = Mat4::from_scale_rotation_translation(Vec3::new(1.0, 2.0, 3.0), Quat::IDENTITY, Vec3::X);
+    let instance =
+        |mesh, skin, bone| MeshInstance { mesh, node: None, skin, bone, to_bone, morph_weights: vec![] };
+    let offsets = vec![Mat4::from_rotation_x(0.3), bones[1].offset];
+    Arc::new(ModelData {
+        meshes: vec![mesh(vertices(influences), vec![target]), mesh(vertices(vec![]), vec![])],
+        instances: vec![instance(0, Some(0), None), instance(1, None, Some(1)), instance(1, None, None)],
+        skins: vec![Skin { name: String::new(), bones: vec![0, 1], offsets }],
+        animation: animation_data(bones, vec![take]),
+        ..ModelData::default()
+    })
+}
+
+const TIMES: [f32; 8] = [-1.0, 0.0, 0.3, 0.5, 0.75, 1.0, 1.75, 9.0];
+
+#[test]
+fn every_step_of_a_bone_can_be_worked_out_by_hand() {
+    for (model, takes) in [(made(), 1), (fox(), 3)] {
+        for take in 0..takes {
+            for bone in 0..model.animation.skeleton.len() as u32 {
+                for time in TIMES {
+                    let explanation = explain(&model, Some(take), time, What::Bone(bone)).unwrap();
+                    let to_root = check_bones(&explanation).last().unwrap().1;
+                    let Subject::Bone(result) = explanation.subject else { panic!("a bone was asked for") };
+                    let offset = by_hand::matrix(result.offset);
+                    near_product(result.final_pose, to_root, offset, "final");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_step_of_a_vertex_can_be_worked_out_by_hand() {
+    let explained = |model: &ModelData, time, instance, vertex| {
+        let what = What::Vertex { instance, primitive: 0, vertex };
+        let explanation = explain(model, Some(0), time, what).unwrap();
+        check_vertex(&explanation, vertex_of(&explanation));
+    };
+    for time in TIMES {
+        (0..3).for_each(|instance| explained(&made(), time, instance, 0));
+        (0..1728).step_by(97).for_each(|vertex| explained(&fox(), time, 0, vertex));
+    }
+}
+
+#[test]
+fn what_is_explained_is_what_is_played_bit_for_bit() {
+    for model in [made(), fox()] {
+        let mut evaluator = Evaluator::new(Arc::clone(&model));
+        let mut animation = Animation::of(&model);
+        for time in TIMES {
+            evaluator.pose(Some(0), time);
+            let finals = animation.final_bone_poses(Some(0), time).to_vec();
+            for (bone, &final_pose) in finals.iter().enumerate() {
+                let explanation = explain(&model, Some(0), time, What::Bone(bone as u32)).unwrap();
+                let step = explanation.bone(bone as u32).unwrap();
+                assert_eq!(step.to_root, evaluator.to_root()[bone]);
+                assert_eq!(step.pose, animation.poses()[bone]);
+                let Subject::Bone(result) = &explanation.subject else { panic!("a bone was asked for") };
+                assert_eq!(result.final_pose, final_pose);
+            }
+            for instance in 0..model.instances.len() {
+                let mut positions = vec![Vec3::ZERO; 300];
+                let count = evaluator.positions(instance, 0, &mut positions);
+                let mut normals = vec![Vec3::ZERO; count];
+                evaluator.normals(instance, 0, &mut normals);
+                for vertex in (0..count).step_by(41) {
+                    let what =
+                        What::Vertex { instance: instance as u32, primitive: 0, vertex: vertex as u32 };
+                    let explanation = explain(&model, Some(0), time, what).unwrap();
+                    let result = vertex_of(&explanation);
+                    assert_eq!(result.final_position, positions[vertex]);
+                    assert_eq!(result.final_normal, Some(normals[vertex]));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_worked_example_is_told_with_keys_four_and_five() {
+    let keys: Vec<(f32, f32)> = (0..=10).map(|k| (k as f32 * 0.1, (k + 1) as f32)).collect();
+    let track = Track { translation: along_x(&keys, Interpolation::Linear), ..Track::default() };
+    let animation = animation_data(vec![bone("only", None, Vec3::ZERO)], vec![take(vec![track])]);
+    let model = ModelData { animation, ..ModelData::default() };
+    let explanation = explain(&model, Some(0), 0.35, What::Bone(0)).unwrap();
+    let keys = explanation.bones[0].translation.keys.as_ref().unwrap();
+    // Counted from zero here, from one in the thesis.
+    assert_eq!((keys.before.index + 1, keys.after.index + 1, keys.count), (4, 5, 11));
+    assert!((keys.mix - 0.5).abs() < 1e-6);
+    assert_eq!((keys.before.value.x, keys.after.value.x), (4.0, 5.0));
+    assert!((explanation.bones[0].translation.value.x - 4.5).abs() < 1e-5);
+    assert!(explanation.bones[0].rotation.keys.is_none());
+}
+
+#[test]
+fn the_text_names_each_section_and_its_columns_line_up() {
+    let text = explain(&fox(), Some(1), 0.35, What::Vertex { instance: 0, primitive: 0, vertex: 9 })
+        .unwrap()
+        .to_string();
+    println!("{text}");
+    for word in ["§2.1.5.2", "§2.1.5.1", "§2.1.4", "to_parent", "to_root", "offset", "before", "after", "mix"]
+    {
+        assert!(text.contains(word), "{word} is missing");
+    }
+    assert!(text.lines().all(|line| line == line.trim_end()), "blanks at the end of a line");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "a line too long for a terminal");
+    let rows: Vec<usize> =
+        text.lines().filter(|line| line.contains("]    [")).map(|line| line.chars().count()).collect();
+    assert!(rows.len() > 20 && rows.iter().all(|&length| length == rows[0]), "{rows:?}");
+}
+
+#[test]
+fn what_is_not_there_is_named() {
+    let model = made();
+    let error = |take, what| explain(&model, take, 0.0, what).unwrap_err();
+    let vertex = |instance, primitive, vertex| What::Vertex { instance, primitive, vertex };
+    assert_eq!(error(Some(1), What::Bone(0)), ExplainError::NoTake { take: 1, takes: 1 });
+    assert_eq!(error(None, What::Bone(2)), ExplainError::NoBone { bone: 2, bones: 2 });
+    assert_eq!(error(None, vertex(3, 0, 0)), ExplainError::NoInstance { instance: 3, instances: 3 });
+    assert_eq!(error(None, vertex(0, 1, 0)).to_string(), "instance 0 has no primitive 1; it has 1");
+    let text = "primitive 0 of instance 1 has no vertex 7; it has 1";
+    assert_eq!(error(None, vertex(1, 0, 7)).to_string(), text);
+}
+
+#[test]
+fn damaged_models_are_explained_without_a_panic() {
+    let mut model = (*made()).clone();
+    let mut take = (*model.animation.takes[0]).clone();
+    let bad = [f32::NAN, f32::INFINITY, -1.0];
+    take.tracks[0].rotation.values = [Quat::from_xyzw(f32::NAN, 0.0, 0.0, 0.0)].into();
+    take.tracks[0].translation.times = bad.into();
+    take.tracks.truncate(1);
+    take.morphs[0].targets = 9;
+    model.animation.takes[0] = Arc::new(take);
+    model.skins[0].bones.truncate(1);
+    model.skins[0].offsets.clear();
+    let skeleton = Arc::make_mut(&mut model.animation.skeleton);
+    skeleton.bones[0].parent = Some(1);
+    skeleton.bones[1].rest = Transform { translation: Vec3::NAN, ..Transform::IDENTITY };
+    for time in [f32::NAN, f32::NEG_INFINITY, 0.5, f32::MAX] {
+        for what in [What::Bone(0), What::Bone(1), What::Vertex { instance: 0, primitive: 0, vertex: 0 }] {
+            let explanation = explain(&model, Some(0), time, what).unwrap();
+            assert!(explanation.bones.iter().all(|step| step.to_root.is_finite() && step.pose.is_finite()));
+            assert!(!explanation.to_string().is_empty());
+        }
+    }
+}
