@@ -8,16 +8,18 @@ use dragonfly_anim::explain::{Subject, What, explain};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use std::error::Error;
 
-const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
+pub(crate) const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let file = arguments.next().unwrap_or_else(|| FOX.to_owned());
     let name = arguments.next().unwrap_or_else(|| "b_Head_05".to_owned());
-    let time: f32 = arguments.next().unwrap_or_else(|| "0.35".to_owned()).parse()?;
+    show(&file, &name, arguments.next().unwrap_or_else(|| "0.35".to_owned()).parse()?)
+}
 
-    let model = read(&file, &std::fs::read(&file)?, &NoFiles, &ReadOptions::default())?.model;
-    let bone = model.animation.skeleton.find(&name).ok_or("no bone has that name")?;
+pub(crate) fn show(file: &str, name: &str, time: f32) -> Result<(), Box<dyn Error>> {
+    let model = read(file, &std::fs::read(file)?, &NoFiles, &ReadOptions::default())?.model;
+    let bone = model.animation.skeleton.find(name).ok_or("no bone has that name")?;
     let take = if model.animation.takes.is_empty() { None } else { Some(0) };
 
     let explanation = explain(&model, take, time, What::Bone(bone))?;

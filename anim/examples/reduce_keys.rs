@@ -9,15 +9,17 @@ use dragonfly_anim::reduce::{ReduceSettings, reduce};
 use std::error::Error;
 use std::time::Instant;
 
-const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
+pub(crate) const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let file = arguments.next().unwrap_or_else(|| FOX.to_owned());
     // The fox is drawn in centimetres; glTF asks for metres, which are 1000.
-    let millimetres_per_unit = arguments.next().unwrap_or_else(|| "10".to_owned()).parse()?;
+    show(&file, arguments.next().unwrap_or_else(|| "10".to_owned()).parse()?)
+}
 
-    let model = read(&file, &std::fs::read(&file)?, &NoFiles, &ReadOptions::default())?.model;
+pub(crate) fn show(file: &str, millimetres_per_unit: f32) -> Result<(), Box<dyn Error>> {
+    let model = read(file, &std::fs::read(file)?, &NoFiles, &ReadOptions::default())?.model;
     let skeleton = &model.animation.skeleton;
     for take in &model.animation.takes {
         println!("{}: {} keys", take.name, take.keys());

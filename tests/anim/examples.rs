@@ -6,12 +6,18 @@ mod attach;
 mod blend_two;
 #[path = "../../anim/examples/check_a_model.rs"]
 mod check_a_model;
+#[allow(dead_code, reason = "its main reads the command line, which is the test's here")]
+#[path = "../../anim/examples/explain_a_bone.rs"]
+mod explain_a_bone;
 #[path = "../../anim/examples/own_interpolation.rs"]
 mod own_interpolation;
 #[path = "../../anim/examples/play_a_take.rs"]
 mod play_a_take;
 #[path = "../../anim/examples/reach_with_ik.rs"]
 mod reach_with_ik;
+#[allow(dead_code, reason = "its main reads the command line, which is the test's here")]
+#[path = "../../anim/examples/reduce_keys.rs"]
+mod reduce_keys;
 #[path = "../../anim/examples/root_motion.rs"]
 mod root_motion;
 #[path = "../../anim/examples/same_animation_other_model.rs"]
@@ -65,14 +71,33 @@ fn another_model_moves_alike() {
 }
 
 #[test]
-fn every_example_is_shorter_than_sixty_lines() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+fn a_bone_is_explained() {
+    explain_a_bone::show(explain_a_bone::FOX, "b_Head_05", 0.35).unwrap();
+    assert!(explain_a_bone::show(explain_a_bone::FOX, "nobody", 0.35).is_err());
+}
+
+#[test]
+fn keys_are_reduced() {
+    reduce_keys::show(reduce_keys::FOX, 10.0).unwrap();
+}
+
+#[test]
+fn every_example_is_short_and_run_by_a_test() {
+    let crate_root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |folder: &str| {
+        let entries = std::fs::read_dir(crate_root.join(folder)).unwrap();
+        entries
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| path.extension().is_some_and(|end| end == "rs"))
+    };
+    let tests: String = read("../tests/anim").map(|path| std::fs::read_to_string(path).unwrap()).collect();
     let mut examples = 0;
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
+    for path in read("examples") {
         let lines = std::fs::read_to_string(&path).unwrap().lines().count();
         assert!(lines < 60, "{}: {lines} lines", path.display());
+        let name = path.file_name().unwrap().to_str().unwrap();
+        assert!(tests.contains(&format!("anim/examples/{name}\"]")), "no test runs {name}");
         examples += 1;
     }
-    assert!(examples >= 4);
+    assert!(examples >= 10, "{examples}");
 }
