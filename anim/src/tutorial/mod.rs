@@ -310,6 +310,9 @@
 //! * [`Animation`](crate::animation::Animation) and [`Evaluator`](crate::evaluator::Evaluator) do steps 6 to 9 in one call
 //!   and keep their memory, so that playing allocates nothing.
 //! * [`format::read`](crate::format::read) gets a model from a file instead of steps 1 to 5.
+//! * [`blend`](crate::blend) does the last step for any number of takes, with masks and with layers on top; [`ik`](crate::ik)
+//!   makes an arm like this one reach; [`motion`](crate::motion) and [`retarget`](crate::retarget) make other takes of a take.
+//! * [`format::dfm`](crate::format::dfm) saves the model.
 //! * [`reduce`](crate::reduce::reduce()) takes away keys that nobody would miss.
 
 #[doc(hidden)]
