@@ -16,12 +16,13 @@
 //! The library starts no thread, opens no file and no window: importers take bytes and ask a door
 //! ([`format::AssetFs`]) for anything else.
 
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 pub mod animation;
 pub mod bounds;
 pub mod data;
 pub mod evaluator;
+pub mod fast;
 pub mod format;
 pub mod limits;
 pub mod sample;

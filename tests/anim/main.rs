@@ -17,6 +17,7 @@ mod poses;
 mod rules;
 mod sampling;
 mod seeds;
+mod simd;
 mod skinning;
 mod soundness;
 mod support;
