@@ -20,6 +20,7 @@
 
 pub mod animation;
 pub mod bounds;
+pub mod compressed;
 pub mod data;
 pub mod evaluator;
 pub mod fast;
