@@ -5,6 +5,7 @@ mod bad_files;
 mod bombs;
 mod bounds;
 mod budget;
+mod compressed;
 mod damage;
 mod degenerate;
 mod degenerate_import;

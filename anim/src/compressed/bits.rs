@@ -79,7 +79,11 @@ impl<'a> BitReader<'a> {
     pub(super) fn take_float(&mut self) -> Result<f32, FormatError> {
         let offset = self.offset();
         let value = f32::from_bits(self.take(32)?);
-        if value.is_finite() { Ok(value) } else { Err(FormatError::new(offset, format!("{value} is no number"))) }
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(FormatError::new(offset, format!("{value} is no number")))
+        }
     }
 
     /// The byte that holds the next bit.

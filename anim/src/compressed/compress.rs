@@ -145,7 +145,6 @@ impl Attempt {
         let decoded = all_to_root(skeleton, &poses(&compressed, frames));
         let (share_of_tolerance, largest_error) = largest_error(frames, &decoded, exactness);
         let mut channels = [0; 4];
-        if std::env::var("DBG").is_ok() { eprintln!("{choice:?} {spent:?} {share_of_tolerance} {largest_error:?}"); }
         stored.bones.iter().flatten().for_each(|part| channels[part.kind() as usize] += 1);
         let report = Report {
             bytes: spent,

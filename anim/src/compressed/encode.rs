@@ -105,11 +105,17 @@ impl<'a> Encoder<'a> {
         let error = |frame: usize, scale: Vec3| {
             // Seen from the raw bone: how far its points move, whatever the parents are.
             let unscaled = wanted[frame];
-            let ratio = Vec3::select(unscaled.abs().cmpgt(Vec3::splat(1e-3)), (scale - unscaled) / unscaled, scale - unscaled);
+            let ratio = Vec3::select(
+                unscaled.abs().cmpgt(Vec3::splat(1e-3)),
+                (scale - unscaled) / unscaled,
+                scale - unscaled,
+            );
             let far = |point: &Point| (largest(frame) * (ratio * point.local)).length();
             points.iter().map(far).fold(0.0, f32::max) / limit
         };
-        self.vector(&wanted, Vec3::splat(COARSE * limit / reach), error, |frame, scale| poses[frame].scale = scale)
+        self.vector(&wanted, Vec3::splat(COARSE * limit / reach), error, |frame, scale| {
+            poses[frame].scale = scale
+        })
     }
 
     fn translation(&self, bone: usize, poses: &mut [Transform]) -> Part {
@@ -120,7 +126,11 @@ impl<'a> Encoder<'a> {
         let wanted: Vec<Vec3> = (0..poses.len())
             .map(|frame| {
                 let back = parents[frame].inverse().transform_point3(raw[frame]);
-                if well(&parents[frame]) && back.is_finite() { back } else { self.frames.pose(frame, bone).translation }
+                if well(&parents[frame]) && back.is_finite() {
+                    back
+                } else {
+                    self.frames.pose(frame, bone).translation
+                }
             })
             .collect();
         let error = |frame: usize, translation: Vec3| {
@@ -139,7 +149,8 @@ impl<'a> Encoder<'a> {
         mut put: impl FnMut(usize, Vec3),
     ) -> Part {
         let range = vector_range(values).filter(|_| !self.choice.whole);
-        let coded = range.and_then(|range| code(&Wanted { values, range, shift: self.choice.shift, step }, error));
+        let coded =
+            range.and_then(|range| code(&Wanted { values, range, shift: self.choice.shift, step }, error));
         let Some(Coded { range, segments, values: decoded }) = coded else {
             values.iter().enumerate().for_each(|(frame, &value)| put(frame, value));
             return Part::Whole(values.iter().map(|value| value.extend(0.0).to_array()).collect());
@@ -165,10 +176,14 @@ impl<'a> Encoder<'a> {
                 Point::share(&points, raw_of(frame), &(parents[frame] * pose.to_affine()))
             };
             // Where the parents left more of an error than a rotation can take back, no number of bits would do.
-            let reachable: Vec<f32> =
-                wanted.iter().enumerate().map(|(frame, &best)| (share(frame, best) * 1.02 + 0.05).max(1.0)).collect();
+            let reachable: Vec<f32> = wanted
+                .iter()
+                .enumerate()
+                .map(|(frame, &best)| (share(frame, best) * 1.02 + 0.05).max(1.0))
+                .collect();
             let error = |frame: usize, rotation: Quat| share(frame, rotation) / reachable[frame];
-            if let Some((packed, decoded)) = self.pack_rotation(&wanted, self.turn_step(bone, &points), error) {
+            if let Some((packed, decoded)) = self.pack_rotation(&wanted, self.turn_step(bone, &points), error)
+            {
                 poses.iter_mut().zip(decoded).for_each(|(pose, rotation)| pose.rotation = rotation);
                 return Part::Packed(packed);
             }
@@ -182,15 +197,26 @@ impl<'a> Encoder<'a> {
     }
 
     /// The rotation that takes back what the parents did wrong.
-    fn aim(&self, bone: usize, frame: usize, points: &[Point], raw: &[Vec3], parent: &Affine3A, pose: &Transform) -> Quat {
+    fn aim(
+        &self,
+        bone: usize,
+        frame: usize,
+        points: &[Point],
+        raw: &[Vec3],
+        parent: &Affine3A,
+        pose: &Transform,
+    ) -> Quat {
         let rotation = self.frames.pose(frame, bone).rotation;
         if !well(parent) {
             return rotation;
         }
         let back = parent.inverse();
-        aimed(rotation, points.iter().zip(raw).map(|(point, &raw)| {
-            (pose.scale * point.local, back.transform_point3(raw) - pose.translation, point.limit)
-        }))
+        aimed(
+            rotation,
+            points.iter().zip(raw).map(|(point, &raw)| {
+                (pose.scale * point.local, back.transform_point3(raw) - pose.translation, point.limit)
+            }),
+        )
     }
 
     /// A step of each component of a rotation that is too coarse for its points.

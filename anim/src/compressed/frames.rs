@@ -125,7 +125,8 @@ fn own_steps(take: &Take, start: f32, length: f32) -> Option<u64> {
         }
     }
     tidy(&mut times);
-    let smallest = times.windows(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0])).fold(f64::MAX, f64::min);
+    let smallest =
+        times.windows(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0])).fold(f64::MAX, f64::min);
     let steps = (f64::from(length) / smallest).round();
     let on_frame = |time: &f32| {
         let frame = (f64::from(*time) - f64::from(start)) / f64::from(length) * steps;

@@ -16,9 +16,12 @@ const LARGEST: f32 = std::f32::consts::FRAC_1_SQRT_2;
 /// `bits` bits (2..=24).
 pub(super) fn rotation_numbers(rotation: Quat, bits: u32) -> (u32, [u32; 3]) {
     let components = rotation.to_array();
-    let dropped = (1..4).fold(0, |best: usize, at| {
-        if components[at].abs() > components[best].abs() { at } else { best }
-    });
+    let dropped = (1..4).fold(
+        0,
+        |best: usize, at| {
+            if components[at].abs() > components[best].abs() { at } else { best }
+        },
+    );
     let sign = if components[dropped] < 0.0 { -1.0 } else { 1.0 };
     let middle = ((1_u32 << (bits - 1)) - 1) as f32;
     let mut others = (0..4).filter(|&at| at != dropped).map(|at| components[at] * sign);

@@ -16,6 +16,27 @@ use super::table::{HeadBlock, MovingBlock, Tables};
 use crate::fast::PoseBlock;
 use crate::fast::simd::{Float8, Kernel, Simd, Word8};
 
+/// The same for each of three components. An array's `map` would do, but its closure is not compiled with the
+/// instructions of the level.
+macro_rules! three {
+    ($axis:ident => $each:expr) => {
+        [
+            {
+                let $axis = 0_usize;
+                $each
+            },
+            {
+                let $axis = 1_usize;
+                $each
+            },
+            {
+                let $axis = 2_usize;
+                $each
+            },
+        ]
+    };
+}
+
 /// Decodes a pose.
 pub(super) struct Decode<'a> {
     pub(super) tables: &'a Tables,
@@ -49,7 +70,11 @@ fn around(tables: &Tables, time: f32) -> (u32, f32) {
     let guess = ((f64::from(time) - f64::from(clock.start)) / tables.interval) as u32;
     if guess >= last {
         let before = clock.time(last, tables.interval);
-        return if time >= before || last == 0 { (last, 0.0) } else { (last - 1, mix(tables, last - 1, time)) };
+        return if time >= before || last == 0 {
+            (last, 0.0)
+        } else {
+            (last - 1, mix(tables, last - 1, time))
+        };
     }
     let key = if time < clock.time(guess, tables.interval) {
         guess.saturating_sub(1)
@@ -81,7 +106,8 @@ impl Keys {
         let (segment, next_segment) = ((even >> shift) as usize, (next >> shift) as usize);
         let (here, there) = (tables.segments.get(segment)?, tables.segments.get(next_segment)?);
         // The last key of all may be even: then there is no odd one after it, and its numbers count for nothing.
-        let odd = if even < last { here.odd.wrapping_add(inside(even).wrapping_mul(here.odd_stride)) } else { 0 };
+        let odd =
+            if even < last { here.odd.wrapping_add(inside(even).wrapping_mul(here.odd_stride)) } else { 0 };
         Some(Self {
             segment,
             next_segment,
@@ -99,9 +125,8 @@ impl Kernel for Decode<'_> {
     #[inline(always)]
     fn run<S: Simd>(self) {
         let Self { tables, bytes, time, out } = self;
-        for (out, base) in out.iter_mut().zip(&tables.base) {
-            *out = *base;
-        }
+        let blocks = out.len().min(tables.base.len());
+        out[..blocks].copy_from_slice(&tables.base[..blocks]);
         let (key, mix) = around(tables, time);
         if let Some(keys) = Keys::around(tables, key) {
             let slerp = Slerp::at(mix);
@@ -145,21 +170,21 @@ fn two_keys<S: Simd>(
 ) -> [[S::F8; 3]; 2] {
     let bits = S::U8::load(&head.bits);
     let (even_widths, odd_widths) = (widths::<S>(bits, 0), widths::<S>(bits, 15));
-    let even_masks = even_widths.map(|width| mask::<S>(width));
+    let even_masks = three!(axis => mask::<S>(even_widths[axis]));
     let (start, step) = ranges::<S>(moving, head, &even_masks);
     let even = numbers::<S>(bytes, keys.even, &head.even_at, &even_widths, &even_masks);
-    let odd_masks = odd_widths.map(|width| mask::<S>(width));
+    let odd_masks = three!(axis => mask::<S>(odd_widths[axis]));
     let odd = numbers::<S>(bytes, keys.odd, &head.odd_at, &odd_widths, &odd_masks);
-    let even = [0, 1, 2].map(|axis| even[axis].mul_add(step[axis], start[axis]));
+    let even = three!(axis => even[axis].mul_add(step[axis], start[axis]));
     let next = if keys.next_segment == keys.segment {
         let next = numbers::<S>(bytes, keys.next, &head.even_at, &even_widths, &even_masks);
-        [0, 1, 2].map(|axis| next[axis].mul_add(step[axis], start[axis]))
+        three!(axis => next[axis].mul_add(step[axis], start[axis]))
     } else {
         other_segment::<S>(moving, next_head, keys, bytes)
     };
     let half = S::F8::splat(0.5);
     let one = S::U8::splat(1);
-    let middle = [0, 1, 2].map(|axis| {
+    let middle = three!(axis => {
         // (mask + 1) / 2: what stands for zero; none for a number of no bits.
         let zero = (odd_masks[axis] + one).shifted_right(one).to_float();
         (odd[axis] - zero).mul_add(step[axis], (even[axis] + next[axis]) * half)
@@ -171,16 +196,16 @@ fn two_keys<S: Simd>(
 #[inline(always)]
 fn other_segment<S: Simd>(moving: &MovingBlock, head: &HeadBlock, keys: &Keys, bytes: &[u8]) -> [S::F8; 3] {
     let widths = widths::<S>(S::U8::load(&head.bits), 0);
-    let masks = widths.map(|width| mask::<S>(width));
+    let masks = three!(axis => mask::<S>(widths[axis]));
     let (start, step) = ranges::<S>(moving, head, &masks);
     let next = numbers::<S>(bytes, keys.next, &head.even_at, &widths, &masks);
-    [0, 1, 2].map(|axis| next[axis].mul_add(step[axis], start[axis]))
+    three!(axis => next[axis].mul_add(step[axis], start[axis]))
 }
 
 /// Three widths of five bits each, from bit `from` on.
 #[inline(always)]
 fn widths<S: Simd>(bits: S::U8, from: u32) -> [S::U8; 3] {
-    [0, 5, 10].map(|at| bits.shifted_right(S::U8::splat(from + at)) & S::U8::splat(31))
+    three!(axis => bits.shifted_right(S::U8::splat(from + 5 * axis as u32)) & S::U8::splat(31))
 }
 
 /// As many ones as `width` says.
@@ -193,12 +218,12 @@ fn mask<S: Simd>(width: S::U8) -> S::U8 {
 #[inline(always)]
 fn ranges<S: Simd>(moving: &MovingBlock, head: &HeadBlock, masks: &[S::U8; 3]) -> ([S::F8; 3], [S::F8; 3]) {
     let (per_place, per_extent, one) = (S::F8::splat(PER_PLACE), S::F8::splat(PER_EXTENT), S::F8::splat(1.0));
-    let extent = [0, 1, 2].map(|axis| S::F8::load(&moving.extent[axis]));
-    let start = [0, 1, 2].map(|axis| {
+    let extent = three!(axis => S::F8::load(&moving.extent[axis]));
+    let start = three!(axis => {
         let place = S::F8::from_u16(&head.place[axis]) * per_place;
         extent[axis].mul_add(place, S::F8::load(&moving.low[axis]))
     });
-    let step = [0, 1, 2].map(|axis| {
+    let step = three!(axis => {
         let part = S::F8::from_u8(&head.extent[axis]) * per_extent;
         extent[axis] * part / masks[axis].to_float().max(one)
     });
@@ -245,7 +270,8 @@ fn rotation<S: Simd>(
 ) {
     let (a, b) = (with_w::<S>(a), with_w::<S>(b));
     let [x, y, z, w] = slerp.mix::<S>(a, b);
-    let [p, q, r, s] = [0, 1, 2, 3].map(|axis| S::F8::load(&moving.reference[axis]));
+    let (p, q) = (S::F8::load(&moving.reference[0]), S::F8::load(&moving.reference[1]));
+    let (r, s) = (S::F8::load(&moving.reference[2]), S::F8::load(&moving.reference[3]));
     // reference * relative
     r.neg_mul_add(y, q.mul_add(z, p.mul_add(w, s * x))).store(&mut out[0]);
     p.neg_mul_add(z, r.mul_add(x, q.mul_add(w, s * y))).store(&mut out[1]);

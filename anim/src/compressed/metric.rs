@@ -34,9 +34,13 @@ pub(super) fn shell_distance(raw: &Affine3A, decoded: &Affine3A, shell: f32) -> 
         raw.matrix3.z_axis - decoded.matrix3.z_axis,
     ];
     let squares = axes.map(|axis: Vec3A| (moved + axis * shell).length_squared());
-    let largest = squares.into_iter().fold(0.0, |largest: f32, square| {
-        if square.is_finite() { largest.max(square) } else { f32::INFINITY }
-    });
+    let largest =
+        squares.into_iter().fold(
+            0.0,
+            |largest: f32, square| {
+                if square.is_finite() { largest.max(square) } else { f32::INFINITY }
+            },
+        );
     largest.sqrt()
 }
 

@@ -76,7 +76,9 @@ impl Plan {
             if let Part::Constant(value) = &mut parts[1] {
                 *value = value.map(|component| self.grid.component(component));
             }
-            for (part, default) in parts.iter_mut().zip([[0.0, 0.0, 0.0, 1.0], [0.0; 4], [1.0, 1.0, 1.0, 0.0]]) {
+            for (part, default) in
+                parts.iter_mut().zip([[0.0, 0.0, 0.0, 1.0], [0.0; 4], [1.0, 1.0, 1.0, 0.0]])
+            {
                 if matches!(part, Part::Constant(value) if *value == default) {
                     *part = Part::Default;
                 }
@@ -105,10 +107,12 @@ fn still(
             let hangs = parts[child].iter().all(|part| !matches!(part, Part::Whole(_)));
             reach[bone] = reach[bone].max(away.fold(0.0, f32::max) + if hangs { reach[child] } else { 0.0 });
         }
-        let largest = (0..frames.count()).map(|frame| pose(frame).scale.abs().max_element()).fold(1.0, f32::max);
+        let largest =
+            (0..frames.count()).map(|frame| pose(frame).scale.abs().max_element()).fold(1.0, f32::max);
         let allowed = tolerance[bone] * STILL;
         if let Some(scale) = middle(frames.count(), |frame| pose(frame).scale, allowed / reach[bone]) {
-            parts[bone][2] = Part::Constant(rounded_scale(scale, allowed / reach[bone]).extend(0.0).to_array());
+            parts[bone][2] =
+                Part::Constant(rounded_scale(scale, allowed / reach[bone]).extend(0.0).to_array());
         }
         reach[bone] *= largest;
         if let Some(translation) = middle(frames.count(), |frame| pose(frame).translation, allowed) {
@@ -116,7 +120,9 @@ fn still(
             finest_step = finest_step.min(tolerance[bone] * ROUNDING);
             farthest = farthest.max(translation.abs().max_element());
         }
-        if let Some(rotation) = middle_turn(frames.count(), |frame| pose(frame).rotation, allowed / reach[bone]) {
+        if let Some(rotation) =
+            middle_turn(frames.count(), |frame| pose(frame).rotation, allowed / reach[bone])
+        {
             parts[bone][0] = Part::Constant(rotation.to_array());
             finest_turn = finest_turn.min(tolerance[bone] * ROUNDING / reach[bone]);
         }
@@ -142,7 +148,8 @@ fn grid(turn: f32, step: f32, farthest: f32) -> Grid {
 /// The middle of a vector's values, where none is farther than `allowed` from it.
 fn middle(count: usize, value: impl Fn(usize) -> Vec3, allowed: f32) -> Option<Vec3> {
     let first = value(0);
-    let (low, high) = (1..count).map(&value).fold((first, first), |(low, high), value| (low.min(value), high.max(value)));
+    let (low, high) =
+        (1..count).map(&value).fold((first, first), |(low, high), value| (low.min(value), high.max(value)));
     let middle = if low == high { first } else { low * 0.5 + high * 0.5 };
     (low == high || (high - low).length() * 0.5 <= allowed).then_some(middle)
 }

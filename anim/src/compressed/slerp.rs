@@ -38,7 +38,10 @@ impl Slerp {
     /// 0 ≤ `mix` ≤ 1.
     #[inline(always)]
     pub(super) fn at(mix: f32) -> Self {
-        let factors = std::array::from_fn(|index| [factor(1.0 - mix, index), factor(mix, index)]);
+        let mut factors = [[0.0; 2]; FEW];
+        for (index, factors) in factors.iter_mut().enumerate() {
+            *factors = [factor(1.0 - mix, index), factor(mix, index)];
+        }
         Self { mix, factors }
     }
 
@@ -53,7 +56,12 @@ impl Slerp {
         let (from, to) = if d.less(far).any() { many::<S>(self.mix, d) } else { self.few::<S>(d) };
         let from = from * S::F8::splat(1.0 - self.mix);
         let to = (to * S::F8::splat(self.mix)).flipped_by(sign);
-        [0, 1, 2, 3].map(|axis| b[axis].mul_add(to, a[axis] * from))
+        [
+            b[0].mul_add(to, a[0] * from),
+            b[1].mul_add(to, a[1] * from),
+            b[2].mul_add(to, a[2] * from),
+            b[3].mul_add(to, a[3] * from),
+        ]
     }
 
     #[inline(always)]

@@ -173,9 +173,10 @@ impl Tables {
 
     /// Bytes that the tables take.
     pub(super) fn bytes(&self) -> usize {
-        let parts = self.parts.iter().map(|part| {
-            size_of_val(part.blocks.as_slice()) + size_of_val(part.heads.as_slice())
-        });
+        let parts = self
+            .parts
+            .iter()
+            .map(|part| size_of_val(part.blocks.as_slice()) + size_of_val(part.heads.as_slice()));
         size_of_val(self.base.as_slice())
             + size_of_val(self.segments.as_slice())
             + size_of_val(self.whole.as_slice())

@@ -1,10 +1,10 @@
 //! A compressed take: bytes, and what it takes to play them.
 
+use super::FormatError;
 use super::kernel::Decode;
 use super::read::read;
 use super::stored::BETWEEN;
 use super::table::Tables;
-use super::FormatError;
 use crate::data::{Channel, Take, Track};
 use crate::fast::Pose;
 use crate::fast::simd::Level;
@@ -97,7 +97,13 @@ impl CompressedTake {
         for track in &self.tables.whole {
             put(&mut tracks[track.bone], track.part, &times, |key| track.value(&self.bytes, key));
         }
-        Take { name: self.tables.name.clone(), start: clock.start, length: clock.length, tracks, morphs: Vec::new() }
+        Take {
+            name: self.tables.name.clone(),
+            start: clock.start,
+            length: clock.length,
+            tracks,
+            morphs: Vec::new(),
+        }
     }
 
     /// The track of a bone that stands still.

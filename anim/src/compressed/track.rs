@@ -11,9 +11,7 @@
 //! Movement is smooth, so the odd numbers are small. Any key needs two others at most, so any time can be decoded
 //! from three keys.
 
-use super::stored::{
-    Head, MAX_EVEN_BITS, MAX_ODD_BITS, PER_EXTENT, PER_PLACE, Range, Segment, odd_zero,
-};
+use super::stored::{Head, MAX_EVEN_BITS, MAX_ODD_BITS, PER_EXTENT, PER_PLACE, Range, Segment, odd_zero};
 use glam::{BVec3, Vec3};
 
 /// A track of decoded values, and what makes them.
@@ -88,7 +86,9 @@ impl<E: FnMut(usize, Vec3) -> f32> Search<'_, E> {
         let mut best = found?;
         // One bit less where that still does; the one that saves most first is the one tried first.
         let mut axis_failed = [false; 3];
-        while let Some(axis) = (0..3).filter(|&axis| !axis_failed[axis] && bits[axis] > 0).max_by_key(|&axis| bits[axis]) {
+        while let Some(axis) =
+            (0..3).filter(|&axis| !axis_failed[axis] && bits[axis] > 0).max_by_key(|&axis| bits[axis])
+        {
             let mut fewer = bits;
             fewer[axis] -= 1;
             match self.attempt(fewer) {

@@ -170,7 +170,8 @@ fn whole(stored: &Stored, bytes: &mut Vec<u8>) {
         for value in values {
             if which == 0 {
                 let (dropped, numbers) = rotation_numbers(Quat::from_array(value), WHOLE_BITS);
-                let word = numbers.into_iter().rev().fold(0, |word, number| word << WHOLE_BITS | u64::from(number));
+                let word =
+                    numbers.into_iter().rev().fold(0, |word, number| word << WHOLE_BITS | u64::from(number));
                 bytes.extend((word << 2 | u64::from(dropped)).to_le_bytes());
             } else {
                 value[..3].iter().for_each(|number| bytes.extend(number.to_le_bytes()));
