@@ -1,5 +1,7 @@
 //! What a pose costs: `cargo bench -p dragonfly-anim`.
 
+mod compressed;
+
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use dragonfly_kit::bench::measure;
@@ -18,6 +20,7 @@ fn main() {
     };
     measure("anim/open/to_root_64_bones_forward", 10, || animation.to_root_bone_poses(Some(0), next()).len());
     measure("anim/open/rest_pose_64_bones", 10, || animation.to_root_bone_poses(None, 0.0).len());
+    compressed::run();
 }
 
 /// A chain of bones that all turn and move.

@@ -126,7 +126,7 @@ impl<'a> Encoder<'a> {
         let wanted: Vec<Vec3> = (0..poses.len())
             .map(|frame| {
                 let back = parents[frame].inverse().transform_point3(raw[frame]);
-                if well(&parents[frame]) && back.is_finite() {
+                if !self.choice.whole && well(&parents[frame]) && back.is_finite() {
                     back
                 } else {
                     self.frames.pose(frame, bone).translation
@@ -207,7 +207,7 @@ impl<'a> Encoder<'a> {
         pose: &Transform,
     ) -> Quat {
         let rotation = self.frames.pose(frame, bone).rotation;
-        if !well(parent) {
+        if self.choice.whole || !well(parent) {
             return rotation;
         }
         let back = parent.inverse();
@@ -285,8 +285,13 @@ impl<'a> Encoder<'a> {
 
 /// Can the space of a bone be led back to?
 fn well(to_root: &Affine3A) -> bool {
-    let (size, volume) = (to_root.matrix3.x_axis.length(), to_root.matrix3.determinant().abs());
-    size.is_finite() && volume.is_finite() && volume > 1e-3 * size * size * size && volume > 0.0
+    let lengths =
+        [to_root.matrix3.x_axis, to_root.matrix3.y_axis, to_root.matrix3.z_axis].map(|axis| axis.length());
+    let (least, most) =
+        lengths.iter().fold((f32::MAX, 0.0_f32), |(least, most), &at| (least.min(at), most.max(at)));
+    // Errors grow on the way back by as much as axes differ; then the raw pose is the better aim.
+    let volume = to_root.matrix3.determinant().abs() / (lengths[0] * lengths[1] * lengths[2]);
+    most.is_finite() && least > 0.3 * most && volume > 0.3
 }
 
 /// Room on both sides, so that a segment's place can be rounded.

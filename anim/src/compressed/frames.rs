@@ -1,5 +1,6 @@
 //! A take at evenly spaced times: what is compressed.
 
+use super::stored::LARGEST;
 use super::{CompressError, MAX_BONES, MAX_FRAMES, MAX_VALUES, Settings};
 use crate::animation::to_root;
 use crate::data::{Channel, Interpolation, Skeleton, Take, Transform};
@@ -10,6 +11,9 @@ use glam::{Affine3A, Mat4};
 const USUAL_RATE: f32 = 30.0;
 /// A key this near a frame, in frames, lies on it.
 const ON_FRAME: f64 = 0.01;
+
+/// Parts into which the smallest gap between keys is divided at most, to find a grid that all keys lie on.
+const FINER: u32 = 8;
 
 /// Evenly spaced times.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +62,11 @@ impl Frames {
             sample_take(Some(take), skeleton, clock.time(frame as u32, interval), poses);
         }
         let to_root = all_to_root(skeleton, &poses);
+        if let Some(place) = poses.iter().position(|pose| !(size(pose) <= LARGEST)) {
+            let (frame, bone) = (place / bones, place % bones);
+            let (time, tolerance) = (clock.time(frame as u32, interval), settings.everywhere.tolerance);
+            return Err(CompressError::OutOfReach { bone, time, tolerance, reached: f32::INFINITY });
+        }
         Ok(Self { clock, bones, poses, to_root })
     }
 
@@ -72,6 +81,10 @@ impl Frames {
     pub(super) fn to_root(&self, frame: usize, bone: usize) -> Affine3A {
         self.to_root[frame * self.bones + bone]
     }
+}
+
+fn size(pose: &Transform) -> f32 {
+    pose.translation.abs().max_element().max(pose.scale.abs().max_element())
 }
 
 /// `to_root` of every bone, frame after frame.
@@ -127,13 +140,16 @@ fn own_steps(take: &Take, start: f32, length: f32) -> Option<u64> {
     tidy(&mut times);
     let smallest =
         times.windows(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0])).fold(f64::MAX, f64::min);
-    let steps = (f64::from(length) / smallest).round();
-    let on_frame = |time: &f32| {
-        let frame = (f64::from(*time) - f64::from(start)) / f64::from(length) * steps;
-        (frame - frame.round()).abs() <= ON_FRAME
+    let fits = |steps: f64| {
+        let on_frame = |time: &f32| {
+            let frame = (f64::from(*time) - f64::from(start)) / f64::from(length) * steps;
+            (frame - frame.round()).abs() <= ON_FRAME
+        };
+        steps >= 1.0 && steps < MAX_FRAMES as f64 && times.iter().all(on_frame)
     };
-    let fits = straight && steps >= 1.0 && steps < MAX_FRAMES as f64 && times.iter().all(on_frame);
-    fits.then_some(steps as u64)
+    // The gaps may all be multiples of something smaller than the smallest of them.
+    let finer = (1..=FINER).map(|finer| (f64::from(length) / smallest * f64::from(finer)).round());
+    if straight { finer.into_iter().find(|&steps| fits(steps)).map(|steps| steps as u64) } else { None }
 }
 
 /// Ascending, each time once.

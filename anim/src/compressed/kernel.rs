@@ -187,7 +187,7 @@ fn two_keys<S: Simd>(
     let middle = three!(axis => {
         // (mask + 1) / 2: what stands for zero; none for a number of no bits.
         let zero = (odd_masks[axis] + one).shifted_right(one).to_float();
-        (odd[axis] - zero).mul_add(step[axis], (even[axis] + next[axis]) * half)
+        (odd[axis] - zero).mul_add(step[axis], next[axis].mul_add(half, even[axis] * half))
     });
     if keys.late { [middle, next] } else { [even, middle] }
 }

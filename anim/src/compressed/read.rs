@@ -5,7 +5,7 @@ use super::encode::TURN_UNIT;
 use super::frames::Clock;
 use super::grid::{FLOATS, MOST_BITS, rotation_from};
 use super::stored::{
-    CONSTANT, DEFAULT, Grid, Head, MAX_EVEN_BITS, MAX_ODD_BITS, PACKED, Range, Reference, SHIFTS, WHOLE,
+    CONSTANT, Grid, Head, LARGEST, MAX_EVEN_BITS, MAX_ODD_BITS, PACKED, Range, Reference, SHIFTS, WHOLE,
 };
 use super::table::{SegmentPlace, Tables, WholeTrack};
 use super::write::{PREFACE, TAIL};
@@ -151,7 +151,6 @@ fn constants(bits: &mut BitReader<'_>, header: &Header, kinds: &[[u32; 3]]) -> R
         if scale == CONSTANT {
             pose.scale = three(|| constant_factor(bits))?;
         }
-        debug_assert!(DEFAULT == 0);
         poses.push(pose);
     }
     Ok(poses)
@@ -176,7 +175,7 @@ fn constant_rotation(bits: &mut BitReader<'_>, width: u32) -> Result<Quat> {
 fn constant_length(bits: &mut BitReader<'_>, grid: &Grid) -> Result<f32> {
     let width = grid.translation_bits;
     if width == FLOATS {
-        return bits.take_float();
+        return number(bits);
     }
     if bits.take(1)? == 0 {
         return Ok(0.0);
@@ -184,12 +183,19 @@ fn constant_length(bits: &mut BitReader<'_>, grid: &Grid) -> Result<f32> {
     Ok((bits.take(width)? as i32 - (1 << (width - 1))) as f32 * grid.step)
 }
 
+/// A float that is not too large.
+fn number(bits: &mut BitReader<'_>) -> Result<f32> {
+    let at = bits.offset();
+    let number = bits.take_float()?;
+    check(at, "a constant", number, number.abs() <= LARGEST)
+}
+
 fn constant_factor(bits: &mut BitReader<'_>) -> Result<f32> {
     let at = bits.offset();
     match bits.take(2)? {
         0 => Ok(1.0),
         1 => Ok(-1.0),
-        2 => bits.take_float(),
+        2 => number(bits),
         other => Err(FormatError::new(at, format!("a factor is of kind {other}"))),
     }
 }
@@ -207,7 +213,9 @@ fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, Range)> {
     let low = three(|| bits.take_float())?;
     let at = bits.offset();
     let extent = three(|| bits.take_float())?;
-    let right = extent.min_element() >= 0.0 && extent.max_element() < 2e18 && low.abs().max_element() < 1e30;
+    let right = extent.min_element() >= 0.0
+        && extent.max_element() < 2e18
+        && low.abs().max_element() <= 2.0 * LARGEST;
     check(at, "the extent of a track", extent, right)?;
     Ok((Reference::NONE, Range { low, extent }))
 }
@@ -248,7 +256,7 @@ fn check_whole(bytes: &[u8], tables: &Tables) -> Result<()> {
         for key in 0..tables.clock.frames {
             let value = track.value(bytes, key);
             let at = track.offset + track.bytes_per_key() * key as usize;
-            check(at, "a value", value[0], value.iter().all(|number| number.is_finite()))?;
+            check(at, "a value", value[0], value.iter().all(|number| number.abs() <= LARGEST))?;
         }
     }
     Ok(())

@@ -10,6 +10,8 @@ pub(super) const PARTS: usize = 3;
 pub(super) const MAX_EVEN_BITS: u32 = 19;
 /// Bits of an odd key's number, at most.
 pub(super) const MAX_ODD_BITS: u32 = 22;
+/// The largest translation or factor: sums of a few of them are still numbers.
+pub(super) const LARGEST: f32 = 1e30;
 /// Keys of a segment as a power of two.
 pub(super) const SHIFTS: std::ops::RangeInclusive<u32> = 1..=16;
 

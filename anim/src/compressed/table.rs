@@ -247,7 +247,7 @@ impl Track<'_> {
         let at = segment.odd + inside * segment.odd_stride;
         let bits = head.bits[self.lane] >> 15;
         let zero = Vec3::from_array([0, 5, 10].map(|shift| odd_zero((bits >> shift & 31) as u8)));
-        (before + after) * 0.5 + step * (numbers(bytes, at + head.odd_at[self.lane], bits) - zero)
+        (before * 0.5 + after * 0.5) + step * (numbers(bytes, at + head.odd_at[self.lane], bits) - zero)
     }
 
     fn head(&self, key: u32) -> (Vec3, Vec3, &HeadBlock) {
