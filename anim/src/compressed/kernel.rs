@@ -12,7 +12,7 @@
 
 use super::slerp::Slerp;
 use super::stored::{PER_EXTENT, PER_PLACE};
-use super::table::{HeadBlock, MovingBlock, Tables};
+use super::table::{HeadBlock, MovingBlock, Reads, Tables};
 use crate::fast::PoseBlock;
 use crate::fast::simd::{Float8, Kernel, Simd, Word8};
 
@@ -172,12 +172,12 @@ fn two_keys<S: Simd>(
     let (even_widths, odd_widths) = (widths::<S>(bits, 0), widths::<S>(bits, 15));
     let even_masks = three!(axis => mask::<S>(even_widths[axis]));
     let (start, step) = ranges::<S>(moving, head, &even_masks);
-    let even = numbers::<S>(bytes, keys.even, &head.even_at, &even_widths, &even_masks);
+    let even = numbers::<S>(bytes, keys.even, &head.even_at, head.reads[0], &even_widths, &even_masks);
     let odd_masks = three!(axis => mask::<S>(odd_widths[axis]));
-    let odd = numbers::<S>(bytes, keys.odd, &head.odd_at, &odd_widths, &odd_masks);
+    let odd = numbers::<S>(bytes, keys.odd, &head.odd_at, head.reads[1], &odd_widths, &odd_masks);
     let even = three!(axis => even[axis].mul_add(step[axis], start[axis]));
     let next = if keys.next_segment == keys.segment {
-        let next = numbers::<S>(bytes, keys.next, &head.even_at, &even_widths, &even_masks);
+        let next = numbers::<S>(bytes, keys.next, &head.even_at, head.reads[0], &even_widths, &even_masks);
         three!(axis => next[axis].mul_add(step[axis], start[axis]))
     } else {
         other_segment::<S>(moving, next_head, keys, bytes)
@@ -198,7 +198,7 @@ fn other_segment<S: Simd>(moving: &MovingBlock, head: &HeadBlock, keys: &Keys, b
     let widths = widths::<S>(S::U8::load(&head.bits), 0);
     let masks = three!(axis => mask::<S>(widths[axis]));
     let (start, step) = ranges::<S>(moving, head, &masks);
-    let next = numbers::<S>(bytes, keys.next, &head.even_at, &widths, &masks);
+    let next = numbers::<S>(bytes, keys.next, &head.even_at, head.reads[0], &widths, &masks);
     three!(axis => next[axis].mul_add(step[axis], start[axis]))
 }
 
@@ -236,20 +236,26 @@ fn numbers<S: Simd>(
     bytes: &[u8],
     at: u32,
     lanes: &[u32; 8],
+    reads: Reads,
     widths: &[S::U8; 3],
     masks: &[S::U8; 3],
 ) -> [S::F8; 3] {
     let x = S::U8::splat(at) + S::U8::load(lanes);
     let y = x + widths[0];
-    let z = y + widths[1];
-    [number::<S>(bytes, x, masks[0]), number::<S>(bytes, y, masks[1]), number::<S>(bytes, z, masks[2])]
+    let word = word::<S>(bytes, x);
+    let first = word & masks[0];
+    let (second, third) = match reads {
+        Reads::One => (word.shifted_right(widths[0]), word.shifted_right(widths[0] + widths[1])),
+        Reads::Two => (word.shifted_right(widths[0]), self::word::<S>(bytes, y + widths[1])),
+        Reads::Three => (self::word::<S>(bytes, y), self::word::<S>(bytes, y + widths[1])),
+    };
+    [first.to_float(), (second & masks[1]).to_float(), (third & masks[2]).to_float()]
 }
 
-/// A number of each lane, from bit `at` on.
+/// At least 25 bits of each lane, from bit `at` on.
 #[inline(always)]
-fn number<S: Simd>(bytes: &[u8], at: S::U8, mask: S::U8) -> S::F8 {
-    let word = S::U8::gather(bytes, at.shifted_right(S::U8::splat(3)));
-    (word.shifted_right(at & S::U8::splat(7)) & mask).to_float()
+fn word<S: Simd>(bytes: &[u8], at: S::U8) -> S::U8 {
+    S::U8::gather(bytes, at.shifted_right(S::U8::splat(3))).shifted_right(at & S::U8::splat(7))
 }
 
 #[inline(always)]

@@ -72,6 +72,33 @@ pub(super) struct HeadBlock {
     /// Place, and extent in the low byte.
     pub(super) place: [[u16; LANES]; 3],
     pub(super) extent: [[u8; LANES]; 3],
+    /// How many bytes must be looked at for the numbers of an even key, and of an odd one.
+    pub(super) reads: [Reads; 2],
+}
+
+/// How the three numbers of a key can be read in eight lanes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Reads {
+    /// Four bytes hold all three.
+    #[default]
+    One,
+    /// Four bytes hold the first two.
+    Two,
+    /// Each needs its own.
+    Three,
+}
+
+impl Reads {
+    fn of(bits: [u8; 3]) -> Self {
+        // A number can begin in the last bit of its first byte.
+        const HELD: u32 = 32 - 7;
+        let [x, y, z] = bits.map(u32::from);
+        match (x + y <= HELD, x + y + z <= HELD) {
+            (_, true) => Self::One,
+            (true, _) => Self::Two,
+            _ => Self::Three,
+        }
+    }
 }
 
 /// Where the keys of a segment lie, in bits from the first byte.
@@ -164,6 +191,8 @@ impl Tables {
         let heads = &mut part.heads[first + place];
         let bits = head.even_bits.into_iter().chain(head.odd_bits);
         heads.bits[lane] = bits.rev().fold(0, |bits, width| bits << 5 | u32::from(width));
+        heads.reads[0] = heads.reads[0].max(Reads::of(head.even_bits));
+        heads.reads[1] = heads.reads[1].max(Reads::of(head.odd_bits));
         (heads.even_at[lane], heads.odd_at[lane]) = (even_at, odd_at);
         for axis in 0..3 {
             heads.place[axis][lane] = u16::from(head.place[axis]) << 8 | u16::from(head.extent[axis]);

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// A take in few bytes that can be sampled at any time.
 ///
-/// Holds the bytes, checked, and tables of about a third more; nothing is kept for a character that plays it, so one
+/// Holds the bytes, checked, and tables ([`Self::bytes_in_memory`]); nothing is kept for a character that plays it, so one
 /// can be shared by any number of them.
 #[derive(Clone, Debug)]
 pub struct CompressedTake {
