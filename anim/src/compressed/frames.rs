@@ -62,7 +62,7 @@ impl Frames {
             sample_take(Some(take), skeleton, clock.time(frame as u32, interval), poses);
         }
         let to_root = all_to_root(skeleton, &poses);
-        if let Some(place) = poses.iter().position(|pose| !(size(pose) <= LARGEST)) {
+        if let Some(place) = poses.iter().position(|pose| size(pose) > LARGEST) {
             let (frame, bone) = (place / bones, place % bones);
             let (time, tolerance) = (clock.time(frame as u32, interval), settings.everywhere.tolerance);
             return Err(CompressError::OutOfReach { bone, time, tolerance, reached: f32::INFINITY });

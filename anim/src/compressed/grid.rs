@@ -78,7 +78,7 @@ mod tests {
     fn a_rotation_comes_back_within_its_step_and_the_identity_exactly() {
         let mut random = Random::new(seed(5));
         for bits in [2, 8, 12, 16, WHOLE_BITS, MOST_BITS] {
-            let mut back = |rotation: Quat| {
+            let back = |rotation: Quat| {
                 let (dropped, numbers) = rotation_numbers(rotation, bits);
                 rotation_from(dropped, numbers, bits)
             };

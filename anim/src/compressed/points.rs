@@ -29,7 +29,7 @@ impl Point {
         for (point, raw) in points.iter().zip(raw) {
             let share = to_root.transform_point3(point.local).distance(*raw) / point.limit;
             // NaN is the largest of all.
-            if !(share <= largest) {
+            if share > largest || share.is_nan() {
                 largest = share;
             }
         }

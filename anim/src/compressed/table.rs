@@ -55,8 +55,6 @@ pub(super) struct MovingBlock {
     pub(super) extent: [[f32; LANES]; 3],
     /// Position in the pose.
     pub(super) block: usize,
-    /// Lanes that move.
-    lanes: [bool; LANES],
 }
 
 /// [`Head`]s of eight tracks.
@@ -164,7 +162,6 @@ impl Tables {
         }
         let place = blocks.len() - 1;
         let moving = &mut blocks[place];
-        moving.lanes[lane] = true;
         if part == 0 {
             let rotation = reference.rotation().to_array();
             (0..4).for_each(|axis| moving.reference[axis][lane] = rotation[axis]);
@@ -229,13 +226,7 @@ impl MovingBlock {
             1 => base.translation,
             _ => base.scale,
         };
-        Self { reference: base.rotation, low, extent: [[0.0; LANES]; 3], block, lanes: [false; LANES] }
-    }
-
-    /// Does every lane of the block move?
-    #[cfg(test)]
-    pub(super) fn moving(&self) -> usize {
-        self.lanes.iter().filter(|&&moves| moves).count()
+        Self { reference: base.rotation, low, extent: [[0.0; LANES]; 3], block }
     }
 }
 
@@ -262,7 +253,7 @@ impl Track<'_> {
 
     fn components(&self, bytes: &[u8], key: u32) -> Vec3 {
         let (start, step, head) = self.head(key);
-        if key % 2 == 0 {
+        if key.is_multiple_of(2) {
             let segment = &self.tables.segments[(key >> self.tables.shift) as usize];
             let inside = (key & ((1 << self.tables.shift) - 1)) / 2;
             let at = segment.even + inside * segment.even_stride;

@@ -202,7 +202,7 @@ fn odd_bits(least: f32, largest: f32) -> Option<u8> {
 /// Where `span` lies in `range`: the smallest extent, and the largest start, that hold it.
 fn place_and_extent(range: &Range, axis: usize, span: (f32, f32), bits: u8) -> (u8, u8) {
     let whole = range.extent[axis];
-    if !(whole > 0.0) {
+    if whole <= 0.0 {
         return (0, 0);
     }
     let low = ((span.0 - range.low[axis]) / whole).clamp(0.0, 1.0);
