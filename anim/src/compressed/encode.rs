@@ -247,7 +247,10 @@ impl<'a> Encoder<'a> {
         let values: Vec<Vec3> = wanted.iter().map(relative).collect::<Option<_>>()?;
         let range = turn_range(&values);
         let wanted = Wanted { values: &values, range, shift: self.choice.shift, step };
-        let coded = code(&wanted, |frame, xyz| error(frame, rotation_of(middle, xyz)))?;
+        let coded = code(&wanted, |frame, xyz| {
+            // Outside the unit ball no w makes a unit quaternion of it.
+            if xyz.length_squared() <= 1.0 { error(frame, rotation_of(middle, xyz)) } else { f32::INFINITY }
+        })?;
         let decoded = coded.values.iter().map(|&xyz| rotation_of(middle, xyz)).collect();
         Some((Packed { reference, range: coded.range, segments: coded.segments }, decoded))
     }
