@@ -1,4 +1,4 @@
-//! Compressed takes: a take in few bytes, from which any time can be sampled directly (thesis T-061).
+//! Compressed takes: a take in few bytes, from which any time can be sampled directly.
 //!
 //! [`compress`] makes one from a take, with a [`Report`]; [`CompressedTake`] plays it, reads and writes its bytes, and
 //! gives an ordinary take back.
@@ -87,8 +87,8 @@
 //! | run (56,280) | 5,002 · 0.095 mm | 2,655 · 0.098 mm | 4,143 · 0.70 mm | 2,026 · 0.98 mm |
 //! | atlas (1,208,680) | 92,773 · 0.127 mm | 49,838 · 0.099 mm | 64,145 · 1.11 mm | 35,559 · 0.98 mm |
 //!
-//! On an AMD EPYC with AVX2, one thread, other programs running, release build, best of 200 runs: compression took 3
-//! to 10 ms for the short takes and 0.18 to 0.24 s for atlas (ACL: 2 s). A pose cost 4.0 ns a bone (44 instructions)
+//! On an AMD EPYC with AVX2, one thread, other programs running, release build, best of 200 runs, instructions counted by callgrind: compression took 3
+//! to 10 ms for the short takes and 0.18 to 0.31 s for atlas (ACL: 2 s). A pose cost 4.0 ns a bone (44 instructions)
 //! for the short takes and 6.8 ns (73 instructions) for atlas, where nearly every bone moves; the same forward and at
 //! random times, within 2 %. `cargo bench -p dragonfly-anim compressed` prints bytes, errors and times.
 //!
