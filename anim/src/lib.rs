@@ -16,7 +16,7 @@
 //! The library starts no thread, opens no file and no window: importers take bytes and ask a door
 //! ([`format::AssetFs`]) for anything else.
 
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 pub mod additional;
 pub mod animation;
@@ -25,9 +25,13 @@ mod axes;
 pub mod blend;
 pub mod bounds;
 pub mod check;
+pub mod compressed;
+pub mod data;
 pub mod data;
 pub mod evaluator;
+pub mod evaluator;
 pub mod explain;
+pub mod fast;
 pub mod format;
 pub mod hit;
 pub mod ik;

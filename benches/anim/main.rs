@@ -1,5 +1,6 @@
 //! What a pose costs: `cargo bench -p dragonfly-anim`.
 
+mod compressed;
 mod hit;
 
 use dragonfly_anim::animation::Animation;
@@ -20,6 +21,7 @@ fn main() {
     };
     measure("anim/open/to_root_64_bones_forward", 10, || animation.to_root_bone_poses(Some(0), next()).len());
     measure("anim/open/rest_pose_64_bones", 10, || animation.to_root_bone_poses(None, 0.0).len());
+    compressed::run();
     hit::run();
 }
 

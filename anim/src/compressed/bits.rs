@@ -1,0 +1,140 @@
+//! Numbers of any width in a row of bits, the lowest bit first, and the sum that finds altered bytes.
+
+use super::FormatError;
+
+/// Appends numbers to a row of bits.
+#[derive(Debug, Default)]
+pub(super) struct BitWriter {
+    bytes: Vec<u8>,
+    /// Bits used so far.
+    bits: usize,
+}
+
+impl BitWriter {
+    /// Appends the lowest `width` bits of `value`, 0..=32.
+    pub(super) fn put(&mut self, value: u32, width: u32) {
+        let mut value = u64::from(value) & ((1 << width.min(32)) - 1);
+        let (mut width, mut used) = (width.min(32) as usize, self.bits % 8);
+        self.bits += width;
+        while width > 0 {
+            if used == 0 {
+                self.bytes.push(0);
+            }
+            let taken = width.min(8 - used);
+            if let Some(last) = self.bytes.last_mut() {
+                *last |= ((value << used) & 0xff) as u8;
+            }
+            value >>= taken;
+            width -= taken;
+            used = 0;
+        }
+    }
+
+    /// Appends all 32 bits of a float.
+    pub(super) fn put_float(&mut self, value: f32) {
+        self.put(value.to_bits(), 32);
+    }
+
+    /// Bytes begun so far.
+    pub(super) fn length(&self) -> usize {
+        self.bytes.len()
+    }
+
+    /// What was appended, the last byte filled up with zeros.
+    pub(super) fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+}
+
+/// Takes numbers from a row of bits.
+#[derive(Clone, Debug)]
+pub(super) struct BitReader<'a> {
+    bytes: &'a [u8],
+    /// Bits taken so far, from the first byte of all.
+    at: usize,
+}
+
+impl<'a> BitReader<'a> {
+    /// Reads `bytes` from byte `offset` on.
+    pub(super) fn new(bytes: &'a [u8], offset: usize) -> Self {
+        Self { bytes, at: offset.saturating_mul(8) }
+    }
+
+    /// The next `width` bits, 0..=32.
+    pub(super) fn take(&mut self, width: u32) -> Result<u32, FormatError> {
+        let end = self.at + width as usize;
+        if end > self.bytes.len() * 8 {
+            return Err(FormatError::new(self.bytes.len(), "the bytes end too early"));
+        }
+        let first = self.at / 8;
+        let mut word = [0; 8];
+        let there = self.bytes.len().min(first + 8) - first;
+        word[..there].copy_from_slice(&self.bytes[first..first + there]);
+        let value = (u64::from_le_bytes(word) >> (self.at % 8)) & ((1 << width) - 1);
+        self.at = end;
+        Ok(value as u32)
+    }
+
+    /// The next 32 bits as a float that is finite.
+    pub(super) fn take_float(&mut self) -> Result<f32, FormatError> {
+        let offset = self.offset();
+        let value = f32::from_bits(self.take(32)?);
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(FormatError::new(offset, format!("{value} is no number")))
+        }
+    }
+
+    /// The byte that holds the next bit.
+    pub(super) fn offset(&self) -> usize {
+        self.at / 8
+    }
+
+    /// The first byte of which nothing was taken.
+    pub(super) fn next_byte(&self) -> usize {
+        self.at.div_ceil(8)
+    }
+}
+
+/// CRC-32 (IEEE 802.3, reflected, polynomial 0xEDB88320): finds every change of up to 32 neighbouring bits.
+pub(super) fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0, |sum: u32, &byte| (sum >> 8) ^ TABLE[usize::from(sum as u8 ^ byte)])
+}
+
+const TABLE: [u32; 256] = {
+    let mut table = [0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut sum, mut bit) = (byte as u32, 0);
+        while bit < 8 {
+            sum = if sum & 1 == 1 { (sum >> 1) ^ 0xedb8_8320 } else { sum >> 1 };
+            bit += 1;
+        }
+        table[byte] = sum;
+        byte += 1;
+    }
+    table
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_any_width_come_back_in_order() {
+        let mut writer = BitWriter::default();
+        let numbers = |width: u32| (0x9e37_79b9_u32.wrapping_mul(width + 1)) & ((1_u64 << width) - 1) as u32;
+        (0..=32).for_each(|width| writer.put(numbers(width), width));
+        let bytes = writer.into_bytes();
+        assert_eq!(bytes.len(), (32 * 33 / 2_usize).div_ceil(8));
+        let mut reader = BitReader::new(&bytes, 0);
+        (0..=32).for_each(|width| assert_eq!(reader.take(width), Ok(numbers(width)), "{width}"));
+        assert!(reader.take(8).is_err());
+    }
+
+    #[test]
+    fn the_sum_is_the_one_of_the_standard() {
+        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
+    }
+}

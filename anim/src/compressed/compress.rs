@@ -1,0 +1,172 @@
+//! From a take to a compressed one: code, measure, and choose what came out smallest.
+
+use super::encode::{Choice, Encoder};
+use super::frames::{Frames, all_to_root};
+use super::metric::{LargestError, largest_error};
+use super::plan::Plan;
+use super::settings::{Exactness, Settings};
+use super::write::write;
+use super::{CompressError, CompressedTake};
+use crate::data::{Skeleton, Take, Transform};
+use crate::fast::Pose;
+
+/// What compression came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Where the bytes went.
+    pub bytes: Bytes,
+    /// Bytes of the same keys as plain floats: 40 a bone and key.
+    pub raw_bytes: usize,
+    /// The largest error at any key time, measured on the decoded result, and where it is.
+    pub largest_error: LargestError,
+    /// That error in units of its bone's tolerance; at most 1.
+    pub share_of_tolerance: f32,
+    /// Keys of one segment.
+    pub keys_per_segment: usize,
+    /// Channels that stand still in the default value, stand still elsewhere, move, and move but are stored whole.
+    pub channels: [usize; 4],
+    /// Morph tracks of the take: these are not part of a compressed take.
+    pub morphs_left_out: usize,
+}
+
+/// Bytes by what they hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bytes {
+    /// Name, times, sums.
+    pub header: usize,
+    /// What stands still.
+    pub constants: usize,
+    /// Ranges and widths of what moves.
+    pub ranges: usize,
+    /// Keys stored whole.
+    pub whole: usize,
+    /// Keys in few bits.
+    pub keys: usize,
+}
+
+impl Bytes {
+    /// All of them: the length of [`CompressedTake::as_bytes`].
+    pub fn total(&self) -> usize {
+        self.header + self.constants + self.ranges + self.whole + self.keys
+    }
+}
+
+/// Shares of the tolerance tried for the first joint of a chain.
+const SHARES: [f32; 6] = [0.7, 0.6, 0.5, 0.4, 0.3, 0.2];
+/// Segment sizes tried, as powers of two, beginning in the middle.
+const SMALLER: [u32; 2] = [5, 4];
+const LARGER: [u32; 2] = [7, 8];
+const MIDDLE: u32 = 6;
+
+/// Compresses `take`, whose bones are those of `skeleton`.
+///
+/// The take is read at evenly spaced times (its own, where they are; see [`Settings::rate`]). At each of them, each of
+/// the three shell points of each bone is within the tolerance of where the raw take has it, in scene space: that is
+/// measured on the decoded bytes before they are returned.
+///
+/// # Errors
+///
+/// Too many bones or keys; or numbers so large that single precision cannot hold the tolerance.
+pub fn compress(
+    take: &Take,
+    skeleton: &Skeleton,
+    settings: &Settings,
+) -> Result<(CompressedTake, Report), CompressError> {
+    let frames = Frames::of(take, skeleton, settings)?;
+    let exactness = settings.per_bone(skeleton.len());
+    let plan = Plan::new(&frames, skeleton, exactness.clone());
+    let attempt = |choice: Choice| Attempt::new(take, skeleton, &frames, &plan, &exactness, choice);
+    let mut best: Option<Attempt> = None;
+    let mut share = SHARES[0];
+    for next in SHARES {
+        let found = attempt(Choice { shift: MIDDLE, share: next, whole: false })?;
+        let first = best.is_none();
+        if better(found, &mut best) {
+            share = next;
+        } else if !first {
+            break;
+        }
+    }
+    for sizes in [SMALLER, LARGER] {
+        for shift in sizes {
+            let helps = frames.count() > 1 << shift.min(MIDDLE)
+                && better(attempt(Choice { shift, share, whole: false })?, &mut best);
+            if !helps {
+                break;
+            }
+        }
+    }
+    if best.is_none() {
+        better(attempt(Choice { shift: MIDDLE, share: 0.5, whole: true })?, &mut best);
+    }
+    match best {
+        Some(best) => Ok((best.take, best.report)),
+        None => Err(out_of_reach(attempt(Choice { shift: MIDDLE, share: 0.5, whole: true })?, &exactness)),
+    }
+}
+
+fn out_of_reach(attempt: Attempt, exactness: &[Exactness]) -> CompressError {
+    let LargestError { distance, bone, time } = attempt.report.largest_error;
+    let tolerance = exactness.get(bone).map_or(0.0, |exactness| exactness.tolerance);
+    CompressError::OutOfReach { bone, time, tolerance, reached: distance }
+}
+
+/// Takes the place of `best` where it holds the tolerance in fewer bytes.
+fn better(attempt: Attempt, best: &mut Option<Attempt>) -> bool {
+    let holds = attempt.report.share_of_tolerance <= 1.0;
+    let smaller = best.as_ref().is_none_or(|best| attempt.report.bytes.total() < best.report.bytes.total());
+    if holds && smaller {
+        *best = Some(attempt);
+    }
+    holds && smaller
+}
+
+/// One way to compress a take, and what it came to.
+struct Attempt {
+    take: CompressedTake,
+    report: Report,
+}
+
+impl Attempt {
+    fn new(
+        take: &Take,
+        skeleton: &Skeleton,
+        frames: &Frames,
+        plan: &Plan,
+        exactness: &[Exactness],
+        choice: Choice,
+    ) -> Result<Self, CompressError> {
+        let stored = Encoder::new(frames, skeleton, plan, choice).run(&take.name);
+        let (bytes, spent) = write(&stored)?;
+        let compressed = match CompressedTake::from_bytes(bytes) {
+            Ok(compressed) => compressed,
+            Err(error) => unreachable!("what was written cannot be read: {error}"),
+        };
+        let decoded = all_to_root(skeleton, &poses(&compressed, frames));
+        let (share_of_tolerance, largest_error) = largest_error(frames, &decoded, exactness);
+        let mut channels = [0; 4];
+        stored.bones.iter().flatten().for_each(|part| channels[part.kind() as usize] += 1);
+        let report = Report {
+            bytes: spent,
+            raw_bytes: frames.poses.len() * 40,
+            largest_error,
+            share_of_tolerance,
+            keys_per_segment: 1 << choice.shift,
+            channels,
+            morphs_left_out: take.morphs.len(),
+        };
+        Ok(Self { take: compressed, report })
+    }
+}
+
+/// The decoded poses at every key time, frame after frame.
+fn poses(take: &CompressedTake, frames: &Frames) -> Vec<Transform> {
+    let interval = frames.clock.interval();
+    let mut pose = Pose::new(frames.bones);
+    let mut poses = vec![Transform::IDENTITY; frames.poses.len()];
+    for (key, poses) in poses.chunks_exact_mut(frames.bones.max(1)).enumerate() {
+        take.sample(frames.clock.time(key as u32, interval), &mut pose);
+        pose.write_to(poses);
+    }
+    poses
+}

@@ -1,0 +1,263 @@
+//! From bytes to the tables that decoding needs; every number is checked before it is used.
+
+use super::bits::{BitReader, crc32};
+use super::encode::TURN_UNIT;
+use super::frames::Clock;
+use super::grid::{FLOATS, MOST_BITS, rotation_from};
+use super::stored::{
+    CONSTANT, Grid, Head, LARGEST, MAX_EVEN_BITS, MAX_ODD_BITS, PACKED, Range, Reference, SHIFTS, WHOLE,
+};
+use super::table::{SegmentPlace, Tables, WholeTrack};
+use super::write::{PREFACE, TAIL};
+use super::{FormatError, MAGIC, MAX_BONES, MAX_BYTES, MAX_FRAMES, MAX_VALUES, VERSION};
+use crate::data::Transform;
+use glam::{Quat, Vec3};
+
+type Result<T> = std::result::Result<T, FormatError>;
+
+/// Checks `bytes` and makes the tables.
+pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
+    check_preface(bytes)?;
+    let mut bits = BitReader::new(&bytes[..bytes.len() - TAIL], PREFACE);
+    let (header, name) = header(&mut bits)?;
+    let mut tables = Tables::new(header.clock, header.shift, name, header.bones);
+    let kinds = kinds(&mut bits, &header)?;
+    let constants = constants(&mut bits, &header, &kinds)?;
+    tables.put_constants(&constants);
+    let tracks = of_kind(&kinds, PACKED);
+    for &(bone, part) in &tracks {
+        let (reference, range) = track(&mut bits, part)?;
+        tables.add_track(bone, part, reference, range);
+    }
+    let segments = if tracks.is_empty() { 0 } else { header.clock.frames.div_ceil(1 << header.shift) };
+    let mut places = Vec::new();
+    for segment in 0..segments {
+        let (mut even, mut odd) = (0, 0);
+        tables.begin_segment();
+        for track in 0..tracks.len() {
+            let head = head(&mut bits)?;
+            tables.put_head(track, &head, even, odd);
+            (even, odd) = (even + head.even_width(), odd + head.odd_width());
+        }
+        let keys = (header.clock.frames - (segment << header.shift)).min(1 << header.shift);
+        places.push((keys, even, odd));
+    }
+    let mut offset = bits.next_byte();
+    for (bone, part) in of_kind(&kinds, WHOLE) {
+        let track = WholeTrack { bone, part, offset };
+        offset += track.bytes_per_key() * header.clock.frames as usize;
+        tables.whole.push(track);
+    }
+    let end = place_segments(&mut tables, offset, &places);
+    check_whole(bytes, &tables)?;
+    if end.div_ceil(8) != bytes.len() as u64 - TAIL as u64 {
+        let reason = format!("keys end at byte {}, the bytes at {}", end.div_ceil(8), bytes.len() - TAIL);
+        return Err(FormatError::new(offset.min(bytes.len()), reason));
+    }
+    Ok(tables)
+}
+
+fn check_preface(bytes: &[u8]) -> Result<()> {
+    if bytes.len() < PREFACE + TAIL {
+        return Err(FormatError::new(bytes.len(), format!("{} bytes are too few", bytes.len())));
+    }
+    let word = |at: usize| u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
+    if bytes[..4] != MAGIC {
+        return Err(FormatError::new(0, "this is no compressed take"));
+    }
+    if word(4) != u32::from(VERSION) {
+        return Err(FormatError::new(4, format!("version {} is not known", word(4))));
+    }
+    if word(8) as usize != bytes.len() || bytes.len() > MAX_BYTES {
+        return Err(FormatError::new(8, format!("{} bytes were written, {} are here", word(8), bytes.len())));
+    }
+    if word(12) != crc32(&bytes[PREFACE..]) {
+        return Err(FormatError::new(12, "the bytes were altered: their sum is another"));
+    }
+    let tail = bytes.len() - TAIL;
+    if bytes[tail..] != [0; TAIL] {
+        return Err(FormatError::new(tail, "the last bytes are not zero"));
+    }
+    Ok(())
+}
+
+struct Header {
+    clock: Clock,
+    bones: usize,
+    shift: u32,
+    grid: Grid,
+}
+
+/// `value`, when it is `right`.
+fn check<T: Copy + std::fmt::Display>(offset: usize, what: &str, value: T, right: bool) -> Result<T> {
+    if right { Ok(value) } else { Err(FormatError::new(offset, format!("{what} is {value}"))) }
+}
+
+fn header(bits: &mut BitReader<'_>) -> Result<(Header, String)> {
+    let at = bits.offset();
+    let start = bits.take_float()?;
+    let length = bits.take_float()?;
+    check(at + 4, "the length", length, length >= 0.0 && (start + length).is_finite())?;
+    let frames = bits.take(32)?;
+    check(at + 8, "the number of keys", frames, frames >= 1 && frames as usize <= MAX_FRAMES)?;
+    let bones = bits.take(32)? as usize;
+    check(at + 12, "the number of bones", bones, bones <= MAX_BONES)?;
+    let shift = bits.take(8)?;
+    check(at + 16, "the size of segments", shift, SHIFTS.contains(&shift))?;
+    let rotation_bits = bits.take(8)?;
+    let translation_bits = bits.take(8)?;
+    for (at, bits) in [(at + 17, rotation_bits), (at + 18, translation_bits)] {
+        check(at, "the width of constants", bits, (4..=MOST_BITS).contains(&bits) || bits == FLOATS)?;
+    }
+    let step = bits.take_float()?;
+    check(at + 19, "the step of constants", step, step > 0.0 && step < 1e18)?;
+    let length_of_name = bits.take(8)?;
+    let place = bits.offset();
+    let name: Vec<u8> = (0..length_of_name).map(|_| Ok(bits.take(8)? as u8)).collect::<Result<_>>()?;
+    let name = String::from_utf8(name).map_err(|_| FormatError::new(place, "the name is no text"))?;
+    let grid = Grid { rotation_bits, step, translation_bits };
+    Ok((Header { clock: Clock { start, length, frames }, bones, shift, grid }, name))
+}
+
+/// Three numbers a bone.
+fn kinds(bits: &mut BitReader<'_>, header: &Header) -> Result<Vec<[u32; 3]>> {
+    let at = bits.offset();
+    let mut kinds = Vec::new();
+    for _ in 0..header.bones {
+        kinds.push([bits.take(2)?, bits.take(2)?, bits.take(2)?]);
+    }
+    let moving = kinds.iter().flatten().filter(|&&kind| kind == PACKED || kind == WHOLE).count();
+    let values = moving.saturating_mul(header.clock.frames as usize);
+    check(at, "the number of values", values, values <= MAX_VALUES)?;
+    Ok(kinds)
+}
+
+/// The bones and parts of a kind: all rotations, then translations, then scales.
+fn of_kind(kinds: &[[u32; 3]], kind: u32) -> Vec<(usize, usize)> {
+    let of = |part: usize| kinds.iter().enumerate().filter(move |(_, kinds)| kinds[part] == kind);
+    (0..3).flat_map(|part| of(part).map(move |(bone, _)| (bone, part))).collect()
+}
+
+fn constants(bits: &mut BitReader<'_>, header: &Header, kinds: &[[u32; 3]]) -> Result<Vec<Transform>> {
+    let mut poses = Vec::new();
+    for &[rotation, translation, scale] in kinds {
+        let mut pose = Transform::IDENTITY;
+        if rotation == CONSTANT {
+            pose.rotation = constant_rotation(bits, header.grid.rotation_bits)?;
+        }
+        if translation == CONSTANT {
+            pose.translation = three(|| constant_length(bits, &header.grid))?;
+        }
+        if scale == CONSTANT {
+            pose.scale = three(|| constant_factor(bits))?;
+        }
+        poses.push(pose);
+    }
+    Ok(poses)
+}
+
+fn three(mut one: impl FnMut() -> Result<f32>) -> Result<Vec3> {
+    Ok(Vec3::new(one()?, one()?, one()?))
+}
+
+fn constant_rotation(bits: &mut BitReader<'_>, width: u32) -> Result<Quat> {
+    let at = bits.offset();
+    if width == FLOATS {
+        let numbers = [bits.take_float()?, bits.take_float()?, bits.take_float()?, bits.take_float()?];
+        let rotation = Quat::from_array(numbers);
+        check(at, "a rotation", rotation, (rotation.length_squared() - 1.0).abs() < 1e-3)
+    } else {
+        let dropped = bits.take(2)?;
+        Ok(rotation_from(dropped, [bits.take(width)?, bits.take(width)?, bits.take(width)?], width))
+    }
+}
+
+fn constant_length(bits: &mut BitReader<'_>, grid: &Grid) -> Result<f32> {
+    let width = grid.translation_bits;
+    if width == FLOATS {
+        return number(bits);
+    }
+    if bits.take(1)? == 0 {
+        return Ok(0.0);
+    }
+    Ok((bits.take(width)? as i32 - (1 << (width - 1))) as f32 * grid.step)
+}
+
+/// A float that is not too large.
+fn number(bits: &mut BitReader<'_>) -> Result<f32> {
+    let at = bits.offset();
+    let number = bits.take_float()?;
+    check(at, "a constant", number, number.abs() <= LARGEST)
+}
+
+fn constant_factor(bits: &mut BitReader<'_>) -> Result<f32> {
+    let at = bits.offset();
+    match bits.take(2)? {
+        0 => Ok(1.0),
+        1 => Ok(-1.0),
+        2 => number(bits),
+        other => Err(FormatError::new(at, format!("a factor is of kind {other}"))),
+    }
+}
+
+fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, Range)> {
+    if part == 0 {
+        let mut reference = [0; 4];
+        for number in &mut reference {
+            *number = bits.take(8)? as u8 as i8;
+        }
+        let low = three(|| Ok(f32::from(bits.take(16)? as u16 as i16) * TURN_UNIT))?;
+        let extent = three(|| Ok(bits.take(16)? as f32 * TURN_UNIT))?;
+        return Ok((Reference(reference), Range { low, extent }));
+    }
+    let low = three(|| bits.take_float())?;
+    let at = bits.offset();
+    let extent = three(|| bits.take_float())?;
+    let right = extent.min_element() >= 0.0
+        && extent.max_element() < 2e18
+        && low.abs().max_element() <= 2.0 * LARGEST;
+    check(at, "the extent of a track", extent, right)?;
+    Ok((Reference::NONE, Range { low, extent }))
+}
+
+fn head(bits: &mut BitReader<'_>) -> Result<Head> {
+    let mut head = Head::default();
+    for axis in 0..3 {
+        head.place[axis] = bits.take(8)? as u8;
+        head.extent[axis] = bits.take(8)? as u8;
+        let at = bits.offset();
+        let (even, odd) = (bits.take(5)?, bits.take(5)?);
+        check(at, "the width of even keys", even, even <= MAX_EVEN_BITS)?;
+        check(at, "the width of odd keys", odd, odd <= MAX_ODD_BITS)?;
+        (head.even_bits[axis], head.odd_bits[axis]) = (even as u8, odd as u8);
+    }
+    Ok(head)
+}
+
+/// Says where the keys of each segment begin, from byte `offset` on; the bit after the last.
+fn place_segments(tables: &mut Tables, offset: usize, places: &[(u32, u32, u32)]) -> u64 {
+    let mut at = offset as u64 * 8;
+    for &(keys, even_stride, odd_stride) in places {
+        let even = at;
+        let odd = even + u64::from(even_stride) * u64::from(keys.div_ceil(2));
+        at = odd + u64::from(odd_stride) * u64::from(keys / 2);
+        // Where these are too large for 32 bits, so is the whole, which is found out before they are used.
+        tables.segments.push(SegmentPlace { even: even as u32, even_stride, odd: odd as u32, odd_stride });
+    }
+    at
+}
+
+fn check_whole(bytes: &[u8], tables: &Tables) -> Result<()> {
+    for track in &tables.whole {
+        let end = track.offset + track.bytes_per_key() * tables.clock.frames as usize;
+        if end > bytes.len() - TAIL {
+            return Err(FormatError::new(track.offset.min(bytes.len()), "the bytes end too early"));
+        }
+        for key in 0..tables.clock.frames {
+            let value = track.value(bytes, key);
+            let at = track.offset + track.bytes_per_key() * key as usize;
+            check(at, "a value", value[0], value.iter().all(|number| number.abs() <= LARGEST))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,180 @@
+//! What a compressed take holds, before it is bytes.
+
+use super::frames::Clock;
+use crate::data::{Interpolation, Transform};
+use glam::{Quat, Vec3};
+
+/// Rotation, translation, scale: the order in which parts are stored.
+pub(super) const PARTS: usize = 3;
+/// Bits of an even key's number, at most: whole numbers up to 2²⁴ are exact as `f32`.
+pub(super) const MAX_EVEN_BITS: u32 = 19;
+/// Bits of an odd key's number, at most.
+pub(super) const MAX_ODD_BITS: u32 = 22;
+/// The largest translation or factor: sums of a few of them are still numbers.
+pub(super) const LARGEST: f32 = 1e30;
+/// Keys of a segment as a power of two.
+pub(super) const SHIFTS: std::ops::RangeInclusive<u32> = 1..=16;
+
+/// A take as it will be stored.
+#[derive(Clone, Debug)]
+pub(super) struct Stored {
+    pub(super) name: String,
+    pub(super) clock: Clock,
+    /// A segment has `1 << shift` keys.
+    pub(super) shift: u32,
+    pub(super) grid: Grid,
+    /// Of each bone: rotation, translation, scale.
+    pub(super) bones: Vec<[Part; PARTS]>,
+}
+
+/// How constants are rounded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Grid {
+    /// Bits of each of three components of a rotation; 32 stands for four whole floats.
+    pub(super) rotation_bits: u32,
+    /// Length of one step of a translation.
+    pub(super) step: f32,
+    /// Bits of a number of steps, sign included; 32 stands for a whole float.
+    pub(super) translation_bits: u32,
+}
+
+/// Rotation, translation or scale of one bone.
+#[derive(Clone, Debug)]
+pub(super) enum Part {
+    /// No turn, no distance, scale 1.
+    Default,
+    /// The same all the time; a vector's fourth number is 0.
+    Constant([f32; 4]),
+    /// Numbers of few bits.
+    Packed(Packed),
+    /// A value a key, as exact as single precision.
+    Whole(Vec<[f32; 4]>),
+}
+
+impl Part {
+    /// The number that stands for it.
+    pub(super) fn kind(&self) -> u32 {
+        match self {
+            Self::Default => DEFAULT,
+            Self::Constant(_) => CONSTANT,
+            Self::Packed(_) => PACKED,
+            Self::Whole(_) => WHOLE,
+        }
+    }
+}
+
+pub(super) const DEFAULT: u32 = 0;
+pub(super) const CONSTANT: u32 = 1;
+pub(super) const PACKED: u32 = 2;
+pub(super) const WHOLE: u32 = 3;
+
+/// Three components in few bits.
+#[derive(Clone, Debug)]
+pub(super) struct Packed {
+    /// Of a rotation: the rotation that the components are relative to.
+    pub(super) reference: Reference,
+    pub(super) range: Range,
+    pub(super) segments: Vec<Segment>,
+}
+
+/// A rotation near all those of a track, in 32 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Reference(pub(super) [i8; 4]);
+
+impl Reference {
+    pub(super) const NONE: Self = Self([0, 0, 0, 127]);
+
+    pub(super) fn near(rotation: Quat) -> Self {
+        Self(rotation.to_array().map(|number| (number * 127.0).round() as i8))
+    }
+
+    /// The rotation; the identity where all numbers are zero.
+    pub(super) fn rotation(self) -> Quat {
+        let [x, y, z, w] = self.0.map(f32::from);
+        let rotation = Quat::from_xyzw(x, y, z, w);
+        if rotation.length_squared() > 0.0 { rotation.normalize() } else { Quat::IDENTITY }
+    }
+}
+
+/// Where the components of a track lie, over the whole take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Range {
+    pub(super) low: Vec3,
+    pub(super) extent: Vec3,
+}
+
+/// One track in one segment.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Segment {
+    pub(super) head: Head,
+    /// The numbers of the keys, even and odd ones in turn.
+    pub(super) keys: Vec<[u32; 3]>,
+}
+
+/// Where the components lie in one segment, and how many bits each has; `[x, y, z]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Head {
+    /// Start, in parts of the take's range.
+    pub(super) place: [u8; 3],
+    /// Extent, in parts of the take's range.
+    pub(super) extent: [u8; 3],
+    pub(super) even_bits: [u8; 3],
+    pub(super) odd_bits: [u8; 3],
+}
+
+impl Head {
+    /// Start and step of component `axis`: an even key with the number `n` is `start + step n`.
+    pub(super) fn start_and_step(&self, range: &Range, axis: usize) -> (f32, f32) {
+        let together = f32::from(u16::from(self.place[axis]) << 8 | u16::from(self.extent[axis]));
+        let start = range.low[axis] + range.extent[axis] * (together * PER_PLACE);
+        let numbers = ((1_u32 << self.even_bits[axis].min(31)) - 1).max(1);
+        (start, range.extent[axis] * (f32::from(self.extent[axis]) * PER_EXTENT) / numbers as f32)
+    }
+
+    pub(super) fn even_width(&self) -> u32 {
+        self.even_bits.iter().map(|&bits| u32::from(bits)).sum()
+    }
+
+    pub(super) fn odd_width(&self) -> u32 {
+        self.odd_bits.iter().map(|&bits| u32::from(bits)).sum()
+    }
+}
+
+/// One of the parts into which [`Head::place`] and [`Head::extent`], read as one number, divide a range.
+pub(super) const PER_PLACE: f32 = 1.0 / 65_535.0;
+/// One of the parts into which [`Head::extent`] divides a range.
+pub(super) const PER_EXTENT: f32 = 1.0 / 255.0;
+
+/// What an odd number stands for nothing with: numbers below it are negative.
+pub(super) fn odd_zero(bits: u8) -> f32 {
+    ((1_u32 << bits.min(31)) >> 1) as f32
+}
+
+/// The rotation whose components relative to `reference` are `xyz`; its w is not negative there.
+pub(super) fn rotation_of(reference: Quat, xyz: Vec3) -> Quat {
+    reference * xyz.extend_to_unit()
+}
+
+trait ToUnit {
+    fn extend_to_unit(self) -> Quat;
+}
+
+impl ToUnit for Vec3 {
+    fn extend_to_unit(self) -> Quat {
+        Quat::from_xyzw(self.x, self.y, self.z, (1.0 - self.length_squared()).max(0.0).sqrt())
+    }
+}
+
+/// Value of a part that is the same all the time; what moves gives the default.
+pub(super) fn constant(parts: &[Part; PARTS]) -> Transform {
+    let of = |part: &Part, default: [f32; 4]| if let Part::Constant(value) = part { *value } else { default };
+    let three = |[x, y, z, _]: [f32; 4]| Vec3::new(x, y, z);
+    Transform {
+        rotation: Quat::from_array(of(&parts[0], [0.0, 0.0, 0.0, 1.0])),
+        translation: three(of(&parts[1], [0.0; 4])),
+        scale: three(of(&parts[2], [1.0; 4])),
+    }
+}
+
+/// How what lies between two keys is found, for takes made of decoded keys.
+pub(super) const BETWEEN: Interpolation = Interpolation::Linear;

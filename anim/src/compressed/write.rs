@@ -1,0 +1,199 @@
+//! From what is stored to bytes; the layout is written down in [`super`].
+
+use super::bits::{BitWriter, crc32};
+use super::encode::TURN_UNIT;
+use super::frames::limit;
+use super::grid::{FLOATS, WHOLE_BITS, rotation_numbers};
+use super::stored::{Packed, Part, Stored};
+use super::{Bytes, CompressError, MAGIC, MAX_BYTES, VERSION};
+use glam::Quat;
+
+/// Bytes before the bits begin: what they are, the version, the length, the sum.
+pub(super) const PREFACE: usize = 16;
+/// Zeros at the end, so that four bytes can be read where the last bit lies.
+pub(super) const TAIL: usize = 4;
+
+/// The bytes of `stored`, and what they were spent on.
+pub(super) fn write(stored: &Stored) -> Result<(Vec<u8>, Bytes), CompressError> {
+    let mut bits = BitWriter::default();
+    let mut spent = Bytes::default();
+    let mut mark = PREFACE;
+    let mut since = |length: usize| {
+        let spent = length - mark;
+        mark = length;
+        spent
+    };
+    header(stored, &mut bits);
+    spent.header = PREFACE + TAIL + since(PREFACE + bits.length());
+    kinds_and_constants(stored, &mut bits);
+    spent.constants = since(PREFACE + bits.length());
+    tracks(stored, &mut bits);
+    heads(stored, &mut bits);
+    spent.ranges = since(PREFACE + bits.length());
+    let mut bytes = vec![0; PREFACE];
+    bytes.extend(bits.into_bytes());
+    whole(stored, &mut bytes);
+    spent.whole = since(bytes.len());
+    bytes.extend(keys(stored));
+    spent.keys = since(bytes.len());
+    bytes.extend([0; TAIL]);
+    limit("bytes", bytes.len() as u64, MAX_BYTES as u64)?;
+    preface(&mut bytes);
+    Ok((bytes, spent))
+}
+
+/// Fills in the first bytes, when all others are there.
+pub(super) fn preface(bytes: &mut [u8]) {
+    let (length, sum) = (bytes.len() as u32, crc32(&bytes[PREFACE..]));
+    bytes[..4].copy_from_slice(&MAGIC);
+    bytes[4..6].copy_from_slice(&VERSION.to_le_bytes());
+    bytes[6..8].copy_from_slice(&[0; 2]);
+    bytes[8..12].copy_from_slice(&length.to_le_bytes());
+    bytes[12..16].copy_from_slice(&sum.to_le_bytes());
+}
+
+fn header(stored: &Stored, bits: &mut BitWriter) {
+    bits.put_float(stored.clock.start);
+    bits.put_float(stored.clock.length);
+    bits.put(stored.clock.frames, 32);
+    bits.put(stored.bones.len() as u32, 32);
+    bits.put(stored.shift, 8);
+    bits.put(stored.grid.rotation_bits, 8);
+    bits.put(stored.grid.translation_bits, 8);
+    bits.put_float(stored.grid.step);
+    let name = name(&stored.name);
+    bits.put(name.len() as u32, 8);
+    name.bytes().for_each(|byte| bits.put(u32::from(byte), 8));
+}
+
+/// As much of a name as fits: 255 bytes.
+fn name(name: &str) -> &str {
+    let end = (0..=name.len().min(255)).rev().find(|&end| name.is_char_boundary(end)).unwrap_or(0);
+    &name[..end]
+}
+
+fn kinds_and_constants(stored: &Stored, bits: &mut BitWriter) {
+    for part in stored.bones.iter().flatten() {
+        bits.put(part.kind(), 2);
+    }
+    for parts in &stored.bones {
+        for (which, part) in parts.iter().enumerate() {
+            match (which, part) {
+                (0, Part::Constant(rotation)) => constant_rotation(stored, *rotation, bits),
+                (1, Part::Constant([x, y, z, _])) => {
+                    [x, y, z].into_iter().for_each(|value| constant_length(stored, *value, bits));
+                }
+                (_, Part::Constant([x, y, z, _])) => {
+                    [x, y, z].into_iter().for_each(|value| constant_factor(*value, bits));
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+fn constant_rotation(stored: &Stored, rotation: [f32; 4], bits: &mut BitWriter) {
+    let width = stored.grid.rotation_bits;
+    if width == FLOATS {
+        return rotation.into_iter().for_each(|number| bits.put_float(number));
+    }
+    let (dropped, numbers) = rotation_numbers(Quat::from_array(rotation), width);
+    bits.put(dropped, 2);
+    numbers.into_iter().for_each(|number| bits.put(number, width));
+}
+
+fn constant_length(stored: &Stored, value: f32, bits: &mut BitWriter) {
+    let width = stored.grid.translation_bits;
+    if width == FLOATS {
+        return bits.put_float(value);
+    }
+    let number = stored.grid.number(value);
+    bits.put(u32::from(number != 0), 1);
+    if number != 0 {
+        bits.put((number + (1 << (width - 1))) as u32, width);
+    }
+}
+
+fn constant_factor(value: f32, bits: &mut BitWriter) {
+    if value == 1.0 {
+        bits.put(0, 2);
+    } else if value == -1.0 {
+        bits.put(1, 2);
+    } else {
+        bits.put(2, 2);
+        bits.put_float(value);
+    }
+}
+
+/// The parts that `pick` finds something in, with their bones: all rotations, then translations, then scales.
+fn of_all<'a, T>(stored: &'a Stored, pick: impl Fn(&'a Part) -> Option<T>) -> Vec<(usize, T)> {
+    let of = |which: usize| stored.bones.iter().map(move |parts| (which, &parts[which]));
+    (0..3).flat_map(of).filter_map(|(which, part)| Some((which, pick(part)?))).collect()
+}
+
+fn packed(part: &Part) -> Option<&Packed> {
+    if let Part::Packed(packed) = part { Some(packed) } else { None }
+}
+
+fn tracks(stored: &Stored, bits: &mut BitWriter) {
+    for (which, track) in of_all(stored, packed) {
+        let (low, extent) = (track.range.low.to_array(), track.range.extent.to_array());
+        if which == 0 {
+            track.reference.0.into_iter().for_each(|number| bits.put(u32::from(number as u8), 8));
+            low.into_iter().for_each(|number| bits.put((number / TURN_UNIT) as i32 as u32, 16));
+            extent.into_iter().for_each(|number| bits.put((number / TURN_UNIT) as u32, 16));
+        } else {
+            low.into_iter().chain(extent).for_each(|number| bits.put_float(number));
+        }
+    }
+}
+
+fn heads(stored: &Stored, bits: &mut BitWriter) {
+    let tracks = of_all(stored, packed);
+    let segments = tracks.first().map_or(0, |(_, track)| track.segments.len());
+    for segment in 0..segments {
+        for (_, track) in &tracks {
+            let head = &track.segments[segment].head;
+            for axis in 0..3 {
+                bits.put(u32::from(head.place[axis]), 8);
+                bits.put(u32::from(head.extent[axis]), 8);
+                bits.put(u32::from(head.even_bits[axis]), 5);
+                bits.put(u32::from(head.odd_bits[axis]), 5);
+            }
+        }
+    }
+}
+
+fn whole(stored: &Stored, bytes: &mut Vec<u8>) {
+    let values = |part: &'_ Part| if let Part::Whole(values) = part { Some(values.clone()) } else { None };
+    for (which, values) in of_all(stored, values) {
+        for value in values {
+            if which == 0 {
+                let (dropped, numbers) = rotation_numbers(Quat::from_array(value), WHOLE_BITS);
+                let word =
+                    numbers.into_iter().rev().fold(0, |word, number| word << WHOLE_BITS | u64::from(number));
+                bytes.extend((word << 2 | u64::from(dropped)).to_le_bytes());
+            } else {
+                value[..3].iter().for_each(|number| bytes.extend(number.to_le_bytes()));
+            }
+        }
+    }
+}
+
+fn keys(stored: &Stored) -> Vec<u8> {
+    let mut bits = BitWriter::default();
+    let tracks = of_all(stored, packed);
+    let segments = tracks.first().map_or(0, |(_, track)| track.segments.len());
+    for segment in 0..segments {
+        let length = tracks.first().map_or(0, |(_, track)| track.segments[segment].keys.len());
+        for key in (0..length).step_by(2).chain((1..length).step_by(2)) {
+            for (_, track) in &tracks {
+                let segment = &track.segments[segment];
+                let widths = if key % 2 == 0 { segment.head.even_bits } else { segment.head.odd_bits };
+                let numbers = segment.keys[key].into_iter().zip(widths);
+                numbers.for_each(|(number, width)| bits.put(number, u32::from(width)));
+            }
+        }
+    }
+    bits.into_bytes()
+}

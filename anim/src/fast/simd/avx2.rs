@@ -1,0 +1,345 @@
+//! The vectors of x86-64 processors with AVX2 and FMA.
+//!
+//! The one file of the crate with `unsafe` code. Each use of it is one of three:
+//!
+//! * an instruction that needs AVX2 or FMA. The types here are private to [`super`]: other code meets them only as
+//!   `S::F8` and its like inside [`Kernel::run`], which is called with them only by [`Present::run`], and a
+//!   [`Present`] exists only where the processor was found to have both;
+//! * an unaligned load or store through a reference to an array of exactly as many bytes;
+//! * the gather, which keeps its offsets within the slice.
+
+use super::{Float4, Float8, Kernel, Simd, Word8};
+use std::arch::x86_64::*;
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
+
+/// Proof that the processor has AVX2 and FMA.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Present(());
+
+impl Present {
+    /// Asks the processor.
+    pub(super) fn detect() -> Option<Self> {
+        (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")).then_some(Self(()))
+    }
+
+    /// Does the work of `kernel` with these vectors.
+    #[inline]
+    pub(super) fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        // SAFETY: `self` is proof that the processor has both features.
+        unsafe { run(kernel) }
+    }
+}
+
+/// Everything that is inlined into this function is compiled with AVX2 and FMA.
+#[target_feature(enable = "avx2,fma")]
+fn run<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx2>()
+}
+
+/// The set of instructions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Avx2;
+
+impl Simd for Avx2 {
+    type F8 = F8;
+    type F4 = F4;
+    type U8 = U8;
+}
+
+/// Eight numbers in one register.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub(super) struct F8(__m256);
+
+/// Four numbers in one register.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub(super) struct F4(__m128);
+
+/// Eight words in one register.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub(super) struct U8(__m256i);
+
+/// An instruction of AVX2 or FMA, on registers and constants only.
+macro_rules! instruction {
+    ($instruction:expr) => {
+        // SAFETY: these types are met only where the processor has both features, see the top of this file.
+        unsafe { $instruction }
+    };
+}
+
+/// An instruction that reads or writes memory through a reference to an array.
+macro_rules! memory {
+    ($instruction:expr) => {
+        // SAFETY: as for `instruction`; and the array behind the reference has exactly the bytes that an unaligned
+        // access of this width touches.
+        unsafe { $instruction }
+    };
+}
+
+/// An operator as one instruction.
+macro_rules! operator {
+    ($vector:ident, $trait:ident, $method:ident, $instruction:ident) => {
+        impl $trait for $vector {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(instruction!($instruction(self.0, other.0)))
+            }
+        }
+    };
+}
+
+operator!(F8, Add, add, _mm256_add_ps);
+operator!(F8, Sub, sub, _mm256_sub_ps);
+operator!(F8, Mul, mul, _mm256_mul_ps);
+operator!(F8, Div, div, _mm256_div_ps);
+operator!(F4, Add, add, _mm_add_ps);
+operator!(F4, Sub, sub, _mm_sub_ps);
+operator!(F4, Mul, mul, _mm_mul_ps);
+operator!(U8, Add, add, _mm256_add_epi32);
+operator!(U8, BitAnd, bitand, _mm256_and_si256);
+operator!(U8, BitOr, bitor, _mm256_or_si256);
+
+impl Neg for F8 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(instruction!(_mm256_xor_ps(self.0, _mm256_set1_ps(-0.0))))
+    }
+}
+
+impl Neg for F4 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(instruction!(_mm_xor_ps(self.0, _mm_set1_ps(-0.0))))
+    }
+}
+
+impl Float8 for F8 {
+    type Word = U8;
+
+    #[inline(always)]
+    fn splat(value: f32) -> Self {
+        Self(instruction!(_mm256_set1_ps(value)))
+    }
+
+    #[inline(always)]
+    fn load(from: &[f32; 8]) -> Self {
+        Self(memory!(_mm256_loadu_ps(from.as_ptr())))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f32; 8]) {
+        memory!(_mm256_storeu_ps(to.as_mut_ptr(), self.0));
+    }
+
+    #[inline(always)]
+    fn from_u16(from: &[u16; 8]) -> Self {
+        let words = memory!(_mm_loadu_si128(from.as_ptr().cast()));
+        Self(instruction!(_mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(words))))
+    }
+
+    #[inline(always)]
+    fn from_u8(from: &[u8; 8]) -> Self {
+        let words = memory!(_mm_loadl_epi64(from.as_ptr().cast()));
+        Self(instruction!(_mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(words))))
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(instruction!(_mm256_fmadd_ps(self.0, factor.0, addend.0)))
+    }
+
+    #[inline(always)]
+    fn neg_mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(instruction!(_mm256_fnmadd_ps(self.0, factor.0, addend.0)))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(instruction!(_mm256_sqrt_ps(self.0)))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(instruction!(_mm256_max_ps(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(instruction!(_mm256_min_ps(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(instruction!(_mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0)))
+    }
+
+    #[inline(always)]
+    fn sign(self) -> Self {
+        Self(instruction!(_mm256_and_ps(self.0, _mm256_set1_ps(-0.0))))
+    }
+
+    #[inline(always)]
+    fn flipped_by(self, sign: Self) -> Self {
+        Self(instruction!(_mm256_xor_ps(self.0, sign.0)))
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> Self {
+        Self(instruction!(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn select(self, yes: Self, no: Self) -> Self {
+        Self(instruction!(_mm256_blendv_ps(no.0, yes.0, self.0)))
+    }
+
+    #[inline(always)]
+    fn any(self) -> bool {
+        instruction!(_mm256_movemask_ps(self.0)) != 0
+    }
+
+    #[inline(always)]
+    fn to_bits(self) -> U8 {
+        U8(instruction!(_mm256_castps_si256(self.0)))
+    }
+
+    #[inline(always)]
+    fn twice(from: &[f32; 4]) -> Self {
+        let half = F4::load(from);
+        Self(instruction!(_mm256_set_m128(half.0, half.0)))
+    }
+
+    #[inline(always)]
+    fn from_halves(low: &[f32; 4], high: &[f32; 4]) -> Self {
+        let (low, high) = (F4::load(low), F4::load(high));
+        Self(instruction!(_mm256_set_m128(high.0, low.0)))
+    }
+
+    #[inline(always)]
+    fn store_halves(self, low: &mut [f32; 4], high: &mut [f32; 4]) {
+        F4(instruction!(_mm256_castps256_ps128(self.0))).store(low);
+        F4(instruction!(_mm256_extractf128_ps::<1>(self.0))).store(high);
+    }
+
+    #[inline(always)]
+    fn spread<const LANE: usize>(self) -> Self {
+        Self(instruction!(match LANE {
+            0 => _mm256_permute_ps::<0x00>(self.0),
+            1 => _mm256_permute_ps::<0x55>(self.0),
+            2 => _mm256_permute_ps::<0xAA>(self.0),
+            _ => _mm256_permute_ps::<0xFF>(self.0),
+        }))
+    }
+
+    #[inline(always)]
+    fn keep_last(self) -> Self {
+        Self(instruction!(_mm256_blend_ps::<0x88>(_mm256_setzero_ps(), self.0)))
+    }
+
+    #[inline(always)]
+    fn transpose(rows: [Self; 4]) -> [Self; 4] {
+        let [F8(a), F8(b), F8(c), F8(d)] = rows;
+        let (ab_low, ab_high) = instruction!((_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b)));
+        let (cd_low, cd_high) = instruction!((_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d)));
+        [
+            Self(instruction!(_mm256_shuffle_ps::<0x44>(ab_low, cd_low))),
+            Self(instruction!(_mm256_shuffle_ps::<0xEE>(ab_low, cd_low))),
+            Self(instruction!(_mm256_shuffle_ps::<0x44>(ab_high, cd_high))),
+            Self(instruction!(_mm256_shuffle_ps::<0xEE>(ab_high, cd_high))),
+        ]
+    }
+}
+
+impl Float4 for F4 {
+    #[inline(always)]
+    fn splat(value: f32) -> Self {
+        Self(instruction!(_mm_set1_ps(value)))
+    }
+
+    #[inline(always)]
+    fn load(from: &[f32; 4]) -> Self {
+        Self(memory!(_mm_loadu_ps(from.as_ptr())))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f32; 4]) {
+        memory!(_mm_storeu_ps(to.as_mut_ptr(), self.0));
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(instruction!(_mm_fmadd_ps(self.0, factor.0, addend.0)))
+    }
+
+    #[inline(always)]
+    fn spread<const LANE: usize>(self) -> Self {
+        Self(instruction!(match LANE {
+            0 => _mm_permute_ps::<0x00>(self.0),
+            1 => _mm_permute_ps::<0x55>(self.0),
+            2 => _mm_permute_ps::<0xAA>(self.0),
+            _ => _mm_permute_ps::<0xFF>(self.0),
+        }))
+    }
+
+    #[inline(always)]
+    fn keep_last(self) -> Self {
+        Self(instruction!(_mm_blend_ps::<0x8>(_mm_setzero_ps(), self.0)))
+    }
+}
+
+impl Word8 for U8 {
+    type Float = F8;
+
+    #[inline(always)]
+    fn splat(value: u32) -> Self {
+        Self(instruction!(_mm256_set1_epi32(value as i32)))
+    }
+
+    #[inline(always)]
+    fn load(from: &[u32; 8]) -> Self {
+        Self(memory!(_mm256_loadu_si256(from.as_ptr().cast())))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [u32; 8]) {
+        memory!(_mm256_storeu_si256(to.as_mut_ptr().cast(), self.0));
+    }
+
+    #[inline(always)]
+    fn shifted_right(self, count: Self) -> Self {
+        Self(instruction!(_mm256_srlv_epi32(self.0, count.0)))
+    }
+
+    #[inline(always)]
+    fn shifted_left(self, count: Self) -> Self {
+        Self(instruction!(_mm256_sllv_epi32(self.0, count.0)))
+    }
+
+    #[inline(always)]
+    fn gather(bytes: &[u8], offsets: Self) -> Self {
+        let Some(last) = bytes.len().checked_sub(4) else { return Self::splat(0) };
+        // The instruction reads its offsets as signed.
+        let last = Self::splat(last.min(i32::MAX as usize) as u32);
+        let offsets = instruction!(_mm256_min_epu32(offsets.0, last.0));
+        // SAFETY: as for `instruction`; and no offset lies past the last four bytes of the slice.
+        Self(unsafe { _mm256_i32gather_epi32::<1>(bytes.as_ptr().cast(), offsets) })
+    }
+
+    #[inline(always)]
+    fn to_float(self) -> F8 {
+        F8(instruction!(_mm256_cvtepi32_ps(self.0)))
+    }
+
+    #[inline(always)]
+    fn as_float(self) -> F8 {
+        F8(instruction!(_mm256_castsi256_ps(self.0)))
+    }
+}

@@ -1,0 +1,386 @@
+//! Compressed takes: small, as exact as was asked for, and safe to read from anywhere.
+
+use crate::doors::{FolderFs, data, shared};
+use crate::support::{about_z, along_x, bone, take};
+use dragonfly_anim::animation::Animation;
+use dragonfly_anim::compressed::{
+    CompressError, CompressedTake, Exactness, MAGIC, Report, Settings, compress,
+};
+use dragonfly_anim::data::{
+    AnimationData, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
+};
+use dragonfly_anim::fast::Pose;
+use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::format::{ReadOptions, read};
+use dragonfly_anim::sample::sample_take;
+use dragonfly_kit::counting::count;
+use dragonfly_kit::mutate::Mutator;
+use dragonfly_kit::random::{Random, seed};
+use glam::{Mat4, Quat, Vec3};
+use std::path::PathBuf;
+
+fn load(path: PathBuf) -> ModelData {
+    let bytes = std::fs::read(&path).unwrap();
+    let door = FolderFs(path.parent().unwrap().to_owned());
+    read("model.glb", &bytes, &door, &ReadOptions::default()).unwrap().model
+}
+
+fn fox() -> ModelData {
+    load(data().join("gltf/Fox.glb"))
+}
+
+/// Fox is about 80 units high: millimetres times ten or so.
+const FOX: Exactness = Exactness { tolerance: 0.02, shell: 5.0 };
+
+fn with(everywhere: Exactness) -> Settings {
+    Settings { everywhere, ..Settings::default() }
+}
+
+fn skeleton(parents: &[Option<u32>]) -> Skeleton {
+    let bones = parents.iter().map(|&parent| bone("bone", parent, Vec3::new(0.3, 0.1, 0.0)));
+    Skeleton { bones: bones.collect() }
+}
+
+fn to_root(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Mat4> {
+    let data = AnimationData { skeleton: skeleton.clone().into(), takes: Vec::new() };
+    Animation::new(data).to_root_bone_poses_of(take, time).to_vec()
+}
+
+/// Every time at which any channel has a key.
+fn key_times(take: &Take) -> Vec<f32> {
+    let mut times: Vec<f32> = take.tracks.iter().flat_map(Track::key_times).collect();
+    times.sort_by(f32::total_cmp);
+    times.dedup();
+    times
+}
+
+/// The largest distance of shell points at `times`, in units of each bone's tolerance: measured here once more, with
+/// the open path and matrices, beside what the compressor measured.
+fn largest_share(skeleton: &Skeleton, raw: &Take, decoded: &Take, settings: &Settings, times: &[f32]) -> f32 {
+    let mut largest = 0.0_f32;
+    for &time in times {
+        let (raw, decoded) = (to_root(skeleton, raw, time), to_root(skeleton, decoded, time));
+        for (index, (raw, decoded)) in raw.iter().zip(&decoded).enumerate() {
+            let named = settings.bones.iter().rev().find(|(bone, _)| *bone as usize == index);
+            let exactness = named.map_or(settings.everywhere, |(_, exactness)| *exactness);
+            for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+                let point = axis * exactness.shell;
+                let distance = raw.transform_point3(point).distance(decoded.transform_point3(point));
+                largest = largest.max(distance / exactness.tolerance);
+            }
+        }
+    }
+    largest
+}
+
+/// Compresses and checks the bound at every key of the raw take.
+#[track_caller]
+fn checked(take: &Take, skeleton: &Skeleton, settings: &Settings) -> (CompressedTake, Report) {
+    let (compressed, report) = compress(take, skeleton, settings).unwrap();
+    assert_eq!(report.bytes.total(), compressed.as_bytes().len());
+    assert!(report.share_of_tolerance <= 1.0);
+    let share = largest_share(skeleton, take, &compressed.decompress(), settings, &key_times(take));
+    // The times of keys are rounded to single precision, so a raw key can lie a millionth beside ours.
+    assert!(share <= 1.01, "{}: {share}, reported {report:?}", take.name);
+    (compressed, report)
+}
+
+/// The largest difference between [`CompressedTake::sample`] and the open path on the decompressed take.
+fn largest_difference(compressed: &CompressedTake, skeleton: &Skeleton, times: &[f32]) -> f32 {
+    let decompressed = compressed.decompress();
+    let mut pose = Pose::new(skeleton.len());
+    let mut open = vec![Transform::IDENTITY; skeleton.len()];
+    let mut largest = 0.0_f32;
+    for &time in times {
+        compressed.sample(time, &mut pose);
+        sample_take(Some(&decompressed), skeleton, time, &mut open);
+        for (bone, open) in open.iter().enumerate() {
+            let fast = pose.get(bone).unwrap();
+            assert!(fast.is_finite(), "{time} {bone} {fast:?}");
+            let turned =
+                (fast.rotation - open.rotation).length().min((fast.rotation + open.rotation).length());
+            let size = open.translation.abs().max_element().max(open.scale.abs().max_element()).max(1.0);
+            let moved =
+                fast.translation.distance(open.translation).max(fast.scale.distance(open.scale)) / size;
+            largest = largest.max(turned).max(moved);
+        }
+    }
+    largest
+}
+
+/// Times inside, on and outside the keys of a take.
+fn times(compressed: &CompressedTake, random: &mut Random) -> Vec<f32> {
+    let (start, length) = (compressed.start(), compressed.length());
+    let mut times = vec![start, start + length, start - 1.0, start + length + 1.0, f32::NAN];
+    times.extend([f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN]);
+    times.extend((0..400).map(|_| start + length * random.between(-0.05, 1.05)));
+    times.extend(key_times(&compressed.decompress()).iter().step_by(7));
+    times
+}
+
+#[test]
+fn no_shell_point_of_the_fox_is_farther_off_than_the_tolerance() {
+    let model = fox();
+    let skeleton = &model.animation.skeleton;
+    for exactness in
+        [FOX, Exactness { tolerance: 0.3, shell: 10.0 }, Exactness { tolerance: 0.001, shell: 1.0 }]
+    {
+        for take in &model.animation.takes {
+            let (_, report) = checked(take, skeleton, &with(exactness));
+            assert!(report.bytes.total() * 4 < report.raw_bytes, "{} {report:?}", take.name);
+        }
+    }
+}
+
+#[test]
+fn the_rig_of_the_bench_is_smaller_than_acl_makes_it_at_no_larger_error() {
+    let Some(folder) = shared("assets") else { return };
+    let model = load(folder.join("bench/pab.glb"));
+    let skeleton = &model.animation.skeleton;
+    // Bytes of ACL 2.1 on the same takes and settings.
+    let acl = [("walk", 7385, 6050), ("jog", 5438, 4360), ("run", 5002, 4143), ("atlas", 92_773, 64_145)];
+    for (name, fine, coarse) in acl {
+        let take = model.animation.takes.iter().find(|take| take.name == name).unwrap();
+        for (exactness, bytes) in [(Exactness::FINE, fine), (Exactness::COARSE, coarse)] {
+            let (_, report) = checked(take, skeleton, &with(exactness));
+            assert!(report.bytes.total() * 10 <= bytes * 7, "{name} {exactness:?} {report:?}");
+        }
+    }
+}
+
+#[test]
+fn a_bone_that_needs_more_gets_more() {
+    let model = fox();
+    let (skeleton, take) = (&model.animation.skeleton, &model.animation.takes[1]);
+    let exact = Exactness { tolerance: 0.001, shell: 2.0 };
+    let last = skeleton.len() as u32 - 1;
+    let settings = Settings { bones: vec![(last, FOX), (last, exact), (9999, exact)], ..with(FOX) };
+    let (_, named) = checked(take, skeleton, &settings);
+    let (_, usual) = checked(take, skeleton, &with(FOX));
+    assert!(named.bytes.total() > usual.bytes.total());
+}
+
+#[test]
+fn any_time_gives_what_the_open_path_gives_for_the_decompressed_take() {
+    let mut random = Random::new(seed(7));
+    let model = fox();
+    let skeleton = &model.animation.skeleton;
+    for take in &model.animation.takes {
+        for level in Level::all() {
+            let compressed = compress(take, skeleton, &with(FOX)).unwrap().0.with_level(level);
+            let off = largest_difference(&compressed, skeleton, &times(&compressed, &mut random));
+            assert!(off < 1e-5, "{} {} {off}", take.name, level.name());
+        }
+    }
+}
+
+/// Bones that turn, move and grow at random, `keys` keys, thirty a second.
+fn random_take(random: &mut Random, bones: usize, keys: usize) -> Take {
+    let times: Vec<f32> = (0..keys).map(|key| key as f32 / 30.0).collect();
+    let tracks = (0..bones).map(|_| {
+        let (calm, size) = (random.choice(&[0.0, 0.01, 0.2, 3.0]), random.choice(&[0.0, 0.01, 1.0]));
+        let axis = Vec3::new(random.between(-1.0, 1.0), 0.4, random.between(-1.0, 1.0)).normalize();
+        let mut turn = 0.0;
+        let rotations: Vec<Quat> = (0..keys)
+            .map(|_| {
+                turn += random.between(-calm, calm * 1.2);
+                Quat::from_axis_angle(axis, turn)
+            })
+            .collect();
+        let mut moved = |size: f32| -> Vec<Vec3> {
+            (0..keys).map(|_| Vec3::new(random.between(-size, size), 1.0, 0.5)).collect()
+        };
+        Track {
+            bone: 0,
+            translation: Channel::new(times.clone(), moved(size), Interpolation::Linear),
+            rotation: Channel::new(times.clone(), rotations, Interpolation::Linear),
+            scale: Channel::new(times.clone(), moved(size * 0.2), Interpolation::Linear),
+        }
+    });
+    take(tracks.collect())
+}
+
+#[test]
+fn takes_made_at_random_keep_the_bound_and_agree_at_any_time() {
+    let mut random = Random::new(seed(5));
+    for round in 0..60 {
+        let bones = 1 + random.below(19);
+        let parents: Vec<Option<u32>> =
+            (0..bones as u32).map(|bone| (bone > 0).then(|| random.below(bone as usize) as u32)).collect();
+        let skeleton = skeleton(&parents);
+        let keys = random.choice(&[1, 2, 3, 15, 16, 17, 64, 65, 130]);
+        let take = random_take(&mut random, bones, keys);
+        let settings = with(Exactness { tolerance: random.choice(&[0.001, 0.05]), shell: 0.1 });
+        let (compressed, _) = checked(&take, &skeleton, &settings);
+        let off = largest_difference(&compressed, &skeleton, &times(&compressed, &mut random));
+        assert!(off < 1e-5, "round {round}: {off}");
+    }
+}
+
+#[test]
+fn takes_of_one_key_of_two_of_no_length_and_of_nothing_can_be_compressed() {
+    let two = skeleton(&[None, Some(0)]);
+    let turning =
+        |keys: &[(f32, f32)]| Track { rotation: about_z(keys, Interpolation::Linear), ..Track::default() };
+    for (keys, count) in [
+        (&[(0.0, 0.4)][..], 1),
+        (&[(2.0, 0.4)], 1),
+        (&[(0.0, 0.4), (0.5, 1.4)], 2),
+        (&[(-1.0, 0.4), (0.0, 0.5), (1.0, 0.9)], 3),
+    ] {
+        let take = take(vec![turning(keys), Track::default()]);
+        let (compressed, _) = checked(&take, &two, &Settings::default());
+        assert_eq!(compressed.keys(), count, "{keys:?}");
+        assert_eq!((compressed.start(), compressed.length()), (take.start, take.length));
+    }
+    let (empty, _) = compress(&Take::default(), &Skeleton::default(), &Settings::default()).unwrap();
+    assert_eq!((empty.bones(), empty.keys()), (0, 1));
+    empty.sample(0.3, &mut Pose::new(5));
+    // No track at all: the rest pose.
+    let (rest, _) = compress(&Take::default(), &two, &Settings::default()).unwrap();
+    let mut pose = Pose::new(2);
+    rest.sample(0.0, &mut pose);
+    assert!(pose.get(1).unwrap().translation.distance(Vec3::new(0.3, 0.1, 0.0)) < 1e-5);
+}
+
+#[test]
+fn steps_and_splines_are_resampled_at_the_rate_of_the_settings() {
+    let one = skeleton(&[None]);
+    let step = about_z(&[(0.0, 0.0), (0.5, 1.0), (1.0, 0.2)], Interpolation::Step);
+    let stepped = take(vec![Track { rotation: step, ..Track::default() }]);
+    let curve = Channel {
+        times: [0.0, 1.0].into(),
+        values: [Vec3::ZERO, Vec3::X, Vec3::Y * 2.0, Vec3::Y, Vec3::ONE, Vec3::Z].into(),
+        interpolation: Interpolation::CubicSpline,
+    };
+    let curved = take(vec![Track { translation: curve, ..Track::default() }]);
+    for (rate, keys) in [(None, 31), (Some(10.0), 11), (Some(120.0), 121)] {
+        for take in [&stepped, &curved] {
+            let settings = Settings { rate, ..Settings::default() };
+            let (compressed, report) = compress(take, &one, &settings).unwrap();
+            assert_eq!(compressed.keys(), keys);
+            assert!(report.share_of_tolerance <= 1.0);
+            let times: Vec<f32> = (0..keys).map(|key| key as f32 / (keys - 1) as f32).collect();
+            let share = largest_share(&one, take, &compressed.decompress(), &settings, &times);
+            assert!(share < 1.01, "{rate:?} {share}");
+        }
+    }
+}
+
+#[test]
+fn numbers_that_are_none_or_too_large_give_an_error_or_finite_poses() {
+    let one = skeleton(&[None, Some(0)]);
+    for value in [f32::NAN, f32::INFINITY, f32::MAX, 1e30, 1e-40] {
+        let channel = along_x(&[(0.0, 0.0), (1.0, value), (2.0, 1.0)], Interpolation::Linear);
+        let moving = Track { translation: channel.clone(), scale: channel, ..Track::default() };
+        let take = take(vec![moving, Track::default()]);
+        match compress(&take, &one, &Settings::default()) {
+            Ok((compressed, _)) => {
+                let times = [0.0, 0.5, 1.0, 1.3, 2.0];
+                largest_difference(&compressed, &one, &times);
+            }
+            Err(error) => assert!(matches!(error, CompressError::OutOfReach { .. }), "{error}"),
+        }
+    }
+    let long = take(vec![Track {
+        translation: along_x(&[(0.0, 0.0), (1e-3, 1.0), (1e9, 2.0)], Interpolation::Linear),
+        ..Track::default()
+    }]);
+    assert!(matches!(compress(&long, &one, &Settings::default()), Err(CompressError::TooLarge { .. })));
+}
+
+#[test]
+fn sampling_allocates_nothing_and_leaves_other_bones_alone() {
+    let model = fox();
+    let (compressed, _) = compress(&model.animation.takes[0], &model.animation.skeleton, &with(FOX)).unwrap();
+    let (mut short, mut long) = (Pose::new(3), Pose::new(compressed.bones() + 16));
+    let marked = Transform { translation: Vec3::ONE, ..Transform::IDENTITY };
+    long.set(compressed.bones() + 15, marked);
+    let (allocations, ()) = count(|| {
+        for step in 0..100 {
+            compressed.sample(step as f32 * 0.03, &mut short);
+            compressed.sample(step as f32 * 0.03, &mut long);
+        }
+    });
+    assert_eq!(allocations, Default::default());
+    assert_eq!(long.get(compressed.bones() + 15), Some(marked));
+    assert_eq!(short.get(2), long.get(2));
+}
+
+#[test]
+fn the_same_take_gives_the_same_bytes_and_they_read_back() {
+    let model = fox();
+    let (skeleton, take) = (&model.animation.skeleton, &model.animation.takes[2]);
+    let (first, _) = compress(take, skeleton, &with(FOX)).unwrap();
+    let (second, _) = compress(take, skeleton, &with(FOX)).unwrap();
+    assert_eq!(first, second);
+    let back = CompressedTake::from_bytes(first.as_bytes()).unwrap();
+    assert_eq!(back.decompress(), first.decompress());
+    assert_eq!((back.name(), back.bones()), (take.name.as_str(), skeleton.len()));
+}
+
+/// CRC-32 bit by bit.
+fn sum(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0_u32, |sum, &byte| {
+        (0..8).fold(sum ^ u32::from(byte), |sum, _| (sum >> 1) ^ if sum & 1 == 1 { 0xedb8_8320 } else { 0 })
+    })
+}
+
+#[test]
+fn bytes_cut_short_or_altered_are_an_error_with_its_offset() {
+    let model = fox();
+    let (compressed, _) = compress(&model.animation.takes[1], &model.animation.skeleton, &with(FOX)).unwrap();
+    let bytes = compressed.as_bytes();
+    for end in 0..bytes.len() {
+        let error = CompressedTake::from_bytes(&bytes[..end]).unwrap_err();
+        assert!(error.offset <= end, "{end}: {error}");
+    }
+    for bit in 0..bytes.len() * 8 {
+        let mut altered = bytes.to_vec();
+        altered[bit / 8] ^= 1 << (bit % 8);
+        let error = CompressedTake::from_bytes(altered).unwrap_err();
+        assert!(error.offset < bytes.len(), "{bit}: {error}");
+    }
+}
+
+#[test]
+fn bytes_made_up_by_someone_who_knows_the_sum_do_no_harm() {
+    let mut random = Random::new(seed(13));
+    let fox = fox();
+    let files: Vec<Vec<u8>> = [
+        compress(&fox.animation.takes[1], &fox.animation.skeleton, &with(FOX)).unwrap().0,
+        compress(&random_take(&mut random, 5, 40), &skeleton(&[None; 5]), &Settings::default()).unwrap().0,
+        compress(&random_take(&mut random, 9, 1), &skeleton(&[None; 9]), &Settings::default()).unwrap().0,
+    ]
+    .iter()
+    .map(|take| take.as_bytes().to_vec())
+    .collect();
+    let mut mutator = Mutator::new(seed(13), &[&MAGIC]);
+    let mut read = 0;
+    for _ in 0..20_000 {
+        let mut bytes = mutator.mutant(&files);
+        if bytes.len() >= 20 {
+            bytes[..8].copy_from_slice(&files[0][..8]);
+            let length = bytes.len() as u32;
+            bytes[8..12].copy_from_slice(&length.to_le_bytes());
+            let sum = sum(&bytes[16..]);
+            bytes[12..16].copy_from_slice(&sum.to_le_bytes());
+        }
+        let length = bytes.len();
+        match CompressedTake::from_bytes(bytes) {
+            Ok(take) => {
+                read += 1;
+                let mut pose = Pose::new(take.bones());
+                for time in [take.start(), take.start() + take.length() * random.unit(), f32::NAN] {
+                    take.sample(time, &mut pose);
+                    assert!((0..take.bones()).all(|bone| pose.get(bone).unwrap().is_finite()));
+                }
+                if take.keys() < 1000 {
+                    take.decompress();
+                }
+            }
+            Err(error) => assert!(error.offset <= length, "{error}"),
+        }
+    }
+    assert!(read > 1000, "only {read} of the altered takes could be read");
+}
