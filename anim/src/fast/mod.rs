@@ -6,7 +6,22 @@
 //!
 //! Nothing here allocates after set-up, and no character keeps a cache: any time of a take costs the same.
 
+mod between;
+mod final_poses;
+mod grid;
+mod keyed;
+pub mod matrix;
+mod playable;
 mod pose;
+mod rig;
 pub mod simd;
+mod tiny;
+mod to_root;
 
+pub use final_poses::{Binding, final_poses};
+pub use keyed::KeyedTake;
+pub use matrix::Matrix34;
+pub use playable::{Playable, sample};
 pub use pose::{Pose, PoseBlock};
+pub use rig::Rig;
+pub use to_root::{RootPoses, to_root};

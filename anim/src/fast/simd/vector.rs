@@ -6,7 +6,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 /// The vectors of one set of instructions.
 pub trait Simd: Copy + Debug {
     /// Eight numbers.
-    type F8: Float8<Word = Self::U8>;
+    type F8: Float8<Word = Self::U8, Half = Self::F4>;
     /// Four numbers.
     type F4: Float4;
     /// Eight words of 32 bits.
@@ -27,6 +27,8 @@ pub trait Float8:
 {
     /// The words of the same set of instructions.
     type Word: Word8<Float = Self>;
+    /// One half.
+    type Half: Float4;
 
     /// The same number eight times.
     fn splat(value: f32) -> Self;
@@ -71,6 +73,10 @@ pub trait Float8:
     fn from_halves(low: &[f32; 4], high: &[f32; 4]) -> Self;
     /// One half to each place.
     fn store_halves(self, low: &mut [f32; 4], high: &mut [f32; 4]);
+    /// The low half.
+    fn low(self) -> Self::Half;
+    /// The high half.
+    fn high(self) -> Self::Half;
     /// In each half its own number `LANE` (0..=3) four times.
     fn spread<const LANE: usize>(self) -> Self;
     /// In each half the last number; zero elsewhere.
