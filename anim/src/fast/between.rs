@@ -61,8 +61,9 @@ impl<S: Simd> Way<S> {
         let x = cosine.neg_mul_add(half, half);
         let mix = (x * x.mul_add(self.second, third)).mul_add(self.pace, self.mix);
         let rest = one - mix;
-        let mixed = [0, 1, 2, 3].map(|at| b[at].mul_add(mix, a[at] * rest));
-        unit::<S>(mixed)
+        let (first, second) = (b[0].mul_add(mix, a[0] * rest), b[1].mul_add(mix, a[1] * rest));
+        let (third, fourth) = (b[2].mul_add(mix, a[2] * rest), b[3].mul_add(mix, a[3] * rest));
+        unit::<S>([first, second, third, fourth])
     }
 }
 
@@ -107,13 +108,10 @@ mod tests {
 
         #[inline(always)]
         fn run<S: Simd>(self) -> Quat {
-            let eight = |rotation: Quat| rotation.to_array().map(S::F8::splat);
-            let turned = Way::<S>::new(self.2).turn(eight(self.0), eight(self.1));
-            Quat::from_array(turned.map(|part| {
-                let mut lanes = [0.0; 8];
-                part.store(&mut lanes);
-                lanes[3]
-            }))
+            let eight = |rotation: Quat| S::F8::load_four(&rotation.to_array().map(|part| [part; 8]));
+            let mut lanes = [[0.0; 8]; 4];
+            S::F8::store_four(Way::<S>::new(self.2).turn(eight(self.0), eight(self.1)), &mut lanes);
+            Quat::from_array(lanes.map(|part| part[3]))
         }
     }
 

@@ -7,10 +7,13 @@
 //! Nothing here allocates after set-up, and no character keeps a cache: any time of a take costs the same.
 
 mod between;
+mod blend;
 mod final_poses;
 mod grid;
 mod keyed;
+mod mask;
 pub mod matrix;
+mod pipeline;
 mod playable;
 mod pose;
 mod rig;
@@ -18,9 +21,12 @@ pub mod simd;
 mod tiny;
 mod to_root;
 
+pub use blend::{PoseLayer, blend, blend_normalised};
 pub use final_poses::{Binding, final_poses};
 pub use keyed::KeyedTake;
+pub use mask::LaneMask;
 pub use matrix::Matrix34;
+pub use pipeline::{MAX_LAYERS, Playing, Scratch, pose_character, pose_crowd};
 pub use playable::{Playable, sample};
 pub use pose::{Pose, PoseBlock};
 pub use rig::Rig;

@@ -72,9 +72,10 @@ impl Kernel for ToRoot<'_> {
 pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     fit(rig, out);
     let (mut sheared, mut first) = (rig.sheared.as_slice(), 1);
+    let mut local = [[[0.0; 8]; 4]; 3];
     let poses = pose.iter().chain(rig.rest().blocks().get(pose.len()..).unwrap_or(&[]));
     for (parents, pose) in rig.parents.iter().zip(poses) {
-        let mut local = to_parent::<S>(pose);
+        to_parent::<S>(pose, &mut local);
         if !sheared.is_empty() {
             sheared = put_sheared(sheared, first - 1, pose, &mut local);
         }
@@ -99,42 +100,37 @@ type Local = [[[f32; 8]; 4]; 3];
 
 /// `T · R · S` of eight bones.
 #[inline(always)]
-fn to_parent<S: Simd>(pose: &PoseBlock) -> Local {
-    let [x, y, z, w] = [0, 1, 2, 3].map(|at| S::F8::load(&pose.rotation[at]));
-    let [a, b, c] = [0, 1, 2].map(|at| S::F8::load(&pose.scale[at]));
-    let [tx, ty, tz] = [0, 1, 2].map(|at| S::F8::load(&pose.translation[at]));
+fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
+    let [x, y, z, w] = S::F8::load_four(&pose.rotation);
+    let [a, b, c] = S::F8::load_three(&pose.scale);
+    let [tx, ty, tz] = S::F8::load_three(&pose.translation);
     let (x2, y2, z2, one) = (x + x, y + y, z + z, S::F8::splat(1.0));
     let (xy, xz, yz) = (x * y2, x * z2, y * z2);
     let (not_x, not_y) = (x.neg_mul_add(x2, one), y.neg_mul_add(y2, one));
-    let rows = [
-        [z.neg_mul_add(z2, not_y) * a, w.neg_mul_add(z2, xy) * b, w.mul_add(y2, xz) * c, tx],
-        [w.mul_add(z2, xy) * a, z.neg_mul_add(z2, not_x) * b, w.neg_mul_add(x2, yz) * c, ty],
-        [w.neg_mul_add(y2, xz) * a, w.mul_add(x2, yz) * b, y.neg_mul_add(y2, not_x) * c, tz],
-    ];
-    let mut local = [[[0.0; 8]; 4]; 3];
-    for (out, row) in local.iter_mut().zip(rows) {
-        for (out, bones) in out.iter_mut().zip(S::F8::transpose(row)) {
-            bones.store(out);
-        }
-    }
-    local
+    let upper = [z.neg_mul_add(z2, not_y) * a, w.neg_mul_add(z2, xy) * b, w.mul_add(y2, xz) * c, tx];
+    let middle = [w.mul_add(z2, xy) * a, z.neg_mul_add(z2, not_x) * b, w.neg_mul_add(x2, yz) * c, ty];
+    let lower = [w.neg_mul_add(y2, xz) * a, w.mul_add(x2, yz) * b, y.neg_mul_add(y2, not_x) * c, tz];
+    S::F8::store_four(S::F8::transpose(upper), &mut local[0]);
+    S::F8::store_four(S::F8::transpose(middle), &mut local[1]);
+    S::F8::store_four(S::F8::transpose(lower), &mut local[2]);
 }
 
 /// `to_root` of eight bones, parents first; bone `first - 1 + k` is at `first + k`.
 #[inline(always)]
 fn chain<S: Simd>(parents: &[u32; 8], local: &Local, out: &mut [Matrix34], first: usize) {
     for (at, &parent) in parents.iter().enumerate() {
-        let row = |row: usize| {
-            let (low, high) = local[row][at % 4].split_at(4);
-            let half = if at < 4 { low } else { high };
-            S::F8::twice(half.first_chunk().unwrap_or(&[0.0; 4]))
-        };
-        let rows = [row(0), row(1), row(2)];
+        let rows = [half::<S>(&local[0], at), half::<S>(&local[1], at), half::<S>(&local[2], at)];
         let Some(parent) = out.get(parent as usize) else { return };
         let product = Rows::<S>::load(parent).times(rows);
         let Some(out) = out.get_mut(first + at) else { return };
         product.store(out);
     }
+}
+
+/// A row of bone `at`, in both halves.
+#[inline(always)]
+fn half<S: Simd>(row: &[[f32; 8]; 4], at: usize) -> S::F8 {
+    S::F8::twice(&row[at % 4].as_chunks::<4>().0[at / 4])
 }
 
 /// Puts the matrices of the sheared bones of this block in the place of those that their poses give, where they rest;

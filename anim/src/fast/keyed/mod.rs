@@ -140,11 +140,8 @@ impl Playable for KeyedTake {
             let (way, keys) = tracks.around::<S>(time);
             for (block, before, after) in keys {
                 let Some(out) = out.get_mut(block as usize) else { continue };
-                let [before, after] = [before, after].map(|key| [0, 1, 2, 3].map(|at| S::F8::load(&key[at])));
-                let turned = way.turn(before, after);
-                for (out, turned) in out.rotation.iter_mut().zip(turned) {
-                    turned.store(out);
-                }
+                let turned = way.turn(S::F8::load_four(before), S::F8::load_four(after));
+                S::F8::store_four(turned, &mut out.rotation);
             }
         }
         for tracks in &self.translations {

@@ -36,6 +36,31 @@ pub trait Float8:
     fn load(from: &[f32; 8]) -> Self;
     /// To memory, lane by lane.
     fn store(self, to: &mut [f32; 8]);
+    /// Three vectors from memory.
+    #[inline(always)]
+    fn load_three(from: &[[f32; 8]; 3]) -> [Self; 3] {
+        [Self::load(&from[0]), Self::load(&from[1]), Self::load(&from[2])]
+    }
+    /// Four vectors from memory.
+    #[inline(always)]
+    fn load_four(from: &[[f32; 8]; 4]) -> [Self; 4] {
+        [Self::load(&from[0]), Self::load(&from[1]), Self::load(&from[2]), Self::load(&from[3])]
+    }
+    /// Three vectors to memory.
+    #[inline(always)]
+    fn store_three([a, b, c]: [Self; 3], to: &mut [[f32; 8]; 3]) {
+        a.store(&mut to[0]);
+        b.store(&mut to[1]);
+        c.store(&mut to[2]);
+    }
+    /// Four vectors to memory.
+    #[inline(always)]
+    fn store_four([a, b, c, d]: [Self; 4], to: &mut [[f32; 8]; 4]) {
+        a.store(&mut to[0]);
+        b.store(&mut to[1]);
+        c.store(&mut to[2]);
+        d.store(&mut to[3]);
+    }
     /// Whole numbers 0..=65,535 as floats, exactly.
     fn from_u16(from: &[u16; 8]) -> Self;
     /// Whole numbers 0..=255 as floats, exactly.
