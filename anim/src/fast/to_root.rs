@@ -5,6 +5,9 @@
 //! to_root_i   = to_root_parent * to_parent_i    one after the other, parents first, two rows in one register
 //! ```
 //!
+//! Two passes, one for each line: with both in one the matrices of eight bones would have to stay in more registers than
+//! there are, and that costs more than to write them down and read them again.
+//!
 //! With the unit quaternion (x y z w), the scale (a b c) and the translation t:
 //!
 //! ```text
@@ -18,19 +21,27 @@ use super::pose::PoseBlock;
 use super::rig::Rig;
 use super::simd::{Float8, Kernel, Level, Simd};
 use glam::Mat4;
+use std::cell::Cell;
 
 /// `to_root` of every bone of one character.
 #[derive(Clone, Debug)]
 pub struct RootPoses {
     /// The identity, where roots find their parent; then one a lane.
     pub(super) matrices: Vec<Matrix34>,
+    /// What the first of two passes leaves for the second.
+    local: Vec<Local>,
     bones: usize,
 }
 
 impl RootPoses {
     /// Room for the bones of `rig`, all in the origin.
     pub fn new(rig: &Rig) -> Self {
-        Self { matrices: vec![IDENTITY; 1 + rig.parents.len() * 8], bones: rig.bones }
+        let blocks = rig.parents.len();
+        Self {
+            matrices: vec![IDENTITY; 1 + blocks * 8],
+            local: vec![[[[0.0; 8]; 4]; 3]; blocks],
+            bones: rig.bones,
+        }
     }
 
     /// One a bone: bone space → scene space.
@@ -71,19 +82,17 @@ impl Kernel for ToRoot<'_> {
 #[inline(always)]
 pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     fit(rig, out);
-    let (mut sheared, mut first) = (rig.sheared.as_slice(), 1);
-    let mut local = [[[0.0; 8]; 4]; 3];
+    let RootPoses { matrices, local, .. } = out;
     let poses = pose.iter().chain(rig.rest().blocks().get(pose.len()..).unwrap_or(&[]));
-    for (parents, pose) in rig.parents.iter().zip(poses) {
-        to_parent::<S>(pose, &mut local);
-        if !sheared.is_empty() {
-            sheared = put_sheared(sheared, first - 1, pose, &mut local);
-        }
-        chain::<S>(parents, &local, &mut out.matrices, first);
-        first += 8;
+    for (local, pose) in local.iter_mut().zip(poses) {
+        to_parent::<S>(pose, local);
     }
-    if !leaves_are_finite::<S>(rig, &out.matrices) {
-        carefully(rig, pose, &mut out.matrices);
+    if !rig.sheared.is_empty() {
+        put_sheared(rig, pose, local);
+    }
+    chain::<S>(rig, local, matrices);
+    if !leaves_are_finite::<S>(rig, matrices) {
+        carefully(rig, pose, matrices);
     }
 }
 
@@ -115,45 +124,69 @@ fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
     S::F8::store_four(S::F8::transpose(lower), &mut local[2]);
 }
 
-/// `to_root` of eight bones, parents first; bone `first - 1 + k` is at `first + k`.
+/// `to_root` of every bone, parents first.
 #[inline(always)]
-fn chain<S: Simd>(parents: &[u32; 8], local: &Local, out: &mut [Matrix34], first: usize) {
-    for (at, &parent) in parents.iter().enumerate() {
-        let rows = [half::<S>(&local[0], at), half::<S>(&local[1], at), half::<S>(&local[2], at)];
-        let Some(parent) = out.get(parent as usize) else { return };
-        let product = Rows::<S>::load(parent).times(rows);
-        let Some(out) = out.get_mut(first + at) else { return };
-        product.store(out);
+fn chain<S: Simd>(rig: &Rig, local: &[Local], out: &mut [Matrix34]) {
+    // Cells, because a block is written while its own first bones are read as parents of the others.
+    let out = Cell::from_mut(out).as_slice_of_cells();
+    let mut left = rig.bones;
+    let blocks = out.get(1..).unwrap_or(&[]).as_chunks::<8>().0;
+    for ((parents, local), block) in rig.parents.iter().zip(local).zip(blocks) {
+        if left < 8 {
+            for at in 0..left {
+                link::<S>(parents, local, out, block, at);
+            }
+            return;
+        }
+        // Written out, so that every place is known when it is compiled.
+        link::<S>(parents, local, out, block, 0);
+        link::<S>(parents, local, out, block, 1);
+        link::<S>(parents, local, out, block, 2);
+        link::<S>(parents, local, out, block, 3);
+        link::<S>(parents, local, out, block, 4);
+        link::<S>(parents, local, out, block, 5);
+        link::<S>(parents, local, out, block, 6);
+        link::<S>(parents, local, out, block, 7);
+        left -= 8;
     }
 }
 
-/// A row of bone `at`, in both halves.
+/// `to_root` of bone `at` of a block.
 #[inline(always)]
-fn half<S: Simd>(row: &[[f32; 8]; 4], at: usize) -> S::F8 {
-    S::F8::twice(&row[at % 4].as_chunks::<4>().0[at / 4])
+fn link<S: Simd>(
+    parents: &[u32; 8],
+    local: &Local,
+    out: &[Cell<Matrix34>],
+    block: &[Cell<Matrix34>; 8],
+    at: usize,
+) {
+    let Some(parent) = out.get(parents[at % 8] as usize) else { return };
+    let [x, y, z] = [&local[0], &local[1], &local[2]];
+    let (two, half) = (at % 4, at / 4 % 2);
+    let rows = [
+        S::F8::twice(&x[two].as_chunks::<4>().0[half]),
+        S::F8::twice(&y[two].as_chunks::<4>().0[half]),
+        S::F8::twice(&z[two].as_chunks::<4>().0[half]),
+    ];
+    let mut product = IDENTITY;
+    Rows::<S>::load(&parent.get()).times(rows).store(&mut product);
+    block[at % 8].set(product);
 }
 
-/// Puts the matrices of the sheared bones of this block in the place of those that their poses give, where they rest;
-/// the sheared bones of later blocks.
-fn put_sheared<'a>(
-    mut sheared: &'a [super::rig::Sheared],
-    first: usize,
-    pose: &PoseBlock,
-    local: &mut Local,
-) -> &'a [super::rig::Sheared] {
-    while let Some((next, others)) = sheared.split_first() {
-        if next.bone >= first + 8 {
-            break;
-        }
-        let at = next.bone % 8;
-        if pose.get(at) == next.rest {
-            for (row, from) in local.iter_mut().zip(matrix34(next.matrix).as_chunks::<4>().0) {
-                row[at % 4][at / 4 * 4..][..4].copy_from_slice(from);
+/// Puts the matrices of sheared bones in the place of those that their poses give, where they rest.
+#[cold]
+fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [Local]) {
+    for sheared in &rig.sheared {
+        let (block, at) = (sheared.bone / 8, sheared.bone % 8);
+        let posed = pose.get(block).or(rig.rest().blocks().get(block));
+        if posed.is_some_and(|posed| posed.get(at) == sheared.rest)
+            && let Some(local) = local.get_mut(block)
+        {
+            for (row, from) in local.iter_mut().zip(matrix34(sheared.matrix).as_chunks::<4>().0) {
+                row[at % 4].as_chunks_mut::<4>().0[at / 4] = *from;
             }
         }
-        sheared = others;
     }
-    sheared
 }
 
 /// A number that is not finite reaches the leaves: it spreads along its row from parent to child.
