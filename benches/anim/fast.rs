@@ -4,13 +4,16 @@ use crate::case::Case;
 use crate::model::Subject;
 use crate::open::FRAMES;
 use dragonfly_anim::data::Take;
+use dragonfly_anim::fast::matrix::transform_point;
 use dragonfly_anim::fast::simd::Level;
 use dragonfly_anim::fast::{
-    Binding, KeyedTake, LaneMask, Playing, Pose, PoseLayer, Rig, RootPoses, Scratch, blend, final_poses,
-    matrix, pose_character, pose_crowd, sample, to_root,
+    Binding, KeyedTake, LaneMask, Playing, Pose, PoseLayer, Rig, RootPoses, Scratch, SkinnedVertices,
+    TwoBone, add, blend, difference, final_poses, matrix, pose_character, pose_crowd, sample, skin_vertices,
+    to_root, two_bone,
 };
 use dragonfly_anim::sample::loop_time;
 use dragonfly_kit::random::Random;
+use glam::Vec3;
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -59,6 +62,9 @@ fn at_level(subject: &Subject, ready: &Arc<Ready>, level: Level) -> Vec<Case> {
     let mut cases = sampling(subject, ready, level);
     cases.extend(matrices(subject, ready, level));
     cases.extend(blending(subject, ready, level));
+    cases.extend(additive(subject, ready, level));
+    cases.push(limb(subject, ready, level));
+    cases.extend(skinning(subject, ready, level));
     cases.push(one_character(subject, ready, level));
     cases.push(one_blended_character(subject, ready, level));
     cases.extend([100, 1_000].map(|count| crowd(subject, ready, level, count)));
@@ -119,6 +125,75 @@ fn blending(subject: &Subject, ready: &Arc<Ready>, level: Level) -> Vec<Case> {
             let layers = [0, 1, 2, 3].map(layer);
             blend(level, ready.rig.rest().blocks(), &layers[..count], out.blocks_mut());
             black_box(&out);
+        }));
+    }
+    cases
+}
+
+/// A difference between two takes added to a third: wholly, and in part.
+fn additive(subject: &Subject, ready: &Arc<Ready>, level: Level) -> Vec<Case> {
+    let [one, two, three] = [0, 1, 2].map(|take| ready.pose(subject, take, 0.3));
+    let mut more = three.clone();
+    difference(level, two.blocks(), one.blocks(), more.blocks_mut());
+    let mut cases = Vec::new();
+    for (how, weight) in [("whole", 1.0), ("part", 0.6)] {
+        let (more, three, mut out) = (more.clone(), three.clone(), three.clone());
+        let name = format!("{}/additive/{}/{how}", level.name(), subject.name);
+        cases.push(Case::new(name, subject.bones(), "bone", move || {
+            add(level, three.blocks(), more.blocks(), weight, None, out.blocks_mut());
+            black_box(&out);
+        }));
+    }
+    cases
+}
+
+/// The deepest bone, its parent and its grandparent reach for a point beside it, with a pole.
+fn limb(subject: &Subject, ready: &Arc<Ready>, level: Level) -> Case {
+    let mut pose = ready.pose(subject, 0, 0.4);
+    let mut roots = RootPoses::new(&ready.rig);
+    to_root(level, &ready.rig, pose.blocks(), &mut roots);
+    let of = |bone: usize| ready.rig.parent(bone);
+    let long = |&bone: &usize| {
+        let chain = of(bone).and_then(|middle| Some((middle, of(middle)?)));
+        chain.is_some_and(|(middle, root)| {
+            let [a, b, c] = [root, middle, bone].map(|at| transform_point(roots.get(at), Vec3::ZERO));
+            (b - a).length() > 1e-3 && (c - b).length() > 1e-3
+        })
+    };
+    let end = (0..subject.bones()).rev().find(long).expect("a limb of three bones");
+    let middle = of(end).unwrap_or_default();
+    let root = of(middle).unwrap_or_default();
+    let place = |bone: usize| transform_point(roots.get(bone), Vec3::ZERO);
+    let target = place(end).lerp(place(root), 0.3);
+    let limb =
+        TwoBone { pole: Vec3::new(0.2, 1.0, 0.3), ..TwoBone::new(root as u32, middle as u32, end as u32) };
+    Case::new(format!("{}/two_bone/{}", level.name(), subject.name), 1, "solve", move || {
+        black_box(two_bone(&limb, black_box(target), &roots, &mut pose));
+    })
+}
+
+/// With the strongest 1, 2 and 4 influences of each vertex.
+fn skinning(subject: &Subject, ready: &Arc<Ready>, level: Level) -> Vec<Case> {
+    let mut roots = RootPoses::new(&ready.rig);
+    to_root(level, &ready.rig, ready.pose(subject, 0, 0.4).blocks(), &mut roots);
+    let mut finals = vec![matrix::IDENTITY; ready.binding.joints()];
+    final_poses(level, &ready.binding, &roots, &mut finals);
+    let mut cases = Vec::new();
+    for most in [1, 2, 4] {
+        let mut primitive = subject.primitive().clone();
+        let each = primitive.vertices.influences_per_vertex.max(1);
+        for vertex in primitive.vertices.influences.chunks_mut(each) {
+            for (at, influence) in vertex.iter_mut().enumerate() {
+                // No zero among the first: all of them are to be computed.
+                influence.weight = if at < most { 1.0 / most as f32 } else { 0.0 };
+            }
+        }
+        let (vertices, finals) = (SkinnedVertices::new(&primitive), finals.clone());
+        let (mut positions, mut normals) = (vec![[0.0; 3]; vertices.len()], vec![[0.0; 3]; vertices.len()]);
+        let name = format!("{}/skin/{}/{most}", level.name(), subject.name);
+        cases.push(Case::new(name, vertices.len(), "vertex", move || {
+            skin_vertices(level, &vertices, &finals, &mut positions, &mut normals);
+            black_box((&positions, &normals));
         }));
     }
     cases

@@ -6,6 +6,7 @@
 //!
 //! Nothing here allocates after set-up, and no character keeps a cache: any time of a take costs the same.
 
+mod additive;
 mod between;
 mod blend;
 mod final_poses;
@@ -20,7 +21,10 @@ mod rig;
 pub mod simd;
 mod tiny;
 mod to_root;
+mod two_bone;
+mod vertices;
 
+pub use additive::{add, difference};
 pub use blend::{PoseLayer, blend, blend_normalised};
 pub use final_poses::{Binding, final_poses};
 pub use keyed::KeyedTake;
@@ -31,3 +35,5 @@ pub use playable::{Playable, sample};
 pub use pose::{Pose, PoseBlock};
 pub use rig::Rig;
 pub use to_root::{RootPoses, to_root};
+pub use two_bone::{TwoBone, distance_left, two_bone};
+pub use vertices::{SkinnedVertices, skin_vertices};
