@@ -10,6 +10,7 @@ mod degenerate;
 mod degenerate_import;
 mod determinism;
 mod doors;
+mod fast_layers;
 mod fast_path;
 mod fixture;
 mod formats;
