@@ -46,7 +46,7 @@ fn blended(base: Transform, base_weight: f32, layers: &[(Transform, f32)]) -> Tr
         let share = weight / total;
         let side = if pose.rotation.dot(lead.0.rotation) < 0.0 { -share } else { share };
         sum.translation += pose.translation * share;
-        sum.rotation = sum.rotation + pose.rotation * side;
+        sum.rotation += pose.rotation * side;
         sum.scale += pose.scale * share;
     }
     Transform { rotation: sum.rotation.normalize(), ..sum }
@@ -75,7 +75,7 @@ fn any_number_of_layers_blends_as_the_formula_says() {
             .enumerate()
             .map(|(at, (pose, &weight))| {
                 let layer = PoseLayer::new(pose.blocks(), weight);
-                if masked && at % 2 == 0 { layer.masked(&mask) } else { layer }
+                if masked && at.is_multiple_of(2) { layer.masked(&mask) } else { layer }
             })
             .collect();
         let fast_base = Pose::from_transforms(&base);
@@ -88,7 +88,8 @@ fn any_number_of_layers_blends_as_the_formula_says() {
             let expected: Vec<Transform> = (0..bones)
                 .map(|bone| {
                     let weight = |at: usize| {
-                        weights[at].max(0.0) * if masked && at % 2 == 0 { bone_weights[bone] } else { 1.0 }
+                        weights[at].max(0.0)
+                            * if masked && at.is_multiple_of(2) { bone_weights[bone] } else { 1.0 }
                     };
                     let parts: Vec<(Transform, f32)> =
                         (0..count).map(|at| (layers[at][bone], weight(at))).collect();

@@ -85,6 +85,10 @@ fn solve(limb: &TwoBone, target: Vec3, [root, middle, end]: [&Matrix34; 3]) -> O
     let bend = half_turn(then * now + sine_then * sine_now, sine_then * now - then * sine_now);
     let bent = upper + turned(lower, axis * bend.0, bend.1);
     let mut turn = arc(bent, wanted, axis);
+    if bent.dot(wanted) < -0.9 * (bent.length_squared() * d2).sqrt() {
+        // The axis of nearly half a turn is not exact; what is left of the way is short.
+        turn = arc(turn * bent, wanted, axis) * turn;
+    }
     if limb.pole != Vec3::ZERO {
         turn = (twist(turn * upper, wanted, limb.pole) * turn).normalize();
     }

@@ -110,9 +110,9 @@ fn to_root<S: Simd>(parents: &[u32], pose: &[PoseBlock], out: &mut [Matrix34]) {
         scatter::<S>(S::F8::transpose(upper), &mut local, 0);
         scatter::<S>(S::F8::transpose(middle), &mut local, 1);
         scatter::<S>(S::F8::transpose(lower), &mut local, 2);
-        for at in 0..8 {
+        for (at, local) in local.iter().enumerate() {
             let bone = block * 8 + at;
-            out[bone + 1] = product::<S>(&out[parents[bone] as usize], &local[at]);
+            out[bone + 1] = product::<S>(&out[parents[bone] as usize], local);
         }
     }
 }

@@ -7,6 +7,9 @@ use super::super::simd::{LANES, Simd};
 /// One key of eight bones: `N` coordinates of eight numbers.
 pub(super) type Key<const N: usize> = [[f32; LANES]; N];
 
+/// A block and its keys.
+type Track<const N: usize> = (u32, Vec<Key<N>>);
+
 /// Tracks with the same key times. Key `k` of track `t` is at `k * blocks.len() + t`.
 #[derive(Clone, Debug)]
 pub(super) struct Tracks<const N: usize> {
@@ -18,14 +21,14 @@ pub(super) struct Tracks<const N: usize> {
 impl<const N: usize> Tracks<N> {
     /// Collects tracks (block, its times, a key for each) into groups of equal times.
     pub(super) fn collect(tracks: Vec<(u32, Grid, Vec<Key<N>>)>) -> Vec<Self> {
-        let mut groups: Vec<(Grid, Vec<(u32, Vec<Key<N>>)>)> = Vec::new();
+        let mut groups: Vec<(Grid, Vec<Track<N>>)> = Vec::new();
         for (block, grid, keys) in tracks {
             match groups.iter_mut().find(|group| group.0 == grid) {
                 Some(group) => group.1.push((block, keys)),
                 None => groups.push((grid, vec![(block, keys)])),
             }
         }
-        let group = |(grid, tracks): (Grid, Vec<(u32, Vec<Key<N>>)>)| {
+        let group = |(grid, tracks): (Grid, Vec<Track<N>>)| {
             let keys = (0..grid.times().len()).flat_map(|key| tracks.iter().map(move |track| track.1[key]));
             Self { keys: keys.collect(), blocks: tracks.iter().map(|track| track.0).collect(), grid }
         };
