@@ -269,3 +269,42 @@ fn skeletons_of_any_size_move_the_same_on_both_paths() {
         compare_model(&animation, &[skin]).assert(&format!("{bones} bones"));
     }
 }
+
+#[test]
+fn a_rig_of_67_joints_agrees_with_exact_poses_on_the_fast_path() {
+    let (Some(assets), Some(expected)) = (shared("assets/bench"), shared("expected")) else { return };
+    let model = load(&assets.join("pab.glb"));
+    let golden = std::fs::read(expected.join("bench__pab.golden.json")).unwrap();
+    let golden: serde_json::Value = serde_json::from_slice(&golden).unwrap();
+    let skeleton = &model.animation.skeleton;
+    let node = |value: &serde_json::Value| value.as_u64().unwrap() as u32;
+    let bone_of = |node: u32| skeleton.bones.iter().position(|bone| bone.node == Some(node)).unwrap();
+    let bones: Vec<usize> =
+        golden["joints"].as_array().unwrap().iter().map(|value| bone_of(node(value))).collect();
+    let rig = Rig::new(skeleton);
+    let (mut pose, mut roots) = (Pose::new(skeleton.len()), RootPoses::new(&rig));
+    let mut worst = Worst::default();
+    for clip in golden["clips"].as_array().unwrap() {
+        let name = clip["name"].as_str().unwrap();
+        let take = model.animation.takes.iter().find(|take| take.name == name).unwrap();
+        let keyed = KeyedTake::new(skeleton, take);
+        for (expected, level) in clip["poses"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .flat_map(|pose| Level::all().into_iter().map(move |level| (pose, level)))
+        {
+            let time = expected["t"].as_f64().unwrap() as f32;
+            sample(level, &keyed, time, pose.blocks_mut());
+            to_root(level, &rig, pose.blocks(), &mut roots);
+            for (&bone, rows) in bones.iter().zip(expected["global"].as_array().unwrap()) {
+                let rows: Vec<f32> =
+                    rows.as_array().unwrap().iter().map(|number| number.as_f64().unwrap() as f32).collect();
+                let place = || format!("{} {name} at {time} bone {bone}", level.name());
+                worst.compare(roots.get(bone), &rows, largest(&rows), place);
+            }
+        }
+    }
+    worst.assert("exact poses");
+    assert!(worst.numbers > 10_000);
+}
