@@ -5,10 +5,14 @@ use dragonfly_anim::fast::Pose;
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use std::error::Error;
 
+pub(crate) const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let fox = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb").to_owned();
-    let path = std::env::args().nth(1).unwrap_or(fox);
-    let model = read(&path, &std::fs::read(&path)?, &NoFiles, &ReadOptions::default())?.model;
+    show(&std::env::args().nth(1).unwrap_or_else(|| FOX.to_owned()))
+}
+
+pub(crate) fn show(path: &str) -> Result<(), Box<dyn Error>> {
+    let model = read(path, &std::fs::read(path)?, &NoFiles, &ReadOptions::default())?.model;
     let skeleton = &model.animation.skeleton;
 
     // A thousandth of the model's size may be off, a tenth of it away from the bones: 1 mm at 10 cm for a person of 1 m.

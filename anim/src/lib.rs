@@ -27,8 +27,6 @@ pub mod bounds;
 pub mod check;
 pub mod compressed;
 pub mod data;
-pub mod data;
-pub mod evaluator;
 pub mod evaluator;
 pub mod explain;
 pub mod fast;

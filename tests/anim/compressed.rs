@@ -9,8 +9,8 @@ use dragonfly_anim::compressed::{
 use dragonfly_anim::data::{
     AnimationData, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
 };
-use dragonfly_anim::fast::Pose;
 use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::fast::{Binding, Playing, Pose, Rig, Scratch, matrix, pose_character};
 use dragonfly_anim::format::{ReadOptions, read};
 use dragonfly_anim::sample::sample_take;
 use dragonfly_kit::counting::count;
@@ -383,4 +383,36 @@ fn bytes_made_up_by_someone_who_knows_the_sum_do_no_harm() {
         }
     }
     assert!(read > 1000, "only {read} of the altered takes could be read");
+}
+
+#[test]
+fn a_character_plays_compressed_takes_as_the_open_path_plays_the_decompressed() {
+    let model = fox();
+    let (skeleton, skin) = (&model.animation.skeleton, &model.skins[0]);
+    let rig = Rig::new(skeleton);
+    let binding = Binding::new(&rig, skin);
+    let mut scratch = Scratch::new(&rig);
+    let mut finals = vec![matrix::IDENTITY; binding.joints()];
+    for take in &model.animation.takes {
+        let (compressed, _) = compress(take, skeleton, &with(FOX)).unwrap();
+        let raw = compressed.decompress();
+        let mut open = Animation::of(&model);
+        for step in 0..20 {
+            let time = compressed.start() + compressed.length() * step as f32 / 19.0;
+            let playing = [Playing::new(&compressed, time)];
+            pose_character(Level::best(), &rig, &binding, &playing, &mut scratch, &mut finals);
+            open.to_root_bone_poses_of(&raw, time);
+            for (joint, (fast, open)) in finals.iter().zip(open.skin_poses(skin)).enumerate() {
+                let rows = open.transpose().to_cols_array();
+                let largest = rows.iter().fold(1.0_f32, |most, number| most.max(number.abs()));
+                for (fast, open) in fast.iter().zip(rows) {
+                    assert!(
+                        (fast - open).abs() <= 1e-4 * largest,
+                        "{} {time} {joint}: {fast} {open}",
+                        take.name
+                    );
+                }
+            }
+        }
+    }
 }

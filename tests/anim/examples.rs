@@ -7,6 +7,9 @@ mod blend_two;
 #[path = "../../anim/examples/check_a_model.rs"]
 mod check_a_model;
 #[allow(dead_code, reason = "its main reads the command line, which is the test's here")]
+#[path = "../../anim/examples/compress.rs"]
+mod compress;
+#[allow(dead_code, reason = "its main reads the command line, which is the test's here")]
 #[path = "../../anim/examples/explain_a_bone.rs"]
 mod explain_a_bone;
 #[path = "../../anim/examples/own_interpolation.rs"]
@@ -74,6 +77,11 @@ fn another_model_moves_alike() {
 fn a_bone_is_explained() {
     explain_a_bone::show(explain_a_bone::FOX, "b_Head_05", 0.35).unwrap();
     assert!(explain_a_bone::show(explain_a_bone::FOX, "nobody", 0.35).is_err());
+}
+
+#[test]
+fn takes_are_compressed() {
+    compress::show(compress::FOX).unwrap();
 }
 
 #[test]

@@ -23,6 +23,8 @@ mod docs;
 mod doors;
 mod examples;
 mod explain;
+mod fast_layers;
+mod fast_path;
 mod fixture;
 mod formats;
 mod gaze;

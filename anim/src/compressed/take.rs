@@ -6,8 +6,8 @@ use super::read::read;
 use super::stored::BETWEEN;
 use super::table::Tables;
 use crate::data::{Channel, Take, Track};
-use crate::fast::Pose;
-use crate::fast::simd::Level;
+use crate::fast::simd::{Kernel, Level, Simd};
+use crate::fast::{Playable, Pose, PoseBlock};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
@@ -136,5 +136,24 @@ fn put(track: &mut Track, part: usize, times: &Arc<[f32]>, value: impl Fn(u32) -
         0 => track.rotation = Channel::new(times, values.map(Quat::from_array).collect::<Vec<_>>(), BETWEEN),
         1 => track.translation = Channel::new(times, values.map(three).collect::<Vec<_>>(), BETWEEN),
         _ => track.scale = Channel::new(times, values.map(three).collect::<Vec<_>>(), BETWEEN),
+    }
+}
+
+impl Playable for CompressedTake {
+    fn bones(&self) -> usize {
+        self.bones()
+    }
+
+    fn start(&self) -> f32 {
+        self.start()
+    }
+
+    fn length(&self) -> f32 {
+        self.length()
+    }
+
+    #[inline(always)]
+    fn sample_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]) {
+        Decode { tables: &self.tables, bytes: &self.bytes, time, out }.run::<S>();
     }
 }

@@ -6,7 +6,34 @@
 //!
 //! Nothing here allocates after set-up, and no character keeps a cache: any time of a take costs the same.
 
+mod additive;
+mod between;
+mod blend;
+mod final_poses;
+mod grid;
+mod keyed;
+mod mask;
+pub mod matrix;
+mod pipeline;
+mod playable;
 mod pose;
+mod rig;
 pub mod simd;
+mod tiny;
+mod to_root;
+mod two_bone;
+mod vertices;
 
+pub use additive::{add, difference};
+pub use blend::{PoseLayer, blend, blend_normalised};
+pub use final_poses::{Binding, final_poses};
+pub use keyed::KeyedTake;
+pub use mask::LaneMask;
+pub use matrix::Matrix34;
+pub use pipeline::{MAX_LAYERS, Playing, Scratch, pose_character, pose_crowd};
+pub use playable::{Playable, sample};
 pub use pose::{Pose, PoseBlock};
+pub use rig::Rig;
+pub use to_root::{RootPoses, to_root};
+pub use two_bone::{TwoBone, distance_left, two_bone};
+pub use vertices::{SkinnedVertices, skin_vertices};

@@ -106,13 +106,13 @@ fn mirrors(linear: Mat3) -> bool {
 }
 
 /// `linear` divided by its largest number, so that products of three stay within f32; zero stays zero.
-fn near_one(linear: Mat3) -> Mat3 {
+pub(crate) fn near_one(linear: Mat3) -> Mat3 {
     let largest = linear.to_cols_array().into_iter().map(f32::abs).fold(0.0, f32::max);
     if largest > 0.0 { Mat3::from_cols_array(&linear.to_cols_array().map(|n| n / largest)) } else { linear }
 }
 
 /// The first of `candidates` that has a direction, unit length; +Y when none has.
-fn first_direction<const N: usize>(candidates: [Vec3; N]) -> Vec3 {
+pub(crate) fn first_direction<const N: usize>(candidates: [Vec3; N]) -> Vec3 {
     candidates.into_iter().find_map(direction).unwrap_or(Vec3::Y)
 }
 

@@ -15,6 +15,7 @@
 mod direction;
 mod position;
 
+pub(crate) use direction::{first_direction, near_one};
 pub use direction::{normal_matrix, skin_normal, skin_normals, skin_tangents};
 pub use position::{contribution, skin_position, skin_positions};
 

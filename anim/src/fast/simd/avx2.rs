@@ -123,6 +123,7 @@ impl Neg for F4 {
 
 impl Float8 for F8 {
     type Word = U8;
+    type Half = F4;
 
     #[inline(always)]
     fn splat(value: f32) -> Self {
@@ -227,6 +228,16 @@ impl Float8 for F8 {
     fn store_halves(self, low: &mut [f32; 4], high: &mut [f32; 4]) {
         F4(instruction!(_mm256_castps256_ps128(self.0))).store(low);
         F4(instruction!(_mm256_extractf128_ps::<1>(self.0))).store(high);
+    }
+
+    #[inline(always)]
+    fn low(self) -> F4 {
+        F4(instruction!(_mm256_castps256_ps128(self.0)))
+    }
+
+    #[inline(always)]
+    fn high(self) -> F4 {
+        F4(instruction!(_mm256_extractf128_ps::<1>(self.0)))
     }
 
     #[inline(always)]

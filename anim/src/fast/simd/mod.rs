@@ -58,7 +58,9 @@ pub const LANES: usize = 8;
 /// Work written for any set of instructions.
 ///
 /// Mark `run`, and every function that it calls with vectors, `#[inline(always)]`: only what becomes part of the
-/// function that [`Level::run`] compiles for a level is compiled with that level's instructions.
+/// function that [`Level::run`] compiles for a level is compiled with that level's instructions. Closures cannot be
+/// marked, so no vector may pass through one, nor through `map` and iterators over vectors: each operation in them
+/// would be a call, several times slower. Iterators over memory are fine.
 pub trait Kernel {
     /// What the work results in.
     type Output;

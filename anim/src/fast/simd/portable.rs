@@ -102,6 +102,7 @@ impl Add for Words8 {
 
 impl Float8 for Array8 {
     type Word = Words8;
+    type Half = Array4;
 
     #[inline(always)]
     fn splat(value: f32) -> Self {
@@ -206,6 +207,16 @@ impl Float8 for Array8 {
     fn store_halves(self, low: &mut [f32; 4], high: &mut [f32; 4]) {
         let [a, b, c, d, e, f, g, h] = self.0;
         (*low, *high) = ([a, b, c, d], [e, f, g, h]);
+    }
+
+    #[inline(always)]
+    fn low(self) -> Array4 {
+        Array4([self.0[0], self.0[1], self.0[2], self.0[3]])
+    }
+
+    #[inline(always)]
+    fn high(self) -> Array4 {
+        Array4([self.0[4], self.0[5], self.0[6], self.0[7]])
     }
 
     #[inline(always)]

@@ -6,7 +6,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 /// The vectors of one set of instructions.
 pub trait Simd: Copy + Debug {
     /// Eight numbers.
-    type F8: Float8<Word = Self::U8>;
+    type F8: Float8<Word = Self::U8, Half = Self::F4>;
     /// Four numbers.
     type F4: Float4;
     /// Eight words of 32 bits.
@@ -27,6 +27,8 @@ pub trait Float8:
 {
     /// The words of the same set of instructions.
     type Word: Word8<Float = Self>;
+    /// One half.
+    type Half: Float4;
 
     /// The same number eight times.
     fn splat(value: f32) -> Self;
@@ -34,6 +36,31 @@ pub trait Float8:
     fn load(from: &[f32; 8]) -> Self;
     /// To memory, lane by lane.
     fn store(self, to: &mut [f32; 8]);
+    /// Three vectors from memory.
+    #[inline(always)]
+    fn load_three(from: &[[f32; 8]; 3]) -> [Self; 3] {
+        [Self::load(&from[0]), Self::load(&from[1]), Self::load(&from[2])]
+    }
+    /// Four vectors from memory.
+    #[inline(always)]
+    fn load_four(from: &[[f32; 8]; 4]) -> [Self; 4] {
+        [Self::load(&from[0]), Self::load(&from[1]), Self::load(&from[2]), Self::load(&from[3])]
+    }
+    /// Three vectors to memory.
+    #[inline(always)]
+    fn store_three([a, b, c]: [Self; 3], to: &mut [[f32; 8]; 3]) {
+        a.store(&mut to[0]);
+        b.store(&mut to[1]);
+        c.store(&mut to[2]);
+    }
+    /// Four vectors to memory.
+    #[inline(always)]
+    fn store_four([a, b, c, d]: [Self; 4], to: &mut [[f32; 8]; 4]) {
+        a.store(&mut to[0]);
+        b.store(&mut to[1]);
+        c.store(&mut to[2]);
+        d.store(&mut to[3]);
+    }
     /// Whole numbers 0..=65,535 as floats, exactly.
     fn from_u16(from: &[u16; 8]) -> Self;
     /// Whole numbers 0..=255 as floats, exactly.
@@ -71,6 +98,10 @@ pub trait Float8:
     fn from_halves(low: &[f32; 4], high: &[f32; 4]) -> Self;
     /// One half to each place.
     fn store_halves(self, low: &mut [f32; 4], high: &mut [f32; 4]);
+    /// The low half.
+    fn low(self) -> Self::Half;
+    /// The high half.
+    fn high(self) -> Self::Half;
     /// In each half its own number `LANE` (0..=3) four times.
     fn spread<const LANE: usize>(self) -> Self;
     /// In each half the last number; zero elsewhere.

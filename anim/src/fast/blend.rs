@@ -1,0 +1,269 @@
+//! Any number of poses made into one, eight bones at once (thesis §2.1.4.1: per bone, before skinning).
+//!
+//! For each bone, over all layers:
+//!
+//! ```text
+//! w_i         = weight of layer i * its mask at this bone          W = Σ w_i
+//! share_i     = w_i / max(W, 1)        share of the base = 1 - Σ share_i      (blend)
+//! share_i     = w_i / W                the base only where W = 0              (blend_normalised)
+//! translation = Σ share_i * translation_i
+//! scale       = Σ share_i * scale_i
+//! rotation    = Σ share_i * ±rotation_i, divided by its length
+//! ```
+//!
+//! `q` and `-q` are the same rotation: each is taken in the hemisphere of the one with the largest share, of equal ones
+//! the first, the base before all. So the sum cannot vanish.
+
+use super::between::{dot, unit};
+use super::mask::{LaneMask, usable};
+use super::pose::PoseBlock;
+use super::simd::{Float8, Kernel, Level, Simd};
+
+/// Weights whose sum reaches this are whole: what is missing is rounding.
+const WHOLE: f32 = 1.0 - 1e-6;
+
+/// One pose among several.
+#[derive(Clone, Copy, Debug)]
+pub struct PoseLayer<'a> {
+    /// As many blocks as the others.
+    pub pose: &'a [PoseBlock],
+    /// 0 or more; negative and NaN count as 0. Beside the other layers' weights, not a percentage.
+    pub weight: f32,
+    /// How much each bone takes part; `None`: all of them wholly.
+    pub mask: Option<&'a LaneMask>,
+}
+
+impl<'a> PoseLayer<'a> {
+    /// A layer of all bones.
+    pub fn new(pose: &'a [PoseBlock], weight: f32) -> Self {
+        Self { pose, weight, mask: None }
+    }
+
+    /// The same as far as `mask` says.
+    pub fn masked(self, mask: &'a LaneMask) -> Self {
+        Self { mask: Some(mask), ..self }
+    }
+}
+
+/// Blends `layers`; where the weights of a bone sum to less than 1, `base` takes the rest.
+///
+/// `base` is usually the rest pose ([`super::Rig::rest`]). Writes as many blocks as `base` and `out` both have; a layer
+/// that is shorter has no say in the bones it lacks. Unit rotations and finite numbers in give the same out. Allocates
+/// nothing.
+pub fn blend(level: Level, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
+    level.run(Blend { base, layers, out, normalised: false });
+}
+
+/// Blends `layers` with their weights divided by their sum, however small; `base` stands in only where a bone has no
+/// weight at all. Otherwise as [`blend`].
+pub fn blend_normalised(level: Level, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
+    level.run(Blend { base, layers, out, normalised: true });
+}
+
+struct Blend<'a> {
+    base: &'a [PoseBlock],
+    layers: &'a [PoseLayer<'a>],
+    out: &'a mut [PoseBlock],
+    normalised: bool,
+}
+
+impl Kernel for Blend<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self) {
+        blend_with::<S>(self.base, self.layers, self.out, self.normalised);
+    }
+}
+
+/// The same, part of a larger kernel.
+#[inline(always)]
+pub(super) fn blend_with<S: Simd>(
+    base: &[PoseBlock],
+    layers: &[PoseLayer],
+    out: &mut [PoseBlock],
+    normalised: bool,
+) {
+    let blocks = base.len().min(out.len());
+    let (base, out) = (&base[..blocks], &mut out[..blocks]);
+    let even = layers.iter().all(|layer| layer.mask.is_none() && layer.pose.len() >= blocks);
+    if !(even && evenly::<S>(base, layers, out, normalised)) {
+        by_lane::<S>(base, layers, out, normalised);
+    }
+}
+
+/// The base's weight when the layers' weights sum to `sum`.
+#[inline(always)]
+fn base_weight(sum: f32, normalised: bool) -> f32 {
+    let whole = if normalised { sum > 0.0 } else { sum >= WHOLE };
+    match (whole, normalised) {
+        (true, _) => 0.0,
+        (false, true) => 1.0,
+        (false, false) => 1.0 - sum,
+    }
+}
+
+/// Without masks every bone has the same shares: the poses that have one are collected, the one that leads first. No if
+/// they are too many.
+#[inline(always)]
+fn evenly<S: Simd>(
+    base: &[PoseBlock],
+    layers: &[PoseLayer],
+    out: &mut [PoseBlock],
+    normalised: bool,
+) -> bool {
+    let mut sum = 0.0;
+    for layer in layers {
+        sum += usable(layer.weight);
+    }
+    let base_weight = base_weight(sum, normalised);
+    let part = 1.0 / (base_weight + sum);
+    let mut parts: [Part; MOST] = [(base, 0.0); MOST];
+    let (mut count, mut most, mut leader) = (0, 0.0, 0);
+    let all = std::iter::once((base, base_weight));
+    for (pose, weight) in all.chain(layers.iter().map(|layer| (layer.pose, usable(layer.weight)))) {
+        if weight > 0.0 {
+            let Some(slot) = parts.get_mut(count) else { return false };
+            *slot = (pose, weight * part);
+            if weight > most {
+                (most, leader) = (weight, count);
+            }
+            count += 1;
+        }
+    }
+    parts.swap(0, leader);
+    match parts {
+        [a, ..] if count == 1 => mix::<S, 1>([a], out),
+        [a, b, ..] if count == 2 => mix::<S, 2>([a, b], out),
+        [a, b, c, ..] if count == 3 => mix::<S, 3>([a, b, c], out),
+        [a, b, c, d] => mix::<S, 4>([a, b, c, d], out),
+    }
+    true
+}
+
+/// A pose, and its share.
+type Part<'a> = (&'a [PoseBlock], f32);
+
+/// More layers than these are blended lane by lane.
+const MOST: usize = 4;
+
+/// The sums of the formulas above, with the same shares for all bones; the first part leads.
+#[inline(always)]
+fn mix<S: Simd, const N: usize>(parts: [Part; N], out: &mut [PoseBlock]) {
+    let count = parts.iter().map(|part| part.0.len()).fold(out.len(), usize::min);
+    let parts = parts.map(|(pose, share)| (&pose[..count], share));
+    for (block, out) in out[..count].iter_mut().enumerate() {
+        let leader = &parts[0].0[block];
+        let share = S::F8::splat(parts[0].1);
+        let lead = S::F8::load_four(&leader.rotation);
+        let [mut x, mut y, mut z, mut w] =
+            [lead[0] * share, lead[1] * share, lead[2] * share, lead[3] * share];
+        for (pose, share) in &parts[1..] {
+            let own = S::F8::load_four(&pose[block].rotation);
+            let share = S::F8::splat(*share).flipped_by(dot::<S>(own, lead).sign());
+            (x, y) = (own[0].mul_add(share, x), own[1].mul_add(share, y));
+            (z, w) = (own[2].mul_add(share, z), own[3].mul_add(share, w));
+        }
+        S::F8::store_four(unit::<S>([x, y, z, w]), &mut out.rotation);
+        let [a, b, c] = S::F8::load_three(&leader.translation);
+        let [d, e, f] = S::F8::load_three(&leader.scale);
+        let [mut a, mut b, mut c] = [a * share, b * share, c * share];
+        let [mut d, mut e, mut f] = [d * share, e * share, f * share];
+        for (pose, share) in &parts[1..] {
+            let share = S::F8::splat(*share);
+            let [x, y, z] = S::F8::load_three(&pose[block].translation);
+            (a, b, c) = (x.mul_add(share, a), y.mul_add(share, b), z.mul_add(share, c));
+            let [x, y, z] = S::F8::load_three(&pose[block].scale);
+            (d, e, f) = (x.mul_add(share, d), y.mul_add(share, e), z.mul_add(share, f));
+        }
+        S::F8::store_three([a, b, c], &mut out.translation);
+        S::F8::store_three([d, e, f], &mut out.scale);
+    }
+}
+
+/// With masks: every bone has its own shares, and its own layer that leads.
+#[inline(always)]
+fn by_lane<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock], normalised: bool) {
+    let (zero, one) = (S::F8::splat(0.0), S::F8::splat(1.0));
+    for (block, (out, base)) in out.iter_mut().zip(base).enumerate() {
+        let mut sum = zero;
+        for layer in layers {
+            sum = sum + weights::<S>(layer, block);
+        }
+        let (short, missing) = if normalised {
+            (sum.less(S::F8::splat(f32::MIN_POSITIVE)), one)
+        } else {
+            (sum.less(S::F8::splat(WHOLE)), one - sum)
+        };
+        let base_weight = short.select(missing, zero);
+        let total = one / (base_weight + sum);
+        let mut leader = S::F8::load_four(&base.rotation);
+        let mut most = base_weight;
+        for layer in layers {
+            let Some(pose) = layer.pose.get(block) else { continue };
+            let weight = weights::<S>(layer, block);
+            let leads = most.less(weight);
+            let [x, y, z, w] = S::F8::load_four(&pose.rotation);
+            let [a, b, c, d] = leader;
+            leader = [leads.select(x, a), leads.select(y, b), leads.select(z, c), leads.select(w, d)];
+            most = weight.max(most);
+        }
+        let mut mix = Sum::<S> { leader, ..Sum::none(base) };
+        if short.any() {
+            mix.add(base, base_weight * total);
+        }
+        for layer in layers {
+            if let Some(pose) = layer.pose.get(block) {
+                mix.add(pose, weights::<S>(layer, block) * total);
+            }
+        }
+        mix.write(out);
+    }
+}
+
+/// The weights of `layer` in a block; 0 where it has none.
+#[inline(always)]
+fn weights<S: Simd>(layer: &PoseLayer, block: usize) -> S::F8 {
+    let weight = if block < layer.pose.len() { usable(layer.weight) } else { 0.0 };
+    match layer.mask {
+        Some(mask) => S::F8::load(mask.block(block)) * S::F8::splat(weight),
+        None => S::F8::splat(weight),
+    }
+}
+
+/// The sums of the formulas above, for eight bones.
+struct Sum<S: Simd> {
+    leader: [S::F8; 4],
+    rotation: [S::F8; 4],
+    translation: [S::F8; 3],
+    scale: [S::F8; 3],
+}
+
+impl<S: Simd> Sum<S> {
+    #[inline(always)]
+    fn none(leader: &PoseBlock) -> Self {
+        let zero = S::F8::splat(0.0);
+        let leader = S::F8::load_four(&leader.rotation);
+        Self { leader, rotation: [zero; 4], translation: [zero; 3], scale: [zero; 3] }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, pose: &PoseBlock, share: S::F8) {
+        let [x, y, z, w] = S::F8::load_four(&pose.rotation);
+        let turned = share.flipped_by(dot::<S>([x, y, z, w], self.leader).sign());
+        let [a, b, c, d] = self.rotation;
+        self.rotation =
+            [x.mul_add(turned, a), y.mul_add(turned, b), z.mul_add(turned, c), w.mul_add(turned, d)];
+        let ([x, y, z], [a, b, c]) = (S::F8::load_three(&pose.translation), self.translation);
+        self.translation = [x.mul_add(share, a), y.mul_add(share, b), z.mul_add(share, c)];
+        let ([x, y, z], [a, b, c]) = (S::F8::load_three(&pose.scale), self.scale);
+        self.scale = [x.mul_add(share, a), y.mul_add(share, b), z.mul_add(share, c)];
+    }
+
+    #[inline(always)]
+    fn write(self, out: &mut PoseBlock) {
+        S::F8::store_four(unit::<S>(self.rotation), &mut out.rotation);
+        S::F8::store_three(self.translation, &mut out.translation);
+        S::F8::store_three(self.scale, &mut out.scale);
+    }
+}

@@ -1,0 +1,111 @@
+//! `final_pose` of every joint of a skin: bind space → scene space (thesis §2.1.5.1).
+//!
+//! ```text
+//! final_j = to_root_bone(j) * offset_j      for column vectors; two rows in one register
+//! ```
+
+use super::matrix::{Matrix34, Rows, doubled, mat4, matrix34};
+use super::rig::Rig;
+use super::simd::{Float4, Float8, Kernel, Level, Simd};
+use super::tiny::{flushed, largest};
+use super::to_root::RootPoses;
+use crate::animation::final_pose;
+use crate::data::Skin;
+use glam::Mat4;
+
+/// A skin brought to the layout of the fast path: which bone moves each joint, and its offset.
+#[derive(Clone, Debug)]
+pub struct Binding {
+    joints: Vec<Joint>,
+}
+
+/// Which bone, and how it is bound.
+#[derive(Clone, Copy, Debug)]
+struct Joint {
+    /// 1 + the bone; 0, the identity, for a bone that the rig does not have.
+    slot: u32,
+    /// Bind space → bone space.
+    offset: Matrix34,
+}
+
+impl Binding {
+    /// The binding of `skin` to `rig`. An offset that is missing or not finite is the identity; tiny numbers are made
+    /// zero.
+    pub fn new(rig: &Rig, skin: &Skin) -> Self {
+        let offset = |joint: usize| {
+            let offset = skin.offsets.get(joint).copied().unwrap_or(Mat4::IDENTITY);
+            matrix34(if offset.is_finite() { offset } else { Mat4::IDENTITY })
+        };
+        let is_translation = |at: usize| at % 4 == 3;
+        let mut offsets: Vec<Matrix34> = (0..skin.bones.len()).map(offset).collect();
+        let far = largest(offsets.iter().flat_map(|offset| [offset[3], offset[7], offset[11]]));
+        for offset in &mut offsets {
+            let linear =
+                largest(offset.iter().enumerate().filter(|(at, _)| !is_translation(*at)).map(|(_, v)| *v));
+            for (at, value) in offset.iter_mut().enumerate() {
+                *value = flushed(*value, if is_translation(at) { far } else { linear });
+            }
+        }
+        let slot = |bone: u32| if (bone as usize) < rig.bones() { bone + 1 } else { 0 };
+        let joints = skin.bones.iter().zip(offsets).map(|(&bone, offset)| Joint { slot: slot(bone), offset });
+        Self { joints: joints.collect() }
+    }
+
+    /// Number of joints.
+    pub fn joints(&self) -> usize {
+        self.joints.len()
+    }
+}
+
+/// Computes `final_pose` of every joint of `binding`, in the skin's order, as many as `out` has room for.
+///
+/// Where a product is not finite: the bone's `to_root` alone, as on the open path. Allocates nothing.
+pub fn final_poses(level: Level, binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
+    level.run(FinalPoses { binding, to_root, out });
+}
+
+struct FinalPoses<'a> {
+    binding: &'a Binding,
+    to_root: &'a RootPoses,
+    out: &'a mut [Matrix34],
+}
+
+impl Kernel for FinalPoses<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self) {
+        final_poses_with::<S>(self.binding, self.to_root, self.out);
+    }
+}
+
+/// The same, part of a larger kernel.
+#[inline(always)]
+pub(super) fn final_poses_with<S: Simd>(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
+    let zero = S::F8::splat(0.0);
+    let (mut upper, mut lower) = (zero, S::F4::splat(0.0));
+    let Some(nowhere) = to_root.matrices.first() else { return };
+    for (joint, out) in binding.joints.iter().zip(&mut *out) {
+        let to_root = to_root.matrices.get(joint.slot as usize).unwrap_or(nowhere);
+        let product = Rows::<S>::load(to_root).times(doubled::<S>(&joint.offset));
+        // Stays zero as long as everything is finite.
+        upper = product.0.mul_add(zero, upper);
+        lower = product.1.mul_add(zero.low(), lower);
+        product.store(out);
+    }
+    let (mut eight, mut four) = ([0.0; 8], [0.0; 4]);
+    upper.store(&mut eight);
+    lower.store(&mut four);
+    if eight.iter().chain(&four).sum::<f32>() != 0.0 {
+        carefully(binding, to_root, out);
+    }
+}
+
+/// The open path's way, for products that leave what f32 can hold.
+#[cold]
+fn carefully(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
+    for (joint, out) in binding.joints.iter().zip(out) {
+        let to_root = to_root.matrices.get(joint.slot as usize).map_or(Mat4::IDENTITY, mat4);
+        *out = matrix34(final_pose(to_root, mat4(&joint.offset)));
+    }
+}

@@ -1,0 +1,169 @@
+//! From takes to matrices for the GPU in one call: one character, or a whole crowd.
+//!
+//! ```text
+//! for each character:  sample each of its layers → blend → to_root → final_pose of every joint
+//! ```
+//!
+//! All steps of one character run before the next one's, so poses and to-root matrices stay in the nearest memory
+//! ([`Scratch`], shared by all); a character itself is only its takes, times and weights.
+
+use super::blend::{PoseLayer, blend_with};
+use super::final_poses::{Binding, final_poses_with};
+use super::mask::{LaneMask, usable};
+use super::matrix::Matrix34;
+use super::playable::Playable;
+use super::pose::Pose;
+use super::rig::Rig;
+use super::simd::{Kernel, Level, Simd};
+use super::to_root::{RootPoses, to_root_with};
+
+/// A take that a character plays, among others.
+#[derive(Debug)]
+pub struct Playing<'a, T> {
+    /// What is played.
+    pub take: &'a T,
+    /// Seconds, inside the take: see [`crate::sample::loop_time`].
+    pub time: f32,
+    /// 0 or more, beside the weights of the character's other layers; what they miss of 1, the rest pose takes.
+    pub weight: f32,
+    /// How much each bone takes part; `None`: all of them wholly.
+    pub mask: Option<&'a LaneMask>,
+}
+
+impl<'a, T> Playing<'a, T> {
+    /// All of `take`, at `time` seconds.
+    pub fn new(take: &'a T, time: f32) -> Self {
+        Self { take, time, weight: 1.0, mask: None }
+    }
+
+    /// Does it alone decide the whole pose?
+    fn is_all(&self) -> bool {
+        self.weight >= 1.0 && self.mask.is_none()
+    }
+}
+
+// Derived, they would ask the same of `T`.
+impl<T> Clone for Playing<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Playing<'_, T> {}
+
+/// Memory that the characters of a call use one after the other.
+#[derive(Clone, Debug)]
+pub struct Scratch {
+    sampled: Vec<Pose>,
+    blended: Pose,
+    to_root: RootPoses,
+}
+
+/// Layers of one character that are blended without more memory than a [`Scratch`] has from the beginning. Those past
+/// them are left out.
+pub const MAX_LAYERS: usize = 8;
+
+impl Scratch {
+    /// For characters of `rig`.
+    pub fn new(rig: &Rig) -> Self {
+        let pose = rig.rest().clone();
+        Self { sampled: vec![pose.clone(); MAX_LAYERS], blended: pose, to_root: RootPoses::new(rig) }
+    }
+
+    /// `to_root` of the character that was computed last.
+    pub fn to_root(&self) -> &RootPoses {
+        &self.to_root
+    }
+}
+
+/// Computes the final poses of a character that plays `layers`: one matrix a joint of `binding`, as many as `out` has
+/// room for.
+///
+/// Of several layers as [`super::blend()`]; without any the rest pose. `scratch` has to be made for `rig`. Allocates
+/// nothing.
+pub fn pose_character<T: Playable>(
+    level: Level,
+    rig: &Rig,
+    binding: &Binding,
+    layers: &[Playing<T>],
+    scratch: &mut Scratch,
+    out: &mut [Matrix34],
+) {
+    level.run(Crowd { rig, binding, characters: std::iter::once(layers), scratch, out });
+}
+
+/// Computes the final poses of many characters of one rig: those of character `c` from `c * binding.joints()` on.
+///
+/// Each of `characters` is the layers that one of them plays. Characters that `out` has no room for are left out.
+/// Otherwise as [`pose_character`]. Allocates nothing.
+pub fn pose_crowd<'a, T: Playable + 'a>(
+    level: Level,
+    rig: &Rig,
+    binding: &Binding,
+    characters: impl IntoIterator<Item = &'a [Playing<'a, T>]>,
+    scratch: &mut Scratch,
+    out: &mut [Matrix34],
+) {
+    level.run(Crowd { rig, binding, characters: characters.into_iter(), scratch, out });
+}
+
+struct Crowd<'a, I> {
+    rig: &'a Rig,
+    binding: &'a Binding,
+    characters: I,
+    scratch: &'a mut Scratch,
+    out: &'a mut [Matrix34],
+}
+
+impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for Crowd<'_, I> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self) {
+        let Self { rig, binding, characters, scratch, out } = self;
+        let joints = binding.joints().max(1);
+        for (layers, out) in characters.zip(out.chunks_mut(joints)) {
+            character::<S, T>(rig, layers, scratch);
+            final_poses_with::<S>(binding, &scratch.to_root, out);
+        }
+    }
+}
+
+/// The to-root matrices of one character.
+#[inline(always)]
+fn character<S: Simd, T: Playable>(rig: &Rig, layers: &[Playing<T>], scratch: &mut Scratch) {
+    let Scratch { sampled, blended, to_root } = scratch;
+    if let [one] = layers
+        && one.is_all()
+        && let Some(pose) = sampled.first_mut()
+    {
+        one.take.sample_with::<S>(one.time, pose.blocks_mut());
+        to_root_with::<S>(rig, pose.blocks(), to_root);
+        return;
+    }
+    blend_layers::<S, T>(rig, layers, sampled, blended);
+    to_root_with::<S>(rig, blended.blocks(), to_root);
+}
+
+/// Samples and blends `layers`.
+#[inline(always)]
+fn blend_layers<S: Simd, T: Playable>(
+    rig: &Rig,
+    layers: &[Playing<T>],
+    sampled: &mut [Pose],
+    blended: &mut Pose,
+) {
+    let mut count = 0;
+    for (layer, pose) in layers.iter().zip(&mut *sampled) {
+        if usable(layer.weight) > 0.0 {
+            layer.take.sample_with::<S>(layer.time, pose.blocks_mut());
+        }
+        count += 1;
+    }
+    let nothing = PoseLayer { pose: &[], weight: 0.0, mask: None };
+    let mut list = [nothing; MAX_LAYERS];
+    for ((out, layer), pose) in list.iter_mut().zip(layers).zip(&*sampled) {
+        *out = PoseLayer { pose: pose.blocks(), weight: layer.weight, mask: layer.mask };
+    }
+    blend_with::<S>(rig.rest().blocks(), &list[..count], blended.blocks_mut(), false);
+}

@@ -1,0 +1,87 @@
+//! A skeleton brought to the layout of the fast path.
+
+use super::pose::{Pose, blocks_of};
+use super::tiny::{flushed, largest};
+use crate::data::{Skeleton, Transform};
+use crate::sample::rest_pose;
+use glam::Mat4;
+
+/// What the fast path keeps of a skeleton: who is whose parent, the rest pose, and what is out of the ordinary.
+///
+/// Built once; unlike the skeleton it never changes. Bones keep their order.
+#[derive(Clone, Debug)]
+pub struct Rig {
+    pub(super) bones: usize,
+    /// One a lane, the padding too: 0 for a root, else 1 + the parent, so that it is never above the lane itself.
+    pub(super) parents: Vec<[u32; 8]>,
+    /// 1 + each bone that is nobody's parent: a number that is not finite reaches at least one of them.
+    pub(super) leaves: Vec<u32>,
+    /// Bones whose rest no pose can express, in order.
+    pub(super) sheared: Vec<Sheared>,
+    rest: Pose,
+}
+
+/// A bone with a rest matrix that is no translation, rotation and scale.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sheared {
+    pub(super) bone: usize,
+    /// The pose that stands for it.
+    pub(super) rest: Transform,
+    pub(super) matrix: Mat4,
+}
+
+impl Rig {
+    /// The rig of `skeleton`. A parent that does not come before its child counts as none.
+    pub fn new(skeleton: &Skeleton) -> Self {
+        let bones = skeleton.len();
+        let mut parents = vec![[0; 8]; blocks_of(bones)];
+        let mut is_leaf = vec![true; bones];
+        for (index, bone) in skeleton.bones.iter().enumerate() {
+            let parent = bone.parent.map(|parent| parent as usize).filter(|&parent| parent < index);
+            if let Some(parent) = parent {
+                parents[index / 8][index % 8] = parent as u32 + 1;
+                is_leaf[parent] = false;
+            }
+        }
+        let rest = flushed_poses(skeleton.bones.iter().map(rest_pose).collect());
+        let sheared = skeleton.bones.iter().enumerate().filter_map(|(bone, data)| {
+            let matrix = data.rest_matrix.filter(Mat4::is_finite)?;
+            Some(Sheared { bone, rest: rest[bone], matrix })
+        });
+        Self {
+            bones,
+            parents,
+            leaves: (0..bones as u32).filter(|&bone| is_leaf[bone as usize]).map(|bone| bone + 1).collect(),
+            sheared: sheared.collect(),
+            rest: Pose::from_transforms(&rest),
+        }
+    }
+
+    /// Number of bones.
+    pub fn bones(&self) -> usize {
+        self.bones
+    }
+
+    /// The rest pose of every bone, as [`rest_pose`] has it, tiny numbers made zero.
+    pub fn rest(&self) -> &Pose {
+        &self.rest
+    }
+
+    /// The parent of `bone`; `None` for a root and past the end.
+    pub fn parent(&self, bone: usize) -> Option<usize> {
+        let parent = self.parents.get(bone / 8)?[bone % 8];
+        parent.checked_sub(1).map(|parent| parent as usize)
+    }
+}
+
+/// `poses` with the numbers that cannot matter made zero.
+pub(super) fn flushed_poses(mut poses: Vec<Transform>) -> Vec<Transform> {
+    let size = largest(poses.iter().flat_map(|pose| pose.translation.to_array()));
+    for pose in &mut poses {
+        pose.translation = pose.translation.to_array().map(|value| flushed(value, size)).into();
+        pose.rotation = glam::Quat::from_array(pose.rotation.to_array().map(|value| flushed(value, 1.0)));
+        let size = largest(pose.scale.to_array());
+        pose.scale = pose.scale.to_array().map(|value| flushed(value, size)).into();
+    }
+    poses
+}

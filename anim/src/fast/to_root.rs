@@ -1,0 +1,219 @@
+//! `to_root` of every bone: bone space → scene space (thesis §2.1.5.1).
+//!
+//! ```text
+//! to_parent_i = T · R · S                       eight bones at once
+//! to_root_i   = to_root_parent * to_parent_i    one after the other, parents first, two rows in one register
+//! ```
+//!
+//! Two passes, one for each line: with both in one the matrices of eight bones would have to stay in more registers than
+//! there are, and that costs more than to write them down and read them again.
+//!
+//! With the unit quaternion (x y z w), the scale (a b c) and the translation t:
+//!
+//! ```text
+//!             ┌ a (1 - 2y² - 2z²)   b (2xy - 2zw)       c (2xz + 2yw)      tx ┐
+//! to_parent = │ a (2xy + 2zw)       b (1 - 2x² - 2z²)   c (2yz - 2xw)      ty │
+//!             └ a (2xz - 2yw)       b (2yz + 2xw)       c (1 - 2x² - 2y²)  tz ┘
+//! ```
+
+use super::matrix::{IDENTITY, Matrix34, Rows, mat4, matrix34};
+use super::pose::PoseBlock;
+use super::rig::Rig;
+use super::simd::{Float8, Kernel, Level, Simd};
+use glam::Mat4;
+use std::cell::Cell;
+
+/// `to_root` of every bone of one character.
+#[derive(Clone, Debug)]
+pub struct RootPoses {
+    /// The identity, where roots find their parent; then one a lane.
+    pub(super) matrices: Vec<Matrix34>,
+    /// What the first of two passes leaves for the second.
+    local: Vec<Local>,
+    bones: usize,
+}
+
+impl RootPoses {
+    /// Room for the bones of `rig`, all in the origin.
+    pub fn new(rig: &Rig) -> Self {
+        let blocks = rig.parents.len();
+        Self {
+            matrices: vec![IDENTITY; 1 + blocks * 8],
+            local: vec![[[[0.0; 8]; 4]; 3]; blocks],
+            bones: rig.bones,
+        }
+    }
+
+    /// One a bone: bone space → scene space.
+    pub fn matrices(&self) -> &[Matrix34] {
+        &self.matrices[1..=self.bones]
+    }
+
+    /// That of `bone`; the identity past the end.
+    pub fn get(&self, bone: usize) -> &Matrix34 {
+        self.matrices().get(bone).unwrap_or(&IDENTITY)
+    }
+}
+
+/// Computes `to_root` of every bone from `pose`, the blocks of a pose of `rig`'s bones.
+///
+/// Where `pose` has fewer blocks than the rig the rest poses stand in. A bone whose product is not finite stands where
+/// its parent stands, as on the open path. Allocates nothing, unless `out` was made for another rig.
+pub fn to_root(level: Level, rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
+    level.run(ToRoot { rig, pose, out });
+}
+
+struct ToRoot<'a> {
+    rig: &'a Rig,
+    pose: &'a [PoseBlock],
+    out: &'a mut RootPoses,
+}
+
+impl Kernel for ToRoot<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self) {
+        to_root_with::<S>(self.rig, self.pose, self.out);
+    }
+}
+
+/// The same, part of a larger kernel.
+#[inline(always)]
+pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
+    fit(rig, out);
+    let RootPoses { matrices, local, .. } = out;
+    let poses = pose.iter().chain(rig.rest().blocks().get(pose.len()..).unwrap_or(&[]));
+    for (local, pose) in local.iter_mut().zip(poses) {
+        to_parent::<S>(pose, local);
+    }
+    if !rig.sheared.is_empty() {
+        put_sheared(rig, pose, local);
+    }
+    chain::<S>(rig, local, matrices);
+    if !leaves_are_finite::<S>(rig, matrices) {
+        carefully(rig, pose, matrices);
+    }
+}
+
+/// Makes room, where `out` was made for another rig.
+#[inline(always)]
+fn fit(rig: &Rig, out: &mut RootPoses) {
+    if out.bones != rig.bones || out.matrices.len() != 1 + rig.parents.len() * 8 {
+        *out = RootPoses::new(rig);
+    }
+}
+
+/// `to_parent` of eight bones: rows of bone `k` in the low halves and of bone `k + 4` in the high halves of `[row][k]`.
+type Local = [[[f32; 8]; 4]; 3];
+
+/// `T · R · S` of eight bones.
+#[inline(always)]
+fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
+    let [x, y, z, w] = S::F8::load_four(&pose.rotation);
+    let [a, b, c] = S::F8::load_three(&pose.scale);
+    let [tx, ty, tz] = S::F8::load_three(&pose.translation);
+    let (x2, y2, z2, one) = (x + x, y + y, z + z, S::F8::splat(1.0));
+    let (xy, xz, yz) = (x * y2, x * z2, y * z2);
+    let (not_x, not_y) = (x.neg_mul_add(x2, one), y.neg_mul_add(y2, one));
+    let upper = [z.neg_mul_add(z2, not_y) * a, w.neg_mul_add(z2, xy) * b, w.mul_add(y2, xz) * c, tx];
+    let middle = [w.mul_add(z2, xy) * a, z.neg_mul_add(z2, not_x) * b, w.neg_mul_add(x2, yz) * c, ty];
+    let lower = [w.neg_mul_add(y2, xz) * a, w.mul_add(x2, yz) * b, y.neg_mul_add(y2, not_x) * c, tz];
+    S::F8::store_four(S::F8::transpose(upper), &mut local[0]);
+    S::F8::store_four(S::F8::transpose(middle), &mut local[1]);
+    S::F8::store_four(S::F8::transpose(lower), &mut local[2]);
+}
+
+/// `to_root` of every bone, parents first.
+#[inline(always)]
+fn chain<S: Simd>(rig: &Rig, local: &[Local], out: &mut [Matrix34]) {
+    // Cells, because a block is written while its own first bones are read as parents of the others.
+    let out = Cell::from_mut(out).as_slice_of_cells();
+    let mut left = rig.bones;
+    let blocks = out.get(1..).unwrap_or(&[]).as_chunks::<8>().0;
+    for ((parents, local), block) in rig.parents.iter().zip(local).zip(blocks) {
+        if left < 8 {
+            for at in 0..left {
+                link::<S>(parents, local, out, block, at);
+            }
+            return;
+        }
+        // Written out, so that every place is known when it is compiled.
+        link::<S>(parents, local, out, block, 0);
+        link::<S>(parents, local, out, block, 1);
+        link::<S>(parents, local, out, block, 2);
+        link::<S>(parents, local, out, block, 3);
+        link::<S>(parents, local, out, block, 4);
+        link::<S>(parents, local, out, block, 5);
+        link::<S>(parents, local, out, block, 6);
+        link::<S>(parents, local, out, block, 7);
+        left -= 8;
+    }
+}
+
+/// `to_root` of bone `at` of a block.
+#[inline(always)]
+fn link<S: Simd>(
+    parents: &[u32; 8],
+    local: &Local,
+    out: &[Cell<Matrix34>],
+    block: &[Cell<Matrix34>; 8],
+    at: usize,
+) {
+    let Some(parent) = out.get(parents[at % 8] as usize) else { return };
+    let [x, y, z] = [&local[0], &local[1], &local[2]];
+    let (two, half) = (at % 4, at / 4 % 2);
+    let rows = [
+        S::F8::twice(&x[two].as_chunks::<4>().0[half]),
+        S::F8::twice(&y[two].as_chunks::<4>().0[half]),
+        S::F8::twice(&z[two].as_chunks::<4>().0[half]),
+    ];
+    let mut product = IDENTITY;
+    Rows::<S>::load(&parent.get()).times(rows).store(&mut product);
+    block[at % 8].set(product);
+}
+
+/// Puts the matrices of sheared bones in the place of those that their poses give, where they rest.
+#[cold]
+fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [Local]) {
+    for sheared in &rig.sheared {
+        let (block, at) = (sheared.bone / 8, sheared.bone % 8);
+        let posed = pose.get(block).or(rig.rest().blocks().get(block));
+        if posed.is_some_and(|posed| posed.get(at) == sheared.rest)
+            && let Some(local) = local.get_mut(block)
+        {
+            for (row, from) in local.iter_mut().zip(matrix34(sheared.matrix).as_chunks::<4>().0) {
+                row[at % 4].as_chunks_mut::<4>().0[at / 4] = *from;
+            }
+        }
+    }
+}
+
+/// A number that is not finite reaches the leaves: it spreads along its row from parent to child.
+#[inline(always)]
+fn leaves_are_finite<S: Simd>(rig: &Rig, matrices: &[Matrix34]) -> bool {
+    let mut sum = [0.0; 8];
+    let (mut upper, mut lower) = (S::F8::splat(0.0), S::F8::splat(0.0));
+    for &leaf in &rig.leaves {
+        if let Some(leaf) = matrices.get(leaf as usize) {
+            upper = S::F8::load(super::matrix::upper(leaf)).mul_add(S::F8::splat(0.0), upper);
+            lower = S::F8::twice(super::matrix::lower(leaf)).mul_add(S::F8::splat(0.0), lower);
+        }
+    }
+    (upper + lower).store(&mut sum);
+    sum.iter().sum::<f32>() == 0.0
+}
+
+/// The open path's way, for poses that lead out of what f32 can hold.
+#[cold]
+fn carefully(rig: &Rig, pose: &[PoseBlock], out: &mut [Matrix34]) {
+    for bone in 0..rig.bones {
+        let block = pose.get(bone / 8).or(rig.rest().blocks().get(bone / 8));
+        let transform = block.map_or_else(Default::default, |block| block.get(bone));
+        let sheared = rig.sheared.iter().find(|sheared| sheared.bone == bone && sheared.rest == transform);
+        let to_parent = sheared.map_or_else(|| transform.to_matrix(), |sheared| sheared.matrix);
+        let parent = rig.parent(bone).map_or(Mat4::IDENTITY, |parent| mat4(&out[1 + parent]));
+        let product = parent * to_parent;
+        out[1 + bone] = matrix34(if product.is_finite() { product } else { parent });
+    }
+}
