@@ -5,7 +5,7 @@ use std::time::Instant;
 
 /// A work, and how many units of it one call does.
 pub(crate) struct Case {
-    /// path/work/rig/case
+    /// way, work, rig, case, with slashes between
     name: String,
     units: f64,
     unit: &'static str,
