@@ -1,8 +1,11 @@
-//! Poses agree with those that independent programs computed from the same files.
+//! Poses agree with those that independent programs computed from the same files, on the open path and on the fast one.
 
 use crate::doors::{FolderFs, data, shared};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_anim::fast::matrix::{self, mat4};
+use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::fast::{Binding, KeyedTake, Pose, Rig, RootPoses, final_poses, sample, to_root};
 use dragonfly_anim::format::{ReadOptions, read};
 use glam::{Mat4, Vec3};
 use serde_json::Value;
@@ -95,11 +98,58 @@ fn instance_of(model: &ModelData, node: &str) -> usize {
         .expect("every node with a mesh is shown")
 }
 
+/// The fast path of one model.
+struct Fast<'a> {
+    model: &'a ModelData,
+    rig: Rig,
+    takes: Vec<KeyedTake>,
+    skins: Vec<Binding>,
+    pose: Pose,
+    roots: RootPoses,
+}
+
+impl<'a> Fast<'a> {
+    fn new(model: &'a ModelData) -> Self {
+        let skeleton = &model.animation.skeleton;
+        let rig = Rig::new(skeleton);
+        let takes = model.animation.takes.iter().map(|take| KeyedTake::new(skeleton, take)).collect();
+        let skins = model.skins.iter().map(|skin| Binding::new(&rig, skin)).collect();
+        let (pose, roots) = (Pose::new(skeleton.len()), RootPoses::new(&rig));
+        Self { model, rig, takes, skins, pose, roots }
+    }
+
+    /// Bones and joints of one pose of the expected file against those of the fast path.
+    fn compare(&mut self, level: Level, take: usize, expected: &Value, comparison: &mut Comparison) {
+        let time = expected["t"].as_f64().unwrap() as f32;
+        sample(level, &self.takes[take], time, self.pose.blocks_mut());
+        to_root(level, &self.rig, self.pose.blocks(), &mut self.roots);
+        let place = format!("{} take {take} at {time}", level.name());
+        for (node, world) in expected["world"].as_object().unwrap() {
+            let number: u32 = node.parse().unwrap();
+            let bones = &self.model.animation.skeleton.bones;
+            if let Some(bone) = bones.iter().position(|bone| bone.node == Some(number)) {
+                let got = mat4(self.roots.get(bone)).to_cols_array();
+                comparison.compare(&got, world, || format!("{place} bone of node {node}"));
+            }
+        }
+        for (skin, joints) in expected["skin"].as_array().into_iter().flatten().enumerate() {
+            let joints = joints.as_array().unwrap();
+            let mut finals = vec![matrix::IDENTITY; joints.len()];
+            final_poses(level, &self.skins[skin], &self.roots, &mut finals);
+            for (joint, (got, expected)) in finals.iter().zip(joints).enumerate() {
+                let got = mat4(got).to_cols_array();
+                comparison.compare(&got, expected, || format!("{place} skin {skin} joint {joint}"));
+            }
+        }
+    }
+}
+
 /// A file against its expected poses: rest, and every sample of every clip there.
 fn compare_file(model: &Path, expected: &Path) -> Comparison {
     let model = Arc::new(load(model));
     let expected: Value = serde_json::from_slice(&std::fs::read(expected).unwrap()).unwrap();
-    let mut evaluator = Evaluator::new(model);
+    let mut fast = Fast::new(&model);
+    let mut evaluator = Evaluator::new(Arc::clone(&model));
     let mut comparison = Comparison::default();
     compare_pose(&evaluator, &expected["rest"], "rest", &mut comparison);
     for clip in expected["clips"].as_array().unwrap() {
@@ -108,6 +158,9 @@ fn compare_file(model: &Path, expected: &Path) -> Comparison {
             let time = sample["t"].as_f64().unwrap() as f32;
             evaluator.pose(Some(index), time);
             compare_pose(&evaluator, sample, &format!("take {index} at {time}"), &mut comparison);
+            for level in Level::all() {
+                fast.compare(level, index, sample, &mut comparison);
+            }
         }
     }
     comparison
