@@ -417,9 +417,13 @@ mod race {
     use dragonfly_runtime::{Context, Receiver, Thread};
     use std::cell::UnsafeCell;
     use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
     use std::time::{Duration, Instant};
 
-    struct Unguarded(UnsafeCell<u64>);
+    struct Unguarded {
+        number: UnsafeCell<u64>,
+        ready: AtomicUsize,
+    }
     // SAFETY: it is not sound, on purpose: two threads change it with nothing between them.
     unsafe impl Sync for Unguarded {}
 
@@ -427,21 +431,27 @@ mod race {
     impl Receiver for Racer {
         type Message = ();
         fn receive(&mut self, (): (), _: &mut Context) {
-            // SAFETY: see above.
-            unsafe { *self.0.0.get() += 1 }
+            // Both at once: else one could be through before the other is sent its first message, in order. Relaxed
+            // numbers put nothing in order themselves.
+            self.0.ready.fetch_add(1, Relaxed);
+            while self.0.ready.load(Relaxed) < 2 {
+                std::thread::yield_now();
+            }
+            for _ in 0..1000 {
+                // SAFETY: see above.
+                unsafe { *self.0.number.get() += 1 }
+            }
         }
     }
 
     /// Two threads add to one number without a message between them.
     pub(crate) fn run() {
-        let number = Arc::new(Unguarded(UnsafeCell::new(0)));
+        let number = Arc::new(Unguarded { number: UnsafeCell::new(0), ready: AtomicUsize::new(0) });
         let threads = ["one", "two"].map(|name| Thread::start(name).expect("a thread"));
         for thread in &threads {
             let number = Arc::clone(&number);
             let racer = thread.handle().register_receiver(|_| Racer(number));
-            for _ in 0..1000 {
-                racer.send(()).expect("it runs");
-            }
+            racer.send(()).expect("it runs");
             thread.handle().remote_stop();
         }
         let handles = threads.each_ref().map(|thread| thread.handle().clone());
