@@ -75,7 +75,9 @@ pub fn all(study: &mut Study) {
     compare(study, "drag/frames unpaced", bed, Scenario { period: None, ..core }, Field::Telling);
     compare(study, "flood", bed, flood, Field::And(&["messages", "messages, merged", "triple buffer"]));
     let flood = Scenario { rate: Rate::FlatOut, ..takes };
-    compare(study, "takes/flood", bed, flood, Field::And(&["mutex a take"]));
+    if study.mode != Mode::Short {
+        compare(study, "takes/flood", bed, flood, Field::And(&["mutex a take"]));
+    }
     disturbed(study, bed, core);
     questions(study, bed, core);
     large(study, draws, core);
@@ -87,8 +89,8 @@ fn basis(mode: Mode) -> Scenario {
         edits: Edits::Small,
         rate: Rate::EVERY_MILLISECOND,
         period: HERTZ_60,
-        length: milliseconds(20, 120, 500),
-        warm_up: milliseconds(5, 30, 100),
+        length: milliseconds(20, 60, 500),
+        warm_up: milliseconds(5, 20, 100),
         graphics_stall: None,
         main_stall: None,
         busy: 0,
@@ -99,7 +101,7 @@ fn basis(mode: Mode) -> Scenario {
 
 /// Somebody is held up, or somebody else wants the processor.
 fn disturbed(study: &mut Study, bed: &Bed, core: Scenario) {
-    for milliseconds in study.mode.pick(vec![50], vec![50, 500], vec![50, 500]) {
+    for milliseconds in study.mode.pick(vec![50], vec![50], vec![50, 500]) {
         let length = Duration::from_millis(study.mode.pick(milliseconds / 10, milliseconds, milliseconds));
         let at = core.length / 4;
         let lasting = Scenario { length: core.length + length, ..core };
@@ -116,7 +118,9 @@ fn disturbed(study: &mut Study, bed: &Bed, core: Scenario) {
     let also = &["messages, relayed", "messages, spinning", "parking, cow"];
     compare(study, "import", bed, Scenario { busy: 1, ..core }, Field::And(also));
     let also = &["parking, poses", "parking, cow"];
-    compare(study, "more threads than cores", bed, Scenario { busy: 3, ..core }, Field::And(also));
+    if study.mode != Mode::Short {
+        compare(study, "more threads than cores", bed, Scenario { busy: 3, ..core }, Field::And(also));
+    }
     if !study.wants("one core") {
         return;
     }
