@@ -1,60 +1,78 @@
-//! One work that is measured: its time by a stopwatch, or its instructions under a counter.
+//! One work that is measured, and the rules by which works stand beside each other.
 
 use std::hint::black_box;
-use std::time::Instant;
 
-/// A work, and how many units of it one call does.
+/// What is called to do a work once.
+pub(crate) type Work = Box<dyn FnMut()>;
+
+/// A work done in one way, and how many units of it one call does.
 pub(crate) struct Case {
-    /// way, work, rig, case, with slashes between
-    name: String,
-    units: f64,
-    unit: &'static str,
-    work: Box<dyn FnMut()>,
+    /// Who does it: the open path, the fast path at a level, a rival.
+    pub(crate) way: String,
+    /// What is done: work, model, case, with slashes between. The same for everyone who does it.
+    pub(crate) row: String,
+    /// Cases of one group take turns while they are measured.
+    pub(crate) group: String,
+    pub(crate) units: usize,
+    pub(crate) unit: &'static str,
+    /// Calls that the counter of instructions needs, so that getting in and out of the work does not count.
+    pub(crate) counted_calls: usize,
+    setup: Box<dyn FnOnce() -> Work>,
 }
 
-/// Batches that are timed.
-const BATCHES: usize = 400;
-
-/// How long a batch takes at least, nanoseconds.
-const BATCH: f64 = 25_000.0;
-
 impl Case {
-    /// `work` does `units` of `unit` in each call; wrap what it computes in [`black_box`].
-    pub(crate) fn new(
-        name: impl Into<String>,
+    /// `setup` makes what does `units` of `unit` in each call; it wraps what it computes in [`black_box`]. Nothing is set up
+    /// before it is needed.
+    pub(crate) fn new<W: FnMut() + 'static>(
+        way: impl Into<String>,
+        row: impl Into<String>,
         units: usize,
         unit: &'static str,
-        work: impl FnMut() + 'static,
+        setup: impl FnOnce() -> W + 'static,
     ) -> Self {
-        Self { name: name.into(), units: units as f64, unit, work: Box::new(work) }
+        let row = row.into();
+        Self {
+            way: way.into(),
+            group: row.clone(),
+            row,
+            units,
+            unit,
+            counted_calls: 3,
+            setup: Box::new(|| Box::new(setup())),
+        }
     }
 
-    /// Times many batches and prints nanoseconds a unit: the smallest, the median and the 99th percentile.
-    ///
-    /// Skipped when the first argument of the program, as `cargo bench -- part` passes it, is not part of the name.
-    pub(crate) fn measure(&mut self) {
-        let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
-        if wanted.is_some_and(|part| !self.name.contains(&part)) {
-            return;
-        }
-        (self.work)();
-        let begin = Instant::now();
-        (self.work)();
-        let calls = (BATCH / (begin.elapsed().as_nanos() as f64).max(1.0)).ceil().max(1.0) as usize;
-        let mut times: Vec<f64> = (0..BATCHES).map(|_| self.batch(calls)).collect();
-        times.sort_by(f64::total_cmp);
-        let [least, median, late] = [0, BATCHES / 2, BATCHES * 99 / 100].map(|at| times[at]);
-        let Self { name, unit, .. } = self;
-        println!("{name:<44} least {least:>9.2}   median {median:>9.2}   p99 {late:>9.2} ns a {unit}");
+    /// Measured together with all other cases of `group`, whatever they do.
+    pub(crate) fn among(self, group: impl Into<String>) -> Self {
+        Self { group: group.into(), ..self }
     }
 
-    fn batch(&mut self, calls: usize) -> f64 {
-        let begin = Instant::now();
-        for _ in 0..calls {
-            (self.work)();
-        }
-        begin.elapsed().as_nanos() as f64 / calls as f64 / self.units
+    /// Counted in one call: there is so much in it that getting in and out does not matter.
+    pub(crate) fn counted_once(self) -> Self {
+        Self { counted_calls: 1, ..self }
     }
+
+    /// Way and row, with a slash between.
+    pub(crate) fn name(&self) -> String {
+        format!("{}/{}", self.way, self.row)
+    }
+
+    /// Gets it ready, and does it once.
+    pub(crate) fn start(self) -> Work {
+        let mut work = (self.setup)();
+        work();
+        work
+    }
+}
+
+/// Whom the others of a row stand beside: the sketch where it does the same, else the open path.
+pub(crate) const RIVALS: [&str; 2] = ["sketch", "open"];
+
+/// The name of the rival of the case `name` among `names`; none where it is the rival itself, or alone.
+pub(crate) fn rival_of<'a>(case: &Case, all: impl Iterator<Item = &'a Case> + Clone) -> Option<String> {
+    let beside = |way: &&str| all.clone().any(|other| other.way == **way && other.row == case.row);
+    let way = RIVALS.into_iter().find(|way| beside(way))?;
+    (case.way != way).then(|| format!("{way}/{}", case.row))
 }
 
 /// What the counter of instructions looks for by its name: nothing outside of it is counted.
@@ -65,25 +83,11 @@ fn counted_region(work: &mut dyn FnMut(), calls: usize) {
     }
 }
 
-/// With `--count NAME CALLS` runs only the case of that name, so often, and says how many units that were; with
-/// `--list` says all names. Was it asked for one of them?
-pub(crate) fn counted(cases: impl FnOnce() -> Vec<Case>) -> bool {
-    let arguments: Vec<String> = std::env::args().collect();
-    if arguments.iter().any(|argument| argument == "--list") {
-        cases().iter().for_each(|case| println!("{}", case.name));
-        return true;
+/// Does each case under the counter's eyes, one after the other, and says how many units that were: a line a case.
+pub(crate) fn count(cases: Vec<Case>) {
+    for case in cases {
+        let (name, units, unit, calls) = (case.name(), case.units, case.unit, case.counted_calls);
+        counted_region(&mut case.start(), calls);
+        println!("{name} {} {unit}", units * calls);
     }
-    let Some(at) = arguments.iter().position(|argument| argument == "--count") else { return false };
-    let (Some(name), Some(Ok(calls))) =
-        (arguments.get(at + 1), arguments.get(at + 2).map(|calls| calls.parse()))
-    else {
-        println!("--count NAME CALLS");
-        return true;
-    };
-    for mut case in cases().into_iter().filter(|case| &case.name == name) {
-        (case.work)();
-        counted_region(&mut case.work, calls);
-        println!("UNITS {} {}", case.units * calls as f64, case.unit);
-    }
-    true
 }

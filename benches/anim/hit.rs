@@ -1,5 +1,7 @@
 //! What a hit test and bounds cost: the tree beside every triangle, boxes of bones beside every vertex.
 
+use crate::Section;
+use crate::case::Case;
 use dragonfly_anim::bounds::BoneBoxes;
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::evaluator::Evaluator;
@@ -9,135 +11,215 @@ use dragonfly_kit::random::Random;
 use glam::Vec3;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 /// Models: the small one of the repository, and larger ones beside it where they are there.
-const MODELS: &[(&str, &str)] = &[
+const MODELS: [(&str, &str); 4] = [
     ("fox", "../tests/data/gltf/Fox.glb"),
     ("pab", "../../shared/assets/bench/pab.glb"),
     ("robot", "../../shared/assets/gltf/robot.glb"),
     ("cesium_man", "../../shared/assets/gltf/CesiumMan/CesiumMan.gltf"),
 ];
 
-/// Rays that take turns.
-const RAYS: usize = 256;
+/// Rays of one call, and places: they differ much in what they cost.
+const RAYS: usize = 64;
 
-/// Runs all cases whose name holds the first argument.
-pub(crate) fn run() {
-    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-')).unwrap_or_default();
-    for (name, path) in MODELS {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
-        if format!("anim/hit/{name}").contains(&wanted) || wanted.contains(&format!("anim/hit/{name}")) {
-            match load(&path) {
-                Some(model) => compare(name, &Arc::new(model)),
-                None => println!("anim/hit/{name}: skipped, {} is not there", path.display()),
-            }
-        }
-    }
+/// A model in some pose, and what is asked of it.
+struct Scene {
+    tree: Arc<HitTree>,
+    built: String,
+    evaluator: Evaluator,
+    positions: Vec<Vec3>,
+    rays: Vec<Ray>,
+    /// Near the surface, for spheres that touch it.
+    places: Vec<Vec3>,
+    radius: f32,
 }
 
-fn compare(name: &str, model: &Arc<ModelData>) {
-    let begin = Instant::now();
-    let tree = Arc::new(HitTree::of(model).expect("a small model"));
-    let built = begin.elapsed();
-    let boxes = BoneBoxes::of(model);
-    let mut evaluator = Evaluator::new(Arc::clone(model));
-    let take = (!model.animation.takes.is_empty()).then_some(0);
-    evaluator.pose(take, 0.4);
-    let mut pose = HitPose::new(Arc::clone(&tree));
-    pose.refit(&evaluator);
-    let positions = evaluator.all_positions();
-    let (rays, hits) = rays(&evaluator, &positions);
-    let parts = tree.parts();
-    println!(
-        "anim/hit/{name}: {} vertices, {} triangles, {} leaves, built in {built:?}; {hits} of {RAYS} rays hit",
-        positions.len(),
-        parts.triangles.len(),
-        parts.leaves.len()
-    );
-    let settings = HitSettings::default();
-    let radius = evaluator.bounds().sphere.radius * 0.1;
-    let mut turn = 0;
-    let mut next = move || {
-        turn += 1;
-        rays[turn % RAYS]
+/// A section a model.
+pub(crate) fn sections() -> Vec<Section> {
+    MODELS.map(|(name, path)| section(name, Path::new(env!("CARGO_MANIFEST_DIR")).join(path))).into()
+}
+
+fn section(name: &'static str, path: PathBuf) -> Section {
+    if !path.is_file() {
+        let about = format!("hit/{name}: left out, {} is not there", path.display());
+        return Section { about: Box::new(|| about), cases: Vec::new() };
+    }
+    let later: &'static OnceLock<Scene> = Box::leak(Box::default());
+    let scene = move || later.get_or_init(|| Scene::of(&path).expect("a model that can be read"));
+    let scene: &'static dyn Fn() -> &'static Scene = Box::leak(Box::new(scene));
+    Section { about: Box::new(move || format!("hit/{name}: {}", scene().about())), cases: cases(name, scene) }
+}
+
+/// Gets the scene ready when it is first asked for.
+type Later = &'static dyn Fn() -> &'static Scene;
+
+fn cases(name: &str, scene: Later) -> Vec<Case> {
+    let row = |work: &str| format!("hit/{name}/{work}");
+    let both = |work: &str, unit, open: fn(&Scene), tree: fn(&Scene, &mut HitPose)| {
+        let units = if unit == "pose" { 1 } else { RAYS };
+        [
+            Case::new("open", row(work), units, unit, move || {
+                let scene = scene();
+                move || open(scene)
+            }),
+            Case::new("tree", row(work), units, unit, move || {
+                let (scene, mut pose) = (scene(), scene().pose());
+                move || tree(scene, &mut pose)
+            }),
+        ]
     };
-    let mut room = vec![Vec3::ZERO; positions.len()];
-    let line = |case: &str, open: f64, tree: f64| {
-        let case = format!("anim/hit/{name}/{case}");
-        println!("{case:<36} open {open:>12.1} ns   tree {tree:>10.1} ns   {:>7.1} times", open / tree);
-    };
-    let open = least(|| ray_open(&evaluator, &positions, &next(), &settings));
-    line("ray", open, least(|| pose.ray(&evaluator, &next(), &settings)));
-    line("any", open, least(|| pose.any(&evaluator, &next(), &settings)));
-    let open = least(|| sphere_open(&evaluator, &positions, next().origin, f32::INFINITY));
-    line("nearest", open, least(|| pose.sphere(&evaluator, next().origin, f32::INFINITY)));
-    let mut turn = 0;
-    let mut near = || {
-        turn = (turn + 1) % RAYS;
-        positions[turn * 37 % positions.len()] + Vec3::splat(radius * 0.3)
-    };
-    let open = least(|| sphere_open(&evaluator, &positions, near(), radius));
-    line("sphere", open, least(|| pose.sphere(&evaluator, near(), radius)));
-    let open = least(|| skin(&evaluator, &mut room));
-    line("new_pose", open, least(|| pose.refit(&evaluator)));
-    let open = least(|| {
-        skin(&evaluator, &mut room);
-        ray_open(&evaluator, &room, &next(), &settings)
-    });
-    let tree = least(|| {
-        pose.refit(&evaluator);
-        pose.ray(&evaluator, &next(), &settings)
-    });
-    line("new_pose_and_ray", open, tree);
-    let exact = least(|| evaluator.bounds());
-    line("bounds", exact, least(|| boxes.bounds(&evaluator)));
+    let mut cases = Vec::new();
+    cases.extend(both("ray", "ray", Scene::rays_open, |scene, pose| {
+        for ray in &scene.rays {
+            black_box(pose.ray(&scene.evaluator, ray, &HitSettings::default()));
+        }
+    }));
+    cases.extend(both("any", "ray", Scene::rays_open, |scene, pose| {
+        for ray in &scene.rays {
+            black_box(pose.any(&scene.evaluator, ray, &HitSettings::default()));
+        }
+    }));
+    cases.extend(both(
+        "nearest",
+        "point",
+        |scene| scene.rays.iter().for_each(|ray| scene.sphere_open(ray.origin, f32::INFINITY)),
+        |scene, pose| {
+            for ray in &scene.rays {
+                black_box(pose.sphere(&scene.evaluator, ray.origin, f32::INFINITY));
+            }
+        },
+    ));
+    cases.extend(both(
+        "sphere",
+        "sphere",
+        |scene| scene.places.iter().for_each(|&place| scene.sphere_open(place, scene.radius)),
+        |scene, pose| {
+            for &place in &scene.places {
+                black_box(pose.sphere(&scene.evaluator, place, scene.radius));
+            }
+        },
+    ));
+    cases.extend(new_poses(name, scene));
+    cases.into_iter().map(Case::counted_once).collect()
+}
+
+/// Works that begin with another pose.
+fn new_poses(name: &str, scene: Later) -> [Case; 6] {
+    let row = |work: &str| format!("hit/{name}/{work}");
+    [
+        Case::new("open", row("new_pose"), 1, "pose", move || {
+            let (scene, mut room) = (scene(), scene().positions.clone());
+            move || skin(&scene.evaluator, &mut room)
+        }),
+        Case::new("tree", row("new_pose"), 1, "pose", move || {
+            let (scene, mut pose) = (scene(), scene().pose());
+            move || pose.refit(&scene.evaluator)
+        }),
+        Case::new("open", row("new_pose_and_ray"), RAYS, "pose", move || {
+            let (scene, mut room) = (scene(), scene().positions.clone());
+            move || {
+                for ray in &scene.rays {
+                    skin(&scene.evaluator, &mut room);
+                    black_box(ray_open(&scene.evaluator, &room, ray, &HitSettings::default()));
+                }
+            }
+        }),
+        Case::new("tree", row("new_pose_and_ray"), RAYS, "pose", move || {
+            let (scene, mut pose) = (scene(), scene().pose());
+            move || {
+                for ray in &scene.rays {
+                    pose.refit(&scene.evaluator);
+                    black_box(pose.ray(&scene.evaluator, ray, &HitSettings::default()));
+                }
+            }
+        }),
+        Case::new("open", row("bounds"), 1, "pose", move || {
+            let scene = scene();
+            move || {
+                black_box(scene.evaluator.bounds());
+            }
+        }),
+        Case::new("boxes", row("bounds"), 1, "pose", move || {
+            let scene = scene();
+            let boxes = BoneBoxes::of(scene.evaluator.model());
+            move || {
+                black_box(boxes.bounds(&scene.evaluator));
+            }
+        }),
+    ]
+}
+
+impl Scene {
+    fn of(path: &Path) -> Option<Self> {
+        let model = Arc::new(load(path)?);
+        let begin = Instant::now();
+        let tree = Arc::new(HitTree::of(&model).ok()?);
+        let built = format!("{:.1?}", begin.elapsed());
+        let mut evaluator = Evaluator::new(Arc::clone(&model));
+        evaluator.pose((!model.animation.takes.is_empty()).then_some(0), 0.4);
+        let positions = evaluator.all_positions();
+        let radius = evaluator.bounds().sphere.radius * 0.1;
+        let near = |at: usize| positions[at * 37 % positions.len()] + Vec3::splat(radius * 0.3);
+        let places = (0..RAYS).map(near).collect();
+        Some(Self { rays: rays(&evaluator), tree, built, evaluator, positions, places, radius })
+    }
+
+    fn about(&self) -> String {
+        let (parts, settings) = (self.tree.parts(), HitSettings::default());
+        let hits = |ray: &&Ray| ray_open(&self.evaluator, &self.positions, ray, &settings).is_some();
+        format!(
+            "{} vertices, {} triangles, {} leaves, built in {}; {} of {RAYS} rays hit",
+            self.positions.len(),
+            parts.triangles.len(),
+            parts.leaves.len(),
+            self.built,
+            self.rays.iter().filter(hits).count(),
+        )
+    }
+
+    /// The tree's side of the pose.
+    fn pose(&self) -> HitPose {
+        let mut pose = HitPose::new(Arc::clone(&self.tree));
+        pose.refit(&self.evaluator);
+        pose
+    }
+
+    fn rays_open(&self) {
+        for ray in &self.rays {
+            black_box(ray_open(&self.evaluator, &self.positions, ray, &HitSettings::default()));
+        }
+    }
+
+    fn sphere_open(&self, center: Vec3, radius: f32) {
+        black_box(sphere_open(&self.evaluator, &self.positions, center, radius));
+    }
 }
 
 /// All positions, without asking for memory.
 fn skin(evaluator: &Evaluator, out: &mut [Vec3]) {
-    let mut rest = out;
+    let mut rest = &mut *out;
     for instance in 0..evaluator.model().instances.len() {
         for primitive in 0..evaluator.primitives(instance).len() {
             let written = evaluator.positions(instance, primitive, rest);
             rest = &mut rest[written..];
         }
     }
+    black_box(out);
 }
 
-/// Rays from around the model to places in it, and how many hit.
-fn rays(evaluator: &Evaluator, positions: &[Vec3]) -> (Vec<Ray>, usize) {
+/// Rays from around the model to places in it.
+fn rays(evaluator: &Evaluator) -> Vec<Ray> {
     let sphere = evaluator.bounds().sphere;
     let mut random = Random::new(7);
     let mut vector = || Vec3::from_array([(); 3].map(|()| random.between(-1.0, 1.0)));
-    let rays: Vec<Ray> = (0..RAYS)
-        .map(|_| {
-            let origin = sphere.center + vector().normalize_or(Vec3::X) * sphere.radius * 2.0;
-            Ray { origin, direction: sphere.center + vector() * sphere.radius * 0.4 - origin }
-        })
-        .collect();
-    let settings = HitSettings::default();
-    let hits = rays.iter().filter(|ray| ray_open(evaluator, positions, ray, &settings).is_some()).count();
-    (rays, hits)
-}
-
-/// Calls that are timed together: few, so that some go through undisturbed on a busy machine.
-const TOGETHER: usize = 16;
-
-/// Nanoseconds a call, over calls that take turns with the rays: of each few the least of many rounds, then the mean.
-fn least<T>(mut work: impl FnMut() -> T) -> f64 {
-    let mut least = [f64::INFINITY; RAYS / TOGETHER];
-    for _ in 0..40 {
-        for least in &mut least {
-            let begin = Instant::now();
-            for _ in 0..TOGETHER {
-                black_box(work());
-            }
-            *least = least.min(begin.elapsed().as_secs_f64() * 1e9 / TOGETHER as f64);
-        }
-    }
-    least.iter().sum::<f64>() / least.len() as f64
+    let mut ray = || {
+        let origin = sphere.center + vector().normalize_or(Vec3::X) * sphere.radius * 2.0;
+        Ray { origin, direction: sphere.center + vector() * sphere.radius * 0.4 - origin }
+    };
+    (0..RAYS).map(|_| ray()).collect()
 }
 
 fn load(path: &Path) -> Option<ModelData> {

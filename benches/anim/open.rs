@@ -1,96 +1,216 @@
 //! The open path, one bone at a time.
 
 use crate::case::Case;
+use crate::inputs::{
+    ADDED, BLENDS, INFLUENCES, WEIGHTS, finals, how, limb, mask_weights, posed, primitive, roots,
+};
 use crate::model::Subject;
+use crate::play::{CROWDS, FRAMES, crowd, forward, ways};
 use dragonfly_anim::animation::{final_poses, to_root};
-use dragonfly_anim::data::Transform;
-use dragonfly_anim::sample::{loop_time, sample_take};
+use dragonfly_anim::blend::{Layer, Mask, add, blend, difference};
+use dragonfly_anim::data::{AnimationData, Transform};
+use dragonfly_anim::ik::{Pole, TwoBone, two_bone};
+use dragonfly_anim::sample::sample_take;
 use dragonfly_anim::skin::{Movement, skin_normals, skin_positions};
 use glam::{Mat4, Vec3};
 use std::hint::black_box;
-use std::sync::Arc;
 
-/// Frames of a second of play at 60 Hz, and somewhat more.
-pub(crate) const FRAMES: usize = 80;
-
-pub(crate) fn cases(subject: &Subject) -> Vec<Case> {
-    let mut cases = Vec::new();
-    let name = subject.name;
-    let bones = subject.bones();
-    for (index, take) in subject.short_and_long() {
-        for (way, times) in crate::fast::ways(take) {
-            let (model, mut poses) = (Arc::clone(&subject.model), vec![Transform::IDENTITY; bones]);
-            cases.push(Case::new(
-                format!("open/sample/{name}/{}/{way}", take.name),
-                bones * times.len(),
-                "bone",
-                move || {
-                    let take = &model.animation.takes[index];
-                    for &time in &times {
-                        sample_take(Some(take), &model.animation.skeleton, time, &mut poses);
-                        black_box(&poses);
-                    }
-                },
-            ));
-        }
-    }
-    let (model, poses) = (Arc::clone(&subject.model), posed(subject));
-    let mut roots = vec![Mat4::IDENTITY; bones];
-    cases.push(Case::new(format!("open/to_root/{name}"), bones, "bone", move || {
-        to_root(&model.animation.skeleton, &poses, &mut roots);
-        black_box(&roots);
-    }));
-    let (model, roots) = (Arc::clone(&subject.model), roots_of(subject));
-    let mut finals = vec![Mat4::IDENTITY; subject.skin().bones.len()];
-    cases.push(Case::new(format!("open/final/{name}"), finals.len(), "joint", move || {
-        final_poses(&model.skins[0], &roots, &mut finals);
-        black_box(&finals);
-    }));
-    cases.push(pipeline(subject));
-    cases.push(skinning(subject));
+pub(crate) fn cases(subject: &'static Subject) -> Vec<Case> {
+    let mut cases = sampling(subject);
+    cases.extend(matrices(subject));
+    cases.extend(blending(subject));
+    cases.extend(additive(subject));
+    cases.push(reaching(subject));
+    cases.extend(skinning(subject));
+    cases.extend([one_character(subject), one_blended_character(subject)]);
+    cases.extend(CROWDS.map(|count| of_many(subject, count)));
     cases
 }
 
-fn posed(subject: &Subject) -> Vec<Transform> {
-    let (_, take) = subject.short_and_long()[0];
-    let mut poses = vec![Transform::IDENTITY; subject.bones()];
-    sample_take(Some(take), &subject.model.animation.skeleton, take.start + take.length * 0.4, &mut poses);
-    poses
+fn sampling(subject: &'static Subject) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (_, take) in subject.short_and_long() {
+        let group = format!("sample/{}/{}", subject.name, take.name);
+        for (way, times) in ways(take) {
+            let units = subject.bones() * times.len();
+            let case = Case::new("open", format!("{group}/{way}"), units, "bone", move || {
+                let mut poses = vec![Transform::IDENTITY; subject.bones()];
+                move || {
+                    for &time in &times {
+                        sample_take(Some(take), &subject.model.animation.skeleton, time, &mut poses);
+                        black_box(&poses);
+                    }
+                }
+            });
+            cases.push(case.among(&group));
+        }
+    }
+    cases
 }
 
-fn roots_of(subject: &Subject) -> Vec<Mat4> {
-    let mut roots = vec![Mat4::IDENTITY; subject.bones()];
-    to_root(&subject.model.animation.skeleton, &posed(subject), &mut roots);
-    roots
+fn matrices(subject: &'static Subject) -> [Case; 2] {
+    let (name, joints) = (subject.name, subject.skin().bones.len());
+    [
+        Case::new("open", format!("to_root/{name}"), subject.bones(), "bone", move || {
+            let (poses, mut to) = (posed(subject, 0, 0.4), roots(subject));
+            move || {
+                to_root(&subject.model.animation.skeleton, &poses, &mut to);
+                black_box(&to);
+            }
+        }),
+        Case::new("open", format!("final/{name}"), joints, "joint", move || {
+            let (roots, mut to) = (roots(subject), finals(subject));
+            move || {
+                final_poses(subject.skin(), &roots, &mut to);
+                black_box(&to);
+            }
+        }),
+    ]
 }
 
-fn pipeline(subject: &Subject) -> Case {
-    let model = Arc::clone(&subject.model);
-    let mut poses = vec![Transform::IDENTITY; subject.bones()];
-    let mut roots = vec![Mat4::IDENTITY; subject.bones()];
-    let mut finals = vec![Mat4::IDENTITY; subject.skin().bones.len()];
-    Case::new(format!("open/pipeline/{}/1", subject.name), FRAMES, "character", move || {
-        let take = &model.animation.takes[0];
-        for frame in 0..FRAMES {
-            let time = loop_time(take.start + frame as f32 / 60.0, take.start, take.length);
-            sample_take(Some(take), &model.animation.skeleton, time, &mut poses);
-            to_root(&model.animation.skeleton, &poses, &mut roots);
-            final_poses(&model.skins[0], &roots, &mut finals);
-            black_box(&finals);
+fn blending(subject: &'static Subject) -> [Case; 4] {
+    BLENDS.map(|(count, is_masked)| {
+        let row = format!("blend/{}/{count}/{}", subject.name, how(is_masked));
+        Case::new("open", row, subject.bones(), "bone", move || {
+            let poses = [0, 1, 2, 3].map(|take| posed(subject, take, 0.3));
+            let mask = Mask::from_weights(mask_weights(subject));
+            let (base, mut out) = (posed(subject, 0, 0.0), poses[0].clone());
+            move || {
+                let layer = |at: usize| {
+                    let layer = Layer::new(&poses[at], WEIGHTS[at]);
+                    if is_masked { layer.masked(&mask) } else { layer }
+                };
+                let layers = [0, 1, 2, 3].map(layer);
+                blend(&base, &layers[..count], &mut out);
+                black_box(&out);
+            }
+        })
+    })
+}
+
+/// A difference between two takes added to a third: wholly, and in part.
+fn additive(subject: &'static Subject) -> [Case; 2] {
+    ADDED.map(|(how, weight)| {
+        let row = format!("additive/{}/{how}", subject.name);
+        Case::new("open", row, subject.bones(), "bone", move || {
+            let [one, two, three] = [0, 1, 2].map(|take| posed(subject, take, 0.3));
+            let mut more = three.clone();
+            difference(&two, &one, &mut more);
+            let mut out = three.clone();
+            move || {
+                add(&three, &more, weight, None, &mut out);
+                black_box(&out);
+            }
+        })
+    })
+}
+
+fn reaching(subject: &'static Subject) -> Case {
+    Case::new("open", format!("two_bone/{}", subject.name), 1, "solve", move || {
+        let (given, roots, mut poses) = (limb(subject), roots(subject), posed(subject, 0, 0.4));
+        let limb = TwoBone {
+            pole: Pole::Direction(given.pole),
+            ..TwoBone::new(given.root, given.middle, given.end)
+        };
+        let unsolved = [limb.root, limb.middle].map(|bone| (bone as usize, poses[bone as usize]));
+        move || {
+            // It starts from the poses, so those have to be the same each time.
+            for (bone, pose) in unsolved {
+                poses[bone] = pose;
+            }
+            let skeleton = &subject.model.animation.skeleton;
+            let _ = black_box(two_bone(skeleton, &roots, &limb, black_box(given.target), &mut poses));
         }
     })
 }
 
-fn skinning(subject: &Subject) -> Case {
-    let model = Arc::clone(&subject.model);
-    let mut finals = vec![Mat4::IDENTITY; subject.skin().bones.len()];
-    final_poses(subject.skin(), &roots_of(subject), &mut finals);
+fn skinning(subject: &'static Subject) -> [Case; 3] {
     let count = subject.primitive().vertices.len();
-    let (mut positions, mut normals) = (vec![Vec3::ZERO; count], vec![Vec3::ZERO; count]);
-    Case::new(format!("open/skin/{}/as_stored", subject.name), count, "vertex", move || {
-        let primitive = &model.meshes[0].primitives[0];
-        skin_positions(primitive, Movement::Skin(&finals), &[], &mut positions);
-        skin_normals(primitive, Movement::Skin(&finals), &[], &mut normals);
-        black_box((&positions, &normals));
+    INFLUENCES.map(|most| {
+        Case::new("open", format!("skin/{}/{most}", subject.name), count, "vertex", move || {
+            let (primitive, finals) = (primitive(subject, most), finals(subject));
+            let (mut positions, mut normals) = (vec![Vec3::ZERO; count], vec![Vec3::ZERO; count]);
+            move || {
+                skin_positions(&primitive, Movement::Skin(&finals), &[], &mut positions);
+                skin_normals(&primitive, Movement::Skin(&finals), &[], &mut normals);
+                black_box((&positions, &normals));
+            }
+        })
     })
+}
+
+/// Room for one character on its way from takes to final matrices.
+struct Room {
+    poses: Vec<Transform>,
+    others: Vec<Transform>,
+    blended: Vec<Transform>,
+    roots: Vec<Mat4>,
+}
+
+impl Room {
+    fn new(subject: &Subject) -> Self {
+        let poses = posed(subject, 0, 0.0);
+        Self { others: poses.clone(), blended: poses.clone(), poses, roots: roots(subject) }
+    }
+
+    fn character(&mut self, subject: &Subject, take: usize, time: f32, out: &mut [Mat4]) {
+        let AnimationData { skeleton, takes } = &subject.model.animation;
+        sample_take(Some(&takes[take]), skeleton, time, &mut self.poses);
+        to_root(skeleton, &self.poses, &mut self.roots);
+        final_poses(subject.skin(), &self.roots, out);
+    }
+
+    fn character_of_two(&mut self, subject: &Subject, takes: [usize; 2], time: f32, out: &mut [Mat4]) {
+        let AnimationData { skeleton, takes: all } = &subject.model.animation;
+        sample_take(Some(&all[takes[0]]), skeleton, time, &mut self.poses);
+        sample_take(Some(&all[takes[1]]), skeleton, time, &mut self.others);
+        let layers = [Layer::new(&self.poses, 0.5), Layer::new(&self.others, 0.5)];
+        blend(&self.poses, &layers, &mut self.blended);
+        to_root(skeleton, &self.blended, &mut self.roots);
+        final_poses(subject.skin(), &self.roots, out);
+    }
+}
+
+fn one_character(subject: &'static Subject) -> Case {
+    Case::new("open", format!("pipeline/{}/1", subject.name), FRAMES, "character", move || {
+        let times = forward(&subject.model.animation.takes[0]);
+        let (mut room, mut out) = (Room::new(subject), finals(subject));
+        move || {
+            for &time in &times {
+                room.character(subject, 0, time, &mut out);
+                black_box(&out);
+            }
+        }
+    })
+}
+
+fn one_blended_character(subject: &'static Subject) -> Case {
+    Case::new("open", format!("pipeline/{}/1_of_2_takes", subject.name), FRAMES, "character", move || {
+        let takes = &subject.model.animation.takes;
+        let (times, both) = (forward(&takes[0]), [0, 1 % takes.len()]);
+        let (mut room, mut out) = (Room::new(subject), finals(subject));
+        move || {
+            for &time in &times {
+                room.character_of_two(subject, both, time, &mut out);
+                black_box(&out);
+            }
+        }
+    })
+}
+
+fn of_many(subject: &'static Subject, count: usize) -> Case {
+    let row = format!("pipeline/{}/{count}", subject.name);
+    let case = Case::new("open", row, count, "character", move || {
+        let joints = subject.skin().bones.len();
+        let (mut room, mut out) = (Room::new(subject), vec![Mat4::IDENTITY; joints * count]);
+        let mut crowd = crowd(subject, count);
+        move || {
+            for (member, out) in crowd.iter_mut().zip(out.chunks_mut(joints)) {
+                member.step();
+                room.character(subject, member.take, member.time, out);
+            }
+            black_box(&out);
+        }
+    });
+    case.counted_once()
 }

@@ -1,9 +1,17 @@
 //! The sketch's form of a take: uniform keys, three numbers of 16 bits a rotation and a translation.
 
+use super::flushed;
 use dragonfly_anim::data::{Skeleton, Take, Transform};
 use dragonfly_anim::fast::simd::{Float8, Simd};
 use dragonfly_anim::fast::{Pose, PoseBlock};
 use dragonfly_anim::sample::sample_take;
+use glam::Quat;
+
+/// Makes tiny numbers zero.
+fn flush(pose: &mut Transform) {
+    pose.translation = pose.translation.to_array().map(flushed).into();
+    pose.rotation = Quat::from_array(pose.rotation.to_array().map(flushed));
+}
 
 type Packed = [[u16; 8]; 3];
 
@@ -40,6 +48,7 @@ impl SketchTake {
         let mut poses = vec![vec![Transform::IDENTITY; skeleton.len()]; frames];
         for (frame, poses) in poses.iter_mut().enumerate() {
             sample_take(Some(take), skeleton, take.start + frame as f32 / rate, poses);
+            poses.iter_mut().for_each(flush);
         }
         let base = Pose::from_transforms(&poses[0]);
         let mut new = Self {
