@@ -71,13 +71,13 @@ pub(crate) fn say(all: &[Measured]) {
     if known.is_empty() {
         return;
     }
-    println!("\n{:<44}{:>9}{:>9}   {:<18}beside", "goals", "here", "at most", "");
+    println!("\n{:<46}{:>9}{:>9}   {:<20}beside", "goals", "here", "at most", "");
     for (goal, case, beside) in known {
         let ratio = case.ratio(beside);
         let over = ratio / goal.most - 1.0;
         let verdict =
             if over <= 0.0 { "reached".to_owned() } else { format!("missed by {:.1} %", over * 100.0) };
-        println!("{:<44}{ratio:>7.3} ×{:>7.2} ×   {verdict:<18}{}", goal.case, goal.most, goal.beside);
+        println!("{:<46}{ratio:>7.3} ×{:>7.2} ×   {verdict:<20}{}", goal.case, goal.most, goal.beside);
     }
     println!("Goals in instructions: benches/anim/instructions");
 }

@@ -112,7 +112,7 @@ fn measure_all(arguments: &Arguments, sections: Vec<Section>) {
         }
     }
     if WEIGHTS.iter().any(|beginning| arguments.want_beginning(beginning)) {
-        println!("\nCompressed takes, as many nanoseconds as a call says");
+        println!("\nWhat compressed takes weigh; nanoseconds for 100 poses");
         compressed::run();
     }
     goals::say(&all);
@@ -144,7 +144,7 @@ fn groups(cases: Vec<Case>) -> Vec<Vec<Case>> {
 }
 
 fn heading() -> String {
-    format!("{:<44}{:>11}{:>11}{:>11}   {:<16}{:>10}", "", "median", "p99", "least", "", "beside")
+    format!("{:<46}{:>11}{:>12}{:>11}   {:<16}{:>9}", "", "median", "p99", "least", "", "ratio")
 }
 
 fn line(one: &Measured, all: &[Measured]) -> String {
@@ -155,6 +155,6 @@ fn line(one: &Measured, all: &[Measured]) -> String {
     });
     let unit = format!("ns a {}", one.unit);
     let (median, p99, least) = (one.median(), one.p99(), one.least());
-    let line = format!("{:<44}{median:>11.2}{p99:>11.2}{least:>11.2}   {unit:<16}{beside}", one.name);
+    let line = format!("{:<46}{median:>11.2}{p99:>12.2}{least:>11.2}   {unit:<16}{beside}", one.name);
     line.trim_end().to_owned()
 }
