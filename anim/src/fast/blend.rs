@@ -86,8 +86,7 @@ pub(super) fn blend_with<S: Simd>(
 ) {
     let blocks = base.len().min(out.len());
     let (base, out) = (&base[..blocks], &mut out[..blocks]);
-    let even = layers.iter().all(|layer| layer.mask.is_none() && layer.pose.len() >= blocks);
-    if !(even && evenly::<S>(base, layers, out, normalised)) {
+    if !evenly::<S>(base, layers, out, normalised) {
         by_lane::<S>(base, layers, out, normalised);
     }
 }
@@ -104,7 +103,7 @@ fn base_weight(sum: f32, normalised: bool) -> f32 {
 }
 
 /// Without masks every bone has the same shares: the poses that have one are collected, the one that leads first. No if
-/// they are too many.
+/// one of them has a mask or is too short, or they are too many.
 #[inline(always)]
 fn evenly<S: Simd>(
     base: &[PoseBlock],
@@ -112,46 +111,55 @@ fn evenly<S: Simd>(
     out: &mut [PoseBlock],
     normalised: bool,
 ) -> bool {
-    let mut sum = 0.0;
+    // The base has the first place, whether it takes part or not.
+    let mut parts: [Part; 1 + MOST] = [(base, 0.0); 1 + MOST];
+    let (mut count, mut sum, mut most, mut leader) = (1, 0.0, 0.0, 1);
     for layer in layers {
-        sum += usable(layer.weight);
-    }
-    let base_weight = base_weight(sum, normalised);
-    let part = 1.0 / (base_weight + sum);
-    let mut parts: [Part; MOST] = [(base, 0.0); MOST];
-    let (mut count, mut most, mut leader) = (0, 0.0, 0);
-    let all = std::iter::once((base, base_weight));
-    for (pose, weight) in all.chain(layers.iter().map(|layer| (layer.pose, usable(layer.weight)))) {
+        let weight = usable(layer.weight);
         if weight > 0.0 {
             let Some(slot) = parts.get_mut(count) else { return false };
-            *slot = (pose, weight * part);
+            if layer.mask.is_some() || layer.pose.len() < base.len() {
+                return false;
+            }
+            *slot = (layer.pose, weight);
             if weight > most {
                 (most, leader) = (weight, count);
             }
+            sum += weight;
             count += 1;
         }
     }
-    parts.swap(0, leader);
+    let base_weight = base_weight(sum, normalised);
+    let parts = if base_weight > 0.0 {
+        parts[0].1 = base_weight;
+        parts.swap(0, if most > base_weight { leader } else { 0 });
+        parts.get_mut(..count)
+    } else {
+        parts.swap(1, leader);
+        parts.get_mut(1..count)
+    };
+    let whole = 1.0 / (base_weight + sum);
     match parts {
-        [a, ..] if count == 1 => mix::<S, 1>([a], out),
-        [a, b, ..] if count == 2 => mix::<S, 2>([a, b], out),
-        [a, b, c, ..] if count == 3 => mix::<S, 3>([a, b, c], out),
-        [a, b, c, d] => mix::<S, 4>([a, b, c, d], out),
+        Some(&mut [a]) => mix::<S, 1>([a], whole, out),
+        Some(&mut [a, b]) => mix::<S, 2>([a, b], whole, out),
+        Some(&mut [a, b, c]) => mix::<S, 3>([a, b, c], whole, out),
+        Some(&mut [a, b, c, d]) => mix::<S, 4>([a, b, c, d], whole, out),
+        _ => return false,
     }
     true
 }
 
-/// A pose, and its share.
+/// A pose, and its weight.
 type Part<'a> = (&'a [PoseBlock], f32);
 
 /// More layers than these are blended lane by lane.
 const MOST: usize = 4;
 
-/// The sums of the formulas above, with the same shares for all bones; the first part leads.
+/// The sums of the formulas above, with the same shares for all bones, their weights times `whole`; the first part leads.
 #[inline(always)]
-fn mix<S: Simd, const N: usize>(parts: [Part; N], out: &mut [PoseBlock]) {
+fn mix<S: Simd, const N: usize>(parts: [Part; N], whole: f32, out: &mut [PoseBlock]) {
     let count = parts.iter().map(|part| part.0.len()).fold(out.len(), usize::min);
-    let parts = parts.map(|(pose, share)| (&pose[..count], share));
+    let parts = parts.map(|(pose, weight)| (&pose[..count], weight * whole));
     for (block, out) in out[..count].iter_mut().enumerate() {
         let leader = &parts[0].0[block];
         let share = S::F8::splat(parts[0].1);

@@ -31,6 +31,8 @@ pub struct RootPoses {
     /// What the first of two passes leaves for the second.
     local: Vec<Local>,
     bones: usize,
+    /// What limbs are solved with ([`super::two_bone()`]).
+    pub(super) level: Level,
 }
 
 impl RootPoses {
@@ -41,6 +43,7 @@ impl RootPoses {
             matrices: vec![IDENTITY; 1 + blocks * 8],
             local: vec![[[[0.0; 8]; 4]; 3]; blocks],
             bones: rig.bones,
+            level: Level::best(),
         }
     }
 

@@ -189,6 +189,15 @@ impl Float8 for Array8 {
     }
 
     #[inline(always)]
+    fn all(self) -> bool {
+        let mut bits = u32::MAX;
+        for lane in self.0 {
+            bits &= lane.to_bits();
+        }
+        bits & SIGN != 0
+    }
+
+    #[inline(always)]
     fn to_bits(self) -> Words8 {
         lanes!(Words8, [0; 8], at => self.0[at].to_bits())
     }
@@ -239,6 +248,13 @@ impl Float8 for Array8 {
             Self([a[2], b[2], c[2], d[2], a[6], b[6], c[6], d[6]]),
             Self([a[3], b[3], c[3], d[3], a[7], b[7], c[7], d[7]]),
         ]
+    }
+
+    #[inline(always)]
+    fn store_points([x, y, z]: [Self; 3], to: &mut [f32; 24]) {
+        for (at, to) in to.as_chunks_mut::<3>().0.iter_mut().enumerate() {
+            *to = [x.0[at], y.0[at], z.0[at]];
+        }
     }
 }
 
