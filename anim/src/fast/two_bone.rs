@@ -63,26 +63,16 @@ impl TwoBone {
 /// the limb and above it are the same along all axes, mirrored or not. Nothing is changed where a bone is missing, a part has no length, or
 /// a number is not finite. Allocates nothing.
 pub fn two_bone(limb: &TwoBone, target: Vec3, to_root: &RootPoses, pose: &mut Pose) -> bool {
-    let matrices = to_root.matrices();
-    let of = |bone: u32| matrices.get(bone as usize);
-    let (Some(root), Some(middle), Some(end)) = (of(limb.root), of(limb.middle), of(limb.end)) else {
-        return false;
-    };
-    to_root.level.run(Solve {
-        limb,
-        target: target.into(),
-        bones: [root, middle, end],
-        blocks: pose.blocks_mut(),
-    })
+    to_root.level.run(Solve { limb, target, to_root, pose })
 }
 
 /// Run at a level only for the shorter code that its compiler makes of the same operations: results are the same bit for
 /// bit at all of them.
 struct Solve<'a> {
     limb: &'a TwoBone,
-    target: Vec3A,
-    bones: [&'a Matrix34; 3],
-    blocks: &'a mut [PoseBlock],
+    target: Vec3,
+    to_root: &'a RootPoses,
+    pose: &'a mut Pose,
 }
 
 impl Kernel for Solve<'_> {
@@ -90,8 +80,12 @@ impl Kernel for Solve<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self) -> bool {
-        let Self { limb, target, bones, blocks } = self;
-        let mut turns = solve(limb, target, bones);
+        let Self { limb, target, to_root, pose } = self;
+        let (matrices, blocks) = (to_root.matrices(), pose.blocks_mut());
+        let Some(root) = matrices.get(limb.root as usize) else { return false };
+        let Some(middle) = matrices.get(limb.middle as usize) else { return false };
+        let Some(end) = matrices.get(limb.end as usize) else { return false };
+        let mut turns = solve(limb, target.into(), [root, middle, end]);
         // Written so that NaN is none.
         let is_whole = limb.weight >= 1.0;
         if !is_whole {
@@ -184,9 +178,11 @@ fn place(matrix: &Matrix34) -> Vec3A {
 /// A turn's axis is a vector like any other, but for mirrored bones: seen from there it turns the other way.
 #[inline(always)]
 fn local(matrix: &Matrix34, turn: Quat) -> Quat {
-    let [x, y, z] = [0, 1, 2].map(|row| Vec4::from_array(matrix.as_chunks().0[row]));
-    let [first, second, third] = [x, y, z].map(Vec3A::from_vec4);
-    let scale = first.length().copysign(first.cross(second).dot(third));
+    let (x, y, z) =
+        (Vec4::from_slice(matrix), Vec4::from_slice(&matrix[4..]), Vec4::from_slice(&matrix[8..]));
+    let (first, second, third) = (Vec3A::from_vec4(x), Vec3A::from_vec4(y), Vec3A::from_vec4(z));
+    // The determinant is the scale three times, with the side.
+    let scale = first.cross(second).dot(third) / first.length_squared();
     quat(Vec3A::from_vec4(x * turn.x + y * turn.y + z * turn.z), turn.w * scale)
 }
 
@@ -205,13 +201,14 @@ fn least(one: f32, other: f32) -> f32 {
 /// Nears `length` without meeting it, over a share of it: `hard + soft (1 - e^(-(d - hard) / soft))`.
 #[inline(always)]
 fn softened(distance: f32, length: f32, softness: f32) -> f32 {
-    let soft = softness.clamp(0.0, 1.0) * length;
-    let hard = length - soft;
-    if soft > 0.0 && distance > hard {
-        hard + soft * (1.0 - (-(distance - hard) / soft).exp())
-    } else {
-        distance
+    if softness > 0.0 {
+        let soft = softness.min(1.0) * length;
+        let hard = length - soft;
+        if soft > 0.0 && distance > hard {
+            return hard + soft * (1.0 - (-(distance - hard) / soft).exp());
+        }
     }
+    distance
 }
 
 /// A unit vector about which a limb can bend whose parts lie on one line, `along`: towards the pole, or any.

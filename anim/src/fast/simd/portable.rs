@@ -1,6 +1,6 @@
 //! The vectors of every machine: arrays, and loops short enough for a compiler to turn into what the target has.
 
-use super::{Float4, Float8, Simd, Word8};
+use super::{Float4, Float8, Kernel, Simd, Word8};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 /// What every machine has.
@@ -11,6 +11,13 @@ impl Simd for Portable {
     type F8 = Array8;
     type F4 = Array4;
     type U8 = Words8;
+}
+
+/// Does the work of `kernel` with these vectors. A call of its own, so that nobody who asks for another level saves the
+/// registers that this one needs.
+#[inline(never)]
+pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Portable>()
 }
 
 /// Eight numbers.
