@@ -112,54 +112,56 @@ fn evenly<S: Simd>(
     normalised: bool,
 ) -> bool {
     // The base has the first place, whether it takes part or not.
-    let mut parts: [Part; 1 + MOST] = [(base, 0.0); 1 + MOST];
+    let (mut poses, mut weights) = ([base; 1 + MOST], [0.0; 1 + MOST]);
     let (mut count, mut sum, mut most, mut leader) = (1, 0.0, 0.0, 1);
     for layer in layers {
-        let weight = usable(layer.weight);
-        if weight > 0.0 {
-            let Some(slot) = parts.get_mut(count) else { return false };
+        // NaN fails the comparison.
+        if layer.weight > 0.0 {
+            let (Some(pose), Some(weight)) = (poses.get_mut(count), weights.get_mut(count)) else {
+                return false;
+            };
             if layer.mask.is_some() || layer.pose.len() < base.len() {
                 return false;
             }
-            *slot = (layer.pose, weight);
-            if weight > most {
-                (most, leader) = (weight, count);
+            (*pose, *weight) = (layer.pose, usable(layer.weight));
+            if *weight > most {
+                (most, leader) = (*weight, count);
             }
-            sum += weight;
+            sum += *weight;
             count += 1;
         }
     }
     let base_weight = base_weight(sum, normalised);
-    let parts = if base_weight > 0.0 {
-        parts[0].1 = base_weight;
-        parts.swap(0, if most > base_weight { leader } else { 0 });
-        parts.get_mut(..count)
-    } else {
-        parts.swap(1, leader);
-        parts.get_mut(1..count)
-    };
+    weights[0] = base_weight;
+    let first = usize::from(base_weight <= 0.0);
+    let leader = if most > base_weight { leader } else { 0 };
+    if leader > first {
+        poses.swap(first, leader);
+        weights.swap(first, leader);
+    }
     let whole = 1.0 / (base_weight + sum);
-    match parts {
-        Some(&mut [a]) => mix::<S, 1>([a], whole, out),
-        Some(&mut [a, b]) => mix::<S, 2>([a, b], whole, out),
-        Some(&mut [a, b, c]) => mix::<S, 3>([a, b, c], whole, out),
-        Some(&mut [a, b, c, d]) => mix::<S, 4>([a, b, c, d], whole, out),
+    let part = |at: usize| (poses[first + at], weights[first + at] * whole);
+    match count - first {
+        1 => mix::<S, 1>([part(0)], out),
+        2 => mix::<S, 2>([part(0), part(1)], out),
+        3 => mix::<S, 3>([part(0), part(1), part(2)], out),
+        4 => mix::<S, 4>([part(0), part(1), part(2), part(3)], out),
         _ => return false,
     }
     true
 }
 
-/// A pose, and its weight.
+/// A pose, and its share.
 type Part<'a> = (&'a [PoseBlock], f32);
 
 /// More layers than these are blended lane by lane.
 const MOST: usize = 4;
 
-/// The sums of the formulas above, with the same shares for all bones, their weights times `whole`; the first part leads.
+/// The sums of the formulas above, with the same shares for all bones; the first part leads.
 #[inline(always)]
-fn mix<S: Simd, const N: usize>(parts: [Part; N], whole: f32, out: &mut [PoseBlock]) {
+fn mix<S: Simd, const N: usize>(parts: [Part; N], out: &mut [PoseBlock]) {
     let count = parts.iter().map(|part| part.0.len()).fold(out.len(), usize::min);
-    let parts = parts.map(|(pose, weight)| (&pose[..count], weight * whole));
+    let parts = parts.map(|(pose, share)| (&pose[..count], share));
     for (block, out) in out[..count].iter_mut().enumerate() {
         let leader = &parts[0].0[block];
         let share = S::F8::splat(parts[0].1);

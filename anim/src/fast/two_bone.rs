@@ -155,7 +155,7 @@ fn solve(limb: &TwoBone, target: Vec3A, [root, middle, end]: [&Matrix34; 3]) -> 
         let square = facing.length_squared();
         // On the line to the target neither a pole nor a middle has a side.
         if square > 1e-12 * pole.length_squared() * d2 && more * less > 4e-12 * a2 * reach2 {
-            turn = twisted(turn, axis, facing * (1.0 / square.sqrt()), wanted);
+            turn = twisted(turn, axis, facing * (1.0 / square.sqrt()), wanted, d2);
         }
     }
     [local(root, turn), local(middle, quat(axis * bend.0, bend.1))]
@@ -215,8 +215,13 @@ fn softened(distance: f32, length: f32, softness: f32) -> f32 {
 #[cold]
 fn any_axis(along: Vec3A, wanted: Vec3A, pole: Vec3) -> Vec3A {
     let along = along.normalize_or_zero();
-    let axes = [Vec3A::from(pole).cross(along), wanted.cross(along)];
-    axes.into_iter().find_map(Vec3A::try_normalize).unwrap_or_else(|| along.any_orthonormal_vector())
+    let across = |vector: Vec3A| {
+        let axis = vector.cross(along);
+        // Of a vector on the line only rounding is left, and that lies anywhere.
+        let is_sure = axis.length_squared() > 1e-8 * vector.length_squared();
+        axis.try_normalize().filter(|_| is_sure)
+    };
+    across(pole.into()).or_else(|| across(wanted)).unwrap_or_else(|| along.any_orthonormal_vector())
 }
 
 /// The short turn that takes the direction of `from` to that of `to`, its opposite but for a little; about `axis` where
@@ -234,11 +239,16 @@ fn arc(from: Vec3A, to: Vec3A, axis: Vec3A) -> Quat {
     if sum > 1e-6 * lengths { quat(from.cross(to), sum).normalize() } else { quat(axis, 0.0) }
 }
 
-/// `turn`, and then about `line` until `axis` has become `facing`; both are unit vectors, and `line` has any length.
+/// `turn`, and then about `line`, whose length has the square `square`, until `axis` has become `facing`; both are unit
+/// vectors.
 #[inline(always)]
-fn twisted(turn: Quat, axis: Vec3A, facing: Vec3A, line: Vec3A) -> Quat {
+fn twisted(turn: Quat, axis: Vec3A, facing: Vec3A, line: Vec3A, square: f32) -> Quat {
     let other = quat(facing, 0.0) * (turn * quat(axis, 0.0));
-    if turn.dot(other) <= 0.0 { turn - other } else { quat(line, 0.0) * (turn + other) }
+    if turn.dot(other) <= 0.0 {
+        turn - other
+    } else {
+        quat(line * (1.0 / square.sqrt()), 0.0) * (turn + other)
+    }
 }
 
 /// `weight` of a turn of any length, the short way.
