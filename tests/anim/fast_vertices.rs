@@ -96,7 +96,7 @@ fn count_written(
         [] => skin_vertices(level, vertices, finals, points, directions),
         weights => skin_morphed_vertices(level, vertices, weights, finals, points, directions),
     });
-    (asked.allocations as u64, written)
+    (asked.allocations, written)
 }
 
 #[test]
