@@ -18,6 +18,11 @@ impl Kernel for Everything {
         let (mut low, mut high) = ([0.0; 4], [0.0; 4]);
         a.store_halves(&mut low, &mut high);
         let mask = a.less(b);
+        let mut points = [0.0; 24];
+        S::F8::store_points([a, b, c], &mut points);
+        assert!(a.less(a + S::F8::splat(1.0)).all() && !a.less(a).all());
+        let is_less = self.0.iter().zip(&self.1).all(|(a, b)| a < b);
+        assert_eq!(mask.all(), is_less);
         [
             ("add", a + b),
             ("sub", a - b),
@@ -45,6 +50,9 @@ impl Kernel for Everything {
             ("row 3", rows[3]),
             ("back", S::F8::transpose(rows)[3]),
             ("bits", a.to_bits().as_float()),
+            ("points", S::F8::load(points.first_chunk().unwrap())),
+            ("more points", S::F8::load(points[8..].first_chunk().unwrap())),
+            ("last points", S::F8::load(points.last_chunk().unwrap())),
         ]
         .map(|(name, vector)| {
             let mut numbers = [0.0; 8];
@@ -67,6 +75,7 @@ fn plainly(a: Numbers, b: Numbers, c: Numbers) -> Vec<(&'static str, [f64; 8], f
             [a[lane], b[lane], c[lane], a[lane] + b[lane]][from]
         })
     };
+    let point = |first: usize| pick(&move |at| [a, b, c][(first + at) % 3][(first + at) / 3]);
     let sign = |b: f64| if b.is_sign_negative() { -1.0 } else { 1.0 };
     vec![
         ("add", lane(&|a, b, _| a + b), 1e-5),
@@ -95,6 +104,9 @@ fn plainly(a: Numbers, b: Numbers, c: Numbers) -> Vec<(&'static str, [f64; 8], f
         ("row 3", row(3), 1e-5),
         ("back", pick(&|at| a[at] + b[at]), 1e-5),
         ("bits", lane(&|a, _, _| a), 0.0),
+        ("points", point(0), 0.0),
+        ("more points", point(8), 0.0),
+        ("last points", point(16), 0.0),
     ]
 }
 

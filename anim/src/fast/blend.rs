@@ -86,8 +86,7 @@ pub(super) fn blend_with<S: Simd>(
 ) {
     let blocks = base.len().min(out.len());
     let (base, out) = (&base[..blocks], &mut out[..blocks]);
-    let even = layers.iter().all(|layer| layer.mask.is_none() && layer.pose.len() >= blocks);
-    if !(even && evenly::<S>(base, layers, out, normalised)) {
+    if !evenly::<S>(base, layers, out, normalised) {
         by_lane::<S>(base, layers, out, normalised);
     }
 }
@@ -104,7 +103,7 @@ fn base_weight(sum: f32, normalised: bool) -> f32 {
 }
 
 /// Without masks every bone has the same shares: the poses that have one are collected, the one that leads first. No if
-/// they are too many.
+/// one of them has a mask or is too short, or they are too many.
 #[inline(always)]
 fn evenly<S: Simd>(
     base: &[PoseBlock],
@@ -112,31 +111,42 @@ fn evenly<S: Simd>(
     out: &mut [PoseBlock],
     normalised: bool,
 ) -> bool {
-    let mut sum = 0.0;
+    // The base has the first place, whether it takes part or not.
+    let (mut poses, mut weights) = ([base; 1 + MOST], [0.0; 1 + MOST]);
+    let (mut count, mut sum, mut most, mut leader) = (1, 0.0, 0.0, 1);
     for layer in layers {
-        sum += usable(layer.weight);
-    }
-    let base_weight = base_weight(sum, normalised);
-    let part = 1.0 / (base_weight + sum);
-    let mut parts: [Part; MOST] = [(base, 0.0); MOST];
-    let (mut count, mut most, mut leader) = (0, 0.0, 0);
-    let all = std::iter::once((base, base_weight));
-    for (pose, weight) in all.chain(layers.iter().map(|layer| (layer.pose, usable(layer.weight)))) {
-        if weight > 0.0 {
-            let Some(slot) = parts.get_mut(count) else { return false };
-            *slot = (pose, weight * part);
-            if weight > most {
-                (most, leader) = (weight, count);
+        // NaN fails the comparison.
+        if layer.weight > 0.0 {
+            let (Some(pose), Some(weight)) = (poses.get_mut(count), weights.get_mut(count)) else {
+                return false;
+            };
+            if layer.mask.is_some() || layer.pose.len() < base.len() {
+                return false;
             }
+            (*pose, *weight) = (layer.pose, usable(layer.weight));
+            if *weight > most {
+                (most, leader) = (*weight, count);
+            }
+            sum += *weight;
             count += 1;
         }
     }
-    parts.swap(0, leader);
-    match parts {
-        [a, ..] if count == 1 => mix::<S, 1>([a], out),
-        [a, b, ..] if count == 2 => mix::<S, 2>([a, b], out),
-        [a, b, c, ..] if count == 3 => mix::<S, 3>([a, b, c], out),
-        [a, b, c, d] => mix::<S, 4>([a, b, c, d], out),
+    let base_weight = base_weight(sum, normalised);
+    weights[0] = base_weight;
+    let first = usize::from(base_weight <= 0.0);
+    let leader = if most > base_weight { leader } else { 0 };
+    if leader > first {
+        poses.swap(first, leader);
+        weights.swap(first, leader);
+    }
+    let whole = 1.0 / (base_weight + sum);
+    let part = |at: usize| (poses[first + at], weights[first + at] * whole);
+    match count - first {
+        1 => mix::<S, 1>([part(0)], out),
+        2 => mix::<S, 2>([part(0), part(1)], out),
+        3 => mix::<S, 3>([part(0), part(1), part(2)], out),
+        4 => mix::<S, 4>([part(0), part(1), part(2), part(3)], out),
+        _ => return false,
     }
     true
 }

@@ -8,7 +8,7 @@ use super::matrix::{Matrix34, Rows, doubled, mat4, matrix34};
 use super::rig::Rig;
 use super::simd::{Float4, Float8, Kernel, Level, Simd};
 use super::tiny::{flushed, largest};
-use super::to_root::RootPoses;
+use super::to_root::{NARROW, RootPoses};
 use crate::animation::final_pose;
 use crate::data::Skin;
 use glam::Mat4;
@@ -17,6 +17,8 @@ use glam::Mat4;
 #[derive(Clone, Debug)]
 pub struct Binding {
     joints: Vec<Joint>,
+    /// Can a byte name every bone of the rig?
+    is_near: bool,
 }
 
 /// Which bone, and how it is bound.
@@ -48,7 +50,7 @@ impl Binding {
         }
         let slot = |bone: u32| if (bone as usize) < rig.bones() { bone + 1 } else { 0 };
         let joints = skin.bones.iter().zip(offsets).map(|(&bone, offset)| Joint { slot: slot(bone), offset });
-        Self { joints: joints.collect() }
+        Self { joints: joints.collect(), is_near: rig.bones() < NARROW }
     }
 
     /// Number of joints.
@@ -82,23 +84,38 @@ impl Kernel for FinalPoses<'_> {
 /// The same, part of a larger kernel.
 #[inline(always)]
 pub(super) fn final_poses_with<S: Simd>(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
+    let is_finite = if binding.is_near {
+        products::<S, true>(binding, to_root, out)
+    } else {
+        products::<S, false>(binding, to_root, out)
+    };
+    if !is_finite {
+        carefully(binding, to_root, out);
+    }
+}
+
+/// All products; are they finite? `NEAR`: a byte names every bone, and cannot lead out of the matrices.
+#[inline(always)]
+fn products<S: Simd, const NEAR: bool>(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) -> bool {
     let zero = S::F8::splat(0.0);
-    let (mut upper, mut lower) = (zero, S::F4::splat(0.0));
-    let Some(nowhere) = to_root.matrices.first() else { return };
-    for (joint, out) in binding.joints.iter().zip(&mut *out) {
-        let to_root = to_root.matrices.get(joint.slot as usize).unwrap_or(nowhere);
+    let (mut upper, mut lower) = (zero, zero.low());
+    let Some(first) = to_root.matrices.first_chunk::<NARROW>() else { return false };
+    for (joint, out) in binding.joints.iter().zip(out) {
+        let to_root = if NEAR {
+            &first[usize::from(joint.slot as u8)]
+        } else {
+            to_root.matrices.get(joint.slot as usize).unwrap_or(&first[0])
+        };
         let product = Rows::<S>::load(to_root).times(doubled::<S>(&joint.offset));
         // Stays zero as long as everything is finite.
         upper = product.0.mul_add(zero, upper);
         lower = product.1.mul_add(zero.low(), lower);
         product.store(out);
     }
-    let (mut eight, mut four) = ([0.0; 8], [0.0; 4]);
-    upper.store(&mut eight);
+    let mut four = [0.0; 4];
     lower.store(&mut four);
-    if eight.iter().chain(&four).sum::<f32>() != 0.0 {
-        carefully(binding, to_root, out);
-    }
+    // NaN is not less than anything.
+    (upper + S::F8::twice(&four)).less(S::F8::splat(1.0)).all()
 }
 
 /// The open path's way, for products that leave what f32 can hold.

@@ -2,6 +2,7 @@
 
 use super::pose::{Pose, blocks_of};
 use super::tiny::{flushed, largest};
+use super::to_root::NARROW;
 use crate::data::{Skeleton, Transform};
 use crate::sample::rest_pose;
 use glam::Mat4;
@@ -16,6 +17,9 @@ pub struct Rig {
     pub(super) parents: Vec<[u32; 8]>,
     /// 1 + each bone that is nobody's parent: a number that is not finite reaches at least one of them.
     pub(super) leaves: Vec<u32>,
+    /// The same in bytes, where they can name all bones; else empty.
+    pub(super) near_parents: Vec<[u8; 8]>,
+    pub(super) near_leaves: Vec<u8>,
     /// Bones whose rest no pose can express, in order.
     pub(super) sheared: Vec<Sheared>,
     rest: Pose,
@@ -48,10 +52,16 @@ impl Rig {
             let matrix = data.rest_matrix.filter(Mat4::is_finite)?;
             Some(Sheared { bone, rest: rest[bone], matrix })
         });
+        let leaves: Vec<u32> =
+            (0..bones as u32).filter(|&bone| is_leaf[bone as usize]).map(|bone| bone + 1).collect();
+        let is_near = bones < NARROW;
+        let near = |slot: u32| u8::try_from(slot).unwrap_or(0);
         Self {
             bones,
+            near_parents: parents.iter().filter(|_| is_near).map(|lanes| lanes.map(near)).collect(),
+            near_leaves: leaves.iter().filter(|_| is_near).map(|&leaf| near(leaf)).collect(),
             parents,
-            leaves: (0..bones as u32).filter(|&bone| is_leaf[bone as usize]).map(|bone| bone + 1).collect(),
+            leaves,
             sheared: sheared.collect(),
             rest: Pose::from_transforms(&rest),
         }

@@ -19,18 +19,20 @@
 use super::matrix::{IDENTITY, Matrix34, Rows, mat4, matrix34};
 use super::pose::PoseBlock;
 use super::rig::Rig;
-use super::simd::{Float8, Kernel, Level, Simd};
+use super::simd::{Float4, Float8, Kernel, Level, Simd};
 use glam::Mat4;
 use std::cell::Cell;
 
 /// `to_root` of every bone of one character.
 #[derive(Clone, Debug)]
 pub struct RootPoses {
-    /// The identity, where roots find their parent; then one a lane.
+    /// The identity, where roots find their parent; then one a lane; at least as many as a byte can name.
     pub(super) matrices: Vec<Matrix34>,
     /// What the first of two passes leaves for the second.
     local: Vec<Local>,
     bones: usize,
+    /// What limbs are solved with ([`super::two_bone()`]).
+    pub(super) level: Level,
 }
 
 impl RootPoses {
@@ -38,9 +40,10 @@ impl RootPoses {
     pub fn new(rig: &Rig) -> Self {
         let blocks = rig.parents.len();
         Self {
-            matrices: vec![IDENTITY; 1 + blocks * 8],
+            matrices: vec![IDENTITY; (1 + blocks * 8).max(NARROW)],
             local: vec![[[[0.0; 8]; 4]; 3]; blocks],
             bones: rig.bones,
+            level: Level::best(),
         }
     }
 
@@ -83,23 +86,55 @@ impl Kernel for ToRoot<'_> {
 pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     fit(rig, out);
     let RootPoses { matrices, local, .. } = out;
-    let poses = pose.iter().chain(rig.rest().blocks().get(pose.len()..).unwrap_or(&[]));
-    for (local, pose) in local.iter_mut().zip(poses) {
+    for (local, pose) in local.iter_mut().zip(pose) {
         to_parent::<S>(pose, local);
+    }
+    for (local, rest) in local.iter_mut().zip(rig.rest().blocks()).skip(pose.len()) {
+        to_parent::<S>(rest, local);
     }
     if !rig.sheared.is_empty() {
         put_sheared(rig, pose, local);
     }
-    chain::<S>(rig, local, matrices);
-    if !leaves_are_finite::<S>(rig, matrices) {
+    let is_finite = if rig.bones < NARROW {
+        chain::<S, u8>(rig.bones, &rig.near_parents, local, matrices);
+        leaves_are_finite::<S, u8>(&rig.near_leaves, matrices)
+    } else {
+        chain::<S, u32>(rig.bones, &rig.parents, local, matrices);
+        leaves_are_finite::<S, u32>(&rig.leaves, matrices)
+    };
+    if !is_finite {
         carefully(rig, pose, matrices);
+    }
+}
+
+/// Matrices that a byte can name.
+pub(super) const NARROW: usize = 256;
+
+/// The number of a matrix.
+trait Slot: Copy {
+    /// What it names among `all`, of which `first` are the first.
+    fn of<'a, T>(self, first: &'a [T; NARROW], all: &'a [T]) -> Option<&'a T>;
+}
+
+impl Slot for u8 {
+    // Without a check: a byte cannot lead out of `first`.
+    #[inline(always)]
+    fn of<'a, T>(self, first: &'a [T; NARROW], _: &'a [T]) -> Option<&'a T> {
+        Some(&first[usize::from(self)])
+    }
+}
+
+impl Slot for u32 {
+    #[inline(always)]
+    fn of<'a, T>(self, _: &'a [T; NARROW], all: &'a [T]) -> Option<&'a T> {
+        all.get(self as usize)
     }
 }
 
 /// Makes room, where `out` was made for another rig.
 #[inline(always)]
 fn fit(rig: &Rig, out: &mut RootPoses) {
-    if out.bones != rig.bones || out.matrices.len() != 1 + rig.parents.len() * 8 {
+    if out.bones != rig.bones {
         *out = RootPoses::new(rig);
     }
 }
@@ -126,51 +161,81 @@ fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
 
 /// `to_root` of every bone, parents first.
 #[inline(always)]
-fn chain<S: Simd>(rig: &Rig, local: &[Local], out: &mut [Matrix34]) {
+fn chain<S: Simd, P: Slot>(bones: usize, parents: &[[P; 8]], local: &[Local], out: &mut [Matrix34]) {
     // Cells, because a block is written while its own first bones are read as parents of the others.
     let out = Cell::from_mut(out).as_slice_of_cells();
-    let mut left = rig.bones;
-    let blocks = out.get(1..).unwrap_or(&[]).as_chunks::<8>().0;
-    for ((parents, local), block) in rig.parents.iter().zip(local).zip(blocks) {
+    let (Some(first), Some(own)) = (out.first_chunk(), out.get(1..)) else { return };
+    let mut left = bones;
+    for ((parents, local), block) in parents.iter().zip(local).zip(own.as_chunks::<8>().0) {
+        // Written out, so that every place is known when it is compiled.
+        let link = Link { parents, local, first, out, block };
         if left < 8 {
-            for at in 0..left {
-                link::<S>(parents, local, out, block, at);
-            }
+            link.some::<S>(left);
             return;
         }
-        // Written out, so that every place is known when it is compiled.
-        link::<S>(parents, local, out, block, 0);
-        link::<S>(parents, local, out, block, 1);
-        link::<S>(parents, local, out, block, 2);
-        link::<S>(parents, local, out, block, 3);
-        link::<S>(parents, local, out, block, 4);
-        link::<S>(parents, local, out, block, 5);
-        link::<S>(parents, local, out, block, 6);
-        link::<S>(parents, local, out, block, 7);
+        link.bone::<S>(0);
+        link.bone::<S>(1);
+        link.bone::<S>(2);
+        link.bone::<S>(3);
+        link.bone::<S>(4);
+        link.bone::<S>(5);
+        link.bone::<S>(6);
+        link.bone::<S>(7);
         left -= 8;
     }
 }
 
-/// `to_root` of bone `at` of a block.
-#[inline(always)]
-fn link<S: Simd>(
-    parents: &[u32; 8],
-    local: &Local,
-    out: &[Cell<Matrix34>],
-    block: &[Cell<Matrix34>; 8],
-    at: usize,
-) {
-    let Some(parent) = out.get(parents[at % 8] as usize) else { return };
-    let [x, y, z] = [&local[0], &local[1], &local[2]];
-    let (two, half) = (at % 4, at / 4 % 2);
-    let rows = [
-        S::F8::twice(&x[two].as_chunks::<4>().0[half]),
-        S::F8::twice(&y[two].as_chunks::<4>().0[half]),
-        S::F8::twice(&z[two].as_chunks::<4>().0[half]),
-    ];
-    let mut product = IDENTITY;
-    Rows::<S>::load(&parent.get()).times(rows).store(&mut product);
-    block[at % 8].set(product);
+/// What is needed for a block of bones.
+struct Link<'a, P> {
+    parents: &'a [P; 8],
+    local: &'a Local,
+    first: &'a [Cell<Matrix34>; NARROW],
+    out: &'a [Cell<Matrix34>],
+    block: &'a [Cell<Matrix34>; 8],
+}
+
+impl<P: Slot> Link<'_, P> {
+    /// `to_root` of bone `at` of the block.
+    #[inline(always)]
+    fn bone<S: Simd>(&self, at: usize) {
+        let Some(parent) = self.parents[at % 8].of(self.first, self.out) else { return };
+        let [x, y, z] = [&self.local[0], &self.local[1], &self.local[2]];
+        let (two, half) = (at % 4, at / 4 % 2);
+        let rows = [
+            S::F8::twice(&x[two].as_chunks::<4>().0[half]),
+            S::F8::twice(&y[two].as_chunks::<4>().0[half]),
+            S::F8::twice(&z[two].as_chunks::<4>().0[half]),
+        ];
+        let mut product = IDENTITY;
+        Rows::<S>::load(&parent.get()).times(rows).store(&mut product);
+        self.block[at % 8].set(product);
+    }
+
+    /// The first `count` of them, fewer than eight.
+    #[inline(always)]
+    fn some<S: Simd>(&self, count: usize) {
+        if count > 0 {
+            self.bone::<S>(0);
+        }
+        if count > 1 {
+            self.bone::<S>(1);
+        }
+        if count > 2 {
+            self.bone::<S>(2);
+        }
+        if count > 3 {
+            self.bone::<S>(3);
+        }
+        if count > 4 {
+            self.bone::<S>(4);
+        }
+        if count > 5 {
+            self.bone::<S>(5);
+        }
+        if count > 6 {
+            self.bone::<S>(6);
+        }
+    }
 }
 
 /// Puts the matrices of sheared bones in the place of those that their poses give, where they rest.
@@ -191,17 +256,21 @@ fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [Local]) {
 
 /// A number that is not finite reaches the leaves: it spreads along its row from parent to child.
 #[inline(always)]
-fn leaves_are_finite<S: Simd>(rig: &Rig, matrices: &[Matrix34]) -> bool {
-    let mut sum = [0.0; 8];
-    let (mut upper, mut lower) = (S::F8::splat(0.0), S::F8::splat(0.0));
-    for &leaf in &rig.leaves {
-        if let Some(leaf) = matrices.get(leaf as usize) {
-            upper = S::F8::load(super::matrix::upper(leaf)).mul_add(S::F8::splat(0.0), upper);
-            lower = S::F8::twice(super::matrix::lower(leaf)).mul_add(S::F8::splat(0.0), lower);
+fn leaves_are_finite<S: Simd, P: Slot>(leaves: &[P], matrices: &[Matrix34]) -> bool {
+    let Some(first) = matrices.first_chunk() else { return false };
+    let zero = S::F8::splat(0.0);
+    let (mut upper, mut lower) = (zero, zero.low());
+    for leaf in leaves {
+        if let Some(leaf) = leaf.of(first, matrices) {
+            // Stays zero as long as everything is finite.
+            upper = S::F8::load(super::matrix::upper(leaf)).mul_add(zero, upper);
+            lower = S::F4::load(super::matrix::lower(leaf)).mul_add(zero.low(), lower);
         }
     }
-    (upper + lower).store(&mut sum);
-    sum.iter().sum::<f32>() == 0.0
+    // NaN is not less than anything.
+    let mut four = [0.0; 4];
+    lower.store(&mut four);
+    (upper + S::F8::twice(&four)).less(S::F8::splat(1.0)).all()
 }
 
 /// The open path's way, for poses that lead out of what f32 can hold.

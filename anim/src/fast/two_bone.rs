@@ -8,15 +8,29 @@
 //! cos θ = (d'² - a² - b²) / (2 a b)
 //! ```
 //!
-//! The middle turns by the difference to the angle it has, about the axis it is bent about; then the root turns the end
-//! onto the line to the target the short way; then, with a pole, about that line. All is computed from places in to-root
-//! space with square roots only: the rotation by an angle whose cosine is c is `(axis √((1-c)/2), √((1+c)/2))`. Each turn is
-//! then told in its bone's own space, where it is applied from the right, so nobody's rotation has to be read off a matrix.
+//! The middle turns by the difference Δ to the angle it has, about the axis n that it is bent about; then the root turns the
+//! end onto the line to the target the short way; then, with a pole, about that line. All is computed from places in to-root
+//! space with square roots only, and quaternions keep any length until they are applied:
+//!
+//! ```text
+//! 2ab sin θ = √(((a + b)² - d'²) (d'² - (a - b)²))
+//! middle    = (n sin Δ, 1 + cos Δ)                   or (n (1 - cos Δ), sin Δ), the same but for its length
+//! reach     = upper + lower cos Δ + n×lower sin Δ
+//! q         = (reach×target, |reach| |target| + reach·target)
+//! root      = q - n' q n                             with a pole: n' = pole×target / |pole×target|, n and n' as (vector, 0)
+//! ```
+//!
+//! The last line: `q n q⁻¹` is where the limb's plane faces after q, and `1 - n' (q n q⁻¹)` turns that to n'. Where both are
+//! nearly opposite the sum is nearly zero; then `target (q + n' q n)` is taken, which turns to -n' and half a turn further.
+//! Each turn is told in its bone's own space, where it is applied from the right, so nobody's rotation has to be read off a
+//! matrix.
 
 use super::matrix::{Matrix34, transform_point};
 use super::pose::Pose;
+use super::pose::PoseBlock;
+use super::simd::{Kernel, LANES, Simd};
 use super::to_root::RootPoses;
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec3, Vec3A, Vec4};
 
 /// A limb.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +45,7 @@ pub struct TwoBone {
     pub pole: Vec3,
     /// Share of the limb's length over which it slows down before it is straight, 0..=1; 0 is a hard stop.
     pub softness: f32,
-    /// 0 keeps the pose, 1 is the full solution; between, the turns are shortened.
+    /// 0 (and NaN) keeps the pose bit for bit, 1 is the full solution; between, the turns are shortened.
     pub weight: f32,
 }
 
@@ -46,140 +60,202 @@ impl TwoBone {
 /// to turn?
 ///
 /// `to_root` is that of `pose` ([`super::to_root()`]) and has to be computed again afterwards. Exact where the scales of
-/// the limb and above it are the same along all axes. Nothing is changed where a bone is missing, a part has no length, or
+/// the limb and above it are the same along all axes, mirrored or not. Nothing is changed where a bone is missing, a part has no length, or
 /// a number is not finite. Allocates nothing.
 pub fn two_bone(limb: &TwoBone, target: Vec3, to_root: &RootPoses, pose: &mut Pose) -> bool {
-    let bones = [limb.root, limb.middle, limb.end].map(|bone| to_root.matrices().get(bone as usize));
-    let [Some(root), Some(middle), Some(end)] = bones else { return false };
-    let Some((root_turn, middle_turn)) = solve(limb, target, [root, middle, end]) else { return false };
-    let weight = if limb.weight > 0.0 { limb.weight.min(1.0) } else { 0.0 };
-    for (bone, turn) in [(limb.root, root_turn), (limb.middle, middle_turn)] {
-        let turn = if weight < 1.0 { shortened(turn, weight) } else { turn };
-        let block = pose.blocks_mut().get_mut(bone as usize / 8);
-        let Some(block) = block else { return false };
-        let lane = bone as usize % 8;
-        let [x, y, z, w] = block.rotation.each_mut().map(|row| &mut row[lane]);
-        let turned = (Quat::from_xyzw(*x, *y, *z, *w) * turn).normalize();
-        (*x, *y, *z, *w) = (turned.x, turned.y, turned.z, turned.w);
-    }
-    true
+    to_root.level.run(Solve { limb, target, to_root, pose })
 }
 
-/// The turns of root and middle, each in its own space.
-#[inline]
-fn solve(limb: &TwoBone, target: Vec3, [root, middle, end]: [&Matrix34; 3]) -> Option<(Quat, Quat)> {
-    let origin = place(root);
-    let (upper, lower, wanted) = (place(middle) - origin, place(end) - place(middle), target - origin);
+/// Run at a level only for the shorter code that its compiler makes of the same operations: results are the same bit for
+/// bit at all of them.
+struct Solve<'a> {
+    limb: &'a TwoBone,
+    target: Vec3,
+    to_root: &'a RootPoses,
+    pose: &'a mut Pose,
+}
+
+impl Kernel for Solve<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<S: Simd>(self) -> bool {
+        let Self { limb, target, to_root, pose } = self;
+        let (matrices, blocks) = (to_root.matrices(), pose.blocks_mut());
+        let Some(root) = matrices.get(limb.root as usize) else { return false };
+        let Some(middle) = matrices.get(limb.middle as usize) else { return false };
+        let Some(end) = matrices.get(limb.end as usize) else { return false };
+        let mut turns = solve(limb, target.into(), [root, middle, end]);
+        // Written so that NaN is none.
+        let is_whole = limb.weight >= 1.0;
+        if !is_whole {
+            turns = turns.map(|turn| shortened(turn, limb.weight));
+        }
+        let rotation = |bone: u32| Some(rotation_of(blocks.get(bone as usize / LANES)?, bone));
+        let (Some(upper), Some(lower)) = (rotation(limb.root), rotation(limb.middle)) else { return false };
+        let (upper, lower) = (upper * turns[0], lower * turns[1]);
+        let (square, other) = (upper.length_squared(), lower.length_squared());
+        let is_finite = square + other < f32::INFINITY;
+        if !is_finite || least(square, other) < f32::MIN_POSITIVE {
+            return false;
+        }
+        if limb.weight > 0.0 {
+            set_rotation(blocks, limb.root, upper * (1.0 / square.sqrt()));
+            set_rotation(blocks, limb.middle, lower * (1.0 / other.sqrt()));
+        }
+        true
+    }
+}
+
+#[inline(always)]
+fn rotation_of(block: &PoseBlock, bone: u32) -> Quat {
+    let ([x, y, z, w], lane) = (&block.rotation, bone as usize % LANES);
+    Quat::from_xyzw(x[lane], y[lane], z[lane], w[lane])
+}
+
+#[inline(always)]
+fn set_rotation(blocks: &mut [PoseBlock], bone: u32, rotation: Quat) {
+    if let Some(block) = blocks.get_mut(bone as usize / LANES) {
+        let ([x, y, z, w], lane) = (&mut block.rotation, bone as usize % LANES);
+        (x[lane], y[lane], z[lane], w[lane]) = (rotation.x, rotation.y, rotation.z, rotation.w);
+    }
+}
+
+/// The turns of root and middle, each in its own space and of any length; not finite, or zero, where there is none.
+#[inline(always)]
+fn solve(limb: &TwoBone, target: Vec3A, [root, middle, end]: [&Matrix34; 3]) -> [Quat; 2] {
+    let (origin, elbow) = (place(root), place(middle));
+    let (upper, lower, wanted) = (elbow - origin, place(end) - elbow, target - origin);
     let (a2, b2, d2) = (upper.length_squared(), lower.length_squared(), wanted.length_squared());
     let (a, b) = (a2.sqrt(), b2.sqrt());
-    let distance = softened(d2.sqrt(), a + b, limb.softness).clamp((a - b).abs(), a + b);
-    let twice = 2.0 * a * b;
-    let (now, then) = (2.0 * upper.dot(lower) / twice, (distance * distance - a2 - b2) / twice);
-    if !(now + then + d2).is_finite() || d2 == 0.0 {
-        return None;
-    }
-    let (now, then) = (now.clamp(-1.0, 1.0), then.clamp(-1.0, 1.0));
-    let axis = bending_axis(upper, lower, wanted, limb.pole);
-    // The angle between two angles: cosine and sine of the difference.
-    let (sine_now, sine_then) = ((1.0 - now * now).sqrt(), (1.0 - then * then).sqrt());
-    let bend = half_turn(then * now + sine_then * sine_now, sine_then * now - then * sine_now);
-    let bent = upper + turned(lower, axis * bend.0, bend.1);
-    let mut turn = arc(bent, wanted, axis);
-    if bent.dot(wanted) < -0.9 * (bent.length_squared() * d2).sqrt() {
-        // The axis of nearly half a turn is not exact; what is left of the way is short.
-        turn = arc(turn * bent, wanted, axis) * turn;
+    let (sum, difference) = (a + b, a - b);
+    let distance = least(most(softened(d2.sqrt(), sum, limb.softness), difference.abs()), sum);
+    // 2ab (1 + cos θ) and 2ab (1 - cos θ).
+    let more = (distance - difference) * (distance + difference);
+    let less = (sum - distance) * (sum + distance);
+    let (cosine, sine) = (0.5 * (more - less), (more * less).sqrt());
+    let cross = upper.cross(lower);
+    let (flat, both) = (cross.length_squared(), a2 * b2);
+    let (now, bent) = (upper.dot(lower), flat.sqrt());
+    let axis =
+        if flat > 1e-8 * both { cross * (1.0 / bent) } else { any_axis(lower * now, wanted, limb.pole) };
+    let part = 0.5 / both;
+    let (by_sine, by_cosine) = ((sine * now - cosine * bent) * part, (cosine * now + sine * bent) * part);
+    let bend = if by_cosine >= 0.0 { (by_sine, 1.0 + by_cosine) } else { (1.0 - by_cosine, by_sine) };
+    let reach = upper + lower * by_cosine + axis.cross(lower) * by_sine;
+    let (along, reach2) = (reach.dot(wanted), reach.length_squared());
+    let lengths = (reach2 * d2).sqrt();
+    let mut turn = quat(reach.cross(wanted), lengths + along);
+    if along < -0.9 * lengths {
+        turn = nearly_opposite(reach, wanted, axis);
     }
     if limb.pole != Vec3::ZERO {
-        turn = (twist(turn * upper, wanted, limb.pole) * turn).normalize();
+        let pole = Vec3A::from(limb.pole);
+        let facing = pole.cross(wanted);
+        let square = facing.length_squared();
+        // On the line to the target neither a pole nor a middle has a side.
+        if square > 1e-12 * pole.length_squared() * d2 && more * less > 4e-12 * a2 * reach2 {
+            turn = twisted(turn, axis, facing * (1.0 / square.sqrt()), wanted, d2);
+        }
     }
-    // Into the spaces of the bones: a turn's axis is a vector like any other.
-    let root_turn = Quat::from_vec4(local(root, turn.xyz()).extend(turn.w)).normalize();
-    let middle_turn = Quat::from_vec4((local(middle, axis) * bend.0).extend(bend.1)).normalize();
-    (root_turn.is_finite() && middle_turn.is_finite()).then_some((root_turn, middle_turn))
+    [local(root, turn), local(middle, quat(axis * bend.0, bend.1))]
+}
+
+/// `(vector, w)`.
+#[inline(always)]
+fn quat(vector: Vec3A, w: f32) -> Quat {
+    Quat::from_vec4(vector.extend(w))
 }
 
 /// Where a bone's origin is.
-#[inline]
-fn place(matrix: &Matrix34) -> Vec3 {
-    Vec3::new(matrix[3], matrix[7], matrix[11])
+#[inline(always)]
+fn place(matrix: &Matrix34) -> Vec3A {
+    Vec3A::new(matrix[3], matrix[7], matrix[11])
 }
 
-/// `vector` of to-root space in a bone's space, of the same length; scales are the same along all axes.
-#[inline]
-fn local(matrix: &Matrix34, vector: Vec3) -> Vec3 {
-    let [x, y, z] = [0, 4, 8].map(|row| Vec3::new(matrix[row], matrix[row + 1], matrix[row + 2]));
-    let scale = Vec3::new(x.x, y.x, z.x).length_squared().sqrt();
-    (x * vector.x + y * vector.y + z * vector.z) / scale
+/// A turn in to-root space as one in a bone's space, of another length. Scales are the same along all axes.
+///
+/// A turn's axis is a vector like any other, but for mirrored bones: seen from there it turns the other way.
+#[inline(always)]
+fn local(matrix: &Matrix34, turn: Quat) -> Quat {
+    let (x, y, z) =
+        (Vec4::from_slice(matrix), Vec4::from_slice(&matrix[4..]), Vec4::from_slice(&matrix[8..]));
+    let (first, second, third) = (Vec3A::from_vec4(x), Vec3A::from_vec4(y), Vec3A::from_vec4(z));
+    // The determinant is the scale three times, with the side.
+    let scale = first.cross(second).dot(third) / first.length_squared();
+    quat(Vec3A::from_vec4(x * turn.x + y * turn.y + z * turn.z), turn.w * scale)
+}
+
+/// The larger; `other` where either is NaN. One instruction.
+#[inline(always)]
+fn most(one: f32, other: f32) -> f32 {
+    if one > other { one } else { other }
+}
+
+/// The smaller, likewise.
+#[inline(always)]
+fn least(one: f32, other: f32) -> f32 {
+    if one < other { one } else { other }
 }
 
 /// Nears `length` without meeting it, over a share of it: `hard + soft (1 - e^(-(d - hard) / soft))`.
-#[inline]
+#[inline(always)]
 fn softened(distance: f32, length: f32, softness: f32) -> f32 {
-    let soft = softness.clamp(0.0, 1.0) * length;
-    let hard = length - soft;
-    if soft > 0.0 && distance > hard {
-        hard + soft * (1.0 - (-(distance - hard) / soft).exp())
-    } else {
-        distance
+    if softness > 0.0 {
+        let soft = softness.min(1.0) * length;
+        let hard = length - soft;
+        if soft > 0.0 && distance > hard {
+            return hard + soft * (1.0 - (-(distance - hard) / soft).exp());
+        }
     }
+    distance
 }
 
-/// The unit vector about which the limb bends: as it is bent, else towards the pole, else any.
-#[inline]
-fn bending_axis(upper: Vec3, lower: Vec3, wanted: Vec3, pole: Vec3) -> Vec3 {
-    let as_posed = upper.cross(lower);
-    let square = as_posed.length_squared();
-    if square > 1e-8 * upper.length_squared() * lower.length_squared() {
-        return as_posed / square.sqrt();
-    }
-    let straight = [pole.cross(upper), wanted.cross(upper)];
-    straight.into_iter().find_map(Vec3::try_normalize).unwrap_or_else(|| upper.any_orthonormal_vector())
+/// A unit vector about which a limb can bend whose parts lie on one line, `along`: towards the pole, or any.
+#[cold]
+fn any_axis(along: Vec3A, wanted: Vec3A, pole: Vec3) -> Vec3A {
+    let along = along.normalize_or_zero();
+    let across = |vector: Vec3A| {
+        let axis = vector.cross(along);
+        // Of a vector on the line only rounding is left, and that lies anywhere.
+        let is_sure = axis.length_squared() > 1e-8 * vector.length_squared();
+        axis.try_normalize().filter(|_| is_sure)
+    };
+    across(pole.into()).or_else(|| across(wanted)).unwrap_or_else(|| along.any_orthonormal_vector())
 }
 
-/// Sine (with the sign of `sine`) and cosine of half an angle, from the cosine and sine of the angle.
-#[inline]
-fn half_turn(cosine: f32, sine: f32) -> (f32, f32) {
-    let half = ((1.0 + cosine).max(0.0) * 0.5).sqrt();
-    if half > 0.5 {
-        // Better than from the cosine where the angle is small.
-        return (sine / (2.0 * half), half);
-    }
-    (((1.0 - cosine).max(0.0) * 0.5).sqrt().copysign(sine), half)
+/// The short turn that takes the direction of `from` to that of `to`, its opposite but for a little; about `axis` where
+/// nothing is missing.
+#[cold]
+fn nearly_opposite(from: Vec3A, to: Vec3A, axis: Vec3A) -> Quat {
+    let turn = arc(from, to, axis);
+    // The axis of nearly half a turn is not exact; what is left of the way is short.
+    arc(turn.mul_vec3a(from), to, axis) * turn
 }
 
-/// `vector` turned by the unit quaternion (`xyz`, `w`).
-#[inline]
-fn turned(vector: Vec3, xyz: Vec3, w: f32) -> Vec3 {
-    let twice = 2.0 * xyz.cross(vector);
-    vector + w * twice + xyz.cross(twice)
-}
-
-/// The short turn that takes the direction of `from` to that of `to`; about `axis` where they are opposite.
-#[inline]
-fn arc(from: Vec3, to: Vec3, axis: Vec3) -> Quat {
+fn arc(from: Vec3A, to: Vec3A, axis: Vec3A) -> Quat {
     let lengths = (from.length_squared() * to.length_squared()).sqrt();
-    let (sum, cross) = (lengths + from.dot(to), from.cross(to));
-    let turn = Quat::from_xyzw(cross.x, cross.y, cross.z, sum);
-    if sum > 1e-6 * lengths { turn.normalize() } else { Quat::from_vec4(axis.extend(0.0)) }
+    let sum = lengths + from.dot(to);
+    if sum > 1e-6 * lengths { quat(from.cross(to), sum).normalize() } else { quat(axis, 0.0) }
 }
 
-/// The turn about the line to the target that brings the middle to the side of the pole.
-#[inline]
-fn twist(upper: Vec3, wanted: Vec3, pole: Vec3) -> Quat {
-    let along = |vector: Vec3| vector - wanted * (vector.dot(wanted) / wanted.length_squared());
-    let (from, to) = (along(upper), along(pole));
-    let enough = from.length_squared() > 1e-12 * upper.length_squared()
-        && to.length_squared() > 1e-12 * pole.length_squared();
-    if !enough {
-        return Quat::IDENTITY;
+/// `turn`, and then about `line`, whose length has the square `square`, until `axis` has become `facing`; both are unit
+/// vectors.
+#[inline(always)]
+fn twisted(turn: Quat, axis: Vec3A, facing: Vec3A, line: Vec3A, square: f32) -> Quat {
+    let other = quat(facing, 0.0) * (turn * quat(axis, 0.0));
+    if turn.dot(other) <= 0.0 {
+        turn - other
+    } else {
+        quat(line * (1.0 / square.sqrt()), 0.0) * (turn + other)
     }
-    arc(from, to, wanted.normalize_or_zero())
 }
 
-/// `weight` of a turn, the short way.
-#[inline]
+/// `weight` of a turn of any length, the short way.
+#[cold]
 fn shortened(turn: Quat, weight: f32) -> Quat {
-    crate::sample::mix::slerp(Quat::IDENTITY, turn, weight)
+    let weight = if weight > 0.0 { weight } else { 0.0 };
+    crate::sample::mix::slerp(Quat::IDENTITY, turn.normalize(), weight)
 }
 
 /// How far the end of `limb` is from `target`, from the to-root matrices.

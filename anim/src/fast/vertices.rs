@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! M        = Σ weight_i * final[joint_i]                    one vertex after the other, two rows in one register
-//! position = M * position                                   from here on eight vertices at once
+//! morphed  = stored + Σ weight_t * difference_t             from here on eight vertices at once
+//! position = M * position
 //! normal   = normalise(sign(determinant) * cofactors(M) * normal)
 //! ```
 //!
@@ -10,11 +11,13 @@
 //! transposed inverse but for its length, keep normals at right angles to the surface under any scale; see
 //! [`crate::skin`].
 
-use super::matrix::{IDENTITY, Matrix34, Rows, lower, mat4, upper};
-use super::simd::{Float4, Float8, Kernel, LANES, Level, Simd};
-use crate::data::Primitive;
+use super::matrix::{IDENTITY, Matrix34, lower, mat4, upper};
+use super::morph::{Differences, Shape};
+use super::simd::{Float8, Kernel, LANES, Level, Simd};
+use crate::data::{Primitive, Vertices};
 use crate::skin::{first_direction, near_one, normal_matrix};
 use glam::{Mat3, Mat4, Vec3};
+use std::hint::black_box;
 
 /// Vertices of a primitive brought to the layout of the fast path: eight a block, in file order.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +25,7 @@ pub struct SkinnedVertices {
     count: usize,
     blocks: Vec<Block>,
     influences: Vec<Influences>,
+    differences: Differences,
     /// Does it name no joint past the first 256?
     is_narrow: bool,
 }
@@ -29,17 +33,25 @@ pub struct SkinnedVertices {
 /// Joints that a byte can name.
 const NARROW: usize = 256;
 
-/// Matrices for each name that a byte can be, so that none has to be checked; each on a boundary of its own.
-#[derive(Clone)]
-#[repr(C, align(64))]
-struct Table([[f32; 16]; NARROW]);
+/// So many vertices are worth a table that costs about as much as forty of them.
+const MANY: usize = 128;
 
-/// Eight vertices; those past the end have no influence.
+/// A matrix on a boundary of its own, so that a number shifted is its place.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+struct Row([f32; 16]);
+
+/// Matrices for each name that a byte can be, so that none has to be checked.
+type Table = [Row; NARROW];
+
+/// The identity, and what fills its row of the table.
+const NOTHING: Row = Row([1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
+
+/// Eight vertices; those past the end are the first of the eight once more.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 struct Block {
-    positions: [[f32; LANES]; 3],
-    normals: [[f32; LANES]; 3],
+    shape: Shape,
     /// Where its influences begin, and how many each of its vertices has: 1, 2, 4 or 8.
     first: u32,
     each: u32,
@@ -54,46 +66,41 @@ struct Influences {
 }
 
 impl SkinnedVertices {
-    /// The vertices of `primitive`, without morph targets. Positions that are not finite are the origin, normals that
-    /// are missing or not finite +Y.
+    /// The vertices of `primitive` and their morph targets. Normals that are missing are +Y.
     ///
     /// Each block works with as many influences as the vertex in it that has most: 1, 2, 4 or 8.
     pub fn new(primitive: &Primitive) -> Self {
         let vertices = &primitive.vertices;
-        let mut new = Self { count: vertices.len(), is_narrow: true, ..Self::default() };
-        for first in (0..vertices.len()).step_by(LANES) {
-            let here = first..(first + LANES).min(vertices.len());
-            let used = |index: usize| {
-                vertices.influences_of(index).iter().filter(|influence| influence.weight != 0.0)
-            };
-            let most = here.clone().map(|index| used(index).count()).max().unwrap_or(0);
-            let each = most.next_power_of_two().clamp(1, 8);
-            let mut block = Block {
-                positions: [[0.0; LANES]; 3],
-                normals: [[0.0; LANES], [1.0; LANES], [0.0; LANES]],
-                first: new.influences.len() as u32,
-                each: each as u32,
-            };
-            let nothing = Influences { joints: [0; LANES], weights: [0.0; LANES] };
-            new.influences.extend(std::iter::repeat_n(nothing, each));
-            for (lane, index) in here.enumerate() {
-                let finite =
-                    |vector: Option<&Vec3>, other| vector.copied().filter(|v| v.is_finite()).unwrap_or(other);
-                let position = finite(vertices.positions.get(index), Vec3::ZERO);
-                let normal = finite(vertices.normals.get(index), Vec3::Y);
-                for at in 0..3 {
-                    block.positions[at][lane] = position[at];
-                    block.normals[at][lane] = normal[at];
-                }
-                for (slot, influence) in new.influences[block.first as usize..].iter_mut().zip(used(index)) {
-                    slot.joints[lane] = influence.joint;
-                    new.is_narrow &= usize::from(influence.joint) < NARROW;
-                    slot.weights[lane] = influence.weight;
-                }
-            }
-            new.blocks.push(block);
+        let (count, differences) = (vertices.len(), Differences::new(primitive));
+        let mut new = Self { count, differences, is_narrow: true, ..Self::default() };
+        for first in (0..count).step_by(LANES) {
+            let lanes = std::array::from_fn(|lane| if first + lane < count { first + lane } else { first });
+            new.add(vertices, lanes);
         }
         new
+    }
+
+    /// Adds a block of the vertices `lanes`.
+    fn add(&mut self, vertices: &Vertices, lanes: [usize; LANES]) {
+        let used =
+            |index: usize| vertices.influences_of(index).iter().filter(|influence| influence.weight != 0.0);
+        let most = lanes.iter().map(|&index| used(index).count()).max().unwrap_or(0);
+        let each = most.next_power_of_two().clamp(1, 8);
+        let mut shape = Shape::default();
+        let nothing = Influences { joints: [0; LANES], weights: [0.0; LANES] };
+        let mut influences = [nothing; 8];
+        for (lane, index) in lanes.into_iter().enumerate() {
+            let position = vertices.positions.get(index).copied().unwrap_or(Vec3::ZERO);
+            let normal = vertices.normals.get(index).copied().unwrap_or(Vec3::Y);
+            shape.set(lane, position, normal);
+            for (slot, influence) in influences.iter_mut().zip(used(index)) {
+                slot.joints[lane] = influence.joint;
+                slot.weights[lane] = influence.weight;
+                self.is_narrow &= usize::from(influence.joint) < NARROW;
+            }
+        }
+        self.blocks.push(Block { shape, first: self.influences.len() as u32, each: each as u32 });
+        self.influences.extend_from_slice(&influences[..each]);
     }
 
     /// Number of vertices.
@@ -115,8 +122,8 @@ impl SkinnedVertices {
 /// Moves the first vertices, as many as both outputs have room for, to scene space; normals have unit length.
 ///
 /// `finals` are those of the skin ([`super::final_poses()`]); a joint that they lack counts as the identity. Where a
-/// result is not finite, or a normal has no direction, what [`crate::skin`] says. Returns how many were written.
-/// Allocates nothing.
+/// vertex or a result is not finite, or a normal has no direction, what [`crate::skin`] says. Returns how many were
+/// written. Allocates nothing.
 pub fn skin_vertices(
     level: Level,
     vertices: &SkinnedVertices,
@@ -126,26 +133,51 @@ pub fn skin_vertices(
 ) -> usize {
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
-    level.run(Skin { vertices, finals, positions, normals });
+    level.run(Skin::<false> { vertices, morph_weights: &[], finals, positions, normals });
     count
 }
 
-struct Skin<'a> {
+/// The same with morph targets: to each vertex their differences are added first, each times its weight.
+///
+/// `morph_weights`: one a morph target; missing ones count as 0 ([`crate::sample::sample_morph_weights`] gives those of a
+/// take). What is not finite after that counts as not morphed, and otherwise ends as [`crate::skin`] says. Allocates
+/// nothing.
+pub fn skin_morphed_vertices(
+    level: Level,
+    vertices: &SkinnedVertices,
+    morph_weights: &[f32],
+    finals: &[Matrix34],
+    positions: &mut [[f32; 3]],
+    normals: &mut [[f32; 3]],
+) -> usize {
+    let count = vertices.count.min(positions.len()).min(normals.len());
+    let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
+    if vertices.differences.are_added(morph_weights) {
+        level.run(Skin::<true> { vertices, morph_weights, finals, positions, normals });
+    } else {
+        level.run(Skin::<false> { vertices, morph_weights, finals, positions, normals });
+    }
+    count
+}
+
+struct Skin<'a, const MORPHED: bool> {
     vertices: &'a SkinnedVertices,
+    morph_weights: &'a [f32],
     finals: &'a [Matrix34],
     positions: &'a mut [[f32; 3]],
     normals: &'a mut [[f32; 3]],
 }
 
-impl Kernel for Skin<'_> {
+impl<const MORPHED: bool> Kernel for Skin<'_, MORPHED> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self) {
-        if self.vertices.is_narrow {
-            let mut table = Table([[0.0; 16]; NARROW]);
-            for (at, row) in table.0.iter_mut().enumerate() {
-                row[..12].copy_from_slice(self.finals.get(at).unwrap_or(&IDENTITY));
+        if self.vertices.is_narrow && self.positions.len() >= MANY {
+            // Unknown to the compiler, so that rows are written whole and not by a call, byte by byte.
+            let mut table = [black_box(NOTHING); NARROW];
+            for (row, matrix) in table.iter_mut().zip(self.finals) {
+                row.0[..12].copy_from_slice(matrix);
             }
             self.with::<S>(&table);
         } else {
@@ -155,85 +187,92 @@ impl Kernel for Skin<'_> {
     }
 }
 
-impl Skin<'_> {
+/// Eight points, one after the other.
+type Points = [f32; 3 * LANES];
+
+impl<const MORPHED: bool> Skin<'_, MORPHED> {
     #[inline(always)]
     fn with<S: Simd>(self, finals: &(impl Finals + ?Sized)) {
-        let Self { vertices, positions, normals, .. } = self;
-        let (positions, normals) = (positions.as_flattened_mut(), normals.as_flattened_mut());
-        let mut matrices = [IDENTITY; LANES];
-        let (mut last_positions, mut last_normals) = ([0.0; ROOM], [0.0; ROOM]);
-        let mut first = 0;
-        for block in &vertices.blocks {
-            match vertices.influences_of(block) {
-                [a] => weigh::<S, 1>([a], finals, &mut matrices),
-                [a, b] => weigh::<S, 2>([a, b], finals, &mut matrices),
-                [a, b, c, d] => weigh::<S, 4>([a, b, c, d], finals, &mut matrices),
-                [a, b, c, d, e, f, g, h] => {
-                    weigh::<S, 8>([a, b, c, d, e, f, g, h], finals, &mut matrices);
-                }
-                _ => {}
-            }
-            let moved = positions.get_mut(first..).and_then(<[f32]>::first_chunk_mut::<ROOM>);
-            let turned = normals.get_mut(first..).and_then(<[f32]>::first_chunk_mut::<ROOM>);
-            if let (Some(moved), Some(turned)) = (moved, turned) {
-                move_block::<S>(block, &matrices, moved, turned);
+        let Self { vertices, morph_weights, positions, normals, .. } = self;
+        let (points, last_points) = positions.as_flattened_mut().as_chunks_mut();
+        let (directions, last_directions) = normals.as_flattened_mut().as_chunks_mut();
+        let mut blocks = vertices.blocks.iter().enumerate();
+        let mut matrices = [NOTHING; LANES];
+        for ((moved, turned), (at, block)) in points.iter_mut().zip(directions).zip(&mut blocks) {
+            weigh_block::<S>(vertices.influences_of(block), finals, &mut matrices);
+            if MORPHED {
+                let shape = vertices.differences.added::<S>(at, &block.shape, morph_weights);
+                move_block::<S>(&shape, &block.shape, &matrices, moved, turned);
             } else {
-                move_block::<S>(block, &matrices, &mut last_positions, &mut last_normals);
-                let (Some(positions), Some(normals)) = (positions.get_mut(first..), normals.get_mut(first..))
-                else {
-                    return;
-                };
-                for (to, from) in positions.iter_mut().zip(&last_positions[..24]) {
-                    *to = *from;
-                }
-                for (to, from) in normals.iter_mut().zip(&last_normals[..24]) {
-                    *to = *from;
-                }
+                move_block::<S>(&block.shape, &block.shape, &matrices, moved, turned);
             }
-            first += 3 * LANES;
+        }
+        // Fewer than eight are left.
+        if let Some((at, block)) = blocks.next().filter(|_| !last_points.is_empty()) {
+            let (mut moved, mut turned) = ([0.0; 3 * LANES], [0.0; 3 * LANES]);
+            weigh_block::<S>(vertices.influences_of(block), finals, &mut matrices);
+            let shape = vertices.differences.added::<S>(at, &block.shape, morph_weights);
+            move_block::<S>(&shape, &block.shape, &matrices, &mut moved, &mut turned);
+            for (to, from) in last_points.iter_mut().zip(&moved) {
+                *to = *from;
+            }
+            for (to, from) in last_directions.iter_mut().zip(&turned) {
+                *to = *from;
+            }
         }
     }
 }
 
-/// Eight points are written as four numbers each, of which the next point overwrites the last: so many more are touched.
-const ROOM: usize = 3 * LANES + 1;
-
 /// Where matrices are looked up.
 trait Finals {
-    fn upper(&self, joint: u16) -> &[f32; 8];
-    fn lower(&self, joint: u16) -> &[f32; 4];
+    /// Rows 0 and 1.
+    fn upper<S: Simd>(&self, joint: u16) -> S::F8;
+    /// Row 2, and four numbers without meaning.
+    fn lower<S: Simd>(&self, joint: u16) -> S::F8;
 }
 
 impl Finals for [Matrix34] {
     #[inline(always)]
-    fn upper(&self, joint: u16) -> &[f32; 8] {
-        upper(self.get(usize::from(joint)).unwrap_or(&IDENTITY))
+    fn upper<S: Simd>(&self, joint: u16) -> S::F8 {
+        S::F8::load(upper(self.get(usize::from(joint)).unwrap_or(&IDENTITY)))
     }
 
     #[inline(always)]
-    fn lower(&self, joint: u16) -> &[f32; 4] {
-        lower(self.get(usize::from(joint)).unwrap_or(&IDENTITY))
+    fn lower<S: Simd>(&self, joint: u16) -> S::F8 {
+        S::F8::twice(lower(self.get(usize::from(joint)).unwrap_or(&IDENTITY)))
     }
 }
 
 impl Finals for Table {
     #[inline(always)]
-    fn upper(&self, joint: u16) -> &[f32; 8] {
-        &self.0[usize::from(joint as u8)].as_chunks::<8>().0[0]
+    fn upper<S: Simd>(&self, joint: u16) -> S::F8 {
+        S::F8::load(&self[usize::from(joint as u8)].0.as_chunks().0[0])
     }
 
     #[inline(always)]
-    fn lower(&self, joint: u16) -> &[f32; 4] {
-        &self.0[usize::from(joint as u8)].as_chunks::<4>().0[2]
+    fn lower<S: Simd>(&self, joint: u16) -> S::F8 {
+        S::F8::load(&self[usize::from(joint as u8)].0.as_chunks().0[1])
     }
 }
 
-/// The weighted sum of the matrices of each of eight vertices.
+/// The weighted sum of the matrices of each of eight vertices, with as many influences as they have.
+#[inline(always)]
+fn weigh_block<S: Simd>(influences: &[Influences], finals: &(impl Finals + ?Sized), out: &mut [Row; LANES]) {
+    match influences {
+        [a] => weigh::<S, 1>([a], finals, out),
+        [a, b] => weigh::<S, 2>([a, b], finals, out),
+        [a, b, c, d] => weigh::<S, 4>([a, b, c, d], finals, out),
+        [a, b, c, d, e, f, g, h] => weigh::<S, 8>([a, b, c, d, e, f, g, h], finals, out),
+        _ => {}
+    }
+}
+
+/// The same, the number known to the compiler.
 #[inline(always)]
 fn weigh<S: Simd, const N: usize>(
     influences: [&Influences; N],
     finals: &(impl Finals + ?Sized),
-    out: &mut [Matrix34; LANES],
+    out: &mut [Row; LANES],
 ) {
     // Written out, so that every place is known when it is compiled.
     weigh_one::<S, N>(influences, finals, out, 0);
@@ -250,27 +289,30 @@ fn weigh<S: Simd, const N: usize>(
 fn weigh_one<S: Simd, const N: usize>(
     influences: [&Influences; N],
     finals: &(impl Finals + ?Sized),
-    out: &mut [Matrix34; LANES],
+    out: &mut [Row; LANES],
     lane: usize,
 ) {
     let joint = influences[0].joints[lane];
     let weight = S::F8::splat(influences[0].weights[lane]);
-    let mut two = S::F8::load(finals.upper(joint)) * weight;
-    let mut one = S::F4::load(finals.lower(joint)) * weight.low();
+    // Row 2 in a wide register too, all of which is kept: for narrow ones the weight would be spread once more.
+    let (mut two, mut one) = (finals.upper::<S>(joint) * weight, finals.lower::<S>(joint) * weight);
     for influence in &influences[1..] {
         let (joint, weight) = (influence.joints[lane], S::F8::splat(influence.weights[lane]));
-        two = S::F8::load(finals.upper(joint)).mul_add(weight, two);
-        one = S::F4::load(finals.lower(joint)).mul_add(weight.low(), one);
+        two = finals.upper::<S>(joint).mul_add(weight, two);
+        one = finals.lower::<S>(joint).mul_add(weight, one);
     }
-    Rows::<S>(two, one).store(&mut out[lane]);
+    if let [upper, lower] = out[lane].0.as_chunks_mut().0 {
+        two.store(upper);
+        one.store(lower);
+    }
 }
 
 /// Row `row` of eight matrices: four vectors, one a column.
 #[inline(always)]
-fn columns<S: Simd>(matrices: &[Matrix34; LANES], row: usize) -> [S::F8; 4] {
+fn columns<S: Simd>(matrices: &[Row; LANES], row: usize) -> [S::F8; 4] {
     let [a, b, c, d, e, f, g, h] = matrices;
-    let [a, b, c, d] = [a, b, c, d].map(|matrix| &matrix.as_chunks::<4>().0[row]);
-    let [e, f, g, h] = [e, f, g, h].map(|matrix| &matrix.as_chunks::<4>().0[row]);
+    let [a, b, c, d] = [a, b, c, d].map(|matrix| &matrix.0.as_chunks::<4>().0[row]);
+    let [e, f, g, h] = [e, f, g, h].map(|matrix| &matrix.0.as_chunks::<4>().0[row]);
     S::F8::transpose([
         S::F8::from_halves(a, e),
         S::F8::from_halves(b, f),
@@ -279,39 +321,40 @@ fn columns<S: Simd>(matrices: &[Matrix34; LANES], row: usize) -> [S::F8; 4] {
     ])
 }
 
-/// Moves eight vertices.
+/// Moves eight vertices of shape `shape`; `stored` is that before morphing.
 #[inline(always)]
 fn move_block<S: Simd>(
-    block: &Block,
-    matrices: &[Matrix34; LANES],
-    moved: &mut [f32; ROOM],
-    turned: &mut [f32; ROOM],
+    shape: &Shape,
+    stored: &Shape,
+    matrices: &[Row; LANES],
+    moved: &mut Points,
+    turned: &mut Points,
 ) {
     let ([ax, bx, cx, tx], [ay, by, cy, ty]) = (columns::<S>(matrices, 0), columns::<S>(matrices, 1));
     let [az, bz, cz, tz] = columns::<S>(matrices, 2);
-    let [x, y, z] = S::F8::load_three(&block.positions);
+    let [x, y, z] = S::F8::load_three(&shape.positions);
     let px = ax.mul_add(x, bx.mul_add(y, cx.mul_add(z, tx)));
     let py = ay.mul_add(x, by.mul_add(y, cy.mul_add(z, ty)));
     let pz = az.mul_add(x, bz.mul_add(y, cz.mul_add(z, tz)));
-    store_points::<S>([px, py, pz], moved);
+    S::F8::store_points([px, py, pz], moved);
     // The columns of the cofactors: b×c, c×a, a×b.
     let [fx, fy, fz] = cross::<S>([bx, by, bz], [cx, cy, cz]);
     let [gx, gy, gz] = cross::<S>([cx, cy, cz], [ax, ay, az]);
     let [hx, hy, hz] = cross::<S>([ax, ay, az], [bx, by, bz]);
     let zero = S::F8::splat(0.0);
     let determinant = ax.mul_add(fx, ay.mul_add(fy, az.mul_add(fz, zero)));
-    let [x, y, z] = S::F8::load_three(&block.normals);
+    let [x, y, z] = S::F8::load_three(&shape.normals);
     let nx = fx.mul_add(x, gx.mul_add(y, hx * z));
     let ny = fy.mul_add(x, gy.mul_add(y, hy * z));
     let nz = fz.mul_add(x, gz.mul_add(y, hz * z));
     let square = nx.mul_add(nx, ny.mul_add(ny, nz * nz));
     let shrink = (S::F8::splat(1.0) / square.sqrt()).flipped_by(determinant.sign());
-    store_points::<S>([nx * shrink, ny * shrink, nz * shrink], turned);
-    // Written so that NaN is not as it should be.
-    let healthy = S::F8::splat(1e-24).less(square).select(square.less(S::F8::splat(1e24)), zero);
-    let finite = (px + py + pz).abs().less(S::F8::splat(f32::INFINITY));
-    if healthy.select(finite, zero).select(zero, -zero).any() {
-        carefully(block, matrices, moved, turned);
+    S::F8::store_points([nx * shrink, ny * shrink, nz * shrink], turned);
+    // A position that is not finite makes NaN of it, which is neither more nor less than anything.
+    let square = (px + py + pz).mul_add(zero, square);
+    let enough = S::F8::splat(1e-24).less(square);
+    if !enough.select(square.less(S::F8::splat(1e24)), zero).all() {
+        carefully(shape, stored, matrices, moved, turned);
     }
 }
 
@@ -320,38 +363,22 @@ fn cross<S: Simd>([ax, ay, az]: [S::F8; 3], [bx, by, bz]: [S::F8; 3]) -> [S::F8;
     [az.neg_mul_add(by, ay * bz), ax.neg_mul_add(bz, az * bx), ay.neg_mul_add(bx, ax * by)]
 }
 
-/// From eight x, y and z to eight points.
-#[inline(always)]
-fn store_points<S: Simd>([x, y, z]: [S::F8; 3], to: &mut [f32; ROOM]) {
-    let [a, b, c, d] = S::F8::transpose([x, y, z, z]);
-    store_at::<S>(a.low(), to, 0);
-    store_at::<S>(b.low(), to, 3);
-    store_at::<S>(c.low(), to, 6);
-    store_at::<S>(d.low(), to, 9);
-    store_at::<S>(a.high(), to, 12);
-    store_at::<S>(b.high(), to, 15);
-    store_at::<S>(c.high(), to, 18);
-    store_at::<S>(d.high(), to, 21);
-}
-
-#[inline(always)]
-fn store_at<S: Simd>(point: S::F4, to: &mut [f32; ROOM], at: usize) {
-    if let Some(to) = to.get_mut(at..).and_then(<[f32]>::first_chunk_mut) {
-        point.store(to);
-    }
-}
-
 /// The open path's way, one by one.
 #[cold]
-fn carefully(block: &Block, matrices: &[Matrix34; LANES], moved: &mut [f32; ROOM], turned: &mut [f32; ROOM]) {
-    for lane in 0..LANES {
-        let matrix: Mat4 = mat4(&matrices[lane]);
-        let three = |rows: &[[f32; LANES]; 3]| Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane]);
-        let (position, normal) = (three(&block.positions), three(&block.normals));
-        let point = matrix.transform_point3(position);
-        let point = if point.is_finite() { point } else { position };
-        let candidates = [normal_matrix(matrix) * normal, near_one(Mat3::from_mat4(matrix)) * normal, normal];
-        let direction = first_direction(candidates);
+fn carefully(
+    shape: &Shape,
+    stored: &Shape,
+    matrices: &[Row; LANES],
+    moved: &mut Points,
+    turned: &mut Points,
+) {
+    for (lane, matrix) in matrices.iter().enumerate() {
+        let matrix = matrix.0.first_chunk().map_or(Mat4::IDENTITY, mat4);
+        let ((position, normal), (old_position, old_normal)) = (shape.get(lane), stored.get(lane));
+        let candidates = [matrix.transform_point3(position), old_position];
+        let point = candidates.into_iter().find(|point| point.is_finite()).unwrap_or(Vec3::ZERO);
+        let upright = near_one(Mat3::from_mat4(matrix)) * normal;
+        let direction = first_direction([normal_matrix(matrix) * normal, upright, normal, old_normal]);
         for at in 0..3 {
             (moved[lane * 3 + at], turned[lane * 3 + at]) = (point[at], direction[at]);
         }

@@ -208,6 +208,11 @@ impl Float8 for F8 {
     }
 
     #[inline(always)]
+    fn all(self) -> bool {
+        instruction!(_mm256_movemask_ps(self.0)) == 0xFF
+    }
+
+    #[inline(always)]
     fn to_bits(self) -> U8 {
         U8(instruction!(_mm256_castps_si256(self.0)))
     }
@@ -266,6 +271,23 @@ impl Float8 for F8 {
             Self(instruction!(_mm256_shuffle_ps::<0x44>(ab_high, cd_high))),
             Self(instruction!(_mm256_shuffle_ps::<0xEE>(ab_high, cd_high))),
         ]
+    }
+
+    #[inline(always)]
+    fn store_points([F8(x), F8(y), F8(z)]: [Self; 3], to: &mut [f32; 24]) {
+        // Of each half: x0 x2 y0 y2, y1 y3 z1 z3, z0 z2 x1 x3.
+        let xy = instruction!(_mm256_shuffle_ps::<0x88>(x, y));
+        let yz = instruction!(_mm256_shuffle_ps::<0xDD>(y, z));
+        let zx = instruction!(_mm256_shuffle_ps::<0xD8>(z, x));
+        // x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3.
+        let first = Self(instruction!(_mm256_shuffle_ps::<0x88>(xy, zx)));
+        let second = Self(instruction!(_mm256_shuffle_ps::<0xD8>(yz, xy)));
+        let third = Self(instruction!(_mm256_shuffle_ps::<0xDD>(zx, yz)));
+        if let [a, b, c, d, e, f] = to.as_chunks_mut::<4>().0 {
+            first.store_halves(a, d);
+            second.store_halves(b, e);
+            third.store_halves(c, f);
+        }
     }
 }
 

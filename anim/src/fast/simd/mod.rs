@@ -113,7 +113,7 @@ impl Level {
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
-            Kind::Portable => kernel.run::<Portable>(),
+            Kind::Portable => portable::run(kernel),
             #[cfg(target_arch = "x86_64")]
             Kind::Avx2(present) => present.run(kernel),
         }

@@ -1,6 +1,6 @@
 //! The vectors of every machine: arrays, and loops short enough for a compiler to turn into what the target has.
 
-use super::{Float4, Float8, Simd, Word8};
+use super::{Float4, Float8, Kernel, Simd, Word8};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 /// What every machine has.
@@ -11,6 +11,13 @@ impl Simd for Portable {
     type F8 = Array8;
     type F4 = Array4;
     type U8 = Words8;
+}
+
+/// Does the work of `kernel` with these vectors. A call of its own, so that nobody who asks for another level saves the
+/// registers that this one needs.
+#[inline(never)]
+pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Portable>()
 }
 
 /// Eight numbers.
@@ -189,6 +196,15 @@ impl Float8 for Array8 {
     }
 
     #[inline(always)]
+    fn all(self) -> bool {
+        let mut bits = u32::MAX;
+        for lane in self.0 {
+            bits &= lane.to_bits();
+        }
+        bits & SIGN != 0
+    }
+
+    #[inline(always)]
     fn to_bits(self) -> Words8 {
         lanes!(Words8, [0; 8], at => self.0[at].to_bits())
     }
@@ -239,6 +255,13 @@ impl Float8 for Array8 {
             Self([a[2], b[2], c[2], d[2], a[6], b[6], c[6], d[6]]),
             Self([a[3], b[3], c[3], d[3], a[7], b[7], c[7], d[7]]),
         ]
+    }
+
+    #[inline(always)]
+    fn store_points([x, y, z]: [Self; 3], to: &mut [f32; 24]) {
+        for (at, to) in to.as_chunks_mut::<3>().0.iter_mut().enumerate() {
+            *to = [x.0[at], y.0[at], z.0[at]];
+        }
     }
 }
 

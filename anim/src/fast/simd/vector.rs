@@ -89,6 +89,8 @@ pub trait Float8:
     fn select(self, yes: Self, no: Self) -> Self;
     /// `self` is a mask: is any lane set?
     fn any(self) -> bool;
+    /// `self` is a mask: is every lane set?
+    fn all(self) -> bool;
     /// The bits as words.
     fn to_bits(self) -> Self::Word;
 
@@ -111,6 +113,8 @@ pub trait Float8:
     /// Four vectors that hold one coordinate of eight things become four that hold all coordinates of two things:
     /// thing `k` and thing `k + 4`. Applied twice it changes nothing.
     fn transpose(rows: [Self; 4]) -> [Self; 4];
+    /// Eight x, y and z to memory as eight points: x y z x y z …
+    fn store_points(rows: [Self; 3], to: &mut [f32; 24]);
 }
 
 /// Four `f32`.

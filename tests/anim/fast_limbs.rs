@@ -1,0 +1,282 @@
+//! Limbs of the fast path bend as those of the open path do.
+
+use crate::ik::{Parent, at_distance, direction, lengths, matrices, origin, row, started, turn, vector};
+use crate::support::angle_between;
+use dragonfly_anim::data::{Skeleton, Transform};
+use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::fast::{Pose, Rig, RootPoses, TwoBone, matrix, to_root, two_bone};
+use dragonfly_anim::ik;
+use dragonfly_kit::counting::count;
+use dragonfly_kit::random::Random;
+use glam::{Mat4, Quat, Vec3};
+
+/// What is allowed between the turns of both paths, radians.
+const ANGLE: f32 = 2e-4;
+
+/// The parents whose scales are the same along all axes.
+const PARENTS: [Parent; 3] = [Parent::Plain, Parent::Uniform, Parent::Mirrored];
+
+/// `poses` after the fast path solved `limb`; `None` where it did not.
+fn fast(skeleton: &Skeleton, poses: &[Transform], limb: &TwoBone, target: Vec3) -> Option<Vec<Transform>> {
+    let rig = Rig::new(skeleton);
+    let (mut pose, mut roots) = (Pose::from_transforms(poses), RootPoses::new(&rig));
+    to_root(Level::best(), &rig, pose.blocks(), &mut roots);
+    let (asked, is_solved) = count(|| two_bone(limb, target, &roots, &mut pose));
+    assert_eq!(asked.allocations, 0);
+    let mut after = poses.to_vec();
+    pose.write_to(&mut after);
+    is_solved.then_some(after)
+}
+
+/// `poses` after the open path solved the same limb.
+fn open(skeleton: &Skeleton, poses: &[Transform], limb: &TwoBone, target: Vec3) -> Vec<Transform> {
+    let pole = if limb.pole == Vec3::ZERO { ik::Pole::AsPosed } else { ik::Pole::Direction(limb.pole) };
+    let same = ik::TwoBone {
+        pole,
+        softness: limb.softness,
+        weight: limb.weight,
+        ..ik::TwoBone::new(limb.root, limb.middle, limb.end)
+    };
+    let mut after = poses.to_vec();
+    ik::two_bone(skeleton, &matrices(skeleton, poses), &same, target, &mut after).unwrap();
+    after
+}
+
+/// The limb 1–2–3 of a row, with a pole in two of three.
+fn limb(random: &mut Random) -> TwoBone {
+    let pole = if random.below(3) == 0 { Vec3::ZERO } else { vector(random) };
+    TwoBone { pole, ..TwoBone::new(1, 2, 3) }
+}
+
+/// Solves many limbs that `limb` makes both ways and compares root and middle.
+fn compare(usual: u64, limb: impl Fn(&mut Random) -> TwoBone) {
+    let mut random = started(usual);
+    let (mut compared, mut worst) = (0, 0.0_f32);
+    for round in 0..3_000 {
+        let parent = random.choice(&PARENTS);
+        let (skeleton, poses) = row(&mut random, 2, parent);
+        let limb = limb(&mut random);
+        let old = matrices(&skeleton, &poses);
+        let parts = lengths(&poses);
+        let (least, most) = ((parts[0] - parts[1]).abs(), parts[0] + parts[1]);
+        // Also out of reach and too near; full reach and full fold themselves are half the digits.
+        let share = random.choice(&[-0.4, 0.02, 0.1, 0.35, 0.6, 0.8, 0.93, 0.98, 1.3, 40.0]);
+        let distance = least + (most - least) * share;
+        if distance < 0.05 * most {
+            continue;
+        }
+        let target = at_distance(&old, &poses, direction(&mut random), distance);
+        let expected = open(&skeleton, &poses, &limb, target);
+        let got = fast(&skeleton, &poses, &limb, target).unwrap_or_else(|| panic!("{round} {parent:?}"));
+        // Straight and folded limbs have no side; their middles and ends still have places.
+        let straight = share < 0.0 || ik::soft_distance(distance, most, limb.softness) > 0.999 * most;
+        for bone in [1, 2].into_iter().filter(|_| !straight) {
+            let off = angle_between(got[bone].rotation, expected[bone].rotation);
+            assert!(off < ANGLE, "{round} {parent:?} {share} {limb:?}: bone {bone} off by {off}");
+            (compared, worst) = (compared + 1, worst.max(off));
+        }
+        let size = most * poses[0].scale.abs().x;
+        let (got, expected) = (matrices(&skeleton, &got), matrices(&skeleton, &expected));
+        for bone in [2, 3] {
+            let off = origin(&got, bone).distance(origin(&expected, bone)) / size;
+            let allowed = if straight { 2e-3 } else { 1e-4 };
+            assert!(off < allowed, "{round} {parent:?} {share} {limb:?}: bone {bone} off by {off}");
+        }
+        assert_eq!(got.len(), 4);
+    }
+    println!("{compared} turns, worst {worst:e} radians");
+    assert!(compared > 2_000);
+}
+
+#[test]
+fn a_limb_bends_as_on_the_open_path() {
+    compare(61, limb);
+}
+
+#[test]
+fn a_soft_limb_bends_as_on_the_open_path() {
+    compare(62, |random| TwoBone { softness: random.choice(&[0.01, 0.1, 0.4, 1.0, 3.0]), ..limb(random) });
+}
+
+#[test]
+fn a_limb_in_part_turns_as_on_the_open_path() {
+    compare(63, |random| TwoBone {
+        softness: random.choice(&[0.0, 0.2]),
+        weight: random.between(0.01, 0.99),
+        ..limb(random)
+    });
+}
+
+#[test]
+fn weight_zero_changes_no_bit() {
+    let mut random = started(64);
+    for weight in [0.0, -0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
+        let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+        let limb = TwoBone { weight, ..limb(&mut random) };
+        assert_eq!(fast(&skeleton, &poses, &limb, vector(&mut random)), Some(poses));
+    }
+    let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+    let (limb, target) = (limb(&mut random), vector(&mut random));
+    let over = TwoBone { weight: 7.0, ..limb };
+    assert_eq!(fast(&skeleton, &poses, &over, target), fast(&skeleton, &poses, &limb, target));
+}
+
+/// A straight row of two parts along `way`, of lengths `a` and `b`; a negative one folds back.
+fn line(random: &mut Random, way: Vec3, a: f32, b: f32) -> (Skeleton, Vec<Transform>) {
+    let (mut skeleton, mut poses) = row(random, 2, Parent::Plain);
+    for (bone, length) in [(2, a), (3, b)] {
+        skeleton.bones[bone].rest.translation = way * length;
+        poses[bone].translation = way * length;
+        poses[bone].rotation = Quat::IDENTITY;
+    }
+    poses.iter_mut().take(2).for_each(|pose| pose.rotation = turn(random));
+    (skeleton, poses)
+}
+
+#[test]
+fn a_limb_on_one_line_bends_towards_its_pole_or_anywhere_and_meets_its_target() {
+    let mut random = started(65);
+    for round in 0..1_000 {
+        let way = direction(&mut random);
+        let (a, b) = (random.between(0.3, 2.0), random.between(0.3, 2.0) * random.choice(&[-1.0, 1.0]));
+        let (skeleton, poses) = line(&mut random, way, a, b);
+        let limb = limb(&mut random);
+        let old = matrices(&skeleton, &poses);
+        let (least, most) = ((a - b.abs()).abs(), a + b.abs());
+        let distance = least + (most - least) * random.between(0.05, 0.95);
+        // Along the limb itself, against it, and anywhere.
+        let along = (origin(&old, 2) - origin(&old, 1)).normalize();
+        let towards = [along, -along, direction(&mut random)][random.below(3)];
+        let target = origin(&old, 1) + towards * distance;
+        let got = fast(&skeleton, &poses, &limb, target).expect("a limb");
+        let new = matrices(&skeleton, &got);
+        let (middle, end) = (origin(&new, 2) - origin(&new, 1), origin(&new, 3));
+        assert!(end.distance(target) < 1e-4 * most, "{round}: {end} {target}");
+        let line = (target - origin(&new, 1)).normalize();
+        let across = |vector: Vec3| vector - line * vector.dot(line);
+        let (side, pole) = (across(middle), across(limb.pole));
+        if pole.length() > 0.05 * limb.pole.length() && side.length() > 0.02 * most {
+            assert!(side.normalize().dot(pole.normalize()) > 0.999, "{round}: {side} {pole}");
+        }
+    }
+}
+
+#[test]
+fn targets_straight_behind_are_met() {
+    let mut random = started(66);
+    for round in 0..2_000 {
+        let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+        let old = matrices(&skeleton, &poses);
+        let [root, middle, end] = [1, 2, 3].map(|bone| origin(&old, bone));
+        if (end - root).length() < 0.2 || (middle - root).cross(end - root).length() < 0.05 {
+            continue;
+        }
+        let off = vector(&mut random) * random.choice(&[0.0, 1e-7, 1e-5, 1e-3, 1e-1]);
+        let target = root - (end - root) + off * (end - root).length();
+        let limb = limb(&mut random);
+        let got = fast(&skeleton, &poses, &limb, target).expect("a limb");
+        let (a, b) = ((middle - root).length(), (end - middle).length());
+        let (most, distance) = (a + b, target.distance(root));
+        let left = origin(&matrices(&skeleton, &got), 3).distance(target);
+        let allowed = 1e-4 * most + (distance - most).max(0.0) + ((a - b).abs() - distance).max(0.0);
+        assert!(left < allowed, "{round}: {left} {allowed}");
+    }
+}
+
+#[test]
+fn limbs_of_any_size_bend_alike() {
+    let mut random = started(67);
+    for _ in 0..300 {
+        let (mut skeleton, mut poses) = row(&mut random, 2, Parent::Plain);
+        let (limb, target) = (limb(&mut random), vector(&mut random));
+        poses[0].translation = Vec3::ZERO;
+        let usual = fast(&skeleton, &poses, &limb, target).unwrap();
+        for size in [1e-7_f32, 1e-3, 1e3, 1e7] {
+            let mut sized = poses.clone();
+            for (bone, pose) in skeleton.bones.iter_mut().zip(&mut sized) {
+                pose.translation *= size;
+                bone.rest.translation = pose.translation;
+            }
+            let got = fast(&skeleton, &sized, &limb, target * size).unwrap_or_else(|| panic!("{size}"));
+            for bone in [1, 2] {
+                let off = angle_between(got[bone].rotation, usual[bone].rotation);
+                assert!(off < 1e-2, "{size}: {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_solved_changes_nothing() {
+    let mut random = started(68);
+    let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+    let rig = Rig::new(&skeleton);
+    let mut roots = RootPoses::new(&rig);
+    to_root(Level::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);
+    let root = matrix::transform_point(roots.get(1), Vec3::ZERO);
+    let limb = TwoBone::new(1, 2, 3);
+    let mut cases = vec![
+        (TwoBone { root: 9, ..limb }, Vec3::ONE),
+        (TwoBone { middle: u32::MAX, ..limb }, Vec3::ONE),
+        (TwoBone { end: 4, ..limb }, Vec3::ONE),
+        (TwoBone { end: 2, ..limb }, Vec3::ONE),
+        (limb, root),
+    ];
+    for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX] {
+        cases.extend((0..3).map(|axis| {
+            let mut target = Vec3::ONE;
+            target[axis] = wrong;
+            (limb, target)
+        }));
+    }
+    for (limb, target) in cases {
+        let mut pose = Pose::from_transforms(&poses);
+        assert!(!two_bone(&limb, target, &roots, &mut pose), "{limb:?} {target}");
+        assert_eq!(pose, Pose::from_transforms(&poses), "{limb:?} {target}");
+    }
+    let mut short = Pose::new(1);
+    assert!(two_bone(&limb, Vec3::ONE, &roots, &mut short), "lanes past the end are there");
+    assert!(!two_bone(&limb, Vec3::ONE, &roots, &mut Pose::new(0)));
+}
+
+#[test]
+fn no_number_makes_a_rotation_that_is_none() {
+    let mut random = started(69);
+    let odd = [0.0, -0.0, 1e-30, 1e-45, 1.0, -3.0, 1e19, 1e30, f32::MAX, f32::INFINITY, f32::NAN];
+    let any = |random: &mut Random| Vec3::from_array([(); 3].map(|()| random.choice(&odd)));
+    for round in 0..5_000 {
+        let (skeleton, poses) = row(&mut random, 2, random_parent(round));
+        let rig = Rig::new(&skeleton);
+        let mut pose = Pose::from_transforms(&poses);
+        let mut roots = RootPoses::new(&rig);
+        to_root(Level::best(), &rig, pose.blocks(), &mut roots);
+        let limb = TwoBone {
+            pole: any(&mut random),
+            softness: random.choice(&odd),
+            weight: random.choice(&odd),
+            ..TwoBone::new(1, 2, 3)
+        };
+        let target = if round % 2 == 0 { vector(&mut random) } else { any(&mut random) };
+        two_bone(&limb, target, &roots, &mut pose);
+        for bone in 0..4 {
+            let rotation = pose.get(bone).unwrap().rotation;
+            let is_unit = (rotation.length() - 1.0).abs() < 1e-5;
+            assert!(is_unit, "{round} {limb:?} {target}: {rotation}");
+        }
+    }
+}
+
+fn random_parent(round: usize) -> Parent {
+    PARENTS[round % 3]
+}
+
+#[test]
+fn the_distance_left_is_that_of_the_end() {
+    let (skeleton, poses) = row(&mut started(70), 2, Parent::Plain);
+    let rig = Rig::new(&skeleton);
+    let mut roots = RootPoses::new(&rig);
+    to_root(Level::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);
+    let old: Vec<Mat4> = matrices(&skeleton, &poses);
+    let left = dragonfly_anim::fast::distance_left(&TwoBone::new(1, 2, 3), Vec3::ONE, &roots);
+    assert!((left - origin(&old, 3).distance(Vec3::ONE)).abs() < 1e-5);
+}
