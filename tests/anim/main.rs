@@ -33,6 +33,7 @@ mod hostile;
 mod ik;
 mod joint_limits;
 mod levels;
+mod limited_chains;
 mod made;
 mod masks;
 mod motion;

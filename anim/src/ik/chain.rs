@@ -8,11 +8,11 @@
 //! up for in the next sweep, and in the end by a few passes of CCD, which sees where a free joint can help a stiff one.
 
 use super::fabrik::Points;
+use super::limited::{Freedom, limited};
 use super::path::{parent_of, parent_to_root, pose_of};
 use super::turn::{arc_between, share};
 use super::{IkError, Reach};
 use crate::data::{BoneIndex, Skeleton, Transform};
-use crate::sample::Value;
 use crate::sample::mix::slerp;
 use glam::{DMat3, DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
 
@@ -45,19 +45,23 @@ impl Chain {
 /// Working memory of [`chain()`], kept between calls so that they allocate nothing.
 #[derive(Clone, Debug, Default)]
 pub struct ChainScratch {
-    links: Vec<Link>,
-    joints: Vec<DVec3>,
-    lengths: Vec<f64>,
+    pub(super) links: Vec<Link>,
+    pub(super) joints: Vec<DVec3>,
+    pub(super) lengths: Vec<f64>,
+    /// Of the turning links, where there are limits.
+    pub(super) freedoms: Vec<Freedom>,
 }
 
 /// One bone of the row.
 #[derive(Clone, Copy, Debug)]
-struct Link {
-    bone: BoneIndex,
-    posed: Transform,
-    rotation: DQuat,
+pub(super) struct Link {
+    pub(super) bone: BoneIndex,
+    pub(super) posed: Transform,
+    pub(super) rotation: DQuat,
     /// The rotation that came nearest to the target so far.
-    best: DQuat,
+    pub(super) best: DQuat,
+    /// The rotation before a step that may have to be taken back.
+    pub(super) kept: DQuat,
 }
 
 /// Turns the bones of `settings` so that the end meets `target` (to-root space), or comes as near as they can.
@@ -118,6 +122,7 @@ impl ChainScratch {
             links: Vec::with_capacity(bones),
             joints: Vec::with_capacity(bones),
             lengths: Vec::with_capacity(bones),
+            freedoms: Vec::with_capacity(bones),
         }
     }
 
@@ -128,7 +133,7 @@ impl ChainScratch {
         loop {
             let posed = pose_of(skeleton, poses, bone)?;
             let rotation = posed.rotation.as_dquat().normalize();
-            self.links.push(Link { bone, posed, rotation, best: rotation });
+            self.links.push(Link { bone, posed, rotation, best: rotation, kept: rotation });
             if bone == settings.root && self.links.len() > 1 {
                 break;
             }
@@ -140,6 +145,8 @@ impl ChainScratch {
         self.joints.resize(self.links.len(), DVec3::ZERO);
         self.lengths.clear();
         self.lengths.resize(self.links.len() - 1, 0.0);
+        self.freedoms.clear();
+        self.freedoms.resize(self.lengths.len(), Freedom::default());
         Ok(())
     }
 
@@ -170,54 +177,17 @@ impl ChainScratch {
         self.links.iter_mut().for_each(|link| link.rotation = link.best);
         self.place();
         if let Some(limit) = limit {
-            self.close_in(goal, tolerance, limit);
+            self.search(goal, tolerance, limit);
         }
         made
     }
 
-    /// A few passes of turning one bone at a time, last to first, so that the end points at the goal from it (that is
-    /// CCD), where a turn that its limit allows brings the end nearer: a sweep does not see how the joints that are free
-    /// can make up for one that is not.
-    fn close_in(&mut self, goal: DVec3, tolerance: f64, limit: Limit<'_>) {
-        for _ in 0..32 {
-            let before = self.gap(goal);
-            for index in (0..self.lengths.len()).rev() {
-                let nearest = self.gap(goal);
-                let above =
-                    self.links[..index].iter().fold(DMat3::IDENTITY, |above, link| above * link.linear());
-                let (inverse, joint) = (above.inverse(), self.joints[index]);
-                let end = self.joints[self.joints.len() - 1];
-                let (from, to) = (inverse * (end - joint), inverse * (goal - joint));
-                if nearest <= tolerance || !from.is_finite() || !to.is_finite() {
-                    continue;
-                }
-                let link = &mut self.links[index];
-                let wish = (arc_between(from, to) * link.best).as_quat().normalize();
-                link.rotation = limit(link.bone, wish).healed(wish).as_dquat().normalize();
-                self.place();
-                let kept = self.gap(goal) < nearest;
-                let link = &mut self.links[index];
-                if kept {
-                    link.best = link.rotation
-                } else {
-                    link.rotation = link.best
-                }
-                if !kept {
-                    self.place();
-                }
-            }
-            if self.gap(goal) > 0.999 * before || self.gap(goal) <= tolerance {
-                break;
-            }
-        }
-    }
-
-    fn gap(&self, goal: DVec3) -> f64 {
+    pub(super) fn gap(&self, goal: DVec3) -> f64 {
         self.joints.last().map_or(0.0, |last| last.distance(goal))
     }
 
     /// Joints and lengths from the rotations.
-    fn place(&mut self) {
+    pub(super) fn place(&mut self) {
         let mut linear = DMat3::IDENTITY;
         for index in 0..self.links.len() {
             let link = self.links[index];
@@ -247,8 +217,7 @@ impl ChainScratch {
                 link.rotation = (turn * link.rotation).normalize();
             }
             if let Some(limit) = limit {
-                let wish = link.rotation.as_quat().normalize();
-                link.rotation = limit(link.bone, wish).healed(wish).as_dquat().normalize();
+                link.rotation = limited(limit, link.bone, link.rotation);
             }
             linear *= link.linear();
             position += linear * arm;
@@ -258,7 +227,7 @@ impl ChainScratch {
 }
 
 impl Link {
-    fn linear(&self) -> DMat3 {
+    pub(super) fn linear(&self) -> DMat3 {
         DMat3::from_quat(self.rotation) * DMat3::from_diagonal(self.posed.scale.as_dvec3())
     }
 }

@@ -26,6 +26,7 @@ mod chain;
 mod error;
 mod fabrik;
 mod foot;
+mod limited;
 mod look_at;
 mod path;
 pub(crate) mod turn;
