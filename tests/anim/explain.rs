@@ -398,28 +398,176 @@ fn what_is_not_there_is_named() {
     assert_eq!(error(None, vertex(0, 1, 0)).to_string(), "instance 0 has no primitive 1; it has 1");
     let text = "primitive 0 of instance 1 has no vertex 7; it has 1";
     assert_eq!(error(None, vertex(1, 0, 7)).to_string(), text);
+    let none = ExplainError::NoVertex { instance: 1, primitive: 0, vertex: 1, vertices: 1 };
+    assert_eq!(error(None, vertex(1, 0, 1)), none, "the first that is not there");
+}
+
+#[test]
+fn the_keys_of_morph_weights_are_those_of_the_instance() {
+    let mut model = (*made()).clone();
+    let mut take = (*model.animation.takes[0]).clone();
+    let (times, weights) = ([0.0, 9.0].into(), [0.5, 0.5].into());
+    let other = MorphTrack { instance: 1, targets: 1, times, weights, interpolation: Interpolation::Step };
+    take.morphs.insert(0, other);
+    model.animation.takes[0] = Arc::new(take);
+    let explained = |instance, time| {
+        let what = What::Vertex { instance, primitive: 0, vertex: 0 };
+        vertex_of(&explain(&model, Some(0), time, what).unwrap()).clone()
+    };
+    let vertex = explained(0, 0.5);
+    let keys = vertex.morph_keys.unwrap();
+    assert_eq!((keys.count, keys.interpolation), (2, Interpolation::Linear));
+    assert_eq!((keys.before, keys.after, keys.mix), ((0, 0.0), (1, 2.0), 0.25));
+    let [lift] = &vertex.morphs[..] else { panic!("one target has a weight: {:?}", vertex.morphs) };
+    assert_eq!((lift.target, &*lift.name, lift.weight), (0, "lift", 0.25));
+    assert_eq!((lift.difference, lift.contribution), (Vec3::Z, Vec3::Z * 0.25));
+    assert!(explained(0, 0.0).morphs.is_empty(), "a target without a weight adds nothing");
+    assert_eq!(explained(1, 0.5).morph_keys.unwrap().interpolation, Interpolation::Step);
+    assert_eq!(explained(2, 0.5).morph_keys, None);
+}
+
+#[test]
+fn bones_without_a_weight_have_no_part_in_a_vertex() {
+    let what = What::Vertex { instance: 0, primitive: 0, vertex: 0 };
+    let explanation = explain(&made(), Some(0), 0.5, what).unwrap();
+    let MovementStep::Skin { influences, .. } = &vertex_of(&explanation).movement else { panic!("a skin") };
+    let told: Vec<(Option<u32>, f32)> =
+        influences.iter().map(|influence| (influence.bone, influence.weight)).collect();
+    assert_eq!(told, [(Some(1), 0.75), (Some(0), 0.25)]);
+}
+
+/// One thing wrong with a model.
+type Damage = fn(&mut ModelData);
+
+/// Everything that a position in a file may miss, and everything that may be no number.
+const DAMAGES: &[(&str, Damage)] = &[
+    ("a take with too few tracks", |model| change_take(model, |take| take.tracks.truncate(1))),
+    ("no tracks", |model| change_take(model, |take| take.tracks.clear())),
+    ("fewer values than times", |model| {
+        change_take(model, |take| take.tracks[0].rotation.values = [Quat::from_rotation_x(1.0)].into());
+    }),
+    ("values without times", |model| {
+        change_take(model, |take| take.tracks[0].translation.times = [].into());
+    }),
+    ("times that are no numbers", |model| {
+        change_take(model, |take| {
+            take.tracks[0].rotation.times = [f32::NAN, f32::INFINITY, -1.0].into();
+        });
+    }),
+    ("values that are no numbers", |model| {
+        change_take(model, |take| {
+            take.tracks[0].rotation.values = [Quat::from_xyzw(f32::NAN, 0.0, 0.0, 1.0); 3].into();
+            take.tracks[0].translation.values = [Vec3::splat(f32::INFINITY); 6].into();
+            take.tracks[1].translation.values = [Vec3::NAN; 2].into();
+        });
+    }),
+    ("more morph weights than targets", |model| change_take(model, |take| take.morphs[0].targets = 9)),
+    ("morph weights that are no numbers", |model| {
+        change_take(model, |take| take.morphs[0].weights = [f32::NAN, f32::INFINITY].into());
+    }),
+    ("a morph target without positions", |model| {
+        model.meshes[0].primitives[0].morph_targets[0].positions.clear();
+    }),
+    ("a skin with too few bones", |model| model.skins[0].bones.truncate(1)),
+    ("a skin with a bone that is not there", |model| model.skins[0].bones[1] = 99),
+    ("a skin without offsets", |model| model.skins[0].offsets.clear()),
+    ("offsets that are no numbers", |model| model.skins[0].offsets.fill(Mat4::NAN)),
+    ("no skin", |model| model.skins.clear()),
+    ("an influence of no joint", |model| {
+        model.meshes[0].primitives[0].vertices.influences[0].joint = 99;
+    }),
+    ("no influences", |model| model.meshes[0].primitives[0].vertices.influences.clear()),
+    ("a weight that is no number", |model| {
+        model.meshes[0].primitives[0].vertices.influences[0].weight = f32::NAN;
+    }),
+    ("positions that are no numbers", |model| {
+        model.meshes[0].primitives[0].vertices.positions.fill(Vec3::NAN);
+    }),
+    ("normals that are no numbers", |model| {
+        model.meshes[0].primitives[0].vertices.normals.fill(Vec3::ZERO);
+    }),
+    ("a carrier that is not there", |model| model.instances[1].bone = Some(99)),
+    ("a parent below its child", |model| {
+        let bones = &mut Arc::make_mut(&mut model.animation.skeleton).bones;
+        bones[0].parent = Some(1);
+    }),
+    ("a parent that is not there", |model| {
+        let bones = &mut Arc::make_mut(&mut model.animation.skeleton).bones;
+        bones[1].parent = Some(99);
+    }),
+    ("a bone that is its own parent", |model| {
+        let bones = &mut Arc::make_mut(&mut model.animation.skeleton).bones;
+        bones[1].parent = Some(1);
+    }),
+    ("a rest that is no number", |model| {
+        let bones = &mut Arc::make_mut(&mut model.animation.skeleton).bones;
+        bones[1].rest = Transform { translation: Vec3::NAN, ..Transform::IDENTITY };
+    }),
+];
+
+fn change_take(model: &mut ModelData, change: impl FnOnce(&mut dragonfly_anim::data::Take)) {
+    let mut take = (*model.animation.takes[0]).clone();
+    change(&mut take);
+    model.animation.takes[0] = Arc::new(take);
+}
+
+/// What holds for the bones of every explanation: numbers, parents before children, each once, and what is played.
+fn check_sound(explanation: &Explanation, damage: &str) {
+    for (number, step) in explanation.bones.iter().enumerate() {
+        assert!(step.to_root.is_finite() && step.to_parent.is_finite() && step.pose.is_finite(), "{damage}");
+        assert!(step.translation.value.is_finite() && step.rotation.value.is_finite(), "{damage}");
+        for keys in [&step.translation.keys, &step.scale.keys].into_iter().flatten() {
+            let tangents = [keys.before.tangent, keys.after.tangent];
+            assert!(tangents.into_iter().flatten().all(Vec3::is_finite), "{damage}");
+            assert!(keys.before.value.is_finite() && keys.after.value.is_finite(), "{damage}");
+        }
+        if let Some(keys) = &step.rotation.keys {
+            assert!(keys.before.value.is_finite() && keys.after.value.is_finite(), "{damage}");
+        }
+        let above = explanation.bones[..number].iter();
+        assert!(above.clone().all(|above| above.bone < step.bone), "{damage}: {:?}", step.bone);
+        let told = step.parent.is_none_or(|parent| above.clone().any(|above| above.bone == parent));
+        assert!(told, "{damage}: the parent of bone {} is not told before it", step.bone);
+    }
+    assert!(!explanation.to_string().is_empty());
 }
 
 #[test]
 fn damaged_models_are_explained_without_a_panic() {
-    let mut model = (*made()).clone();
-    let mut take = (*model.animation.takes[0]).clone();
-    let bad = [f32::NAN, f32::INFINITY, -1.0];
-    take.tracks[0].rotation.values = [Quat::from_xyzw(f32::NAN, 0.0, 0.0, 0.0)].into();
-    take.tracks[0].translation.times = bad.into();
-    take.tracks.truncate(1);
-    take.morphs[0].targets = 9;
-    model.animation.takes[0] = Arc::new(take);
-    model.skins[0].bones.truncate(1);
-    model.skins[0].offsets.clear();
-    let skeleton = Arc::make_mut(&mut model.animation.skeleton);
-    skeleton.bones[0].parent = Some(1);
-    skeleton.bones[1].rest = Transform { translation: Vec3::NAN, ..Transform::IDENTITY };
-    for time in [f32::NAN, f32::NEG_INFINITY, 0.5, f32::MAX] {
-        for what in [What::Bone(0), What::Bone(1), What::Vertex { instance: 0, primitive: 0, vertex: 0 }] {
-            let explanation = explain(&model, Some(0), time, what).unwrap();
-            assert!(explanation.bones.iter().all(|step| step.to_root.is_finite() && step.pose.is_finite()));
-            assert!(!explanation.to_string().is_empty());
+    for (damage, change) in DAMAGES {
+        let mut model = (*made()).clone();
+        change(&mut model);
+        let model = Arc::new(model);
+        let mut evaluator = Evaluator::new(Arc::clone(&model));
+        for time in [f32::NAN, f32::NEG_INFINITY, 0.5, 1.5, f32::MAX] {
+            evaluator.pose(Some(0), time);
+            for bone in 0..2 {
+                let explanation = explain(&model, Some(0), time, What::Bone(bone)).unwrap();
+                check_sound(&explanation, damage);
+                let to_root = explanation.bone(bone).unwrap().to_root;
+                assert_eq!(to_root, evaluator.to_root()[bone as usize], "{damage}");
+            }
+            for instance in 0..3 {
+                let what = What::Vertex { instance, primitive: 0, vertex: 0 };
+                let explanation = explain(&model, Some(0), time, what).unwrap();
+                check_sound(&explanation, damage);
+                let mut played = [Vec3::ZERO];
+                evaluator.positions(instance as usize, 0, &mut played);
+                let told = vertex_of(&explanation).final_position;
+                assert!(
+                    told == played[0] || told.is_nan() && played[0].is_nan(),
+                    "{damage}: {told} {played:?}"
+                );
+            }
         }
     }
+}
+
+#[test]
+fn an_instance_of_no_mesh_has_no_primitives() {
+    let mut model = (*made()).clone();
+    model.instances[0].mesh = 99;
+    let error =
+        explain(&model, None, 0.0, What::Vertex { instance: 0, primitive: 0, vertex: 0 }).unwrap_err();
+    assert_eq!(error, ExplainError::NoPrimitive { instance: 0, primitive: 0, primitives: 0 });
 }

@@ -204,6 +204,6 @@ fn a_chain_with_limits_allocates_nothing_and_asks_them_a_bounded_number_of_times
         most = most.max(asked);
     }
     println!("asked at most {most} times");
-    // What the documentation states: for each turning bone, the sweeps and 2,040 more.
-    assert!(most > 100 && most <= 3 * (32 + 2_040), "{most}");
+    // What the documentation states: for each turning bone, the sweeps and 2,028 more.
+    assert!(most > 100 && most <= 3 * (32 + 2_028), "{most}");
 }

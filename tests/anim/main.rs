@@ -23,6 +23,7 @@ mod docs;
 mod doors;
 mod examples;
 mod explain;
+mod fades;
 mod fast_layers;
 mod fast_path;
 mod fixture;

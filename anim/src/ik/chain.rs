@@ -4,8 +4,27 @@
 //! needs fewer sweeps, and it does not depend on the order of the joints. What FABRIK is slow at, targets close to full
 //! reach, is finished in closed form. It works on points, so the rotations are found afterwards, from the first bone to
 //! the last: each turns the short way from where it points to where the next joint shall be. A bone thereby keeps its
-//! twist, and a joint limit is asked for every new rotation; what it takes away is made
-//! up for in the next sweep, and in the end by a few passes of CCD, which sees where a free joint can help a stiff one.
+//! twist, and a joint limit is asked for every new rotation; what it takes away is made up for in the next sweep.
+//!
+//! # With joint limits
+//!
+//! Where sweeps stop short, all joints are moved together on what their limits leave free (damped least squares), from
+//! the pose that the sweeps have reached and, where that does not help, from up to eleven others. Of 1000 targets that a
+//! pose within the limits reaches, so many are met within a hundredth of the chain's length (in brackets: by sweeps and
+//! CCD, which had this place before):
+//!
+//! | chain | found |
+//! |---|---|
+//! | 2 to 6 bones, cones of 40° | 1000 (996) |
+//! | 2 to 7 bones, hinges, balls and Euler ranges mixed, targets from turns up to 1 rad | 998 (942) |
+//! | the same, targets from turns of any size, most of them where several joints are at their limits | 995 (843) |
+//! | an arm: shoulder, elbow, wrist | 1000 (814) |
+//! | a finger or a tail: 2 to 6 hinges that bend one way | 1000 (992) |
+//!
+//! The work is bounded: a limit is asked at most `iterations` + 2,028 times for each bone, and comes near that only for
+//! targets that cannot be reached. For less than a thousandth of the length no other pose is looked for or taken; but
+//! where a target can only be met from another pose than the sweeps lead to, the figure jumps to it, and from frame to
+//! frame with a target that moves it may jump back.
 
 use super::fabrik::Points;
 use super::limited::{Freedom, limited};
@@ -71,8 +90,8 @@ pub(super) struct Link {
 /// turn. Where bones of the row are scaled differently per axis, their lengths depend on their directions and the sweeps
 /// begin anew, at most `iterations` times in all.
 ///
-/// With a `limit` the search may end early, most of all for a straight chain whose target lies on its own line. The
-/// result is the best that was met, and no farther from the target than the pose was.
+/// With a `limit` the search may end early (see the module). The result is the best that was met, and no farther from the
+/// target than the pose was: a pose beyond its limits stays as it is where nothing within them is nearer.
 ///
 /// `to_root` is read at the root's parent only. Returns the distance left at full weight, and the sweeps made.
 pub fn chain(

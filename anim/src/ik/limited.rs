@@ -24,6 +24,7 @@
 
 use super::chain::{ChainScratch, Limit};
 use crate::data::BoneIndex;
+use crate::joint::rotation_vector;
 use crate::sample::Value;
 use glam::{DMat3, DQuat, DVec3};
 
@@ -150,7 +151,7 @@ impl ChainScratch {
                 let way = if moved.dot(pull) < 0.0 { -*turn } else { *turn };
                 let wish = (DQuat::from_scaled_axis(way * PROBE) * link.rotation).normalize();
                 let got = limited(limit, link.bone, wish) * link.rotation.conjugate();
-                *turn = scaled_axis(got) / PROBE;
+                *turn = rotation_vector(got) / PROBE;
                 *moved = linear * turn.cross(arm);
                 if !moved.is_finite() || turn.length() < 0.02 {
                     (*turn, *moved) = (DVec3::ZERO, DVec3::ZERO);
@@ -216,13 +217,6 @@ impl Freedom {
 pub(super) fn limited(limit: Limit<'_>, bone: BoneIndex, wish: DQuat) -> DQuat {
     let wish = wish.as_quat().normalize();
     limit(bone, wish).healed(wish).as_dquat().normalize()
-}
-
-/// Axis times angle of a rotation, the short way.
-fn scaled_axis(rotation: DQuat) -> DVec3 {
-    let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
-    let sine = rotation.xyz().length();
-    if sine == 0.0 { DVec3::ZERO } else { rotation.xyz() * (2.0 * sine.atan2(rotation.w) / sine) }
 }
 
 /// A point of the cube from -1 to 1, another for each start and bone, always the same.
