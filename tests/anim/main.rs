@@ -23,6 +23,7 @@ mod docs;
 mod doors;
 mod examples;
 mod explain;
+mod explain_damage;
 mod fades;
 mod fast_layers;
 mod fast_path;
@@ -51,6 +52,7 @@ mod support;
 mod textures;
 mod trial;
 mod two_takes;
+mod unbound;
 mod uris;
 
 /// Counts what each thread allocates, for the promises that playing allocates nothing.
