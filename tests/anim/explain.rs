@@ -5,7 +5,7 @@ use crate::support::{about_z, along_x, animation_data, bone, take};
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{
     Channel, Influence, Interpolation, Mesh, MeshInstance, ModelData, MorphTarget, MorphTrack, Primitive,
-    Skin, Track, Transform, Vertices,
+    Skin, Track, Vertices,
 };
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::explain::{
