@@ -380,6 +380,16 @@ fn the_text_names_each_section_and_its_columns_line_up() {
     {
         assert!(text.contains(word), "{word} is missing");
     }
+    // Each step under its own section, not only somewhere.
+    for heading in [
+        "  Keys around the time, and the temporary key-frame (§2.1.5.2)",
+        "  To-root (§2.1.5.1) = to_parent, because a root has no parent",
+        "The vertex as stored (§2.1.2.1)",
+        "Skin 0: what each bone adds (§2.1.4)",
+        "Result, scene space",
+    ] {
+        assert!(text.lines().any(|line| line == heading), "the heading \"{heading}\" is missing");
+    }
     assert!(text.lines().all(|line| line == line.trim_end()), "blanks at the end of a line");
     assert!(text.lines().all(|line| line.chars().count() <= 100), "a line too long for a terminal");
     let rows: Vec<usize> =
