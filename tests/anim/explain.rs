@@ -5,7 +5,7 @@ use crate::support::{about_z, along_x, animation_data, bone, take};
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{
     Channel, Influence, Interpolation, Mesh, MeshInstance, ModelData, MorphTarget, MorphTrack, Primitive,
-    Skin, Track, Transform, Vertices,
+    Skin, Track, Vertices,
 };
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::explain::{
@@ -216,7 +216,7 @@ fn check_normal(vertex: &VertexResult) {
     }
 }
 
-fn vertex_of(explanation: &Explanation) -> &VertexResult {
+pub(crate) fn vertex_of(explanation: &Explanation) -> &VertexResult {
     match &explanation.subject {
         Subject::Vertex(vertex) => vertex,
         Subject::Bone(_) => panic!("a bone was explained"),
@@ -230,7 +230,7 @@ fn fox() -> Arc<ModelData> {
 
 /// Two bones, each property with another interpolation; a skinned vertex that a morph target moves, one carried by a
 /// bone, one that stands still.
-fn made() -> Arc<ModelData> {
+pub(crate) fn made() -> Arc<ModelData> {
     let x = |number: f32| Vec3::new(number, 0.5, -number);
     let splined = Channel::new(
         [0.0, 2.0],
@@ -380,6 +380,16 @@ fn the_text_names_each_section_and_its_columns_line_up() {
     {
         assert!(text.contains(word), "{word} is missing");
     }
+    // Each step under its own section, not only somewhere.
+    for heading in [
+        "  Keys around the time, and the temporary key-frame (§2.1.5.2)",
+        "  To-root (§2.1.5.1) = to_parent, because a root has no parent",
+        "The vertex as stored (§2.1.2.1)",
+        "Skin 0: what each bone adds (§2.1.4)",
+        "Result, scene space",
+    ] {
+        assert!(text.lines().any(|line| line == heading), "the heading \"{heading}\" is missing");
+    }
     assert!(text.lines().all(|line| line == line.trim_end()), "blanks at the end of a line");
     assert!(text.lines().all(|line| line.chars().count() <= 100), "a line too long for a terminal");
     let rows: Vec<usize> =
@@ -398,28 +408,40 @@ fn what_is_not_there_is_named() {
     assert_eq!(error(None, vertex(0, 1, 0)).to_string(), "instance 0 has no primitive 1; it has 1");
     let text = "primitive 0 of instance 1 has no vertex 7; it has 1";
     assert_eq!(error(None, vertex(1, 0, 7)).to_string(), text);
+    let none = ExplainError::NoVertex { instance: 1, primitive: 0, vertex: 1, vertices: 1 };
+    assert_eq!(error(None, vertex(1, 0, 1)), none, "the first that is not there");
 }
 
 #[test]
-fn damaged_models_are_explained_without_a_panic() {
+fn the_keys_of_morph_weights_are_those_of_the_instance() {
     let mut model = (*made()).clone();
     let mut take = (*model.animation.takes[0]).clone();
-    let bad = [f32::NAN, f32::INFINITY, -1.0];
-    take.tracks[0].rotation.values = [Quat::from_xyzw(f32::NAN, 0.0, 0.0, 0.0)].into();
-    take.tracks[0].translation.times = bad.into();
-    take.tracks.truncate(1);
-    take.morphs[0].targets = 9;
+    let (times, weights) = ([0.0, 9.0].into(), [0.5, 0.5].into());
+    let other = MorphTrack { instance: 1, targets: 1, times, weights, interpolation: Interpolation::Step };
+    take.morphs.insert(0, other);
     model.animation.takes[0] = Arc::new(take);
-    model.skins[0].bones.truncate(1);
-    model.skins[0].offsets.clear();
-    let skeleton = Arc::make_mut(&mut model.animation.skeleton);
-    skeleton.bones[0].parent = Some(1);
-    skeleton.bones[1].rest = Transform { translation: Vec3::NAN, ..Transform::IDENTITY };
-    for time in [f32::NAN, f32::NEG_INFINITY, 0.5, f32::MAX] {
-        for what in [What::Bone(0), What::Bone(1), What::Vertex { instance: 0, primitive: 0, vertex: 0 }] {
-            let explanation = explain(&model, Some(0), time, what).unwrap();
-            assert!(explanation.bones.iter().all(|step| step.to_root.is_finite() && step.pose.is_finite()));
-            assert!(!explanation.to_string().is_empty());
-        }
-    }
+    let explained = |instance, time| {
+        let what = What::Vertex { instance, primitive: 0, vertex: 0 };
+        vertex_of(&explain(&model, Some(0), time, what).unwrap()).clone()
+    };
+    let vertex = explained(0, 0.5);
+    let keys = vertex.morph_keys.unwrap();
+    assert_eq!((keys.count, keys.interpolation), (2, Interpolation::Linear));
+    assert_eq!((keys.before, keys.after, keys.mix), ((0, 0.0), (1, 2.0), 0.25));
+    let [lift] = &vertex.morphs[..] else { panic!("one target has a weight: {:?}", vertex.morphs) };
+    assert_eq!((lift.target, &*lift.name, lift.weight), (0, "lift", 0.25));
+    assert_eq!((lift.difference, lift.contribution), (Vec3::Z, Vec3::Z * 0.25));
+    assert!(explained(0, 0.0).morphs.is_empty(), "a target without a weight adds nothing");
+    assert_eq!(explained(1, 0.5).morph_keys.unwrap().interpolation, Interpolation::Step);
+    assert_eq!(explained(2, 0.5).morph_keys, None);
+}
+
+#[test]
+fn bones_without_a_weight_have_no_part_in_a_vertex() {
+    let what = What::Vertex { instance: 0, primitive: 0, vertex: 0 };
+    let explanation = explain(&made(), Some(0), 0.5, what).unwrap();
+    let MovementStep::Skin { influences, .. } = &vertex_of(&explanation).movement else { panic!("a skin") };
+    let told: Vec<(Option<u32>, f32)> =
+        influences.iter().map(|influence| (influence.bone, influence.weight)).collect();
+    assert_eq!(told, [(Some(1), 0.75), (Some(0), 0.25)]);
 }

@@ -23,6 +23,8 @@ mod docs;
 mod doors;
 mod examples;
 mod explain;
+mod explain_damage;
+mod fades;
 mod fast_layers;
 mod fast_limbs;
 mod fast_path;
@@ -35,6 +37,7 @@ mod hostile;
 mod ik;
 mod joint_limits;
 mod levels;
+mod limited_chains;
 mod made;
 mod masks;
 mod motion;
@@ -51,6 +54,7 @@ mod support;
 mod textures;
 mod trial;
 mod two_takes;
+mod unbound;
 mod uris;
 
 /// Counts what each thread allocates, for the promises that playing allocates nothing.

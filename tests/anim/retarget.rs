@@ -12,7 +12,7 @@ use dragonfly_anim::sample::sample_take;
 use dragonfly_kit::random::Random;
 use glam::{Mat4, Quat, Vec3};
 
-fn matrices(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Mat4> {
+pub(crate) fn matrices(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Mat4> {
     let mut poses = vec![Transform::IDENTITY; skeleton.len()];
     sample_take(Some(take), skeleton, time, &mut poses);
     let mut out = vec![Mat4::IDENTITY; skeleton.len()];
@@ -20,16 +20,16 @@ fn matrices(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Mat4> {
     out
 }
 
-fn places(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Vec3> {
+pub(crate) fn places(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Vec3> {
     matrices(skeleton, take, time).into_iter().map(|matrix| matrix.w_axis.truncate()).collect()
 }
 
-fn moments(take: &Take) -> impl Iterator<Item = f32> + '_ {
+pub(crate) fn moments(take: &Take) -> impl Iterator<Item = f32> + '_ {
     (-2..=42).map(|step| take.start + take.length * step as f32 / 40.0)
 }
 
 /// Hips, two legs, a spine, two arms; all bones turned at random at rest.
-fn person(random: &mut Random) -> Skeleton {
+pub(crate) fn person(random: &mut Random) -> Skeleton {
     let parts: [(&str, Option<u32>, [f32; 3]); 14] = [
         ("Root", None, [0.0, 0.0, 0.0]),
         ("Hips", Some(0), [0.0, 1.0, 0.0]),
@@ -68,7 +68,7 @@ fn pose_rest(skeleton: &mut Skeleton, mut own: impl FnMut(usize, Quat) -> Quat) 
     }
 }
 
-fn keys(random: &mut Random) -> Vec<f32> {
+pub(crate) fn keys(random: &mut Random) -> Vec<f32> {
     let mut time = 0.2;
     (0..2 + random.below(5))
         .map(|_| {
@@ -78,7 +78,7 @@ fn keys(random: &mut Random) -> Vec<f32> {
         .collect()
 }
 
-fn turns(random: &mut Random, rest: Quat) -> Channel<Quat> {
+pub(crate) fn turns(random: &mut Random, rest: Quat) -> Channel<Quat> {
     let kind = random.choice(&[Interpolation::Linear, Interpolation::Step, Interpolation::CubicSpline]);
     let times = keys(random);
     let mut values = Vec::new();
@@ -94,7 +94,7 @@ fn turns(random: &mut Random, rest: Quat) -> Channel<Quat> {
 }
 
 /// Turns most bones and moves the hips.
-fn dance(random: &mut Random, skeleton: &Skeleton) -> Take {
+pub(crate) fn dance(random: &mut Random, skeleton: &Skeleton) -> Take {
     let mut tracks: Vec<Track> = Vec::new();
     for bone in &skeleton.bones {
         let mut track = Track::default();

@@ -51,6 +51,90 @@ fn a_vertex_is_explained_up_to_the_very_position_that_pose_gives() {
     }
 }
 
+/// Every number that is none is `null` in JSON: those that may be missing are known.
+fn no_missing_numbers(value: &Value, place: &str) {
+    const MAY_BE_MISSING: [&str; 12] = [
+        "take",
+        "keys",
+        "tangent",
+        "parent",
+        "node",
+        "normal",
+        "final_normal",
+        "morphed_normal",
+        "morph_keys",
+        "skin",
+        "carrier",
+        "to_bone",
+    ];
+    match value {
+        Value::Null => assert!(MAY_BE_MISSING.iter().any(|name| place.ends_with(name)), "{place} is null"),
+        Value::Array(values) => values.iter().for_each(|value| no_missing_numbers(value, place)),
+        Value::Object(fields) => {
+            fields.iter().for_each(|(name, value)| no_missing_numbers(value, &format!("{place}.{name}")));
+        }
+        _ => {}
+    }
+}
+
+fn names(value: &Value) -> Vec<&str> {
+    let mut names: Vec<&str> = value.as_object().expect("an object").keys().map(String::as_str).collect();
+    names.sort_unstable();
+    names
+}
+
+#[test]
+fn a_json_document_has_the_names_and_numbers_of_the_other_commands() {
+    let info = run(["info", &fox(), "--json"]).expect(0).json();
+    let bone = explained(&["--bone", "b_Head_05"]);
+    let vertex = explained(&["--vertex", "9"]);
+    for document in [&bone, &vertex] {
+        no_missing_numbers(document, "");
+        assert_eq!(document["file"], posed()["file"]);
+        let take = &document["take"];
+        for name in ["index", "name", "start", "end"] {
+            assert_eq!(take[name], info["takes"][2][name], "take.{name}");
+        }
+        assert_eq!(document["time"].as_f64().map(|time| time as f32), Some(0.35));
+        for step in document["bones"].as_array().expect("bones") {
+            let index = step["index"].as_u64().expect("an index") as usize;
+            for name in ["index", "name", "node", "parent"] {
+                assert_eq!(step[name], info["bones"][index][name], "bone {index}: {name}");
+            }
+            assert_eq!(step["to_parent"].as_array().map(Vec::len), Some(16));
+        }
+    }
+    // One end each, and the fields that scripts may rely on.
+    assert_eq!(names(&bone), ["bone", "bones", "file", "take", "time"]);
+    assert_eq!(names(&vertex), ["bones", "file", "take", "time", "vertex"]);
+    assert_eq!(names(&bone["bone"]), ["final", "index", "offset"]);
+    let posed = posed();
+    let told = &vertex["vertex"];
+    assert_eq!(told["node"], posed["poses"][0]["meshes"][0]["node"]);
+    assert_eq!(told["primitive"], posed["poses"][0]["meshes"][0]["primitive"]);
+    assert_eq!(told["mesh"], info["meshes"][0]["name"]);
+    let joints = info["skins"][0]["bones"].as_array().expect("joints");
+    for influence in told["influences"].as_array().expect("influences") {
+        let joint = influence["joint"].as_u64().expect("a joint") as usize;
+        assert_eq!(influence["bone"], joints[joint]);
+        assert_eq!(influence["final"], posed["poses"][0]["skins"][0]["final"][joint]);
+    }
+}
+
+#[test]
+fn a_model_without_takes_is_explained_at_rest_and_times_are_clamped() {
+    let late =
+        run(["explain", &fox(), "--take", "2", "--time", "1e9", "--bone", "3", "--json"]).expect(0).json();
+    assert_eq!(late["time"], late["take"]["end"], "clamped to the take");
+    let by_name = run(["explain", &fox(), "--take", "Run", "--time", "1e9", "--bone", "3", "--json"]);
+    assert_eq!(by_name.expect(0).json(), late, "a name or a number");
+    let first = run(["explain", &fox(), "--time", "0", "--bone", "3", "--json"]).expect(0).json();
+    assert_eq!(first["take"]["index"], 0, "without --take the first");
+    let demo = run(["explain", "demo:", "--time", "0.4", "--vertex", "12", "--json"]).expect(0).json();
+    assert_eq!(demo["file"], run(["pose", "demo:", "--time", "0.4", "--json"]).expect(0).json()["file"]);
+    no_missing_numbers(&demo, "");
+}
+
 #[test]
 fn people_get_formulas_and_sections() {
     let outcome = run(["explain", &fox(), "--time", "0.35", "--bone", "3"]).expect(0);

@@ -1,42 +1,7 @@
 //! From one repeating take to another while both keep in step: from walking to running without a stumble.
 
 use super::cycle::{Cycle, wrapped};
-
-/// How the weight of the second take grows while the fade lasts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum FadeCurve {
-    /// `x`: evenly.
-    Linear,
-    /// `3 x² - 2 x³`: begins and ends gently.
-    #[default]
-    SmoothStep,
-}
-
-impl FadeCurve {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Linear, Self::SmoothStep];
-
-    /// Weight of the second take when `x` of the fade has passed: 0 at 0, 1 at 1, never falling. `x` is held within
-    /// 0..=1; NaN counts as 0.
-    pub fn weight(self, x: f64) -> f64 {
-        let x = if x > 0.0 { x.min(1.0) } else { 0.0 };
-        match self {
-            Self::Linear => x,
-            Self::SmoothStep => x * x * (3.0 - 2.0 * x),
-        }
-    }
-}
-
-/// What to sample and how to blend it: take `from` at `from_time`, take `to` at `to_time`, `weight` of the way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Faded {
-    /// Seconds inside the first take.
-    pub from_time: f32,
-    /// Seconds inside the second take.
-    pub to_time: f32,
-    /// 0: the first take alone; 1: the second alone. What [`super::blend_two`] takes as `mix`.
-    pub weight: f32,
-}
+use super::fade::{Fade, FadeCurve, Faded};
 
 /// A fade between two cycles with synchronised phases.
 ///
@@ -49,6 +14,8 @@ pub struct Faded {
 ///
 /// so at the beginning the first plays at its own speed, and at the end the second. Two cycles with different numbers of
 /// marks have no marks that correspond: then marks do not count, and the phase is the plain fraction of the cycle.
+///
+/// For takes that have nothing to do with each other, or do not repeat: [`super::FreeFade`], [`super::OneShot`].
 ///
 /// The state is two numbers, changed only by [`Self::advance`]: the same steps give the same bits. After the fade the
 /// second take runs on at its own speed, and [`Self::now`] says at which time of it another fade may begin.
@@ -66,11 +33,7 @@ pub struct Faded {
 pub struct CrossFade {
     from: Cycle,
     to: Cycle,
-    /// How long the fade lasts: finite, 0 or more.
-    seconds: f64,
-    curve: FadeCurve,
-    /// Seconds since the fade began, at most `seconds`.
-    elapsed: f64,
+    fade: Fade,
     /// Of both cycles, 0..1.
     phase: f64,
 }
@@ -82,8 +45,7 @@ impl CrossFade {
     pub fn new(from: Cycle, to: Cycle, seconds: f32, curve: FadeCurve) -> Self {
         let alike = from.marks() == to.marks();
         let (from, to) = if alike { (from, to) } else { (from.without_marks(), to.without_marks()) };
-        let seconds = f64::from(super::weight_or_zero(seconds));
-        Self { from, to, seconds, curve, elapsed: 0.0, phase: 0.0 }
+        Self { from, to, fade: Fade::new(seconds, curve), phase: 0.0 }
     }
 
     /// The same beginning where the first take is now: `time` seconds inside it.
@@ -98,16 +60,10 @@ impl CrossFade {
     /// size of the steps. The part of `dt` after the end of the fade passes at the speed of the second take.
     pub fn advance(&mut self, dt: f32) -> Faded {
         let dt = f64::from(super::weight_or_zero(dt));
-        let fading = dt.min(self.seconds - self.elapsed);
-        let before = self.weight();
-        self.elapsed += fading;
-        if fading >= dt {
-            self.turn(dt, 0.5 * (before + self.weight()));
-        } else {
-            self.elapsed = self.seconds;
-            self.turn(fading, 0.5 * (before + 1.0));
-            self.turn(dt - fading, 1.0);
-        }
+        let before = self.fade.weight();
+        let fading = self.fade.advance(dt);
+        self.turn(fading, 0.5 * (before + self.fade.weight()));
+        self.turn(dt - fading, 1.0);
         self.now()
     }
 
@@ -116,7 +72,7 @@ impl CrossFade {
         Faded {
             from_time: self.from.time_at(self.phase),
             to_time: self.to.time_at(self.phase),
-            weight: self.weight() as f32,
+            weight: self.fade.weight() as f32,
         }
     }
 
@@ -127,11 +83,7 @@ impl CrossFade {
 
     /// Is the second take alone?
     pub fn is_done(&self) -> bool {
-        self.elapsed >= self.seconds
-    }
-
-    fn weight(&self) -> f64 {
-        if self.is_done() { 1.0 } else { self.curve.weight(self.elapsed / self.seconds) }
+        self.fade.is_done()
     }
 
     /// Moves the phase on by `dt` seconds with a fixed weight, from mark to mark.

@@ -27,8 +27,7 @@ impl Cycle {
     ///
     /// A start that is not finite counts as 0; a length that is not finite or negative as 0, which is a pose that stands.
     pub fn new(start: f32, length: f32) -> Self {
-        let start = if start.is_finite() { start } else { 0.0 };
-        let length = if length.is_finite() { length.max(0.0) } else { 0.0 };
+        let (start, length) = usable_span(start, length);
         Self { start, length, marks: vec![0.0] }
     }
 
@@ -121,6 +120,13 @@ impl Cycle {
         let mark = (place as usize).min(self.marks.len() - 1);
         (mark, place - mark as f64)
     }
+}
+
+/// Start and length as they may be used: finite, the length 0 or more.
+pub(super) fn usable_span(start: f32, length: f32) -> (f32, f32) {
+    let start = if start.is_finite() { start } else { 0.0 };
+    let length = if length.is_finite() { length.max(0.0) } else { 0.0 };
+    (start, length)
 }
 
 /// A phase brought into 0..1; 0 where it is not finite.

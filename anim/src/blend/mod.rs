@@ -12,6 +12,8 @@
 //! | some bones more than others | [`Mask`] |
 //! | a weight that changes over time | [`weight_at`] |
 //! | from one cycle to another without a stumble | [`CrossFade`] |
+//! | from any take to any other, each at its own time | [`FreeFade`] |
+//! | a take once over another, gone when it ends | [`OneShot`] |
 //!
 //! # Rules that hold everywhere
 //!
@@ -29,16 +31,24 @@ mod additive;
 mod cross_fade;
 mod curve;
 mod cycle;
+mod fade;
+mod free_fade;
 mod layer;
 mod mask;
+mod one_shot;
+mod playback;
 mod two;
 
 pub use additive::{add, add_to, difference, difference_of};
-pub use cross_fade::{CrossFade, FadeCurve, Faded};
+pub use cross_fade::CrossFade;
 pub use curve::weight_at;
 pub use cycle::{Cycle, common_length};
+pub use fade::{FadeCurve, Faded};
+pub use free_fade::FreeFade;
 pub use layer::{Layer, blend, blend_normalised};
 pub use mask::{Mask, NoSuchBone};
+pub use one_shot::OneShot;
+pub use playback::Playback;
 pub use two::{blend_two, mix_poses};
 
 use crate::data::Transform;

@@ -26,11 +26,15 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// Nearer, or as near and earlier in the file: so the answer does not depend on the order of looking.
-    fn replaces(&self, best: Option<&Self>) -> bool {
-        best.is_none_or(|best| {
+    /// Takes the place of `best` where it is nearer, or as near and earlier in the file: so the answer does not depend on
+    /// the order of looking.
+    fn outdo(self, best: &mut Option<Self>) {
+        let better = |best: Self| {
             self.distance < best.distance || (self.distance == best.distance && self.which < best.which)
-        })
+        };
+        if best.is_none_or(better) {
+            *best = Some(self);
+        }
     }
 }
 
@@ -62,10 +66,7 @@ impl RaySearch {
             return false;
         }
         let (distance, barycentric) = (crossing.distance, crossing.barycentric);
-        let found = Found { distance, which, barycentric, corners, front };
-        if found.replaces(self.best.as_ref()) {
-            self.best = Some(found);
-        }
+        Found { distance, which, barycentric, corners, front }.outdo(&mut self.best);
         true
     }
 }
@@ -115,10 +116,7 @@ impl SphereSearch {
         let normal = normal_of(corners).unwrap_or(DVec3::Y);
         let counter_clockwise = normal.dot(self.center - corners[0].as_dvec3()) >= 0.0;
         let front = counter_clockwise != mirrored(primitive, movement, which.triangle);
-        let found = Found { distance, which, barycentric, corners, front };
-        if found.replaces(self.best.as_ref()) {
-            self.best = Some(found);
-        }
+        Found { distance, which, barycentric, corners, front }.outdo(&mut self.best);
     }
 }
 

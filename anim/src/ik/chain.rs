@@ -4,15 +4,34 @@
 //! needs fewer sweeps, and it does not depend on the order of the joints. What FABRIK is slow at, targets close to full
 //! reach, is finished in closed form. It works on points, so the rotations are found afterwards, from the first bone to
 //! the last: each turns the short way from where it points to where the next joint shall be. A bone thereby keeps its
-//! twist, and a joint limit is asked for every new rotation; what it takes away is made
-//! up for in the next sweep, and in the end by a few passes of CCD, which sees where a free joint can help a stiff one.
+//! twist, and a joint limit is asked for every new rotation; what it takes away is made up for in the next sweep.
+//!
+//! # With joint limits
+//!
+//! Where sweeps stop short, all joints are moved together on what their limits leave free (damped least squares), from
+//! the pose that the sweeps have reached and, where that does not help, from up to eleven others. Of 1000 targets that a
+//! pose within the limits reaches, so many are met within a hundredth of the chain's length (in brackets: by sweeps and
+//! CCD, which had this place before):
+//!
+//! | chain | found |
+//! |---|---|
+//! | 2 to 6 bones, cones of 40° | 1000 (996) |
+//! | 2 to 7 bones, hinges, balls and Euler ranges mixed, targets from turns up to 1 rad | 998 (942) |
+//! | the same, targets from turns of any size, most of them where several joints are at their limits | 995 (843) |
+//! | an arm: shoulder, elbow, wrist | 1000 (814) |
+//! | a finger or a tail: 2 to 6 hinges that bend one way | 1000 (992) |
+//!
+//! The work is bounded: a limit is asked at most `iterations` + 2,028 times for each bone, and comes near that only for
+//! targets that cannot be reached. For less than a thousandth of the length no other pose is looked for or taken; but
+//! where a target can only be met from another pose than the sweeps lead to, the figure jumps to it, and from frame to
+//! frame with a target that moves it may jump back.
 
 use super::fabrik::Points;
+use super::limited::{Freedom, limited};
 use super::path::{parent_of, parent_to_root, pose_of};
 use super::turn::{arc_between, share};
 use super::{IkError, Reach};
 use crate::data::{BoneIndex, Skeleton, Transform};
-use crate::sample::Value;
 use crate::sample::mix::slerp;
 use glam::{DMat3, DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
 
@@ -45,19 +64,23 @@ impl Chain {
 /// Working memory of [`chain()`], kept between calls so that they allocate nothing.
 #[derive(Clone, Debug, Default)]
 pub struct ChainScratch {
-    links: Vec<Link>,
-    joints: Vec<DVec3>,
-    lengths: Vec<f64>,
+    pub(super) links: Vec<Link>,
+    pub(super) joints: Vec<DVec3>,
+    pub(super) lengths: Vec<f64>,
+    /// Of the turning links, where there are limits.
+    pub(super) freedoms: Vec<Freedom>,
 }
 
 /// One bone of the row.
 #[derive(Clone, Copy, Debug)]
-struct Link {
-    bone: BoneIndex,
-    posed: Transform,
-    rotation: DQuat,
+pub(super) struct Link {
+    pub(super) bone: BoneIndex,
+    pub(super) posed: Transform,
+    pub(super) rotation: DQuat,
     /// The rotation that came nearest to the target so far.
-    best: DQuat,
+    pub(super) best: DQuat,
+    /// The rotation before a step that may have to be taken back.
+    pub(super) kept: DQuat,
 }
 
 /// Turns the bones of `settings` so that the end meets `target` (to-root space), or comes as near as they can.
@@ -67,8 +90,8 @@ struct Link {
 /// turn. Where bones of the row are scaled differently per axis, their lengths depend on their directions and the sweeps
 /// begin anew, at most `iterations` times in all.
 ///
-/// With a `limit` the search may end early, most of all for a straight chain whose target lies on its own line. The
-/// result is the best that was met, and no farther from the target than the pose was.
+/// With a `limit` the search may end early (see the module). The result is the best that was met, and no farther from the
+/// target than the pose was: a pose beyond its limits stays as it is where nothing within them is nearer.
 ///
 /// `to_root` is read at the root's parent only. Returns the distance left at full weight, and the sweeps made.
 pub fn chain(
@@ -118,6 +141,7 @@ impl ChainScratch {
             links: Vec::with_capacity(bones),
             joints: Vec::with_capacity(bones),
             lengths: Vec::with_capacity(bones),
+            freedoms: Vec::with_capacity(bones),
         }
     }
 
@@ -128,7 +152,7 @@ impl ChainScratch {
         loop {
             let posed = pose_of(skeleton, poses, bone)?;
             let rotation = posed.rotation.as_dquat().normalize();
-            self.links.push(Link { bone, posed, rotation, best: rotation });
+            self.links.push(Link { bone, posed, rotation, best: rotation, kept: rotation });
             if bone == settings.root && self.links.len() > 1 {
                 break;
             }
@@ -140,6 +164,8 @@ impl ChainScratch {
         self.joints.resize(self.links.len(), DVec3::ZERO);
         self.lengths.clear();
         self.lengths.resize(self.links.len() - 1, 0.0);
+        self.freedoms.clear();
+        self.freedoms.resize(self.lengths.len(), Freedom::default());
         Ok(())
     }
 
@@ -170,54 +196,17 @@ impl ChainScratch {
         self.links.iter_mut().for_each(|link| link.rotation = link.best);
         self.place();
         if let Some(limit) = limit {
-            self.close_in(goal, tolerance, limit);
+            self.search(goal, tolerance, limit);
         }
         made
     }
 
-    /// A few passes of turning one bone at a time, last to first, so that the end points at the goal from it (that is
-    /// CCD), where a turn that its limit allows brings the end nearer: a sweep does not see how the joints that are free
-    /// can make up for one that is not.
-    fn close_in(&mut self, goal: DVec3, tolerance: f64, limit: Limit<'_>) {
-        for _ in 0..32 {
-            let before = self.gap(goal);
-            for index in (0..self.lengths.len()).rev() {
-                let nearest = self.gap(goal);
-                let above =
-                    self.links[..index].iter().fold(DMat3::IDENTITY, |above, link| above * link.linear());
-                let (inverse, joint) = (above.inverse(), self.joints[index]);
-                let end = self.joints[self.joints.len() - 1];
-                let (from, to) = (inverse * (end - joint), inverse * (goal - joint));
-                if nearest <= tolerance || !from.is_finite() || !to.is_finite() {
-                    continue;
-                }
-                let link = &mut self.links[index];
-                let wish = (arc_between(from, to) * link.best).as_quat().normalize();
-                link.rotation = limit(link.bone, wish).healed(wish).as_dquat().normalize();
-                self.place();
-                let kept = self.gap(goal) < nearest;
-                let link = &mut self.links[index];
-                if kept {
-                    link.best = link.rotation
-                } else {
-                    link.rotation = link.best
-                }
-                if !kept {
-                    self.place();
-                }
-            }
-            if self.gap(goal) > 0.999 * before || self.gap(goal) <= tolerance {
-                break;
-            }
-        }
-    }
-
-    fn gap(&self, goal: DVec3) -> f64 {
+    pub(super) fn gap(&self, goal: DVec3) -> f64 {
         self.joints.last().map_or(0.0, |last| last.distance(goal))
     }
 
     /// Joints and lengths from the rotations.
-    fn place(&mut self) {
+    pub(super) fn place(&mut self) {
         let mut linear = DMat3::IDENTITY;
         for index in 0..self.links.len() {
             let link = self.links[index];
@@ -247,8 +236,7 @@ impl ChainScratch {
                 link.rotation = (turn * link.rotation).normalize();
             }
             if let Some(limit) = limit {
-                let wish = link.rotation.as_quat().normalize();
-                link.rotation = limit(link.bone, wish).healed(wish).as_dquat().normalize();
+                link.rotation = limited(limit, link.bone, link.rotation);
             }
             linear *= link.linear();
             position += linear * arm;
@@ -258,7 +246,7 @@ impl ChainScratch {
 }
 
 impl Link {
-    fn linear(&self) -> DMat3 {
+    pub(super) fn linear(&self) -> DMat3 {
         DMat3::from_quat(self.rotation) * DMat3::from_diagonal(self.posed.scale.as_dvec3())
     }
 }

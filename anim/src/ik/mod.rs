@@ -8,7 +8,7 @@
 //! | solver | bones | method |
 //! |---|---|---|
 //! | [`two_bone`] | upper and lower part of a limb | law of cosines, exact in one step |
-//! | [`chain`] | any number in a row | FABRIK, finished in closed form |
+//! | [`chain`] | any number in a row | FABRIK, finished in closed form; with joint limits damped least squares after it |
 //! | [`look_at`] | some of a row, each with a share | turns towards the target from the first bone to the last |
 //! | [`place_feet`] | hips and legs | lowers the hips, then [`two_bone`] for each leg |
 //!
@@ -26,6 +26,7 @@ mod chain;
 mod error;
 mod fabrik;
 mod foot;
+mod limited;
 mod look_at;
 mod path;
 pub(crate) mod turn;

@@ -82,7 +82,7 @@ fn swing_twist(turn: DQuat, axis: DVec3) -> (DQuat, f64) {
 }
 
 /// Axis times angle, the short way: 0..=π long.
-fn rotation_vector(rotation: DQuat) -> DVec3 {
+pub(crate) fn rotation_vector(rotation: DQuat) -> DVec3 {
     let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
     let sine = rotation.xyz().length();
     if sine == 0.0 { DVec3::ZERO } else { rotation.xyz() * (2.0 * sine.atan2(rotation.w) / sine) }

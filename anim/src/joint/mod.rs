@@ -32,6 +32,7 @@ mod limits;
 mod range;
 
 pub use ball::Ball;
+pub(crate) use ball::rotation_vector;
 pub use euler::{Euler, EulerOrder};
 pub use hinge::Hinge;
 pub use limits::{JointLimits, LimitReport};

@@ -1,5 +1,6 @@
 //! Rotations of one bone: `q_t = L · (G_sa⁻¹ G_s) · E`.
 
+use super::moments::Moments;
 use super::rest::parent_of;
 use crate::data::{Channel, Interpolation, Skeleton, Take};
 use crate::sample::{Value, rest_pose, sample_channel};
@@ -67,13 +68,13 @@ impl Turn {
         }
     }
 
-    /// Several channels move: their product at the union of their key times.
+    /// Several channels move: their product at the moments of all of them, and between, because the product of two even
+    /// turns is none.
     fn sampled(&self, take: &Take, source: &Skeleton, down: &[usize], up: &[usize]) -> Channel<Quat> {
+        let mut moments = Moments::default();
         let tracks = down.iter().chain(up).filter_map(|&bone| take.tracks.get(bone));
-        let mut times: Vec<f32> = tracks.flat_map(|track| track.rotation.times.iter().copied()).collect();
-        times.retain(|time| time.is_finite());
-        times.sort_by(f32::total_cmp);
-        times.dedup();
+        tracks.for_each(|track| moments.add(&track.rotation));
+        let (times, interpolation) = moments.all(true);
         let mut last = DQuat::IDENTITY;
         let values: Vec<Quat> = times
             .iter()
@@ -84,12 +85,12 @@ impl Turn {
                 last.as_quat()
             })
             .collect();
-        Channel { times: times.into(), values: values.into(), interpolation: Interpolation::Linear }
+        Channel { times: times.into(), values: values.into(), interpolation }
     }
 }
 
 /// The bones from below `above` down to `bone`, top first; `None` where `above` is no ancestor of `bone`.
-fn path(skeleton: &Skeleton, bone: usize, above: Option<usize>) -> Option<Vec<usize>> {
+pub(super) fn path(skeleton: &Skeleton, bone: usize, above: Option<usize>) -> Option<Vec<usize>> {
     let (mut path, mut at) = (Vec::new(), Some(bone));
     while at != above {
         path.push(at?);

@@ -2,6 +2,7 @@
 
 use super::Binding;
 use super::names::normalized_name;
+use super::place::Place;
 use super::rest::{Rest, alignments, bound_above, height_ratio, parent_of, source_of};
 use super::rotation::Turn;
 use super::translation::{carried, scaled};
@@ -15,7 +16,8 @@ pub struct RetargetOptions {
     /// To-root space: which way is up, for the heights of the hips.
     pub up: Vec3,
     /// Bones of the target whose translations are carried over. `None`: the bone called hips, hip or pelvis and its
-    /// ancestors; without such a name, from each root down to the first bone below which more than one branch is bound.
+    /// ancestors; without such a name, from each root down to the first bone below which more than one branch is bound;
+    /// and in both cases every bone that is bound while none above it is.
     pub trunk: Option<Vec<BoneIndex>>,
     /// Target's size over source's, for translations of the trunk; must be positive and finite, or it counts as `None`:
     /// [`height_ratio`] of the last bone of the trunk. [`super::leg_ratio`] is another choice.
@@ -36,7 +38,8 @@ impl Default for RetargetOptions {
 ///
 /// The formula is that of [`super`]. The result has a track for each bone of the target; name, start, length and key
 /// times are those of the take. Bones that are not bound have empty tracks, and so stand at rest relative to their
-/// parents. Morph weights belong to the source's meshes and are left behind. Indices of the binding that are out of
+/// parents; bones of the source that are not bound move the nearest bound ones below them. Morph weights belong to the
+/// source's meshes and are left behind. Indices of the binding that are out of
 /// range count as not bound.
 ///
 /// Onto the same skeleton (and with [`RetargetOptions::stretch`] if bones change their lengths) the result is the take.
@@ -58,7 +61,8 @@ pub fn retarget(
         let mut track = Track { bone: bone as BoneIndex, ..Track::default() };
         if let Some(from) = source_of(binding, source, bone) {
             track.rotation = pair.turn(bone, from).channel(take, source, pair.target_rest.own[bone]);
-            let is_trunk = trunk.contains(&(bone as BoneIndex));
+            let is_topmost = || bound_above(binding, source, target, bone).is_none();
+            let is_trunk = trunk.contains(&(bone as BoneIndex)) || (options.trunk.is_none() && is_topmost());
             if is_trunk || options.stretch {
                 let size = if is_trunk { ratio } else { pair.length_ratio(bone, from).unwrap_or(ratio) };
                 pair.place(bone, from, size, &mut track);
@@ -119,18 +123,23 @@ impl Pair<'_> {
 
     /// Fills the track's translation.
     fn place(&self, bone: usize, from: usize, size: f32, track: &mut Track) {
-        let Some(source_track) = self.take.tracks.get(from) else { return };
-        let linear = |rest: &Rest, parent: Option<usize>| {
-            parent.map_or(DMat3::IDENTITY, |parent| DMat3::from_mat4(rest.to_root[parent].as_dmat4()))
+        let linear = |rest: &Rest, bone: Option<usize>| {
+            bone.map_or(DMat3::IDENTITY, |bone| DMat3::from_mat4(rest.to_root[bone].as_dmat4()))
         };
         let parent = parent_of(self.target, bone);
-        let outer = linear(&self.source_rest, parent_of(self.source, from));
         let inner = linear(&self.target_rest, parent).inverse();
         let aligned = parent.map_or(DQuat::IDENTITY, |parent| self.aligned[parent]).conjugate();
-        let map = inner * DMat3::from_quat(aligned) * outer * f64::from(size);
-        let [own, new] =
-            [&self.source.bones[from], &self.target.bones[bone]].map(|bone| rest_pose(bone).translation);
-        track.translation = carried(&source_track.translation, own, new, map);
+        let map = |outer: DMat3| inner * DMat3::from_quat(aligned) * outer * f64::from(size);
+        let new = rest_pose(&self.target.bones[bone]).translation;
+        let above = bound_above(self.binding, self.source, self.target, bone);
+        let above = above.and_then(|above| source_of(self.binding, self.source, above));
+        if let Some(place) = Place::of(self.take, self.source, from, above) {
+            track.translation = place.carried(new, map(linear(&self.source_rest, above)));
+        } else if let Some(source_track) = self.take.tracks.get(from) {
+            let own = rest_pose(&self.source.bones[from]).translation;
+            let outer = linear(&self.source_rest, parent_of(self.source, from));
+            track.translation = carried(&source_track.translation, own, new, map(outer));
+        }
     }
 
     /// Fills the track's scale.

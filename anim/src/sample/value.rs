@@ -22,47 +22,33 @@ pub trait Value: Copy {
     fn healed(self, fallback: Self) -> Self;
 }
 
-impl Value for f32 {
-    const ZERO: Self = 0.0;
+/// Numbers and vectors: mixed component by component; any finite one is usable, zero scale included.
+macro_rules! by_component {
+    ($type:ty, $zero:expr) => {
+        impl Value for $type {
+            const ZERO: Self = $zero;
 
-    fn linear(a: Self, b: Self, mix: f32) -> Self {
-        mix::lerp(a, b, mix)
-    }
+            fn linear(a: Self, b: Self, mix: f32) -> Self {
+                mix::lerp(a, b, mix)
+            }
 
-    fn cubic(a: Self, out_tangent: Self, in_tangent: Self, b: Self, span: f32, mix: f32) -> Self {
-        mix::hermite(a, out_tangent, in_tangent, b, span, mix)
-    }
+            fn cubic(a: Self, out_tangent: Self, in_tangent: Self, b: Self, span: f32, mix: f32) -> Self {
+                mix::hermite(a, out_tangent, in_tangent, b, span, mix)
+            }
 
-    fn is_finite(self) -> bool {
-        f32::is_finite(self)
-    }
+            fn is_finite(self) -> bool {
+                <$type>::is_finite(self)
+            }
 
-    /// Any finite number is usable.
-    fn healed(self, fallback: Self) -> Self {
-        if f32::is_finite(self) { self } else { fallback }
-    }
+            fn healed(self, fallback: Self) -> Self {
+                if <$type>::is_finite(self) { self } else { fallback }
+            }
+        }
+    };
 }
 
-impl Value for Vec3 {
-    const ZERO: Self = Vec3::ZERO;
-
-    fn linear(a: Self, b: Self, mix: f32) -> Self {
-        mix::lerp(a, b, mix)
-    }
-
-    fn cubic(a: Self, out_tangent: Self, in_tangent: Self, b: Self, span: f32, mix: f32) -> Self {
-        mix::hermite(a, out_tangent, in_tangent, b, span, mix)
-    }
-
-    fn is_finite(self) -> bool {
-        Vec3::is_finite(self)
-    }
-
-    /// Any finite vector is usable, zero scale included.
-    fn healed(self, fallback: Self) -> Self {
-        if self.is_finite() { self } else { fallback }
-    }
-}
+by_component!(f32, 0.0);
+by_component!(Vec3, Vec3::ZERO);
 
 /// A squared length this near 1 is a unit quaternion with rounding; it is left alone.
 const UNIT_TOLERANCE: f32 = 2e-4;

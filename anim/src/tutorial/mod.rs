@@ -271,8 +271,16 @@
 //! # Step 10: two takes at once
 //!
 //! Several takes are combined for each bone, *before* the skin, because there are far fewer bones than vertices
-//! (§2.1.4.1). Here a second take lifts the upper bone, and both count half. From the combined poses on, everything
-//! is as before.
+//! (§2.1.4.1). Each take is sampled by itself; [`blend`](crate::blend::blend()) makes one pose of them, bone by bone:
+//!
+//! ```text
+//! translation = Σ weight_i * translation_i        scale likewise
+//! rotation    = Σ weight_i * rotation_i, divided by its length
+//! ```
+//!
+//! Where the weights of a bone sum to less than 1, the pose that is given first, usually the rest pose, takes what is
+//! missing; where to more, they are divided by their sum. Here a second take lifts the upper bone, and both count half. From the
+//! combined poses on, everything is as before.
 //!
 //! ```
 //! # use dragonfly_anim::{animation::{final_poses, to_root}, data::Transform, sample::sample_take};
@@ -282,19 +290,16 @@
 //! # let (arm, skin) = (arm::primitive(), arm::skin());
 //! # let (mut now_to_root, mut finals, mut positions) = ([Mat4::ZERO; 2], [Mat4::ZERO; 2], [Vec3::ZERO; 3]);
 //! # let slope = std::f32::consts::FRAC_1_SQRT_2;
-//! use dragonfly_anim::sample::Value;
+//! use dragonfly_anim::blend::{Layer, blend};
 //!
 //! let mut raise = bend.clone();
 //! raise.tracks.swap(0, 1);
-//! let (mut of_bend, mut of_raise) = (poses, poses);
+//! let (mut of_bend, mut of_raise, mut both) = (poses, poses, poses);
 //! sample_take(Some(&bend), &skeleton, 1.0, &mut of_bend);
 //! sample_take(Some(&raise), &skeleton, 1.0, &mut of_raise);
-//! let mut both = of_bend;
-//! for (pose, other) in both.iter_mut().zip(of_raise) {
-//!     pose.translation = Value::linear(pose.translation, other.translation, 0.5);
-//!     pose.rotation = Value::linear(pose.rotation, other.rotation, 0.5);
-//!     pose.scale = Value::linear(pose.scale, other.scale, 0.5);
-//! }
+//! let rest: Vec<Transform> = skeleton.bones.iter().map(|bone| bone.rest).collect();
+//! let layers = [Layer::new(&of_bend, 0.5), Layer::new(&of_raise, 0.5)];
+//! blend(&rest, &layers, &mut both);
 //! to_root(&skeleton, &both, &mut now_to_root);
 //! final_poses(&skin, &now_to_root, &mut finals);
 //! skin_positions(&arm, Movement::Skin(&finals), &[], &mut positions);
@@ -310,7 +315,7 @@
 //! * [`Animation`](crate::animation::Animation) and [`Evaluator`](crate::evaluator::Evaluator) do steps 6 to 9 in one call
 //!   and keep their memory, so that playing allocates nothing.
 //! * [`format::read`](crate::format::read) gets a model from a file instead of steps 1 to 5.
-//! * [`blend`](crate::blend) does the last step for any number of takes, with masks and with layers on top; [`ik`](crate::ik)
+//! * [`blend`](mod@crate::blend) also has masks, movements on top of others, and fades from take to take; [`ik`](crate::ik)
 //!   makes an arm like this one reach; [`motion`](crate::motion) and [`retarget`](crate::retarget) make other takes of a take.
 //! * [`format::dfm`](crate::format::dfm) saves the model.
 //! * [`reduce`](crate::reduce::reduce()) takes away keys that nobody would miss.

@@ -3,6 +3,7 @@
 use super::choice::{File, TakeChoice, clamp_time, finite, plain};
 use super::output::{print, print_json};
 use super::{Command, Failure};
+use crate::document::LoadedModel;
 use dragonfly_anim::data::{BoneIndex, Interpolation, ModelData};
 use dragonfly_anim::explain::{
     BoneStep, ChannelStep, Explanation, MovementStep, Subject, VertexResult, What, explain,
@@ -16,7 +17,8 @@ use serde::Serialize;
     group = clap::ArgGroup::new("what").required(true),
     after_help = "\
 The keys that were chosen and how they were mixed, the pose relative to the parent, the way up to the root, the\n\
-final pose; for a vertex, what each bone adds. Matrices are for column vectors; --json has them column-major.\n\n\
+final pose; for a vertex, what each bone adds. Matrices are for column vectors; --json has them column-major, and\n\
+names bones, their parents, takes and nodes by the same numbers as `dragonfly info --json`.\n\n\
 Examples:\n  dragonfly explain Fox.glb --take Run --time 0.35 --bone b_Head_05\n  \
 dragonfly explain demo: --time 0.4 --vertex 12"
 )]
@@ -53,8 +55,14 @@ impl Command for Arguments {
         let time = clamp_time(&loaded.model, take, self.time);
         let explanation =
             explain(&loaded.model, take, time, what).map_err(|error| Failure::input(&loaded.title, error))?;
+        let document = Document::of(&loaded, &explanation);
+        // JSON has no word for such a number, and no reader a use for it.
+        if !document.is_finite() {
+            let reason = format_args!("the pose at {time} s is too large for numbers of single precision");
+            return Err(Failure::input(&loaded.title, reason));
+        }
         if self.json {
-            print_json(&Document::of(&loaded.title, &explanation))
+            print_json(&document)
         } else {
             print(|out| write!(out, "{}\n{explanation}", plain(&loaded.title)))
         }
@@ -96,12 +104,15 @@ struct Document {
 struct Take {
     index: usize,
     name: String,
+    start: f32,
+    end: f32,
 }
 
 #[derive(Serialize)]
 struct Bone {
     index: u32,
     name: String,
+    node: Option<u32>,
     parent: Option<u32>,
     translation: Channel,
     rotation: Channel,
@@ -144,19 +155,39 @@ struct BoneEnd {
 #[derive(Serialize)]
 struct Vertex {
     instance: u32,
+    node: Option<u32>,
+    mesh: String,
     primitive: u32,
     index: u32,
     position: [f32; 3],
     normal: Option<[f32; 3]>,
+    morph_keys: Option<MorphKeys>,
     morphs: Vec<Morph>,
     morphed_position: [f32; 3],
+    morphed_normal: Option<[f32; 3]>,
     skin: Option<u32>,
     influences: Vec<Influence>,
     carrier: Option<u32>,
     to_bone: Option<[f32; 16]>,
     matrix: [f32; 16],
+    normal_matrix: [f32; 9],
     final_position: [f32; 3],
     final_normal: Option<[f32; 3]>,
+}
+
+#[derive(Serialize)]
+struct MorphKeys {
+    count: usize,
+    interpolation: &'static str,
+    before: MorphKey,
+    after: MorphKey,
+    mix: f32,
+}
+
+#[derive(Serialize)]
+struct MorphKey {
+    index: usize,
+    time: f32,
 }
 
 #[derive(Serialize)]
@@ -180,31 +211,45 @@ struct Influence {
 }
 
 impl Document {
-    fn of(title: &str, explanation: &Explanation) -> Self {
+    fn of(loaded: &LoadedModel, explanation: &Explanation) -> Self {
+        let model = &loaded.model;
         let (bone, vertex) = match &explanation.subject {
             Subject::Bone(bone) => {
                 let (index, offset) = (bone.bone, bone.offset.to_cols_array());
                 (Some(BoneEnd { index, offset, r#final: bone.final_pose.to_cols_array() }), None)
             }
-            Subject::Vertex(vertex) => (None, Some(Vertex::of(vertex))),
+            Subject::Vertex(vertex) => (None, Some(Vertex::of(model, vertex))),
         };
-        let take = explanation.take.as_ref();
+        let take = explanation.take.as_ref().map(|take| Take {
+            index: take.index,
+            name: take.name.clone(),
+            start: take.start,
+            end: take.end,
+        });
         Self {
-            file: title.to_owned(),
-            take: take.map(|take| Take { index: take.index, name: take.name.clone() }),
+            file: loaded.title.clone(),
+            take,
             time: explanation.time,
-            bones: explanation.bones.iter().map(Bone::of).collect(),
+            bones: explanation.bones.iter().map(|step| Bone::of(model, step)).collect(),
             bone,
             vertex,
         }
     }
+
+    fn is_finite(&self) -> bool {
+        self.bones.iter().all(Bone::is_finite)
+            && self.bone.as_ref().is_none_or(|bone| finite_all(&bone.offset) && finite_all(&bone.r#final))
+            && self.vertex.as_ref().is_none_or(Vertex::is_finite)
+    }
 }
 
 impl Bone {
-    fn of(step: &BoneStep) -> Self {
+    fn of(model: &ModelData, step: &BoneStep) -> Self {
+        let bone = model.animation.skeleton.bones.get(step.bone as usize);
         Self {
             index: step.bone,
             name: step.name.clone(),
+            node: bone.and_then(|bone| bone.node),
             parent: step.parent,
             translation: channel(&step.translation, |value: Vec3| value.to_array().to_vec()),
             rotation: channel(&step.rotation, |value: Quat| value.to_array().to_vec()),
@@ -212,6 +257,37 @@ impl Bone {
             to_parent: step.to_parent.to_cols_array(),
             to_root: step.to_root.to_cols_array(),
         }
+    }
+
+    fn is_finite(&self) -> bool {
+        let channels = [&self.translation, &self.rotation, &self.scale];
+        channels.into_iter().all(Channel::is_finite)
+            && finite_all(&self.to_parent)
+            && finite_all(&self.to_root)
+    }
+}
+
+impl Channel {
+    fn is_finite(&self) -> bool {
+        let key = |key: &Key| {
+            key.time.is_finite() && finite_all(&key.value) && key.tangent.as_deref().is_none_or(finite_all)
+        };
+        finite_all(&self.rest)
+            && finite_all(&self.value)
+            && self.keys.as_ref().is_none_or(|keys| key(&keys.before) && key(&keys.after))
+    }
+}
+
+fn finite_all(numbers: &[f32]) -> bool {
+    numbers.iter().all(|number| number.is_finite())
+}
+
+fn method(interpolation: Interpolation) -> &'static str {
+    match interpolation {
+        Interpolation::Step => "step",
+        Interpolation::Linear => "linear",
+        Interpolation::CubicSpline => "cubic spline",
+        Interpolation::Closest => "closest",
     }
 }
 
@@ -224,12 +300,7 @@ fn channel<T: Copy>(step: &ChannelStep<T>, numbers: impl Fn(T) -> Vec<f32>) -> C
     };
     let keys = step.keys.as_ref().map(|keys| Keys {
         count: keys.count,
-        interpolation: match keys.interpolation {
-            Interpolation::Step => "step",
-            Interpolation::Linear => "linear",
-            Interpolation::CubicSpline => "cubic spline",
-            Interpolation::Closest => "closest",
-        },
+        interpolation: method(keys.interpolation),
         before: key(&keys.before),
         after: key(&keys.after),
         mix: keys.mix,
@@ -238,27 +309,69 @@ fn channel<T: Copy>(step: &ChannelStep<T>, numbers: impl Fn(T) -> Vec<f32>) -> C
 }
 
 impl Vertex {
-    fn of(vertex: &VertexResult) -> Self {
+    fn of(model: &ModelData, vertex: &VertexResult) -> Self {
         let (skin, influences, carrier, to_bone) = match &vertex.movement {
             MovementStep::Skin { skin, influences } => (Some(*skin), &influences[..], None, None),
             MovementStep::Rigid { bone, to_bone } => (None, &[][..], *bone, Some(to_bone)),
         };
         let array = |vector: Vec3| vector.to_array();
+        let instance = model.instances.get(vertex.instance as usize);
         Self {
             instance: vertex.instance,
+            node: instance.and_then(|instance| instance.node),
+            mesh: vertex.mesh.clone(),
             primitive: vertex.primitive,
             index: vertex.vertex,
             position: array(vertex.position),
             normal: vertex.normal.map(array),
+            morph_keys: vertex.morph_keys.map(MorphKeys::of),
             morphs: vertex.morphs.iter().map(Morph::of).collect(),
             morphed_position: array(vertex.morphed_position),
+            morphed_normal: vertex.morphed_normal.map(array),
             skin,
             influences: influences.iter().map(Influence::of).collect(),
             carrier,
             to_bone: to_bone.map(Mat4::to_cols_array),
             matrix: vertex.matrix.to_cols_array(),
+            normal_matrix: vertex.normal_matrix.to_cols_array(),
             final_position: array(vertex.final_position),
             final_normal: vertex.final_normal.map(array),
+        }
+    }
+}
+
+impl Vertex {
+    fn is_finite(&self) -> bool {
+        let vectors = [Some(self.position), self.normal, Some(self.morphed_position), self.morphed_normal];
+        let results = [Some(self.final_position), self.final_normal];
+        let morph = |morph: &Morph| {
+            morph.weight.is_finite() && finite_all(&morph.difference) && finite_all(&morph.contribution)
+        };
+        let influence = |influence: &Influence| {
+            influence.weight.is_finite()
+                && finite_all(&influence.offset)
+                && finite_all(&influence.r#final)
+                && finite_all(&influence.moved)
+                && finite_all(&influence.contribution)
+        };
+        vectors.iter().chain(&results).flatten().all(|vector| finite_all(vector))
+            && self.morphs.iter().all(morph)
+            && self.influences.iter().all(influence)
+            && self.to_bone.as_ref().is_none_or(|matrix| finite_all(matrix))
+            && finite_all(&self.matrix)
+            && finite_all(&self.normal_matrix)
+    }
+}
+
+impl MorphKeys {
+    fn of(keys: dragonfly_anim::explain::MorphKeys) -> Self {
+        let key = |(index, time): (usize, f32)| MorphKey { index, time };
+        Self {
+            count: keys.count,
+            interpolation: method(keys.interpolation),
+            before: key(keys.before),
+            after: key(keys.after),
+            mix: keys.mix,
         }
     }
 }
