@@ -10,6 +10,7 @@ mod bombs;
 mod bone_bounds;
 mod bounds;
 mod budget;
+mod by_hand;
 mod chains;
 mod check;
 mod compressed;

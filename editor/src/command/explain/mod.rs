@@ -1,0 +1,87 @@
+//! `dragonfly explain FILE --time S --bone NAME`: every value on the way from keys to a bone or a vertex.
+
+mod json;
+
+use super::choice::{File, TakeChoice, clamp_time, finite, plain};
+use super::output::{print, print_json};
+use super::{Command, Failure};
+use dragonfly_anim::data::{BoneIndex, ModelData};
+use dragonfly_anim::explain::{What, explain};
+use json::Document;
+
+/// Every value on the way from keys to a bone or a vertex, with the formula of each step
+#[derive(Clone, Debug, clap::Args)]
+#[command(
+    group = clap::ArgGroup::new("what").required(true),
+    after_help = "\
+The keys that were chosen and how they were mixed, the pose relative to the parent, the way up to the root, the\n\
+final pose; for a vertex, what each bone adds. Matrices are for column vectors; --json has them column-major, and\n\
+names bones, their parents, takes and nodes by the same numbers as `dragonfly info --json`.\n\n\
+Examples:\n  dragonfly explain Fox.glb --take Run --time 0.35 --bone b_Head_05\n  \
+dragonfly explain demo: --time 0.4 --vertex 12"
+)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    file: File,
+    #[command(flatten)]
+    take: TakeChoice,
+    /// Seconds, clamped to the take
+    #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
+    time: f32,
+    /// Which bone, by name or by number from 0; a name wins over a number
+    #[arg(long, value_name = "BONE", group = "what", allow_hyphen_values = true)]
+    bone: Option<String>,
+    /// Which vertex of the primitive, by number from 0
+    #[arg(long, value_name = "N", group = "what")]
+    vertex: Option<u32>,
+    /// Which placed mesh, by number from 0
+    #[arg(long, value_name = "I", default_value_t = 0, conflicts_with = "bone")]
+    instance: u32,
+    /// Which primitive of the mesh, by number from 0
+    #[arg(long, value_name = "P", default_value_t = 0, conflicts_with = "bone")]
+    primitive: u32,
+    /// One JSON document instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+impl Command for Arguments {
+    fn run(self) -> Result<(), Failure> {
+        let loaded = self.file.load()?;
+        let take = self.take.index(&loaded.title, &loaded.model)?;
+        let what = self.what(&loaded.title, &loaded.model)?;
+        let time = clamp_time(&loaded.model, take, self.time);
+        let explanation =
+            explain(&loaded.model, take, time, what).map_err(|error| Failure::input(&loaded.title, error))?;
+        let document = Document::of(&loaded, &explanation);
+        // JSON has no word for such a number, and no reader a use for it.
+        if !document.is_finite() {
+            let reason = format_args!("the pose at {time} s is too large for numbers of single precision");
+            return Err(Failure::input(&loaded.title, reason));
+        }
+        if self.json {
+            print_json(&document)
+        } else {
+            print(|out| write!(out, "{}\n{explanation}", plain(&loaded.title)))
+        }
+    }
+}
+
+impl Arguments {
+    fn what(&self, title: &str, model: &ModelData) -> Result<What, Failure> {
+        let Some(wanted) = &self.bone else {
+            let vertex = self.vertex.unwrap_or_default();
+            return Ok(What::Vertex { instance: self.instance, primitive: self.primitive, vertex });
+        };
+        let skeleton = &model.animation.skeleton;
+        let by_number = || wanted.parse().ok().filter(|&bone: &BoneIndex| (bone as usize) < skeleton.len());
+        skeleton.find(wanted).or_else(by_number).map(What::Bone).ok_or_else(|| {
+            let reason = format!(
+                "--bone: no bone is called \"{}\"; there are {} (`dragonfly info` lists them)",
+                plain(wanted),
+                skeleton.len()
+            );
+            Failure::input(title, reason)
+        })
+    }
+}
