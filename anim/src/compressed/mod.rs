@@ -97,12 +97,14 @@
 //!
 //! Not kept: morph weights ([`Report::morphs_left_out`]).
 
+mod arrange;
 mod bits;
 mod compress;
 mod encode;
 mod error;
 mod frames;
 mod grid;
+mod head;
 mod kernel;
 mod metric;
 mod plan;
@@ -126,7 +128,7 @@ pub use take::CompressedTake;
 /// The first bytes of a compressed take.
 pub const MAGIC: [u8; 4] = *b"DfCt";
 /// The version that is written, and the only one that is read.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 /// Most bones of a compressed take.
 pub const MAX_BONES: usize = 1 << 16;
 /// Most keys of a compressed take: nine hours at thirty a second.
