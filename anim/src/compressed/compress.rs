@@ -53,7 +53,7 @@ impl Bytes {
 
 /// Shares of the tolerance tried for the first and the last joint of a chain.
 const SHARES: [[f32; 2]; 8] =
-    [[0.7, 0.8], [0.5, 0.8], [0.6, 0.7], [0.45, 0.7], [0.5, 0.6], [0.5, 0.5], [0.4, 0.5], [0.3, 0.4]];
+    [[0.7, 0.8], [0.5, 0.8], [0.6, 0.7], [0.45, 0.7], [0.5, 0.6], [0.45, 0.6], [0.4, 0.55], [0.3, 0.4]];
 /// Segment sizes tried, as powers of two, beginning in the middle.
 const SMALLER: [u32; 2] = [5, 4];
 const LARGER: [u32; 2] = [7, 8];

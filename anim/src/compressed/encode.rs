@@ -22,7 +22,7 @@ pub(super) struct Choice {
 }
 
 /// Share of the tolerance that the shell of a bone may be off.
-const SHELL: f32 = 0.98;
+const SHELL: f32 = 0.985;
 /// Share of a joint's tolerance that goes into its translation, where that moves.
 const MOVED: f32 = 0.5;
 /// Share of a bone's tolerance that goes into its scale, where that moves.

@@ -15,8 +15,8 @@
 use super::stored::{Head, Range};
 use crate::fast::simd::LANES;
 
-/// Bits of numbers that a word holds whatever bit of its first byte they begin with, and the sign is free.
-const HELD: u32 = 24;
+/// Bits of a word that numbers may lie in: the sign stays free.
+const HELD: u32 = 31;
 /// Bits of numbers that four lanes see.
 const SEEN: u32 = 128;
 /// Stands for lanes that are read in the other way, see [`WideBlock`].
@@ -101,7 +101,10 @@ impl HeadBlock {
         });
         let first = halves[0].or(halves[1]).map_or(0, |(begin, _)| begin / 8);
         let second = halves[1].map_or(first, |(begin, _)| begin / 8);
-        let held = |lane: &Lane| lane.widths[0] + lane.widths[1] <= HELD && lane.widths[2] <= HELD;
+        let held = |lane: &Lane| {
+            let ([_, _, z, end], [first, second]) = (lane.edges(), lane.words());
+            z - first <= HELD && end - second <= HELD
+        };
         let seen = halves.iter().flatten().all(|(begin, end)| end - begin <= SEEN);
         let from = if lanes.iter().all(held) && seen && second - first < 16 {
             (block.at, block.second) = (first, (second - first) as u8);

@@ -128,11 +128,11 @@ impl Tables {
         (0..4).for_each(|axis| self.turning[place.group].reference[axis][place.lane] = rotation[axis]);
     }
 
-    /// The heads of all groups in a segment; none past the end.
+    /// The heads of all groups in a segment, and then those of the next ones; none past the end.
     #[inline(always)]
     pub(super) fn heads_of(&self, segment: usize) -> &[HeadBlock] {
         let count = self.turning.len() + self.moving[0].len() + self.moving[1].len();
-        self.heads.get(segment * count..(segment + 1) * count).unwrap_or(&[])
+        self.heads.get(segment * count..).unwrap_or(&[])
     }
 
     /// The head of a track in a segment.
