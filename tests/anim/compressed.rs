@@ -230,6 +230,45 @@ fn takes_made_at_random_keep_the_bound_and_agree_at_any_time() {
 }
 
 #[test]
+fn numbers_of_any_width_and_lone_bones_keep_the_bound_at_every_level() {
+    // Bones that go far in small steps need wide numbers, and those that move alone among eight share a group.
+    let mut random = Random::new(seed(23));
+    let bones = 45;
+    let parents: Vec<Option<u32>> = (0..bones).map(|bone| (bone % 4 > 0).then(|| bone - 1)).collect();
+    let skeleton = skeleton(&parents);
+    for (far, tolerance) in [(1.0, 1e-5), (30.0, 2e-4)] {
+        let times: Vec<f32> = (0..90).map(|key| key as f32 / 32.0).collect();
+        let tracks = (0..bones).map(|bone| {
+            let mut track = Track::default();
+            let mut channel = |size: f32| {
+                let mut number = || random.between(-size, size);
+                let values: Vec<Vec3> =
+                    times.iter().map(|_| Vec3::new(number(), number(), number())).collect();
+                Channel::new(times.clone(), values, Interpolation::Linear)
+            };
+            if bone % 9 == 0 || (16..24).contains(&bone) {
+                track.translation = channel(if bone % 2 == 0 { far } else { 0.01 });
+            }
+            if bone % 7 == 0 || bone < 8 {
+                let turned = channel(1.0);
+                let turn = |turn: &Vec3| Quat::from_scaled_axis(*turn * 0.4);
+                let values: Vec<Quat> = turned.values.iter().map(turn).collect();
+                track.rotation = Channel::new(times.clone(), values, Interpolation::Linear);
+            }
+            track
+        });
+        let take = take(tracks.collect());
+        let (compressed, report) = checked(&take, &skeleton, &with(Exactness { tolerance, shell: 0.1 }));
+        assert_eq!(report.channels[3], 0, "{report:?}");
+        for level in Level::all() {
+            let compressed = compressed.clone().with_level(level);
+            let off = largest_difference(&compressed, &skeleton, &self::times(&compressed, &mut random));
+            assert!(off < 1e-5, "{far} {}: {off}", level.name());
+        }
+    }
+}
+
+#[test]
 fn takes_of_one_key_of_two_of_no_length_and_of_nothing_can_be_compressed() {
     let two = skeleton(&[None, Some(0)]);
     let turning =

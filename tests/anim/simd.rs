@@ -190,6 +190,52 @@ proptest! {
     }
 }
 
+/// Words from bytes.
+struct Near(Vec<u8>, usize, u8, [u8; 8], [u16; 8]);
+
+impl Kernel for Near {
+    type Output = [[u32; 8]; 4];
+
+    #[inline(always)]
+    fn run<S: Simd>(self) -> Self::Output {
+        let (bytes, words) = (S::U8::from_u8(&self.3), S::U8::from_u16(&self.4));
+        let near = S::U8::near(&self.0, self.1, self.2, &self.3);
+        [bytes, words, words.without(bytes), near].map(|vector| {
+            let mut words = [0; 8];
+            vector.store(&mut words);
+            words
+        })
+    }
+}
+
+proptest! {
+    #[test]
+    fn eight_words_are_read_near_each_other_and_never_outside(
+        bytes in prop::collection::vec(any::<u8>(), 0..90),
+        at in prop_oneof![0_usize..100, Just(usize::MAX)],
+        second in any::<u8>(),
+        lanes in prop::array::uniform8(prop_oneof![0_u8..16, any::<u8>()]),
+        words in prop::array::uniform8(any::<u16>()),
+    ) {
+        for level in Level::all() {
+            let got = level.run(Near(bytes.clone(), at, second, lanes, words));
+            for lane in 0..8 {
+                let byte = |step: u8| match (bytes.len().checked_sub(32), lanes[lane].wrapping_add(step)) {
+                    (Some(last), from @ 0..128) => {
+                        let half = at.min(last) + if lane < 4 { 0 } else { usize::from(second % 16) };
+                        bytes[half + usize::from(from % 16)]
+                    }
+                    _ => 0,
+                };
+                let (narrow, wide) = (u32::from(lanes[lane]), u32::from(words[lane]));
+                let near = u32::from_le_bytes([byte(0), byte(1), byte(2), byte(3)]);
+                let expected = [narrow, wide, wide & !narrow, near];
+                prop_assert_eq!(got.map(|words| words[lane]), expected, "{}", level.name());
+            }
+        }
+    }
+}
+
 /// Small whole numbers as floats, and what vectors of four can do.
 struct Small([u16; 8], [u8; 8]);
 

@@ -35,6 +35,11 @@ impl BitWriter {
         self.put(value.to_bits(), 32);
     }
 
+    /// Goes on with a whole byte.
+    pub(super) fn fill_byte(&mut self) {
+        self.bits = self.bytes.len() * 8;
+    }
+
     /// Bytes begun so far.
     pub(super) fn length(&self) -> usize {
         self.bytes.len()
@@ -60,9 +65,15 @@ impl<'a> BitReader<'a> {
         Self { bytes, at: offset.saturating_mul(8) }
     }
 
+    /// The same row, from so many bits later on.
+    pub(super) fn after(mut self, bits: u32) -> Self {
+        self.at = self.at.saturating_add(bits as usize);
+        self
+    }
+
     /// The next `width` bits, 0..=32.
     pub(super) fn take(&mut self, width: u32) -> Result<u32, FormatError> {
-        let end = self.at + width as usize;
+        let end = self.at.saturating_add(width as usize);
         if end > self.bytes.len() * 8 {
             return Err(FormatError::new(self.bytes.len(), "the bytes end too early"));
         }

@@ -51,8 +51,9 @@ impl Bytes {
     }
 }
 
-/// Shares of the tolerance tried for the first joint of a chain.
-const SHARES: [f32; 6] = [0.7, 0.6, 0.5, 0.4, 0.3, 0.2];
+/// Shares of the tolerance tried for the first and the last joint of a chain.
+const SHARES: [[f32; 2]; 8] =
+    [[0.7, 0.8], [0.5, 0.8], [0.6, 0.7], [0.45, 0.7], [0.5, 0.6], [0.45, 0.6], [0.4, 0.55], [0.3, 0.4]];
 /// Segment sizes tried, as powers of two, beginning in the middle.
 const SMALLER: [u32; 2] = [5, 4];
 const LARGER: [u32; 2] = [7, 8];
@@ -77,12 +78,12 @@ pub fn compress(
     let plan = Plan::new(&frames, skeleton, exactness.clone());
     let attempt = |choice: Choice| Attempt::new(take, skeleton, &frames, &plan, &exactness, choice);
     let mut best: Option<Attempt> = None;
-    let mut share = SHARES[0];
+    let mut shares = SHARES[0];
     for next in SHARES {
-        let found = attempt(Choice { shift: MIDDLE, share: next, whole: false })?;
+        let found = attempt(Choice { shift: MIDDLE, shares: next, whole: false })?;
         let first = best.is_none();
         if better(found, &mut best) {
-            share = next;
+            shares = next;
         } else if !first {
             break;
         }
@@ -90,18 +91,20 @@ pub fn compress(
     for sizes in [SMALLER, LARGER] {
         for shift in sizes {
             let helps = frames.count() > 1 << shift.min(MIDDLE)
-                && better(attempt(Choice { shift, share, whole: false })?, &mut best);
+                && better(attempt(Choice { shift, shares, whole: false })?, &mut best);
             if !helps {
                 break;
             }
         }
     }
     if best.is_none() {
-        better(attempt(Choice { shift: MIDDLE, share: 0.5, whole: true })?, &mut best);
+        better(attempt(Choice { shift: MIDDLE, shares: SHARES[0], whole: true })?, &mut best);
     }
     match best {
         Some(best) => Ok((best.take, best.report)),
-        None => Err(out_of_reach(attempt(Choice { shift: MIDDLE, share: 0.5, whole: true })?, &exactness)),
+        None => {
+            Err(out_of_reach(attempt(Choice { shift: MIDDLE, shares: SHARES[0], whole: true })?, &exactness))
+        }
     }
 }
 
@@ -111,10 +114,10 @@ fn out_of_reach(attempt: Attempt, exactness: &[Exactness]) -> CompressError {
     CompressError::OutOfReach { bone, time, tolerance, reached: distance }
 }
 
-/// Takes the place of `best` where it holds the tolerance in fewer bytes.
+/// Takes the place of `best` where it holds the tolerance and costs less.
 fn better(attempt: Attempt, best: &mut Option<Attempt>) -> bool {
     let holds = attempt.report.share_of_tolerance <= 1.0;
-    let smaller = best.as_ref().is_none_or(|best| attempt.report.bytes.total() < best.report.bytes.total());
+    let smaller = best.as_ref().is_none_or(|best| attempt.cost() < best.cost());
     if holds && smaller {
         *best = Some(attempt);
     }
@@ -128,6 +131,11 @@ struct Attempt {
 }
 
 impl Attempt {
+    /// Bytes, and a quarter of those of the tables: they are needed only while the take is played.
+    fn cost(&self) -> usize {
+        self.take.as_bytes().len() * 3 / 4 + self.take.bytes_in_memory() / 4
+    }
+
     fn new(
         take: &Take,
         skeleton: &Skeleton,

@@ -15,16 +15,14 @@ use glam::{Affine3A, Quat, Vec3, Vec3Swizzles};
 pub(super) struct Choice {
     /// A segment has `1 << shift` keys.
     pub(super) shift: u32,
-    /// Share of the tolerance that the first joint of a chain may be off; the last may be off by nearly all of it.
-    pub(super) share: f32,
+    /// Shares of the tolerance that the first and the last joint of a chain may be off.
+    pub(super) shares: [f32; 2],
     /// Store what moves as exactly as possible.
     pub(super) whole: bool,
 }
 
 /// Share of the tolerance that the shell of a bone may be off.
-const SHELL: f32 = 0.98;
-/// Share of the tolerance that the last joint of a chain may be off: its shell needs what is left.
-const LAST: f32 = 0.8;
+const SHELL: f32 = 0.985;
 /// Share of a joint's tolerance that goes into its translation, where that moves.
 const MOVED: f32 = 0.5;
 /// Share of a bone's tolerance that goes into its scale, where that moves.
@@ -69,7 +67,8 @@ impl<'a> Encoder<'a> {
     /// Distance that the origin of `bone` may be off.
     fn joint_limit(&self, bone: usize) -> f32 {
         let (depth, deepest) = self.plan.depth[bone];
-        let share = self.choice.share + (LAST - self.choice.share) * (depth - 1.0) / deepest;
+        let [first, last] = self.choice.shares;
+        let share = first + (last - first) * (depth - 1.0) / deepest;
         self.plan.tolerance[bone] * share
     }
 

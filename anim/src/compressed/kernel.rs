@@ -1,20 +1,19 @@
-//! A pose from three keys: eight bones at once, without a step from one time to the next.
+//! A pose from two keys: eight bones at once, without a step from one time to the next.
 //!
-//! For each component of each bone, between keys `k` and `k + 1`, of which one is even: the even keys before and after,
-//! and what the odd one has to add to half way between them.
+//! Of each lane, each number is masked out of the word that holds it, and makes the component
 //!
 //! ```text
-//! k even:  a = even                       b = (even + next) / 2 + odd
-//! k odd:   a = (even + next) / 2 + odd    b = next
+//! value = start + step * number
 //! ```
 //!
 //! Vectors are then mixed; rotations get their w back and are slerped with the weights of [`Slerp`].
 
+use super::arrange::Group;
+use super::head::{HeadBlock, WideBlock};
 use super::slerp::Slerp;
-use super::stored::{PER_EXTENT, PER_PLACE};
-use super::table::{HeadBlock, MovingBlock, Reads, Tables};
+use super::table::{Tables, Turning};
 use crate::fast::PoseBlock;
-use crate::fast::simd::{Float8, Kernel, Simd, Word8};
+use crate::fast::simd::{Float8, Kernel, LANES, Simd, Word8};
 
 /// The same for each of three components. An array's `map` would do, but its closure is not compiled with the
 /// instructions of the level.
@@ -46,18 +45,16 @@ pub(super) struct Decode<'a> {
     pub(super) out: &'a mut [PoseBlock],
 }
 
-/// Where the three keys lie, and how to put them together.
+/// Where the two keys lie, and how far the time is on the way from one to the other.
 #[derive(Clone, Copy, Debug)]
-struct Keys {
-    /// Segments of the even key (and of the odd one), and of the next even key.
-    segment: usize,
-    next_segment: usize,
-    /// Bits from the first byte.
-    even: u32,
-    next: u32,
-    odd: u32,
-    /// Is the first of the two keys around the time the odd one?
-    late: bool,
+struct Keys<'a> {
+    bytes: &'a [u8],
+    wide: &'a [WideBlock],
+    /// The segment of each.
+    segments: [usize; 2],
+    /// The first byte of each.
+    rows: [u32; 2],
+    mix: f32,
 }
 
 /// The keys around `time`: the one before and how far the time is on the way to the next.
@@ -66,56 +63,151 @@ struct Keys {
 #[inline(always)]
 fn around(tables: &Tables, time: f32) -> (u32, f32) {
     let (clock, last) = (&tables.clock, tables.clock.frames - 1);
+    let at = |key: u32| clock.time(key, tables.interval);
     // A conversion takes NaN and what is below zero to zero.
     let guess = ((f64::from(time) - f64::from(clock.start)) / tables.interval) as u32;
-    if guess >= last {
-        let before = clock.time(last, tables.interval);
-        return if time >= before || last == 0 {
-            (last, 0.0)
-        } else {
-            (last - 1, mix(tables, last - 1, time))
-        };
+    if guess < last {
+        let (before, after) = (at(guess), at(guess + 1));
+        if time >= before && time < after {
+            return (guess, (time - before) / (after - before));
+        }
     }
-    let key = if time < clock.time(guess, tables.interval) {
-        guess.saturating_sub(1)
-    } else if time >= clock.time(guess + 1, tables.interval) {
-        (guess + 1).min(last)
-    } else {
-        guess
+    // By rounding the key is another; or the time is outside, or no number.
+    let key = match guess.min(last) {
+        key if key > 0 && time < at(key) => key - 1,
+        key if key < last && time >= at(key + 1) => key + 1,
+        key => key,
     };
-    if key == last { (last, 0.0) } else { (key, mix(tables, key, time)) }
-}
-
-#[inline(always)]
-fn mix(tables: &Tables, key: u32, time: f32) -> f32 {
-    let before = tables.clock.time(key, tables.interval);
-    let after = tables.clock.time(key + 1, tables.interval);
+    if key == last {
+        return (last, 0.0);
+    }
+    let (before, after) = (at(key), at(key + 1));
     let mix = (time - before) / (after - before);
     // NaN and what is below zero become zero.
-    if mix > 0.0 { mix.min(1.0) } else { 0.0 }
+    (key, if mix > 0.0 { mix.min(1.0) } else { 0.0 })
 }
 
-impl Keys {
+impl<'a> Keys<'a> {
     #[inline(always)]
-    fn around(tables: &Tables, key: u32) -> Option<Self> {
-        let (last, shift) = (tables.clock.frames - 1, tables.shift);
-        let even = key & !1;
-        // Without a next even key the last one stands in: nothing is between.
-        let next = if even + 2 <= last { even + 2 } else { even };
-        let inside = |key: u32| (key & ((1 << shift) - 1)) / 2;
-        let (segment, next_segment) = ((even >> shift) as usize, (next >> shift) as usize);
-        let (here, there) = (tables.segments.get(segment)?, tables.segments.get(next_segment)?);
-        // The last key of all may be even: then there is no odd one after it, and its numbers count for nothing.
-        let odd =
-            if even < last { here.odd.wrapping_add(inside(even).wrapping_mul(here.odd_stride)) } else { 0 };
-        Some(Self {
-            segment,
-            next_segment,
-            even: here.even.wrapping_add(inside(even).wrapping_mul(here.even_stride)),
-            next: there.even.wrapping_add(inside(next).wrapping_mul(there.even_stride)),
-            odd,
-            late: key & 1 == 1,
+    fn new(tables: &'a Tables, bytes: &'a [u8], key: u32, mix: f32) -> Option<Self> {
+        // So that no load need ask.
+        if bytes.len() < super::write::AHEAD {
+            return None;
+        }
+        let after = (key + 1).min(tables.clock.frames - 1);
+        let segment = |key: u32| (key >> tables.shift) as usize;
+        let row = |key: u32| {
+            let place = tables.segments.get(segment(key))?;
+            Some(place.at.wrapping_add(place.stride.wrapping_mul(key & ((1 << tables.shift) - 1))))
+        };
+        let rows = [row(key)?, row(after)?];
+        Some(Self { bytes, wide: &tables.wide, segments: [segment(key), segment(after)], rows, mix })
+    }
+
+    /// Everything that is packed. `ONE`: both keys are of one segment.
+    #[inline(always)]
+    fn put<S: Simd, const ONE: bool>(&self, tables: &Tables, out: &mut [PoseBlock]) {
+        let slerp = Slerp::at(self.mix);
+        let here = tables.heads_of(self.segments[0]);
+        let there = if ONE { here } else { tables.heads_of(self.segments[1]) };
+        let (mut here, mut there) = (here.iter(), there.iter());
+        for Turning { reference, group } in &tables.turning {
+            let Some([a, b]) = self.two::<S, ONE>(&mut here, &mut there) else { return };
+            let rotation = rotation::<S>(reference, a, b, &slerp);
+            if let Some(block) = group.block {
+                if let Some(out) = out.get_mut(block as usize) {
+                    S::F8::store_four(rotation, &mut out.rotation);
+                }
+                continue;
+            }
+            let mut lanes = [[0.0; LANES]; 4];
+            S::F8::store_four(rotation, &mut lanes);
+            scatter(group, &lanes, out, |block| &mut block.rotation);
+        }
+        let (from, to) = (S::F8::splat(1.0 - self.mix), S::F8::splat(self.mix));
+        for (part, groups) in tables.moving.iter().enumerate() {
+            for group in groups {
+                let Some([a, b]) = self.two::<S, ONE>(&mut here, &mut there) else { return };
+                let vector = three!(axis => b[axis].mul_add(to, a[axis] * from));
+                if let Some(block) = group.block {
+                    if let Some(out) = out.get_mut(block as usize) {
+                        S::F8::store_three(vector, vectors(out, part));
+                    }
+                    continue;
+                }
+                let mut lanes = [[0.0; LANES]; 3];
+                S::F8::store_three(vector, &mut lanes);
+                scatter(group, &lanes, out, |block| vectors(block, part));
+            }
+        }
+    }
+
+    /// The components of the two keys, and a step on.
+    #[inline(always)]
+    fn two<'t, S: Simd, const ONE: bool>(
+        &self,
+        here: &mut impl Iterator<Item = &'t HeadBlock>,
+        there: &mut impl Iterator<Item = &'t HeadBlock>,
+    ) -> Option<[[S::F8; 3]; 2]> {
+        let head = here.next()?;
+        let next = if ONE { head } else { there.next()? };
+        Some([self.key::<S>(self.rows[0], head), self.key::<S>(self.rows[1], next)])
+    }
+
+    /// The components of the key whose first byte is `row`.
+    #[inline(always)]
+    fn key<S: Simd>(&self, row: u32, head: &HeadBlock) -> [S::F8; 3] {
+        if head.is_wide() {
+            return self.wide_key::<S>(row, head);
+        }
+        let at = row.wrapping_add(head.at) as usize;
+        let first = S::U8::near(self.bytes, at, head.second, &head.words[0]);
+        let second = S::U8::near(self.bytes, at, head.second, &head.words[1]);
+        [value::<S>(first, head, 0), value::<S>(first, head, 1), value::<S>(second, head, 2)]
+    }
+
+    /// The same, where not all numbers of a lane lie in one word.
+    #[inline(always)]
+    fn wide_key<S: Simd>(&self, row: u32, head: &HeadBlock) -> [S::F8; 3] {
+        let none = WideBlock { bits: [[0; LANES]; 3] };
+        let wide = self.wide.get(head.at as usize).unwrap_or(&none);
+        three!(axis => {
+            let bits = S::U8::load(&wide.bits[axis]);
+            let at = S::U8::splat(row) + bits.shifted_right(S::U8::splat(3));
+            value::<S>(S::U8::gather(self.bytes, at), head, axis)
         })
+    }
+}
+
+/// What the number of a component stands for that lies in `word`.
+#[inline(always)]
+fn value<S: Simd>(word: S::U8, head: &HeadBlock, axis: usize) -> S::F8 {
+    let number = word & S::U8::load(&head.masks[axis]);
+    let step = S::U8::from_u16(&head.step[axis]).shifted_left(S::U8::splat(16)).as_float();
+    number.to_float().mul_add(step, S::F8::load(&head.start[axis]))
+}
+
+/// Translations or scales.
+#[inline(always)]
+fn vectors(block: &mut PoseBlock, part: usize) -> &mut [[f32; LANES]; 3] {
+    if part == 0 { &mut block.translation } else { &mut block.scale }
+}
+
+/// Puts each lane that has a track in its place.
+#[inline(always)]
+fn scatter<const ROWS: usize>(
+    group: &Group,
+    lanes: &[[f32; LANES]; ROWS],
+    out: &mut [PoseBlock],
+    rows: impl Fn(&mut PoseBlock) -> &mut [[f32; LANES]; ROWS],
+) {
+    for (lane, bone) in group.bones.iter().enumerate() {
+        // A lane without a bone is of no block.
+        let (block, place) = (*bone as usize / LANES, *bone as usize % LANES);
+        if let Some(out) = out.get_mut(block) {
+            let rows = rows(out);
+            (0..ROWS).for_each(|row| rows[row][place] = lanes[row][lane]);
+        }
     }
 }
 
@@ -125,32 +217,26 @@ impl Kernel for Decode<'_> {
     #[inline(always)]
     fn run<S: Simd>(self) {
         let Self { tables, bytes, time, out } = self;
-        let blocks = out.len().min(tables.base.len());
-        out[..blocks].copy_from_slice(&tables.base[..blocks]);
+        for (out, still) in out.iter_mut().zip(&tables.still) {
+            out.translation = *still;
+            out.scale = PoseBlock::IDENTITY.scale;
+        }
+        for (block, still) in &tables.still_scales {
+            if let Some(out) = out.get_mut(*block as usize) {
+                out.scale = *still;
+            }
+        }
+        for (block, still) in &tables.still_rotations {
+            if let Some(out) = out.get_mut(*block as usize) {
+                out.rotation = *still;
+            }
+        }
         let (key, mix) = around(tables, time);
-        if let Some(keys) = Keys::around(tables, key) {
-            let slerp = Slerp::at(mix);
-            let [rotations, translations, scales] = &tables.parts;
-            let (here, there) = rotations.heads_of(keys.segment, keys.next_segment);
-            for ((moving, head), next) in rotations.blocks.iter().zip(here).zip(there) {
-                let [a, b] = two_keys::<S>(moving, head, next, &keys, bytes);
-                if let Some(out) = out.get_mut(moving.block) {
-                    rotation::<S>(moving, a, b, &slerp, &mut out.rotation);
-                }
-            }
-            let (here, there) = translations.heads_of(keys.segment, keys.next_segment);
-            for ((moving, head), next) in translations.blocks.iter().zip(here).zip(there) {
-                let [a, b] = two_keys::<S>(moving, head, next, &keys, bytes);
-                if let Some(out) = out.get_mut(moving.block) {
-                    vector::<S>(a, b, mix, &mut out.translation);
-                }
-            }
-            let (here, there) = scales.heads_of(keys.segment, keys.next_segment);
-            for ((moving, head), next) in scales.blocks.iter().zip(here).zip(there) {
-                let [a, b] = two_keys::<S>(moving, head, next, &keys, bytes);
-                if let Some(out) = out.get_mut(moving.block) {
-                    vector::<S>(a, b, mix, &mut out.scale);
-                }
+        if let Some(keys) = Keys::new(tables, bytes, key, mix) {
+            if keys.segments[0] == keys.segments[1] {
+                keys.put::<S, true>(tables, out);
+            } else {
+                keys.put::<S, false>(tables, out);
             }
         }
         if !tables.whole.is_empty() {
@@ -159,130 +245,22 @@ impl Kernel for Decode<'_> {
     }
 }
 
-/// The components of the two keys around the time.
-#[inline(always)]
-fn two_keys<S: Simd>(
-    moving: &MovingBlock,
-    head: &HeadBlock,
-    next_head: &HeadBlock,
-    keys: &Keys,
-    bytes: &[u8],
-) -> [[S::F8; 3]; 2] {
-    let bits = S::U8::load(&head.bits);
-    let (even_widths, odd_widths) = (widths::<S>(bits, 0), widths::<S>(bits, 15));
-    let even_masks = three!(axis => mask::<S>(even_widths[axis]));
-    let (start, step) = ranges::<S>(moving, head, &even_masks);
-    let even = numbers::<S>(bytes, keys.even, &head.even_at, head.reads[0], &even_widths, &even_masks);
-    let odd_masks = three!(axis => mask::<S>(odd_widths[axis]));
-    let odd = numbers::<S>(bytes, keys.odd, &head.odd_at, head.reads[1], &odd_widths, &odd_masks);
-    let even = three!(axis => even[axis].mul_add(step[axis], start[axis]));
-    let next = if keys.next_segment == keys.segment {
-        let next = numbers::<S>(bytes, keys.next, &head.even_at, head.reads[0], &even_widths, &even_masks);
-        three!(axis => next[axis].mul_add(step[axis], start[axis]))
-    } else {
-        other_segment::<S>(moving, next_head, keys, bytes)
-    };
-    let half = S::F8::splat(0.5);
-    let one = S::U8::splat(1);
-    let middle = three!(axis => {
-        // (mask + 1) / 2: what stands for zero; none for a number of no bits.
-        let zero = (odd_masks[axis] + one).shifted_right(one).to_float();
-        (odd[axis] - zero).mul_add(step[axis], next[axis].mul_add(half, even[axis] * half))
-    });
-    if keys.late { [middle, next] } else { [even, middle] }
-}
-
-/// The next even key, where it is the first of another segment.
-#[inline(always)]
-fn other_segment<S: Simd>(moving: &MovingBlock, head: &HeadBlock, keys: &Keys, bytes: &[u8]) -> [S::F8; 3] {
-    let widths = widths::<S>(S::U8::load(&head.bits), 0);
-    let masks = three!(axis => mask::<S>(widths[axis]));
-    let (start, step) = ranges::<S>(moving, head, &masks);
-    let next = numbers::<S>(bytes, keys.next, &head.even_at, head.reads[0], &widths, &masks);
-    three!(axis => next[axis].mul_add(step[axis], start[axis]))
-}
-
-/// Three widths of five bits each, from bit `from` on.
-#[inline(always)]
-fn widths<S: Simd>(bits: S::U8, from: u32) -> [S::U8; 3] {
-    three!(axis => bits.shifted_right(S::U8::splat(from + 5 * axis as u32)) & S::U8::splat(31))
-}
-
-/// As many ones as `width` says.
-#[inline(always)]
-fn mask<S: Simd>(width: S::U8) -> S::U8 {
-    S::U8::splat(1).shifted_left(width) + S::U8::splat(u32::MAX)
-}
-
-/// Start and step of each component: see [`super::stored::Head::start_and_step`].
-#[inline(always)]
-fn ranges<S: Simd>(moving: &MovingBlock, head: &HeadBlock, masks: &[S::U8; 3]) -> ([S::F8; 3], [S::F8; 3]) {
-    let (per_place, per_extent, one) = (S::F8::splat(PER_PLACE), S::F8::splat(PER_EXTENT), S::F8::splat(1.0));
-    let extent = three!(axis => S::F8::load(&moving.extent[axis]));
-    let start = three!(axis => {
-        let place = S::F8::from_u16(&head.place[axis]) * per_place;
-        extent[axis].mul_add(place, S::F8::load(&moving.low[axis]))
-    });
-    let step = three!(axis => {
-        let part = S::F8::from_u8(&head.extent[axis]) * per_extent;
-        extent[axis] * part / masks[axis].to_float().max(one)
-    });
-    (start, step)
-}
-
-/// Three numbers of each lane, one after the other.
-#[inline(always)]
-fn numbers<S: Simd>(
-    bytes: &[u8],
-    at: u32,
-    lanes: &[u32; 8],
-    reads: Reads,
-    widths: &[S::U8; 3],
-    masks: &[S::U8; 3],
-) -> [S::F8; 3] {
-    let x = S::U8::splat(at) + S::U8::load(lanes);
-    let y = x + widths[0];
-    let word = word::<S>(bytes, x);
-    let first = word & masks[0];
-    let (second, third) = match reads {
-        Reads::One => (word.shifted_right(widths[0]), word.shifted_right(widths[0] + widths[1])),
-        Reads::Two => (word.shifted_right(widths[0]), self::word::<S>(bytes, y + widths[1])),
-        Reads::Three => (self::word::<S>(bytes, y), self::word::<S>(bytes, y + widths[1])),
-    };
-    [first.to_float(), (second & masks[1]).to_float(), (third & masks[2]).to_float()]
-}
-
-/// At least 25 bits of each lane, from bit `at` on.
-#[inline(always)]
-fn word<S: Simd>(bytes: &[u8], at: S::U8) -> S::U8 {
-    S::U8::gather(bytes, at.shifted_right(S::U8::splat(3))).shifted_right(at & S::U8::splat(7))
-}
-
-#[inline(always)]
-fn vector<S: Simd>(a: [S::F8; 3], b: [S::F8; 3], mix: f32, out: &mut [[f32; 8]; 3]) {
-    let (from, to) = (S::F8::splat(1.0 - mix), S::F8::splat(mix));
-    for axis in 0..3 {
-        b[axis].mul_add(to, a[axis] * from).store(&mut out[axis]);
-    }
-}
-
+/// The rotations between those whose components are `a` and `b`, which are relative to `reference`.
 #[inline(always)]
 fn rotation<S: Simd>(
-    moving: &MovingBlock,
+    reference: &[[f32; LANES]; 4],
     a: [S::F8; 3],
     b: [S::F8; 3],
     slerp: &Slerp,
-    out: &mut [[f32; 8]; 4],
-) {
-    let (a, b) = (with_w::<S>(a), with_w::<S>(b));
-    let [x, y, z, w] = slerp.mix::<S>(a, b);
-    let (p, q) = (S::F8::load(&moving.reference[0]), S::F8::load(&moving.reference[1]));
-    let (r, s) = (S::F8::load(&moving.reference[2]), S::F8::load(&moving.reference[3]));
-    // reference * relative
-    r.neg_mul_add(y, q.mul_add(z, p.mul_add(w, s * x))).store(&mut out[0]);
-    p.neg_mul_add(z, r.mul_add(x, q.mul_add(w, s * y))).store(&mut out[1]);
-    q.neg_mul_add(x, p.mul_add(y, r.mul_add(w, s * z))).store(&mut out[2]);
-    r.neg_mul_add(z, q.neg_mul_add(y, p.neg_mul_add(x, s * w))).store(&mut out[3]);
+) -> [S::F8; 4] {
+    let [x, y, z, w] = slerp.mix::<S>(with_w::<S>(a), with_w::<S>(b));
+    let [p, q, r, s] = S::F8::load_four(reference);
+    [
+        r.neg_mul_add(y, q.mul_add(z, p.mul_add(w, s * x))),
+        p.neg_mul_add(z, r.mul_add(x, q.mul_add(w, s * y))),
+        q.neg_mul_add(x, p.mul_add(y, r.mul_add(w, s * z))),
+        r.neg_mul_add(z, q.neg_mul_add(y, p.neg_mul_add(x, s * w))),
+    ]
 }
 
 /// The fourth component of unit quaternions, which is not negative.

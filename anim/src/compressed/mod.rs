@@ -43,13 +43,24 @@
 //! * The range of each component is reduced for the take and again for each segment of 16 to 256 keys.
 //! * Each component has its own number of bits in each segment: the fewest with which all points of the bone are near
 //!   enough. Where the nearest number is not, its neighbours are tried.
-//! * Every second key holds only what is missing from half way between its neighbours.
-//! * Segment size and the share of the tolerance that joints may use up are tried, and the smallest result is kept.
+//! * Segment size and the shares of the tolerance that joints may use up are tried. The result with the fewest bytes is
+//!   kept, where a byte of tables counts a quarter.
 //!
-//! What cannot be had this way (a bone that turns all the way round, a range too large for 19 bits) is stored whole: 8
+//! What cannot be had this way (a bone that turns all the way round, a range too large for 22 bits) is stored whole: 8
 //! bytes a key for a rotation, 12 for a vector.
 //!
-//! # Layout, version 1
+//! # How a pose is made
+//!
+//! Every key stands for itself, so any time needs two keys and no other. Eight tracks are decoded at once. Each of their
+//! numbers lies in one of two words of four bytes; a shuffle brings the words of eight lanes into place, a mask takes a
+//! number out, a conversion and a fused multiplication make the component of it. Each lane has its own widths; where its
+//! numbers lie is looked up in tables, which are made when the bytes are read: start, step and masks for each segment. A
+//! whole character costs one lookup of the keys and no search.
+//!
+//! Numbers so wide that eight lanes see more than sixteen bytes in a half, or two of them more than 31 bits, are gathered
+//! one by one: about 45 instructions more for eight bones.
+//!
+//! # Layout, version 2
 //!
 //! Little-endian; bits from the lowest on.
 //!
@@ -57,52 +68,69 @@
 //! |---|---|
 //! | `DfCt`, version, zero | 4 + 2 + 2 bytes |
 //! | length of all, CRC-32 of all from byte 16 on | 4 + 4 bytes |
-//! | start, length (s), keys, bones | 4 × 32 bits |
+//! | byte after the last key, where the description begins | 4 bytes |
+//! | whole tracks, key after key | 8 or 12 bytes a key |
+//! | of each segment, of each key: all packed tracks, x, y, z | as wide as they must be, then to a whole byte |
+//! | *description:* start, length (s), keys, bones | 4 × 32 bits |
 //! | segment size as a power of two, widths of constants | 3 × 8 bits |
 //! | step of constant translations | 32 bits |
 //! | name: length, bytes | 8 + 8 n bits |
 //! | kinds: default 0, constant 1, packed 2, whole 3; rotation, translation, scale | 6 bits a bone |
 //! | constants, bone after bone | as wide as they must be |
 //! | of each packed track: middle rotation (32 bits) and range (96 bits), or range (192 bits) | |
-//! | of each segment and packed track, for x, y, z: place, extent, bits of even and of odd keys | 8 + 8 + 5 + 5 bits |
-//! | *next whole byte* whole tracks, key after key | 8 or 12 bytes a key |
-//! | of each segment: its even keys, then its odd keys; in each key all tracks | |
-//! | *next whole byte* zeros | 4 bytes |
+//! | of each segment and packed track, for x, y, z: place, extent, bits; of the only segment: bits | 8 + 8 + 5 bits |
+//! | *next whole byte* zeros, until 32 bytes follow the last key | |
 //!
-//! Tracks: all rotations in bone order, then translations, then scales. With the number `n` of a key:
+//! Whole tracks: all rotations in bone order, then translations, then scales. Packed tracks likewise, but the tracks of
+//! some blocks (bones 8 i to 8 i + 7) come last of their part, again in bone order: those of the `k` blocks with fewest
+//! packed tracks (of equals the first), where `k` is the smallest number that makes this smallest:
 //!
 //! ```text
-//! value[2i]     = start + step n                                     start = low + extent (256 place + ext) / 65535
-//! value[2i + 1] = (value[2i] + value[2i + 2]) / 2 + step (n - 2^(bits-1))    step = extent ext / 255 / (2^bits - 1)
+//! g (other blocks with packed tracks + tracks of the k blocks / 8, rounded up) + l (tracks of the k blocks)
+//! g = 138, l = 15 for rotations;  g = 85, l = 12 for vectors
 //! ```
+//!
+//! With the number `n` of a key:
+//!
+//! ```text
+//! value = start + step n        start = low + extent (256 place + ext) / 65535
+//!                               step = extent ext / 255 / (2^bits - 1), rounded up to the 16 highest bits of a float
+//! ```
+//!
+//! In the only segment of a take place is 0 and ext 255; with no bits, 127 and 255.
 //!
 //! # Figures
 //!
-//! The rig of the bench (67 bones), bytes and largest error; ACL 2.1 at the same settings:
+//! The rig of the bench (67 bones), bytes and largest error; ACL 2.1 at the same settings. Raw: 40 bytes a bone and key.
 //!
-//! | take (raw 40 bytes a bone and key) | ACL, 0.1 mm at 3 cm | here | ACL, 1 mm at 10 cm | here |
+//! | take (raw) | ACL, 0.1 mm at 3 cm | here | ACL, 1 mm at 10 cm | here |
 //! |---|---|---|---|---|
-//! | walk (109,880) | 7,385 · 0.097 mm | 3,540 · 0.098 mm | 6,050 · 0.95 mm | 2,661 · 0.99 mm |
-//! | jog (67,000) | 5,438 · 0.135 mm | 2,674 · 0.097 mm | 4,360 · 0.87 mm | 2,051 · 0.99 mm |
-//! | run (56,280) | 5,002 · 0.095 mm | 2,655 · 0.098 mm | 4,143 · 0.70 mm | 2,026 · 0.98 mm |
-//! | atlas (1,208,680) | 92,773 · 0.127 mm | 49,838 · 0.099 mm | 64,145 · 1.11 mm | 35,559 · 0.98 mm |
+//! | walk (109,880) | 7,385 · 0.097 mm | 3,834 · 0.098 mm | 6,050 · 0.95 mm | 2,775 · 0.99 mm |
+//! | jog (67,000) | 5,438 · 0.135 mm | 2,838 · 0.098 mm | 4,360 · 0.87 mm | 2,139 · 0.99 mm |
+//! | run (56,280) | 5,002 · 0.095 mm | 2,688 · 0.098 mm | 4,143 · 0.70 mm | 2,087 · 0.98 mm |
+//! | atlas (1,208,680) | 92,773 · 0.127 mm | 59,177 · 0.099 mm | 64,145 · 1.11 mm | 40,645 · 0.998 mm |
 //!
-//! On an AMD EPYC with AVX2, one thread, other programs running, release build, best of 200 runs, instructions counted by callgrind: compression took 3
-//! to 10 ms for the short takes and 0.18 to 0.31 s for atlas (ACL: 2 s). A pose cost 4.0 ns a bone (44 instructions)
-//! for the short takes and 6.8 ns (73 instructions) for atlas, where nearly every bone moves; the same forward and at
-//! random times, within 2 %. `cargo bench -p dragonfly-anim compressed` prints bytes, errors and times.
+//! In memory, tables included ([`CompressedTake::bytes_in_memory`]), a short take has 6 to 8 KB, atlas 83,309 and 62,529
+//! bytes.
 //!
-//! In memory the tables that decoding needs come on top of the bytes: about 7 KB for a short take, as much again as the
-//! bytes for atlas ([`CompressedTake::bytes_in_memory`]).
+//! On an AMD EPYC with AVX2 (two cores, other programs running), release build: a pose cost 1.3 to 1.5 ns a bone (21
+//! instructions, by callgrind) for the short takes and 1.9 ns (30 and 29 instructions) for atlas, where nearly every bone
+//! moves; any time costs the same. Compression took 2 to 20 ms for the short takes and 0.6 to 0.9 s for atlas (ACL: 2 s).
+//! `cargo bench -p dragonfly-anim -- compressed` prints bytes, errors and times.
+//!
+//! A version that stored every second key as what it differs by from half way between its neighbours had 1 to 16 % fewer
+//! bytes, but needed three keys a pose, and 44 to 73 instructions a bone.
 //!
 //! Not kept: morph weights ([`Report::morphs_left_out`]).
 
+mod arrange;
 mod bits;
 mod compress;
 mod encode;
 mod error;
 mod frames;
 mod grid;
+mod head;
 mod kernel;
 mod metric;
 mod plan;
@@ -126,7 +154,7 @@ pub use take::CompressedTake;
 /// The first bytes of a compressed take.
 pub const MAGIC: [u8; 4] = *b"DfCt";
 /// The version that is written, and the only one that is read.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 /// Most bones of a compressed take.
 pub const MAX_BONES: usize = 1 << 16;
 /// Most keys of a compressed take: nine hours at thirty a second.

@@ -4,11 +4,10 @@ use super::bits::{BitReader, crc32};
 use super::encode::TURN_UNIT;
 use super::frames::Clock;
 use super::grid::{FLOATS, MOST_BITS, rotation_from};
-use super::stored::{
-    CONSTANT, Grid, Head, LARGEST, MAX_EVEN_BITS, MAX_ODD_BITS, PACKED, Range, Reference, SHIFTS, WHOLE,
-};
-use super::table::{SegmentPlace, Tables, WholeTrack};
-use super::write::{PREFACE, TAIL};
+use super::stored::{CONSTANT, Grid, Head, LARGEST, MAX_BITS, PACKED, Range, Reference, SHIFTS, WHOLE};
+use super::table::{SegmentPlace, Tables};
+use super::whole::WholeTrack;
+use super::write::{AHEAD, PREFACE, SUMMED};
 use super::{FormatError, MAGIC, MAX_BONES, MAX_BYTES, MAX_FRAMES, MAX_VALUES, VERSION};
 use crate::data::Transform;
 use glam::{Quat, Vec3};
@@ -17,48 +16,55 @@ type Result<T> = std::result::Result<T, FormatError>;
 
 /// Checks `bytes` and makes the tables.
 pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
-    check_preface(bytes)?;
-    let mut bits = BitReader::new(&bytes[..bytes.len() - TAIL], PREFACE);
+    let end_of_keys = check_preface(bytes)?;
+    let mut bits = BitReader::new(bytes, end_of_keys);
     let (header, name) = header(&mut bits)?;
-    let mut tables = Tables::new(header.clock, header.shift, name, header.bones);
     let kinds = kinds(&mut bits, &header)?;
     let constants = constants(&mut bits, &header, &kinds)?;
-    tables.put_constants(&constants);
-    let tracks = of_kind(&kinds, PACKED);
-    for &(bone, part) in &tracks {
-        let (reference, range) = track(&mut bits, part)?;
-        tables.add_track(bone, part, reference, range);
+    let mut tables = Tables::new(header.clock, header.shift, name, &kinds, &constants);
+    let mut tracks = Vec::new();
+    for place in tables.places() {
+        let (reference, range) = track(&mut bits, place.part)?;
+        if place.part == 0 {
+            tables.refer(&place, reference);
+        }
+        tracks.push((place, range));
     }
     let segments = if tracks.is_empty() { 0 } else { header.clock.frames.div_ceil(1 << header.shift) };
-    let mut places = Vec::new();
-    for segment in 0..segments {
-        let (mut even, mut odd) = (0, 0);
-        tables.begin_segment();
-        for track in 0..tracks.len() {
-            let head = head(&mut bits)?;
-            tables.put_head(track, &head, even, odd);
-            (even, odd) = (even + head.even_width(), odd + head.odd_width());
-        }
-        let keys = (header.clock.frames - (segment << header.shift)).min(1 << header.shift);
-        places.push((keys, even, odd));
-    }
-    let mut offset = bits.next_byte();
+    let mut at = PREFACE;
     for (bone, part) in of_kind(&kinds, WHOLE) {
-        let track = WholeTrack { bone, part, offset };
-        offset += track.bytes_per_key() * header.clock.frames as usize;
+        let track = WholeTrack { bone, part, offset: at };
+        at += track.bytes_per_key() * header.clock.frames as usize;
         tables.whole.push(track);
     }
-    let end = place_segments(&mut tables, offset, &places);
-    check_whole(bytes, &tables)?;
-    if end.div_ceil(8) != bytes.len() as u64 - TAIL as u64 {
-        let reason = format!("keys end at byte {}, the bytes at {}", end.div_ceil(8), bytes.len() - TAIL);
-        return Err(FormatError::new(offset.min(bytes.len()), reason));
+    for segment in 0..segments {
+        let heads = tracks.iter().map(|_| head(&mut bits, segments == 1)).collect::<Result<Vec<_>>>()?;
+        let stride = tables.add_segment(&tracks, &heads).div_ceil(8);
+        // Where this is too large for 32 bits, so is the whole, which is found out before it is used.
+        tables.segments.push(SegmentPlace { at: at as u32, stride });
+        at += stride as usize
+            * (header.clock.frames - (segment << header.shift)).min(1 << header.shift) as usize;
     }
+    check(16, "the end of the keys", end_of_keys, end_of_keys == at)?;
+    check_whole(bytes, &tables)?;
+    check_end(bytes, bits.next_byte(), end_of_keys)?;
     Ok(tables)
 }
 
-fn check_preface(bytes: &[u8]) -> Result<()> {
-    if bytes.len() < PREFACE + TAIL {
+/// After the last bit come only the zeros that reading ahead needs.
+fn check_end(bytes: &[u8], end: usize, end_of_keys: usize) -> Result<()> {
+    if bytes.len() != end.max(end_of_keys + AHEAD) {
+        return Err(FormatError::new(end, format!("{} bytes are here, and not needed", bytes.len() - end)));
+    }
+    match bytes[end..].iter().position(|&byte| byte != 0) {
+        Some(place) => Err(FormatError::new(end + place, "the last bytes are not zero")),
+        None => Ok(()),
+    }
+}
+
+/// The byte after the last key, where the description begins.
+fn check_preface(bytes: &[u8]) -> Result<usize> {
+    if bytes.len() < PREFACE + AHEAD {
         return Err(FormatError::new(bytes.len(), format!("{} bytes are too few", bytes.len())));
     }
     let word = |at: usize| u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
@@ -71,14 +77,12 @@ fn check_preface(bytes: &[u8]) -> Result<()> {
     if word(8) as usize != bytes.len() || bytes.len() > MAX_BYTES {
         return Err(FormatError::new(8, format!("{} bytes were written, {} are here", word(8), bytes.len())));
     }
-    if word(12) != crc32(&bytes[PREFACE..]) {
+    if word(12) != crc32(&bytes[SUMMED..]) {
         return Err(FormatError::new(12, "the bytes were altered: their sum is another"));
     }
-    let tail = bytes.len() - TAIL;
-    if bytes[tail..] != [0; TAIL] {
-        return Err(FormatError::new(tail, "the last bytes are not zero"));
-    }
-    Ok(())
+    let end_of_keys = word(16) as usize;
+    let right = (PREFACE..=bytes.len() - AHEAD).contains(&end_of_keys);
+    check(16, "the end of the keys", end_of_keys, right)
 }
 
 struct Header {
@@ -220,39 +224,22 @@ fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, Range)> {
     Ok((Reference::NONE, Range { low, extent }))
 }
 
-fn head(bits: &mut BitReader<'_>) -> Result<Head> {
+fn head(bits: &mut BitReader<'_>, only: bool) -> Result<Head> {
     let mut head = Head::default();
     for axis in 0..3 {
-        head.place[axis] = bits.take(8)? as u8;
-        head.extent[axis] = bits.take(8)? as u8;
+        if !only {
+            head.place[axis] = bits.take(8)? as u8;
+            head.extent[axis] = bits.take(8)? as u8;
+        }
         let at = bits.offset();
-        let (even, odd) = (bits.take(5)?, bits.take(5)?);
-        check(at, "the width of even keys", even, even <= MAX_EVEN_BITS)?;
-        check(at, "the width of odd keys", odd, odd <= MAX_ODD_BITS)?;
-        (head.even_bits[axis], head.odd_bits[axis]) = (even as u8, odd as u8);
+        let width = bits.take(5)?;
+        head.bits[axis] = check(at, "the width of keys", width, width <= MAX_BITS)? as u8;
     }
-    Ok(head)
-}
-
-/// Says where the keys of each segment begin, from byte `offset` on; the bit after the last.
-fn place_segments(tables: &mut Tables, offset: usize, places: &[(u32, u32, u32)]) -> u64 {
-    let mut at = offset as u64 * 8;
-    for &(keys, even_stride, odd_stride) in places {
-        let even = at;
-        let odd = even + u64::from(even_stride) * u64::from(keys.div_ceil(2));
-        at = odd + u64::from(odd_stride) * u64::from(keys / 2);
-        // Where these are too large for 32 bits, so is the whole, which is found out before they are used.
-        tables.segments.push(SegmentPlace { even: even as u32, even_stride, odd: odd as u32, odd_stride });
-    }
-    at
+    Ok(if only { Head::only(head.bits) } else { head })
 }
 
 fn check_whole(bytes: &[u8], tables: &Tables) -> Result<()> {
     for track in &tables.whole {
-        let end = track.offset + track.bytes_per_key() * tables.clock.frames as usize;
-        if end > bytes.len() - TAIL {
-            return Err(FormatError::new(track.offset.min(bytes.len()), "the bytes end too early"));
-        }
         for key in 0..tables.clock.frames {
             let value = track.value(bytes, key);
             let at = track.offset + track.bytes_per_key() * key as usize;

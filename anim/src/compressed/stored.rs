@@ -6,10 +6,8 @@ use glam::{Quat, Vec3};
 
 /// Rotation, translation, scale: the order in which parts are stored.
 pub(super) const PARTS: usize = 3;
-/// Bits of an even key's number, at most: whole numbers up to 2²⁴ are exact as `f32`.
-pub(super) const MAX_EVEN_BITS: u32 = 19;
-/// Bits of an odd key's number, at most.
-pub(super) const MAX_ODD_BITS: u32 = 22;
+/// Bits of a number, at most: whole numbers up to 2²⁴ are exact as `f32`.
+pub(super) const MAX_BITS: u32 = 22;
 /// The largest translation or factor: sums of a few of them are still numbers.
 pub(super) const LARGEST: f32 = 1e30;
 /// Keys of a segment as a power of two.
@@ -52,6 +50,11 @@ pub(super) enum Part {
 }
 
 impl Part {
+    /// Its numbers of few bits, where it has those.
+    pub(super) fn packed(&self) -> Option<&Packed> {
+        if let Self::Packed(packed) = self { Some(packed) } else { None }
+    }
+
     /// The number that stands for it.
     pub(super) fn kind(&self) -> u32 {
         match self {
@@ -107,7 +110,7 @@ pub(super) struct Range {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Segment {
     pub(super) head: Head,
-    /// The numbers of the keys, even and odd ones in turn.
+    /// The numbers of each key.
     pub(super) keys: Vec<[u32; 3]>,
 }
 
@@ -118,25 +121,33 @@ pub(super) struct Head {
     pub(super) place: [u8; 3],
     /// Extent, in parts of the take's range.
     pub(super) extent: [u8; 3],
-    pub(super) even_bits: [u8; 3],
-    pub(super) odd_bits: [u8; 3],
+    pub(super) bits: [u8; 3],
 }
 
 impl Head {
-    /// Start and step of component `axis`: an even key with the number `n` is `start + step n`.
+    /// The head in a take of one segment, where it lies in the whole range: nothing but the bits is stored then.
+    pub(super) fn only(bits: [u8; 3]) -> Self {
+        let (place, extent) = (bits.map(|bits| if bits == 0 { 127 } else { 0 }), [255; 3]);
+        Self { place, extent, bits }
+    }
+
+    /// Start and step of component `axis`: a key with the number `n` is `start + step n`.
+    ///
+    /// The step is rounded up to the 16 highest bits of a float, so that tables can hold it in those.
     pub(super) fn start_and_step(&self, range: &Range, axis: usize) -> (f32, f32) {
         let together = f32::from(u16::from(self.place[axis]) << 8 | u16::from(self.extent[axis]));
         let start = range.low[axis] + range.extent[axis] * (together * PER_PLACE);
-        let numbers = ((1_u32 << self.even_bits[axis].min(31)) - 1).max(1);
-        (start, range.extent[axis] * (f32::from(self.extent[axis]) * PER_EXTENT) / numbers as f32)
+        if self.bits[axis] == 0 {
+            return (start, 0.0);
+        }
+        let numbers = (1_u32 << self.bits[axis].min(31)) - 1;
+        let step = range.extent[axis] * (f32::from(self.extent[axis]) * PER_EXTENT) / numbers as f32;
+        (start, f32::from_bits((step.to_bits() + 0xffff) & 0xffff_0000))
     }
 
-    pub(super) fn even_width(&self) -> u32 {
-        self.even_bits.iter().map(|&bits| u32::from(bits)).sum()
-    }
-
-    pub(super) fn odd_width(&self) -> u32 {
-        self.odd_bits.iter().map(|&bits| u32::from(bits)).sum()
+    /// Bits of all three components.
+    pub(super) fn width(&self) -> u32 {
+        self.bits.iter().map(|&bits| u32::from(bits)).sum()
     }
 }
 
@@ -144,11 +155,6 @@ impl Head {
 pub(super) const PER_PLACE: f32 = 1.0 / 65_535.0;
 /// One of the parts into which [`Head::extent`] divides a range.
 pub(super) const PER_EXTENT: f32 = 1.0 / 255.0;
-
-/// What an odd number stands for nothing with: numbers below it are negative.
-pub(super) fn odd_zero(bits: u8) -> f32 {
-    ((1_u32 << bits.min(31)) >> 1) as f32
-}
 
 /// The rotation whose components relative to `reference` are `xyz`; its w is not negative there.
 pub(super) fn rotation_of(reference: Quat, xyz: Vec3) -> Quat {

@@ -1,8 +1,11 @@
 //! What decoding needs beside the bytes: one set of tables a take, shared by all characters that play it.
 
+use super::arrange::{Group, Place, groups, places};
+use super::bits::BitReader;
 use super::frames::Clock;
-use super::grid::{WHOLE_BITS, rotation_from};
-use super::stored::{Head, PARTS, Range, Reference, odd_zero, rotation_of};
+use super::head::{HeadBlock, Lane, WideBlock};
+use super::stored::{Head, PARTS, Range, Reference, rotation_of};
+use super::whole::WholeTrack;
 use crate::data::Transform;
 use crate::fast::PoseBlock;
 use crate::fast::simd::LANES;
@@ -17,283 +20,188 @@ pub(super) struct Tables {
     pub(super) interval: f64,
     pub(super) shift: u32,
     pub(super) bones: usize,
-    /// What stands still.
-    pub(super) base: Vec<PoseBlock>,
-    /// Of rotations, translations, scales: the blocks in which any of eight bones moves.
-    pub(super) parts: [Moving; PARTS],
+    /// Translations that stand still, of every block.
+    pub(super) still: Vec<[[f32; LANES]; 3]>,
+    /// Scales of the blocks in which not all are 1.
+    pub(super) still_scales: Vec<(u32, [[f32; LANES]; 3])>,
+    /// Rotations of the blocks of which none moves, or few do.
+    pub(super) still_rotations: Vec<(u32, [[f32; LANES]; 4])>,
+    /// Rotations that move.
+    pub(super) turning: Vec<Turning>,
+    /// Translations and scales that move.
+    pub(super) moving: [Vec<Group>; 2],
+    /// Segment after segment, one a group: of rotations, then translations, then scales.
+    heads: Vec<HeadBlock>,
     pub(super) segments: Vec<SegmentPlace>,
+    /// Where the numbers of a group lie that are too wide for the usual way.
+    pub(super) wide: Vec<WideBlock>,
     pub(super) whole: Vec<WholeTrack>,
-    /// Of each track, in the order in which they are stored: part, place in the list of blocks, lane.
-    tracks: Vec<(usize, usize, usize)>,
 }
 
-/// The blocks in which rotations, or translations, or scales move.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Moving {
-    pub(super) blocks: Vec<MovingBlock>,
-    /// Segment after segment, one a block.
-    pub(super) heads: Vec<HeadBlock>,
-}
-
-impl Moving {
-    /// The heads of all blocks in two segments; none past the end.
-    #[inline(always)]
-    pub(super) fn heads_of(&self, segment: usize, next: usize) -> (&[HeadBlock], &[HeadBlock]) {
-        let count = self.blocks.len();
-        let of = |segment: usize| self.heads.get(segment * count..(segment + 1) * count).unwrap_or(&[]);
-        (of(segment), of(next))
-    }
-}
-
-/// Eight bones of which any moves.
+/// Eight rotations that move.
 #[derive(Clone, Debug)]
-#[repr(C, align(32))]
-pub(super) struct MovingBlock {
-    /// Rotations: what the components are relative to.
+pub(super) struct Turning {
+    /// What their components are relative to.
     pub(super) reference: [[f32; LANES]; 4],
-    pub(super) low: [[f32; LANES]; 3],
-    pub(super) extent: [[f32; LANES]; 3],
-    /// Position in the pose.
-    pub(super) block: usize,
+    pub(super) group: Group,
 }
 
-/// [`Head`]s of eight tracks.
-#[derive(Clone, Debug, Default)]
-#[repr(C, align(32))]
-pub(super) struct HeadBlock {
-    /// Bits of even keys (5 bits for each component, x lowest), then of odd keys.
-    pub(super) bits: [u32; LANES],
-    /// Where the numbers of a lane begin among those of an even key.
-    pub(super) even_at: [u32; LANES],
-    /// Likewise of an odd key.
-    pub(super) odd_at: [u32; LANES],
-    /// Place, and extent in the low byte.
-    pub(super) place: [[u16; LANES]; 3],
-    pub(super) extent: [[u8; LANES]; 3],
-    /// How many bytes must be looked at for the numbers of an even key, and of an odd one.
-    pub(super) reads: [Reads; 2],
-}
-
-/// How the three numbers of a key can be read in eight lanes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Reads {
-    /// Four bytes hold all three.
-    #[default]
-    One,
-    /// Four bytes hold the first two.
-    Two,
-    /// Each needs its own.
-    Three,
-}
-
-impl Reads {
-    fn of(bits: [u8; 3]) -> Self {
-        // A number can begin in the last bit of its first byte.
-        const HELD: u32 = 32 - 7;
-        let [x, y, z] = bits.map(u32::from);
-        match (x + y <= HELD, x + y + z <= HELD) {
-            (_, true) => Self::One,
-            (true, _) => Self::Two,
-            _ => Self::Three,
-        }
-    }
-}
-
-/// Where the keys of a segment lie, in bits from the first byte.
+/// Where the keys of a segment lie, in bytes from the first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SegmentPlace {
-    pub(super) even: u32,
-    pub(super) even_stride: u32,
-    pub(super) odd: u32,
-    pub(super) odd_stride: u32,
-}
-
-/// A track whose keys are stored whole.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct WholeTrack {
-    pub(super) bone: usize,
-    pub(super) part: usize,
-    /// Of the first key, in bytes.
-    pub(super) offset: usize,
-}
-
-impl WholeTrack {
-    pub(super) fn bytes_per_key(&self) -> usize {
-        if self.part == 0 { 8 } else { 12 }
-    }
-
-    /// The value of a key; of a vector the fourth number is 0. Zero where the bytes end.
-    pub(super) fn value(&self, bytes: &[u8], key: u32) -> [f32; 4] {
-        let at = self.offset + self.bytes_per_key() * key as usize;
-        let rest = bytes.get(at..).unwrap_or(&[]);
-        if self.part == 0 {
-            let word = u64::from_le_bytes(rest.first_chunk().copied().unwrap_or_default());
-            let number = |at: u32| (word >> (2 + at * WHOLE_BITS)) as u32 & ((1 << WHOLE_BITS) - 1);
-            return rotation_from(word as u32 & 3, [0, 1, 2].map(number), WHOLE_BITS).to_array();
-        }
-        let words: [u8; 12] = rest.first_chunk().copied().unwrap_or_default();
-        let number = |at: usize| f32::from_le_bytes([words[at], words[at + 1], words[at + 2], words[at + 3]]);
-        [number(0), number(4), number(8), 0.0]
-    }
+    pub(super) at: u32,
+    /// Bytes of one key.
+    pub(super) stride: u32,
 }
 
 impl Tables {
-    pub(super) fn new(clock: Clock, shift: u32, name: String, bones: usize) -> Self {
-        let (base, parts) = (Vec::new(), Default::default());
-        let (segments, whole, tracks) = (Vec::new(), Vec::new(), Vec::new());
-        Self { name, clock, interval: clock.interval(), shift, bones, base, parts, segments, whole, tracks }
-    }
-
-    /// Puts in what stands still: a pose a bone.
-    pub(super) fn put_constants(&mut self, poses: &[Transform]) {
-        self.base = vec![PoseBlock::IDENTITY; poses.len().div_ceil(LANES)];
+    /// The tables of a take without keys, whose bones are of these kinds and stand still like this.
+    pub(super) fn new(
+        clock: Clock,
+        shift: u32,
+        name: String,
+        kinds: &[[u32; PARTS]],
+        poses: &[Transform],
+    ) -> Self {
+        let mut base = vec![PoseBlock::IDENTITY; poses.len().div_ceil(LANES)];
         for (bone, &pose) in poses.iter().enumerate() {
-            self.base[bone / LANES].set(bone, pose);
+            base[bone / LANES].set(bone, pose);
+        }
+        let [turning, translations, scales] = groups(kinds);
+        let reference = |group: &Group| match group.block {
+            Some(block) => base[block as usize].rotation,
+            None => PoseBlock::IDENTITY.rotation,
+        };
+        let turning: Vec<Turning> =
+            turning.into_iter().map(|group| Turning { reference: reference(&group), group }).collect();
+        let turns = |block: u32| turning.iter().any(|turning| turning.group.block == Some(block));
+        let still_rotations = (0..).zip(&base).filter(|(block, _)| !turns(*block));
+        let still_rotations = still_rotations.map(|(block, base)| (block, base.rotation)).collect();
+        let still_scales = (0..).zip(&base).filter(|(_, base)| base.scale != PoseBlock::IDENTITY.scale);
+        let still_scales = still_scales.map(|(block, base)| (block, base.scale)).collect();
+        Self {
+            name,
+            interval: clock.interval(),
+            clock,
+            shift,
+            bones: poses.len(),
+            still: base.iter().map(|base| base.translation).collect(),
+            still_scales,
+            still_rotations,
+            turning,
+            moving: [translations, scales],
+            heads: Vec::new(),
+            segments: Vec::new(),
+            wide: Vec::new(),
+            whole: Vec::new(),
         }
     }
 
-    /// Adds a track; bones ascend within a part.
-    pub(super) fn add_track(&mut self, bone: usize, part: usize, reference: Reference, range: Range) {
-        let (block, lane) = (bone / LANES, bone % LANES);
-        let base = &self.base[block];
-        let blocks = &mut self.parts[part].blocks;
-        if blocks.last().is_none_or(|last| last.block != block) {
-            blocks.push(MovingBlock::still(block, part, base));
+    /// The pose of `bone` while nothing moves.
+    pub(super) fn still_pose(&self, bone: usize) -> Transform {
+        let (block, mut pose) = (bone / LANES, PoseBlock::IDENTITY);
+        pose.translation = self.still[block];
+        pose.scale = self.still_scale(block);
+        let turning = self.turning.iter().find(|turning| turning.group.block == Some(block as u32));
+        let still = self.still_rotations.iter().find(|(at, _)| *at as usize == block);
+        if let Some(rotation) = turning.map(|turning| turning.reference).or(still.map(|still| still.1)) {
+            pose.rotation = rotation;
         }
-        let place = blocks.len() - 1;
-        let moving = &mut blocks[place];
-        if part == 0 {
-            let rotation = reference.rotation().to_array();
-            (0..4).for_each(|axis| moving.reference[axis][lane] = rotation[axis]);
-        }
-        for axis in 0..3 {
-            moving.low[axis][lane] = range.low[axis];
-            moving.extent[axis][lane] = range.extent[axis];
-        }
-        self.tracks.push((part, place, lane));
+        pose.get(bone)
     }
 
-    /// Makes room for the heads of one more segment.
-    pub(super) fn begin_segment(&mut self) {
-        for part in &mut self.parts {
-            part.heads.extend(part.blocks.iter().map(|_| HeadBlock::default()));
-        }
+    fn still_scale(&self, block: usize) -> [[f32; LANES]; 3] {
+        let still = self.still_scales.iter().find(|(at, _)| *at as usize == block);
+        still.map_or(PoseBlock::IDENTITY.scale, |still| still.1)
     }
 
-    /// Puts in the head of a track in the segment begun last.
-    pub(super) fn put_head(&mut self, track: usize, head: &Head, even_at: u32, odd_at: u32) {
-        let (part, place, lane) = self.tracks[track];
-        let part = &mut self.parts[part];
-        let first = part.heads.len() - part.blocks.len();
-        let heads = &mut part.heads[first + place];
-        let bits = head.even_bits.into_iter().chain(head.odd_bits);
-        heads.bits[lane] = bits.rev().fold(0, |bits, width| bits << 5 | u32::from(width));
-        heads.reads[0] = heads.reads[0].max(Reads::of(head.even_bits));
-        heads.reads[1] = heads.reads[1].max(Reads::of(head.odd_bits));
-        (heads.even_at[lane], heads.odd_at[lane]) = (even_at, odd_at);
-        for axis in 0..3 {
-            heads.place[axis][lane] = u16::from(head.place[axis]) << 8 | u16::from(head.extent[axis]);
-            heads.extent[axis][lane] = head.extent[axis];
+    /// Every packed track, in the order in which tracks are stored.
+    pub(super) fn places(&self) -> Vec<Place> {
+        let [translations, scales] = &self.moving;
+        let turning = self.turning.iter().map(|turning| turning.group.clone()).collect();
+        places(&[turning, translations.clone(), scales.clone()])
+    }
+
+    /// Says what the components of the rotations of a track are relative to.
+    pub(super) fn refer(&mut self, place: &Place, reference: Reference) {
+        let rotation = reference.rotation().to_array();
+        (0..4).for_each(|axis| self.turning[place.group].reference[axis][place.lane] = rotation[axis]);
+    }
+
+    /// The heads of all groups in a segment, and then those of the next ones; none past the end.
+    #[inline(always)]
+    pub(super) fn heads_of(&self, segment: usize) -> &[HeadBlock] {
+        let count = self.turning.len() + self.moving[0].len() + self.moving[1].len();
+        self.heads.get(segment * count..).unwrap_or(&[])
+    }
+
+    /// The head of a track in a segment.
+    fn head(&self, place: &Place, segment: usize) -> &HeadBlock {
+        let before = [0, self.turning.len(), self.turning.len() + self.moving[0].len()];
+        &self.heads_of(segment)[before[place.part] + place.group]
+    }
+
+    /// Adds a segment: the range and the head of every track. Returns the bits of one key.
+    pub(super) fn add_segment(&mut self, tracks: &[(Place, Range)], heads: &[Head]) -> u32 {
+        let mut tracks = tracks.iter().zip(heads).peekable();
+        let mut bit = 0;
+        let counts = [self.turning.len(), self.moving[0].len(), self.moving[1].len()];
+        let groups = (0..PARTS).flat_map(|part| (0..counts[part]).map(move |group| (part, group)));
+        for (part, group) in groups {
+            let mut lanes = self.still_lanes(part, group);
+            while let Some(((place, range), head)) =
+                tracks.next_if(|((place, _), _)| (place.part, place.group) == (part, group))
+            {
+                lanes[place.lane] = Lane::new(bit, range, head);
+                bit += head.width();
+            }
+            self.heads.push(HeadBlock::new(&lanes, &mut self.wide));
         }
+        bit
+    }
+
+    /// Lanes without numbers: what stands still in the group.
+    fn still_lanes(&self, part: usize, group: usize) -> [Lane; LANES] {
+        let block = part.checked_sub(1).and_then(|vector| self.moving[vector][group].block);
+        let rows = match block {
+            Some(block) if part == 1 => self.still[block as usize],
+            Some(block) => self.still_scale(block as usize),
+            None => [[0.0; LANES]; 3],
+        };
+        std::array::from_fn(|lane| Lane { start: rows.map(|row| row[lane]), ..Lane::default() })
     }
 
     /// Bytes that the tables take.
     pub(super) fn bytes(&self) -> usize {
-        let parts = self
-            .parts
-            .iter()
-            .map(|part| size_of_val(part.blocks.as_slice()) + size_of_val(part.heads.as_slice()));
-        size_of_val(self.base.as_slice())
+        size_of_val(self.still.as_slice())
+            + size_of_val(self.still_scales.as_slice())
+            + size_of_val(self.still_rotations.as_slice())
+            + size_of_val(self.turning.as_slice())
+            + size_of_val(self.moving[0].as_slice())
+            + size_of_val(self.moving[1].as_slice())
+            + size_of_val(self.heads.as_slice())
             + size_of_val(self.segments.as_slice())
+            + size_of_val(self.wide.as_slice())
             + size_of_val(self.whole.as_slice())
-            + size_of_val(self.tracks.as_slice())
-            + parts.sum::<usize>()
     }
 
-    /// The tracks that are packed: part and bone.
-    pub(super) fn packed(&self) -> impl Iterator<Item = (usize, usize, Track<'_>)> {
-        self.tracks.iter().map(|&(part, place, lane)| {
-            let bone = self.parts[part].blocks[place].block * LANES + lane;
-            (part, bone, Track { tables: self, part, place, lane })
-        })
-    }
-}
-
-impl MovingBlock {
-    fn still(block: usize, part: usize, base: &PoseBlock) -> Self {
-        let low = match part {
-            0 => [[0.0; LANES]; 3],
-            1 => base.translation,
-            _ => base.scale,
-        };
-        Self { reference: base.rotation, low, extent: [[0.0; LANES]; 3], block }
-    }
-}
-
-/// One track, decoded a key at a time: the plain way, which the fast one must agree with.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Track<'a> {
-    tables: &'a Tables,
-    part: usize,
-    place: usize,
-    lane: usize,
-}
-
-impl Track<'_> {
-    /// The value of a key; of a vector the fourth number is 0.
-    pub(super) fn value(&self, bytes: &[u8], key: u32) -> [f32; 4] {
-        let moving = &self.tables.parts[self.part].blocks[self.place];
-        let components = self.components(bytes, key);
-        if self.part == 0 {
-            let reference = Quat::from_array([0, 1, 2, 3].map(|axis| moving.reference[axis][self.lane]));
-            return rotation_of(reference, components).to_array();
+    /// The value of a key of a packed track, the plain way, which the fast one must agree with; of a vector the fourth
+    /// number is 0.
+    pub(super) fn value(&self, bytes: &[u8], place: &Place, key: u32) -> [f32; 4] {
+        let segment = (key >> self.shift) as usize;
+        let SegmentPlace { at, stride } = self.segments[segment];
+        let row = at + stride * (key & ((1 << self.shift) - 1));
+        let lane = self.head(place, segment).lane(place.lane, &self.wide);
+        let mut bits = BitReader::new(bytes, row as usize).after(lane.bit);
+        let value = Vec3::from_array([0, 1, 2].map(|axis| {
+            let number = bits.take(lane.widths[axis]).unwrap_or(0);
+            lane.start[axis] + lane.step[axis] * number as f32
+        }));
+        if place.part == 0 {
+            let reference = &self.turning[place.group].reference;
+            let reference = Quat::from_array([0, 1, 2, 3].map(|axis| reference[axis][place.lane]));
+            return rotation_of(reference, value).to_array();
         }
-        components.extend(0.0).to_array()
+        value.extend(0.0).to_array()
     }
-
-    fn components(&self, bytes: &[u8], key: u32) -> Vec3 {
-        let (start, step, head) = self.head(key);
-        if key.is_multiple_of(2) {
-            let segment = &self.tables.segments[(key >> self.tables.shift) as usize];
-            let inside = (key & ((1 << self.tables.shift) - 1)) / 2;
-            let at = segment.even + inside * segment.even_stride;
-            return start + step * numbers(bytes, at + head.even_at[self.lane], head.bits[self.lane]);
-        }
-        let before = self.components(bytes, key - 1);
-        let last = self.tables.clock.frames - 1;
-        let after = if key < last { self.components(bytes, key + 1) } else { before };
-        let segment = &self.tables.segments[(key >> self.tables.shift) as usize];
-        let inside = (key & ((1 << self.tables.shift) - 1)) / 2;
-        let at = segment.odd + inside * segment.odd_stride;
-        let bits = head.bits[self.lane] >> 15;
-        let zero = Vec3::from_array([0, 5, 10].map(|shift| odd_zero((bits >> shift & 31) as u8)));
-        (before * 0.5 + after * 0.5) + step * (numbers(bytes, at + head.odd_at[self.lane], bits) - zero)
-    }
-
-    fn head(&self, key: u32) -> (Vec3, Vec3, &HeadBlock) {
-        let part = &self.tables.parts[self.part];
-        let heads = &part.heads[(key >> self.tables.shift) as usize * part.blocks.len() + self.place];
-        let moving = &part.blocks[self.place];
-        let three = |rows: &[[f32; LANES]; 3]| Vec3::from_array([0, 1, 2].map(|axis| rows[axis][self.lane]));
-        let range = Range { low: three(&moving.low), extent: three(&moving.extent) };
-        let bits = [0, 5, 10].map(|shift| (heads.bits[self.lane] >> shift & 31) as u8);
-        let place = [0, 1, 2].map(|axis| (heads.place[axis][self.lane] >> 8) as u8);
-        let extent = [0, 1, 2].map(|axis| heads.extent[axis][self.lane]);
-        let head = Head { place, extent, even_bits: bits, odd_bits: [0; 3] };
-        let [x, y, z] = [0, 1, 2].map(|axis| head.start_and_step(&range, axis));
-        (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1), heads)
-    }
-}
-
-/// Three numbers one after the other from bit `at` on; five bits of `widths` say how wide each is.
-fn numbers(bytes: &[u8], at: u32, widths: u32) -> Vec3 {
-    let mut at = at as usize;
-    Vec3::from_array([0, 5, 10].map(|shift| {
-        let width = widths >> shift & 31;
-        let rest = bytes.get(at / 8..).unwrap_or(&[]);
-        let word = u32::from_le_bytes(rest.first_chunk().copied().unwrap_or_default());
-        let number = (word >> (at % 8)) & ((1 << width) - 1);
-        at += width as usize;
-        number as f32
-    }))
 }

@@ -91,8 +91,9 @@ impl CompressedTake {
         let clock = &self.tables.clock;
         let times: Arc<[f32]> = (0..clock.frames).map(|key| clock.time(key, self.tables.interval)).collect();
         let mut tracks: Vec<Track> = (0..self.tables.bones).map(|bone| self.still(bone)).collect();
-        for (part, bone, track) in self.tables.packed() {
-            put(&mut tracks[bone], part, &times, |key| track.value(&self.bytes, key));
+        for place in self.tables.places() {
+            let value = |key| self.tables.value(&self.bytes, &place, key);
+            put(&mut tracks[place.bone], place.part, &times, value);
         }
         for track in &self.tables.whole {
             put(&mut tracks[track.bone], track.part, &times, |key| track.value(&self.bytes, key));
@@ -108,8 +109,7 @@ impl CompressedTake {
 
     /// The track of a bone that stands still.
     fn still(&self, bone: usize) -> Track {
-        use crate::fast::simd::LANES;
-        let pose = self.tables.base[bone / LANES].get(bone);
+        let pose = self.tables.still_pose(bone);
         let start: Arc<[f32]> = Arc::new([self.tables.clock.start]);
         Track {
             bone: bone as u32,

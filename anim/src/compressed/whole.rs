@@ -1,10 +1,40 @@
 //! Tracks whose keys are stored whole: few, and mixed one bone at a time.
 
-use super::table::{Tables, WholeTrack};
+use super::grid::{WHOLE_BITS, rotation_from};
+use super::table::Tables;
 use crate::fast::PoseBlock;
 use crate::fast::simd::LANES;
 use crate::sample::mix::{lerp, slerp};
 use glam::{Quat, Vec3};
+
+/// A track whose keys are stored whole.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WholeTrack {
+    pub(super) bone: usize,
+    pub(super) part: usize,
+    /// Of the first key, in bytes.
+    pub(super) offset: usize,
+}
+
+impl WholeTrack {
+    pub(super) fn bytes_per_key(&self) -> usize {
+        if self.part == 0 { 8 } else { 12 }
+    }
+
+    /// The value of a key; of a vector the fourth number is 0. Zero where the bytes end.
+    pub(super) fn value(&self, bytes: &[u8], key: u32) -> [f32; 4] {
+        let at = self.offset + self.bytes_per_key() * key as usize;
+        let rest = bytes.get(at..).unwrap_or(&[]);
+        if self.part == 0 {
+            let word = u64::from_le_bytes(rest.first_chunk().copied().unwrap_or_default());
+            let number = |at: u32| (word >> (2 + at * WHOLE_BITS)) as u32 & ((1 << WHOLE_BITS) - 1);
+            return rotation_from(word as u32 & 3, [0, 1, 2].map(number), WHOLE_BITS).to_array();
+        }
+        let words: [u8; 12] = rest.first_chunk().copied().unwrap_or_default();
+        let number = |at: usize| f32::from_le_bytes([words[at], words[at + 1], words[at + 2], words[at + 3]]);
+        [number(0), number(4), number(8), 0.0]
+    }
+}
 
 /// Puts the values between `key` and the one after it into a pose.
 pub(super) fn put(tables: &Tables, bytes: &[u8], key: u32, mix: f32, out: &mut [PoseBlock]) {

@@ -1,50 +1,57 @@
 //! From what is stored to bytes; the layout is written down in [`super`].
 
+use super::arrange::{Place, groups, places};
 use super::bits::{BitWriter, crc32};
 use super::encode::TURN_UNIT;
 use super::frames::limit;
 use super::grid::{FLOATS, WHOLE_BITS, rotation_numbers};
-use super::stored::{Packed, Part, Stored};
+use super::stored::{PARTS, Packed, Part, Stored};
 use super::{Bytes, CompressError, MAGIC, MAX_BYTES, VERSION};
 use glam::Quat;
 
-/// Bytes before the bits begin: what they are, the version, the length, the sum.
-pub(super) const PREFACE: usize = 16;
-/// Zeros at the end, so that four bytes can be read where the last bit lies.
-pub(super) const TAIL: usize = 4;
+/// Bytes before the keys begin: what they are, the version, the length, the sum, and where the keys end.
+pub(super) const PREFACE: usize = 20;
+/// The first byte that the sum is of.
+pub(super) const SUMMED: usize = 16;
+/// Bytes after the keys at least, so that the numbers of eight lanes can be read at once wherever they begin.
+pub(super) const AHEAD: usize = 32;
 
 /// The bytes of `stored`, and what they were spent on.
 pub(super) fn write(stored: &Stored) -> Result<(Vec<u8>, Bytes), CompressError> {
-    let mut bits = BitWriter::default();
+    let tracks = packed(stored);
     let mut spent = Bytes::default();
-    let mut mark = PREFACE;
-    let mut since = |length: usize| {
-        let spent = length - mark;
-        mark = length;
-        spent
-    };
-    header(stored, &mut bits);
-    spent.header = PREFACE + TAIL + since(PREFACE + bits.length());
-    kinds_and_constants(stored, &mut bits);
-    spent.constants = since(PREFACE + bits.length());
-    tracks(stored, &mut bits);
-    heads(stored, &mut bits);
-    spent.ranges = since(PREFACE + bits.length());
     let mut bytes = vec![0; PREFACE];
-    bytes.extend(bits.into_bytes());
     whole(stored, &mut bytes);
-    spent.whole = since(bytes.len());
-    bytes.extend(keys(stored));
-    spent.keys = since(bytes.len());
-    bytes.extend([0; TAIL]);
+    spent.whole = bytes.len() - PREFACE;
+    let keys = keys(&tracks);
+    spent.keys = keys.len();
+    bytes.extend(keys);
+    limit("bytes", bytes.len() as u64, MAX_BYTES as u64)?;
+    let end_of_keys = bytes.len() as u32;
+    bytes[SUMMED..PREFACE].copy_from_slice(&end_of_keys.to_le_bytes());
+    let mut bits = BitWriter::default();
+    let mut mark = 0;
+    let mut since = |length: usize| length - std::mem::replace(&mut mark, length);
+    header(stored, &mut bits);
+    spent.header = PREFACE + since(bits.length());
+    kinds_and_constants(stored, &mut bits);
+    spent.constants = since(bits.length());
+    ranges(&tracks, &mut bits);
+    heads(&tracks, &mut bits);
+    spent.ranges = since(bits.length());
+    let mut description = bits.into_bytes();
+    let ahead = AHEAD.saturating_sub(description.len());
+    spent.header += ahead;
+    description.resize(description.len() + ahead, 0);
+    bytes.extend(description);
     limit("bytes", bytes.len() as u64, MAX_BYTES as u64)?;
     preface(&mut bytes);
     Ok((bytes, spent))
 }
 
 /// Fills in the first bytes, when all others are there.
-pub(super) fn preface(bytes: &mut [u8]) {
-    let (length, sum) = (bytes.len() as u32, crc32(&bytes[PREFACE..]));
+fn preface(bytes: &mut [u8]) {
+    let (length, sum) = (bytes.len() as u32, crc32(&bytes[SUMMED..]));
     bytes[..4].copy_from_slice(&MAGIC);
     bytes[4..6].copy_from_slice(&VERSION.to_le_bytes());
     bytes[6..8].copy_from_slice(&[0; 2]);
@@ -131,14 +138,18 @@ fn of_all<'a, T>(stored: &'a Stored, pick: impl Fn(&'a Part) -> Option<T>) -> Ve
     (0..3).flat_map(of).filter_map(|(which, part)| Some((which, pick(part)?))).collect()
 }
 
-fn packed(part: &Part) -> Option<&Packed> {
-    if let Part::Packed(packed) = part { Some(packed) } else { None }
+/// The packed tracks with their parts, in the order in which they are stored.
+fn packed(stored: &Stored) -> Vec<(usize, &Packed)> {
+    let kinds: Vec<[u32; PARTS]> =
+        stored.bones.iter().map(|parts| [0, 1, 2].map(|part| parts[part].kind())).collect();
+    let packed = |place: Place| Some((place.part, stored.bones[place.bone][place.part].packed()?));
+    places(&groups(&kinds)).into_iter().filter_map(packed).collect()
 }
 
-fn tracks(stored: &Stored, bits: &mut BitWriter) {
-    for (which, track) in of_all(stored, packed) {
+fn ranges(tracks: &[(usize, &Packed)], bits: &mut BitWriter) {
+    for (part, track) in tracks {
         let (low, extent) = (track.range.low.to_array(), track.range.extent.to_array());
-        if which == 0 {
+        if *part == 0 {
             track.reference.0.into_iter().for_each(|number| bits.put(u32::from(number as u8), 8));
             low.into_iter().for_each(|number| bits.put((number / TURN_UNIT) as i32 as u32, 16));
             extent.into_iter().for_each(|number| bits.put((number / TURN_UNIT) as u32, 16));
@@ -148,17 +159,17 @@ fn tracks(stored: &Stored, bits: &mut BitWriter) {
     }
 }
 
-fn heads(stored: &Stored, bits: &mut BitWriter) {
-    let tracks = of_all(stored, packed);
+fn heads(tracks: &[(usize, &Packed)], bits: &mut BitWriter) {
     let segments = tracks.first().map_or(0, |(_, track)| track.segments.len());
     for segment in 0..segments {
-        for (_, track) in &tracks {
+        for (_, track) in tracks {
             let head = &track.segments[segment].head;
             for axis in 0..3 {
-                bits.put(u32::from(head.place[axis]), 8);
-                bits.put(u32::from(head.extent[axis]), 8);
-                bits.put(u32::from(head.even_bits[axis]), 5);
-                bits.put(u32::from(head.odd_bits[axis]), 5);
+                if segments > 1 {
+                    bits.put(u32::from(head.place[axis]), 8);
+                    bits.put(u32::from(head.extent[axis]), 8);
+                }
+                bits.put(u32::from(head.bits[axis]), 5);
             }
         }
     }
@@ -180,19 +191,18 @@ fn whole(stored: &Stored, bytes: &mut Vec<u8>) {
     }
 }
 
-fn keys(stored: &Stored) -> Vec<u8> {
+fn keys(tracks: &[(usize, &Packed)]) -> Vec<u8> {
     let mut bits = BitWriter::default();
-    let tracks = of_all(stored, packed);
     let segments = tracks.first().map_or(0, |(_, track)| track.segments.len());
     for segment in 0..segments {
         let length = tracks.first().map_or(0, |(_, track)| track.segments[segment].keys.len());
-        for key in (0..length).step_by(2).chain((1..length).step_by(2)) {
-            for (_, track) in &tracks {
+        for key in 0..length {
+            for (_, track) in tracks {
                 let segment = &track.segments[segment];
-                let widths = if key % 2 == 0 { segment.head.even_bits } else { segment.head.odd_bits };
-                let numbers = segment.keys[key].into_iter().zip(widths);
+                let numbers = segment.keys[key].into_iter().zip(segment.head.bits);
                 numbers.for_each(|(number, width)| bits.put(number, u32::from(width)));
             }
+            bits.fill_byte();
         }
     }
     bits.into_bytes()

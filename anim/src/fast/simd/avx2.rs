@@ -6,7 +6,7 @@
 //!   `S::F8` and its like inside [`Kernel::run`], which is called with them only by [`Present::run`], and a
 //!   [`Present`] exists only where the processor was found to have both;
 //! * an unaligned load or store through a reference to an array of exactly as many bytes;
-//! * the gather, which keeps its offsets within the slice.
+//! * the gather and [`Word8::near`], which keep their offsets within the slice.
 
 use super::{Float4, Float8, Kernel, Simd, Word8};
 use std::arch::x86_64::*;
@@ -364,6 +364,46 @@ impl Word8 for U8 {
         let offsets = instruction!(_mm256_min_epu32(offsets.0, last.0));
         // SAFETY: as for `instruction`; and no offset lies past the last four bytes of the slice.
         Self(unsafe { _mm256_i32gather_epi32::<1>(bytes.as_ptr().cast(), offsets) })
+    }
+
+    #[inline(always)]
+    fn from_u16(from: &[u16; 8]) -> Self {
+        let words = memory!(_mm_loadu_si128(from.as_ptr().cast()));
+        Self(instruction!(_mm256_cvtepu16_epi32(words)))
+    }
+
+    #[inline(always)]
+    fn from_u8(from: &[u8; 8]) -> Self {
+        let words = memory!(_mm_loadl_epi64(from.as_ptr().cast()));
+        Self(instruction!(_mm256_cvtepu8_epi32(words)))
+    }
+
+    #[inline(always)]
+    fn without(self, other: Self) -> Self {
+        Self(instruction!(_mm256_andnot_si256(other.0, self.0)))
+    }
+
+    #[inline(always)]
+    fn near(bytes: &[u8], at: usize, second: u8, lanes: &[u8; 8]) -> Self {
+        let Some(last) = bytes.len().checked_sub(32) else { return Self::splat(0) };
+        let (at, second) = (at.min(last), usize::from(second & 15));
+        // SAFETY: as for `instruction`; `at` is not past the last 32 bytes of the slice, so sixteen from there on, and
+        // sixteen from up to fifteen later on, lie within.
+        let halves = unsafe {
+            let from = bytes.as_ptr().add(at);
+            let low = _mm_loadu_si128(from.cast());
+            let high = _mm_loadu_si128(from.add(second).cast());
+            _mm256_inserti128_si256::<1>(_mm256_castsi128_si256(low), high)
+        };
+        // The first byte of each lane four times, and then the next three. An index counts in its half of the register;
+        // without its highest bits it stays below sixteen.
+        let first = Self::from_u8(lanes);
+        let control = instruction!({
+            let four = _mm_setr_epi8(0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12);
+            let first = _mm256_shuffle_epi8(first.0, _mm256_broadcastsi128_si256(four));
+            _mm256_add_epi8(first, _mm256_set1_epi32(0x0302_0100))
+        });
+        Self(instruction!(_mm256_shuffle_epi8(halves, control)))
     }
 
     #[inline(always)]

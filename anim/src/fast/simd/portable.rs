@@ -341,6 +341,35 @@ impl Word8 for Words8 {
     }
 
     #[inline(always)]
+    fn from_u16(from: &[u16; 8]) -> Self {
+        lanes!(Self, [0; 8], at => u32::from(from[at]))
+    }
+
+    #[inline(always)]
+    fn from_u8(from: &[u8; 8]) -> Self {
+        lanes!(Self, [0; 8], at => u32::from(from[at]))
+    }
+
+    #[inline(always)]
+    fn without(self, other: Self) -> Self {
+        lanes!(Self, [0; 8], at => self.0[at] & !other.0[at])
+    }
+
+    #[inline(always)]
+    fn near(bytes: &[u8], at: usize, second: u8, lanes: &[u8; 8]) -> Self {
+        let Some(last) = bytes.len().checked_sub(32) else { return Self([0; 8]) };
+        let Some(chunk) = bytes[at.min(last)..].first_chunk::<32>() else { return Self([0; 8]) };
+        lanes!(Self, [0; 8], lane => {
+            let half = if lane < 4 { 0 } else { usize::from(second & 15) };
+            let byte = |step: u8| {
+                let from = lanes[lane].wrapping_add(step);
+                if from < 128 { chunk[half + usize::from(from & 15)] } else { 0 }
+            };
+            u32::from_le_bytes([byte(0), byte(1), byte(2), byte(3)])
+        })
+    }
+
+    #[inline(always)]
     fn to_float(self) -> Array8 {
         lanes!(Array8, [0.0; 8], at => self.0[at] as i32 as f32)
     }

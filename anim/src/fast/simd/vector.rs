@@ -154,6 +154,18 @@ pub trait Word8: Copy + Debug + Add<Output = Self> + BitAnd<Output = Self> + Bit
     ///
     /// An offset past the last whole word reads the last whole word; all zero when `bytes` holds fewer than four.
     fn gather(bytes: &[u8], offsets: Self) -> Self;
+    /// Whole numbers 0..=65,535 as words.
+    fn from_u16(from: &[u16; 8]) -> Self;
+    /// Whole numbers 0..=255 as words.
+    fn from_u8(from: &[u8; 8]) -> Self;
+    /// The bits that are set here and not in `other`.
+    fn without(self, other: Self) -> Self;
+    /// Four bytes in each lane, the lowest first: in lanes 0..4 from byte `at + lanes[lane]` on, in lanes 4..8 from byte
+    /// `at + second % 16 + lanes[lane]` on.
+    ///
+    /// Each half sees sixteen bytes: what would lie past them is taken from their beginning, and is zero from byte 128
+    /// on. An `at` past the last 32 bytes is taken for their first; all zero when `bytes` holds fewer than 32.
+    fn near(bytes: &[u8], at: usize, second: u8, lanes: &[u8; 8]) -> Self;
     /// Whole numbers below 2³¹ as floats, rounded to nearest.
     fn to_float(self) -> Self::Float;
     /// The same bits as floats; a mask stays a mask.
