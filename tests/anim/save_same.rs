@@ -25,7 +25,8 @@ fn stays_and_can_be_edited(name: &str, bytes: &[u8], door: &dyn AssetFs) {
     crate::save_edits::shift(&mut takes, 0);
     let saved = opened.saved(&takes, door);
     assert!(!saved.changes.is_empty(), "{name}");
-    let again = saved.opened.saved(&saved.opened.takes(), &crate::save_support::Over::new(&saved.files, door));
+    let again =
+        saved.opened.saved(&saved.opened.takes(), &crate::save_support::Over::new(&saved.files, door));
     assert!(again.bytes() == saved.bytes(), "{name}");
 }
 
@@ -72,11 +73,33 @@ fn odd_spellings_stay() {
         ("carriage returns", pretty.replace('\n', "\r\n")),
         ("tabs", pretty.replace("  ", "\t")),
         ("spaces around", format!("\n\n  {pretty} \t\r\n")),
-        ("spaces before colons and commas", pretty.replace(':', " :\t").replace("data :\t", "data:").replace(',', " ,\n").replace("base64 ,\n", "base64,")),
-        ("numbers", pretty.replace("0.5", "5e-1").replace("\"rotation\": [", "\"rotation\": [ ").replace("1.0", "1.000E+0")),
-        ("escaped names", plain.replace("\"animations\"", "\"\\u0061nimations\"").replace("\"samplers\"", "\"sampl\\u0065rs\"").replace("\"path\"", "\"\\u0070ath\"")),
+        (
+            "spaces before colons and commas",
+            pretty
+                .replace(':', " :\t")
+                .replace("data :\t", "data:")
+                .replace(',', " ,\n")
+                .replace("base64 ,\n", "base64,"),
+        ),
+        (
+            "numbers",
+            pretty
+                .replace("0.5", "5e-1")
+                .replace("\"rotation\": [", "\"rotation\": [ ")
+                .replace("1.0", "1.000E+0"),
+        ),
+        (
+            "escaped names",
+            plain
+                .replace("\"animations\"", "\"\\u0061nimations\"")
+                .replace("\"samplers\"", "\"sampl\\u0065rs\"")
+                .replace("\"path\"", "\"\\u0070ath\""),
+        ),
         ("unknown members", plain.replacen('{', "{\"one\":{\"two\":[{},[],null,-0.0,true]},", 1)),
-        ("extras", plain.replace("\"channels\"", "\"extras\":{\"animations\":[{\"a\":1,\"a\":2}]},\"channels\"")),
+        (
+            "extras",
+            plain.replace("\"channels\"", "\"extras\":{\"animations\":[{\"a\":1,\"a\":2}]},\"channels\""),
+        ),
         ("duplicates in what is not read", plain.replacen('{', "{\"extras\":{\"a\":1,\"a\":{\"b\":1}},", 1)),
         ("slashes escaped", plain.replace("application/octet-stream", "application\\/octet-stream")),
     ];
@@ -139,7 +162,8 @@ fn several_buffers_stay() {
     let mut several = Fixture::new();
     let buffers = several.json["buffers"].as_array_mut().unwrap();
     buffers.push(serde_json::json!({"byteLength": 4, "uri": "other.bin"}));
-    buffers.push(serde_json::json!({"byteLength": 3, "uri": "data:application/octet-stream;base64,AQIDBA=="}));
+    buffers
+        .push(serde_json::json!({"byteLength": 3, "uri": "data:application/octet-stream;base64,AQIDBA=="}));
     stays_and_can_be_edited("several.glb", &several.glb(), &door);
     stays_and_can_be_edited("several.gltf", &several.gltf(), &door);
 }
@@ -152,8 +176,14 @@ fn fixture_bin_name(gltf: &[u8]) -> String {
 #[test]
 fn a_file_without_animations_gets_some() {
     for (name, text) in [
-        ("bare.gltf", "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"name\":\"a\"}],\"skins\":[{\"joints\":[0]}]}"),
-        ("bare.gltf", "{\n  \"asset\": {\n    \"version\": \"2.0\"\n  },\n  \"nodes\": [\n    {\"name\": \"a\"}\n  ],\n  \"skins\": [\n    {\"joints\": [0]}\n  ]\n}\n"),
+        (
+            "bare.gltf",
+            "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"name\":\"a\"}],\"skins\":[{\"joints\":[0]}]}",
+        ),
+        (
+            "bare.gltf",
+            "{\n  \"asset\": {\n    \"version\": \"2.0\"\n  },\n  \"nodes\": [\n    {\"name\": \"a\"}\n  ],\n  \"skins\": [\n    {\"joints\": [0]}\n  ]\n}\n",
+        ),
     ] {
         for bytes in [text.as_bytes().to_vec(), glb(text.as_bytes(), None)] {
             let opened = stays(name, &bytes, &NoFiles);

@@ -164,7 +164,8 @@ pub(crate) fn rest_stays(old: &[u8], new: &[u8], changes: &Changes) {
     let (old_bin, new_bin) = (bin_of(old), bin_of(new));
     if changes.bytes_reused == 0 && changes.bytes_removed == 0 {
         assert!(new_bin.starts_with(&old_bin), "the bytes of the buffer");
-        assert_eq!(new_bin.len(), old_bin.len() + changes.bytes_appended);
+        // The buffer may be elsewhere.
+        assert!([0, changes.bytes_appended].contains(&(new_bin.len() - old_bin.len())));
     }
 }
 
@@ -187,8 +188,13 @@ pub(crate) fn same_scene(a: &ModelData, b: &ModelData) {
         assert_eq!((a.mesh, a.node, a.skin, &a.morph_weights), (b.mesh, b.node, b.skin, &b.morph_weights));
     }
     for bone in &b.animation.skeleton.bones {
-        let before = a.animation.skeleton.bones.iter().find(|before| before.node == bone.node).unwrap();
-        assert_eq!((&before.name, before.rest, before.rest_matrix), (&bone.name, bone.rest, bone.rest_matrix));
+        // A node that begins to move becomes a bone.
+        let before = a.animation.skeleton.bones.iter().find(|before| before.node == bone.node);
+        let Some(before) = before else { continue };
+        assert_eq!(
+            (&before.name, before.rest, before.rest_matrix),
+            (&bone.name, bone.rest, bone.rest_matrix)
+        );
     }
 }
 
@@ -211,14 +217,15 @@ fn same_take(before: &ModelData, asked: &Take, after: &ModelData, got: &Take) {
     let nothing = Track::default();
     for (bone, asked) in before.animation.skeleton.bones.iter().zip(&asked.tracks) {
         let bones = &after.animation.skeleton.bones;
-        let got = bones.iter().position(|other| other.node == bone.node);
-        let got = got.map_or(&nothing, |index| &got.tracks[index]);
+        let index = bones.iter().position(|other| other.node == bone.node);
+        let got = index.map_or(&nothing, |index| &got.tracks[index]);
         assert!(same_channel(&asked.translation, &got.translation), "{}", place("translation", bone.node));
         assert!(same_channel(&asked.rotation, &got.rotation), "{}", place("rotation", bone.node));
         assert!(same_channel(&asked.scale, &got.scale), "{}", place("scale", bone.node));
     }
     let sorted = |take: &Take| {
-        let mut morphs: Vec<MorphTrack> = take.morphs.iter().filter(|m| !m.times.is_empty()).cloned().collect();
+        let mut morphs: Vec<MorphTrack> =
+            take.morphs.iter().filter(|m| !m.times.is_empty()).cloned().collect();
         morphs.sort_by_key(|morph| morph.instance);
         morphs
     };

@@ -32,8 +32,8 @@ pub(super) struct SamplerDraft {
 /// A channel that gets a sampler.
 #[derive(Clone, Debug)]
 enum ChannelDraft {
-    /// One that is there is sent to another sampler.
-    Moved(Id, usize),
+    /// One that is there, by number, is sent to another sampler.
+    Moved(usize, usize),
     New(Target, usize),
 }
 
@@ -93,8 +93,8 @@ impl Draft {
         let mut pool = Pool::of(document, animation, &draft.removed, is_ours);
         for channel in edits {
             let Action::Set(keys) = &channel.action else { continue };
-            let there = animation.channel(channel.target).map(|number| animation.channels[number]);
-            let old = there.and_then(|there| there.sampler);
+            let there = animation.channel(channel.target);
+            let old = there.and_then(|there| animation.channels[there].sampler);
             let before = |name| old.and_then(|old| pool.accessor(document, animation, old, name));
             let kept = before("input").filter(|&input| document.holds_times(input, &keys.times));
             let number = match old.filter(|&old| pool.is_alone(old)) {
@@ -114,9 +114,7 @@ impl Draft {
             let output = needs.output(keys, before("output"));
             draft.samplers.push(SamplerDraft { number, input, output, interpolation: keys.interpolation });
             match there {
-                Some(there) if old != Some(number) => {
-                    draft.channels.push(ChannelDraft::Moved(there.id, number))
-                }
+                Some(there) if old != Some(number) => draft.channels.push(ChannelDraft::Moved(there, number)),
                 Some(_) => {}
                 None => draft.channels.push(ChannelDraft::New(channel.target, number)),
             }
@@ -161,12 +159,13 @@ impl Draft {
             let last = json.items(id).filter(|item| self.removed.binary_search(item).is_err()).last();
             for channel in &self.channels {
                 match channel {
-                    ChannelDraft::Moved(id, sampler) => {
-                        let token = json.member(*id, "sampler").ok_or_else(|| SaveError::File {
-                            place: format!("{pointer}/channels"),
-                            reason: "a channel names no sampler".to_owned(),
+                    ChannelDraft::Moved(number, sampler) => {
+                        let pointer = format!("{pointer}/channels/{number}/sampler");
+                        let id = animation.channels[*number].id;
+                        let token = json.member(id, "sampler").ok_or_else(|| SaveError::File {
+                            place: pointer.clone(),
+                            reason: "the channel names no sampler".to_owned(),
                         })?;
-                        let pointer = format!("{pointer}/channels/sampler");
                         patches.push(Patch::new(json.span(token), sampler.to_string(), pointer));
                     }
                     ChannelDraft::New(target, sampler) => {
