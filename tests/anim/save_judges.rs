@@ -66,6 +66,14 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
     ] {
         sources.push((name.to_owned(), read(name)));
     }
+    for path in
+        crate::made::files().iter().filter(|path| path.extension().is_some_and(|ending| ending == "glb"))
+    {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if sources.iter().all(|(known, _)| *known != name) {
+            sources.push((name, std::fs::read(path).unwrap()));
+        }
+    }
     let mut files = Vec::new();
     for (name, bytes) in sources {
         let opened = Opened::alone(&name, &bytes);
@@ -123,18 +131,23 @@ fn the_gltf_crate_takes_what_it_took_before() {
     assert!(judged > 10);
 }
 
-/// Errors and warnings of the validator, by code.
-fn issues(folder: &Path, file: &Path) -> BTreeMap<String, usize> {
+/// Errors and warnings of the validator, by code, for each of the files.
+fn issues(evaluators: &Path, files: &[PathBuf]) -> Vec<BTreeMap<String, usize>> {
     let output =
-        Command::new("node").arg(folder.join("validate.mjs")).arg("--json").arg(file).output().unwrap();
+        Command::new("node").arg(evaluators.join("validate.mjs")).arg("--json").args(files).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
-    let report: Value = serde_json::from_str(&text).unwrap_or_else(|_| panic!("{}: {text}", file.display()));
-    let mut counts = BTreeMap::new();
-    for message in report["issues"]["messages"].as_array().unwrap() {
-        if message["severity"].as_u64().unwrap() < 2 {
-            *counts.entry(message["code"].as_str().unwrap().to_owned()).or_default() += 1;
+    let counts = |line: &str| {
+        let report: Value = serde_json::from_str(line).unwrap_or_else(|_| panic!("{line}"));
+        let mut counts = BTreeMap::new();
+        for message in report["issues"]["messages"].as_array().unwrap() {
+            if message["severity"].as_u64().unwrap() < 2 {
+                *counts.entry(message["code"].as_str().unwrap().to_owned()).or_default() += 1;
+            }
         }
-    }
+        counts
+    };
+    let counts: Vec<_> = text.lines().map(counts).collect();
+    assert_eq!(counts.len(), files.len());
     counts
 }
 
@@ -143,24 +156,27 @@ fn the_validator_finds_no_more_than_before() {
     let Some(evaluators) = evaluators() else { return };
     let folder = std::env::temp_dir().join(format!("dragonfly-judges-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let mut complaints = Vec::new();
-    let mut known: BTreeMap<Vec<u8>, BTreeMap<String, usize>> = BTreeMap::new();
-    for (name, before, after) in edited() {
-        let path = folder.join(&name);
-        let judge = |bytes: &[u8]| {
+    let files = edited();
+    let mut paths = Vec::new();
+    for (name, before, after) in &files {
+        for (when, bytes) in [("before", before), ("after", after)] {
+            let path = folder.join(format!("{when}-{name}"));
             std::fs::write(&path, bytes).unwrap();
-            issues(&evaluators, &path)
-        };
-        let old = known.entry(before.clone()).or_insert_with(|| judge(&before)).clone();
-        let new = judge(&after);
-        println!("{name}: before {old:?}, after {new:?}");
-        for (code, count) in new {
-            if count > old.get(&code).copied().unwrap_or(0) {
+            paths.push(path);
+        }
+    }
+    let counts = issues(&evaluators, &paths);
+    std::fs::remove_dir_all(&folder).unwrap();
+    let mut complaints = Vec::new();
+    for ((name, ..), counts) in files.iter().zip(counts.chunks(2)) {
+        println!("{name}: before {:?}, after {:?}", counts[0], counts[1]);
+        for (code, count) in &counts[1] {
+            if *count > counts[0].get(code).copied().unwrap_or(0) {
                 complaints.push(format!("{name}: {code}"));
             }
         }
     }
-    std::fs::remove_dir_all(&folder).unwrap();
+    println!("{} files judged", files.len());
     assert!(complaints.is_empty(), "{complaints:?}");
 }
 

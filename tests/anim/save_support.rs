@@ -73,7 +73,7 @@ impl Opened {
         let files = plan.write();
         let changes = plan.changes().clone();
         rest_stays(self.source.bytes(), &files.last().unwrap().bytes, &changes);
-        assert_eq!(files.iter().map(|file| &file.name).last(), Some(&self.source.name().to_owned()));
+        assert_eq!(files.last().unwrap().name, self.source.name());
         let over = Over::new(&files, door);
         let bytes = &files.last().unwrap().bytes;
         let opened = Opened::new(self.source.name(), bytes, &over);
@@ -104,23 +104,29 @@ impl Saved {
     }
 }
 
-/// A file's JSON text, chunks after it, and what follows the container.
-fn parts(file: &[u8]) -> (&[u8], Vec<(&[u8], &[u8])>, &[u8]) {
+/// A file's JSON text, the kinds and bytes of the chunks after it, and what follows the container.
+struct Parts<'a> {
+    text: &'a [u8],
+    chunks: Vec<[&'a [u8]; 2]>,
+    rest: &'a [u8],
+}
+
+fn parts(file: &[u8]) -> Parts<'_> {
     if !file.starts_with(b"glTF") {
-        return (file, Vec::new(), b"");
+        return Parts { text: file, chunks: Vec::new(), rest: b"" };
     }
     let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
     let (mut at, end) = (12, word(8));
     let mut chunks = Vec::new();
     while at < end {
-        chunks.push((&file[at + 4..at + 8], &file[at + 8..at + 8 + word(at)]));
+        chunks.push([&file[at + 4..at + 8], &file[at + 8..at + 8 + word(at)]]);
         at += 8 + word(at);
     }
-    (chunks.remove(0).1, chunks, &file[end..])
+    Parts { text: chunks.remove(0)[1], chunks, rest: &file[end..] }
 }
 
 pub(crate) fn json_of(file: &[u8]) -> serde_json::Value {
-    let text = parts(file).0;
+    let text = parts(file).text;
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     let zeros = text.iter().rev().take_while(|&&byte| byte == 0).count();
     serde_json::from_slice(&text[..text.len() - zeros]).unwrap()
@@ -128,8 +134,8 @@ pub(crate) fn json_of(file: &[u8]) -> serde_json::Value {
 
 /// The binary chunk.
 pub(crate) fn bin_of(file: &[u8]) -> Vec<u8> {
-    let chunks = parts(file).1;
-    chunks.first().filter(|chunk| chunk.0 == b"BIN\0").map(|chunk| chunk.1.to_vec()).unwrap_or_default()
+    let chunks = parts(file).chunks;
+    chunks.first().filter(|chunk| chunk[0] == b"BIN\0").map(|chunk| chunk[1].to_vec()).unwrap_or_default()
 }
 
 /// Takes what was announced out of both files and compares the rest, byte for byte.
@@ -141,7 +147,8 @@ pub(crate) fn rest_stays(old: &[u8], new: &[u8], changes: &Changes) {
     }
     let is_glb = old.starts_with(b"glTF");
     let base = if is_glb { 20 } else { 0 };
-    let ((old_text, old_chunks, old_rest), (new_text, new_chunks, new_rest)) = (parts(old), parts(new));
+    let (old_parts, new_parts) = (parts(old), parts(new));
+    let (old_text, new_text) = (old_parts.text, new_parts.text);
     let (mut from, mut at) = (0, 0);
     for token in &changes.tokens {
         let length = token.offset - base - from;
@@ -157,10 +164,12 @@ pub(crate) fn rest_stays(old: &[u8], new: &[u8], changes: &Changes) {
     let bare = |text: &[u8]| text.iter().copied().filter(|byte| *byte != b' ').collect::<Vec<u8>>();
     assert_eq!(bare(old_text), bare(new_text), "only spaces are padding");
     assert!(new_text.len().abs_diff(old_text.len()) < 4, "{} and {}", old_text.len(), new_text.len());
-    assert!(old_rest == new_rest, "after the container");
-    let is_bin = |chunks: &[(&[u8], &[u8])]| chunks.first().is_some_and(|chunk| chunk.0 == b"BIN\0");
-    let (old_skip, new_skip) = (usize::from(is_bin(&old_chunks)), usize::from(is_bin(&new_chunks)));
-    assert!(old_chunks[old_skip..] == new_chunks[new_skip..], "chunks of other kinds");
+    assert!(old_parts.rest == new_parts.rest, "after the container");
+    let others = |parts: &Parts<'_>| {
+        let is_bin = parts.chunks.first().is_some_and(|chunk| chunk[0] == b"BIN\0");
+        parts.chunks[usize::from(is_bin)..].concat().concat()
+    };
+    assert!(others(&old_parts) == others(&new_parts), "chunks of other kinds");
     let (old_bin, new_bin) = (bin_of(old), bin_of(new));
     if changes.bytes_reused == 0 && changes.bytes_removed == 0 {
         assert!(new_bin.starts_with(&old_bin), "the bytes of the buffer");

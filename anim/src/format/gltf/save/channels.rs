@@ -5,7 +5,7 @@ use super::document::{FileAnimation, Path, Target};
 use super::error::SaveError;
 use crate::data::{Channel, Interpolation, ModelData, MorphTrack, Take, Track};
 use crate::limits::CLIP_SECONDS;
-use glam::{Quat, Vec3};
+use glam::Vec3;
 
 /// What becomes of a channel.
 #[derive(Clone, Debug)]
@@ -23,23 +23,13 @@ pub(super) struct ChannelEdit {
     pub(super) action: Action,
 }
 
-static NO_VECTORS: std::sync::LazyLock<Channel<Vec3>> = std::sync::LazyLock::new(Channel::default);
-static NO_ROTATIONS: std::sync::LazyLock<Channel<Quat>> = std::sync::LazyLock::new(Channel::default);
-
-/// The three columns of a track, or of none.
-fn columns(track: Option<&Track>) -> [(Path, Column<'_>); 3] {
-    match track {
-        Some(track) => [
-            (Path::Translation, Column::Vector(&track.translation)),
-            (Path::Rotation, Column::Rotation(&track.rotation)),
-            (Path::Scale, Column::Vector(&track.scale)),
-        ],
-        None => [
-            (Path::Translation, Column::Vector(&NO_VECTORS)),
-            (Path::Rotation, Column::Rotation(&NO_ROTATIONS)),
-            (Path::Scale, Column::Vector(&NO_VECTORS)),
-        ],
-    }
+/// The three columns of a track.
+fn columns(track: &Track) -> [(Path, Column<'_>); 3] {
+    [
+        (Path::Translation, Column::Vector(&track.translation)),
+        (Path::Rotation, Column::Rotation(&track.rotation)),
+        (Path::Scale, Column::Vector(&track.scale)),
+    ]
 }
 
 /// The channels in which `now` differs from `opened` (`None` for a take that is new altogether).
@@ -55,12 +45,13 @@ pub(super) fn edits(
         return Err(mismatch(format!("{} tracks for {} bones", now.tracks.len(), bones.len())));
     }
     let may_be_negative = opened.is_some_and(|(take, _)| take.start < 0.0);
+    let still = Track::default();
     for (index, (bone, track)) in bones.iter().zip(&now.tracks).enumerate() {
         if track.bone as usize != index {
             return Err(mismatch(format!("the track at {index} moves bone {}", track.bone)));
         }
-        let before = columns(opened.and_then(|(take, _)| take.tracks.get(index)));
-        for ((path, before), (_, after)) in before.into_iter().zip(columns(Some(track))) {
+        let before = columns(opened.and_then(|(take, _)| take.tracks.get(index)).unwrap_or(&still));
+        for ((path, before), (_, after)) in before.into_iter().zip(columns(track)) {
             if before.is_same(&after) {
                 continue;
             }

@@ -6,14 +6,14 @@ use super::document::Document;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
 use super::json::patch::{Patch, sort};
-use super::json::style::{Fresh, Style};
+use super::json::style::{Fresh, Spot, Style};
 use super::json::token::quoted;
 use super::json::tree::{Id, Kind};
 use super::plan::{OutputFile, Plan};
 use super::reuse::MARK;
 use crate::format::uri::relative_path;
 use crate::limits::FILE_BYTES;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// A plan in the making.
 pub(super) struct Draw<'d, 'a> {
@@ -25,6 +25,8 @@ pub(super) struct Draw<'d, 'a> {
     pub(super) changes: Changes,
     chunk: Option<Tail>,
     beside: Option<OutputFile>,
+    /// Where elements of a list of the root go, by the list's name.
+    spots: HashMap<&'static str, Spot>,
 }
 
 impl<'d, 'a> Draw<'d, 'a> {
@@ -37,7 +39,14 @@ impl<'d, 'a> Draw<'d, 'a> {
             changes: Changes::default(),
             chunk: None,
             beside: None,
+            spots: HashMap::new(),
         }
+    }
+
+    fn spot(&mut self, list: &'static str) -> Spot {
+        let (document, style) = (self.document, &self.style);
+        let spot = || style.spot(document.json, document.json.member(0, list), 2);
+        self.spots.entry(list).or_insert_with(spot).clone()
     }
 
     /// The array that is the member `name` of the root, if there is such a member.
@@ -60,7 +69,7 @@ impl<'d, 'a> Draw<'d, 'a> {
             self.new_list(name, items);
             return Ok(());
         };
-        let spot = self.style.spot(json, Some(list), 2);
+        let spot = self.spot(name);
         let last = json.items(list).last();
         let inserted = items.iter().map(|item| (last, self.style.write(item, &spot))).collect();
         let change = ListEdit { removed: Vec::new(), inserted };
@@ -77,9 +86,9 @@ impl<'d, 'a> Draw<'d, 'a> {
     }
 
     /// Writes `fresh` in the place of an element, unless it is written there already.
-    pub(super) fn replace(&mut self, id: Id, list: &str, number: usize, fresh: &Fresh) {
+    pub(super) fn replace(&mut self, id: Id, list: &'static str, number: usize, fresh: &Fresh) {
         let json = self.document.json;
-        let spot = self.style.spot(json, json.member(0, list), 2);
+        let spot = self.spot(list);
         let text = self.style.write(fresh, &spot);
         if text.as_bytes() != json.token(id) {
             self.patches.push(Patch::new(json.span(id), text, format!("/{list}/{number}")));

@@ -3,25 +3,28 @@
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
+use super::json::patch::Patch;
 use super::json::style::Fresh;
 use super::json::token::number;
 use crate::data::{Bone, ModelData};
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 /// Writes the matrix of each of the `nodes` that has one as translation, rotation and scale: those that importing
-/// took it apart into, so that the pose stays the same.
-pub(super) fn without_matrix(
+/// took it apart into, so that the pose stays the same. With each node comes the name of a take that moves it.
+pub(super) fn without_matrix<'t>(
     draw: &mut Draw<'_, '_>,
     opened: &ModelData,
-    nodes: impl Iterator<Item = u32>,
+    nodes: impl Iterator<Item = (u32, &'t str)>,
 ) -> Result<(), SaveError> {
-    let nodes: BTreeSet<u32> = nodes.collect();
+    let nodes: BTreeMap<u32, &str> = nodes.collect();
     for bone in &opened.animation.skeleton.bones {
-        let Some(node) = bone.node.filter(|node| nodes.contains(node)) else { continue };
+        let Some((node, take)) = bone.node.and_then(|node| Some((node, *nodes.get(&node)?))) else {
+            continue;
+        };
         let json = draw.document.json;
         let Some(&id) = draw.document.nodes.get(node as usize) else { continue };
         let Some(matrix) = json.member(id, "matrix") else { continue };
-        let refuse = |reason| SaveError::Node { take: String::new(), bone: bone.name.clone(), reason };
+        let refuse = |reason| SaveError::Node { take: take.to_owned(), bone: bone.name.clone(), reason };
         if bone.rest_matrix.is_some() {
             return Err(refuse("has a sheared matrix, which glTF cannot animate"));
         }
@@ -42,7 +45,7 @@ pub(super) fn without_matrix(
         let first = text.find('"').unwrap_or(0);
         text.drain(..first);
         let span = json.item_span(matrix);
-        draw.patches.push(super::json::patch::Patch::new(span, text, format!("{pointer}/matrix")));
+        draw.patches.push(Patch::new(span, text, format!("{pointer}/matrix")));
         draw.changes.nodes.push(node);
     }
     Ok(())

@@ -101,8 +101,9 @@ pub fn plan<'a>(source: &'a SourceFile, opened: &ModelData, now: &[TakeNow]) -> 
     }
     let mut draw = Draw::new(&document);
     let accessors = write_numbers(&mut draw, target, slots, &takes, needs)?;
-    let animated = takes.iter().flat_map(|take| take.draft.new_targets());
-    let animated = animated.filter(|target| target.1 != Path::Weights).map(|target| target.0);
+    let animated = takes.iter().flat_map(|take| take.draft.new_targets().map(|target| (target, &*take.name)));
+    let animated = animated.filter(|(target, _)| target.1 != Path::Weights);
+    let animated = animated.map(|(target, take)| (target.0, take));
     without_matrix(&mut draw, opened, animated)?;
     write_animations(&mut draw, &takes, &accessors)?;
     describe(&mut draw.changes, &document, &takes);

@@ -6,7 +6,7 @@
 
 use super::document::Document;
 use super::json::tree::{Id, Json, Kind};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// The name of what a save appends: buffers, buffer views and accessors.
 pub const MARK: &str = "dragonfly.keys";
@@ -189,33 +189,35 @@ pub(super) struct Granted {
 
 /// Finds room for every request: its own old place where it fits; else the smallest free slot that is large enough;
 /// else the last slot of the buffer, made longer; else new room at `end`. The end moves along.
-pub(super) fn grant(requests: &[Request], mut free: Vec<Slot>, end: &mut usize) -> Vec<Granted> {
+pub(super) fn grant(requests: &[Request], free: Vec<Slot>, end: &mut usize) -> Vec<Granted> {
     let mut granted: Vec<Option<Granted>> = vec![None; requests.len()];
     let same = |slot: Slot| Granted { slot: Some(slot), offset: slot.offset, room: slot.room };
-    let by_accessor: HashMap<usize, Slot> = free.iter().map(|slot| (slot.accessor, *slot)).collect();
-    let mut taken: HashSet<usize> = HashSet::new();
+    let mut last = free.iter().find(|slot| slot.offset + slot.room == *end).copied();
+    let mut by_accessor: HashMap<usize, Slot> = free.into_iter().map(|slot| (slot.accessor, slot)).collect();
     for (request, granted) in requests.iter().zip(&mut granted) {
-        let own = request.before.and_then(|accessor| by_accessor.get(&accessor));
-        if let Some(own) = own.filter(|own| own.room >= request.size)
-            && taken.insert(own.accessor)
-        {
-            *granted = Some(same(*own));
+        let Some(before) = request.before else { continue };
+        if by_accessor.get(&before).is_some_and(|own| own.room >= request.size) {
+            *granted = by_accessor.remove(&before).map(same);
         }
     }
-    free.retain(|slot| !taken.contains(&slot.accessor));
-    free.sort_by_key(|slot| (slot.room, slot.offset));
+    let mut by_room: BTreeMap<(usize, usize), Slot> =
+        by_accessor.into_values().map(|slot| ((slot.room, slot.offset), slot)).collect();
     for (request, granted) in requests.iter().zip(&mut granted).filter(|(_, granted)| granted.is_none()) {
-        let fits = free.partition_point(|slot| slot.room < request.size);
-        *granted = Some(if fits < free.len() {
-            same(free.remove(fits))
-        } else if let Some(last) = free.iter().position(|slot| slot.offset + slot.room == *end) {
-            let slot = free.remove(last);
-            *end = slot.offset + request.size;
-            Granted { slot: Some(slot), offset: slot.offset, room: request.size }
-        } else {
-            let offset = *end;
-            *end += request.size;
-            Granted { slot: None, offset, room: request.size }
+        let fits = by_room.range((request.size, 0)..).next().map(|(key, _)| *key);
+        let slot = fits.and_then(|fits| by_room.remove(&fits));
+        *granted = Some(match slot {
+            Some(slot) => same(slot),
+            None => match last.take().and_then(|last| by_room.remove(&(last.room, last.offset))) {
+                Some(slot) => {
+                    *end = slot.offset + request.size;
+                    Granted { slot: Some(slot), offset: slot.offset, room: request.size }
+                }
+                None => {
+                    let offset = *end;
+                    *end += request.size;
+                    Granted { slot: None, offset, room: request.size }
+                }
+            },
         });
     }
     granted.into_iter().flatten().collect()
