@@ -146,3 +146,88 @@ fn a_mark_alone_is_not_believed() {
     saved.opened.saved(&takes, &NoFiles);
     compact(&opened.source).unwrap();
 }
+
+/// The fixture, saved once, with its JSON changed by somebody else.
+fn meddled(change: impl Fn(&mut serde_json::Value)) -> Opened {
+    let opened = Opened::alone("a.glb", &Fixture::new().glb());
+    let mut takes = opened.takes();
+    shift(&mut takes, 0);
+    let saved = opened.saved(&takes, &NoFiles);
+    let (mut json, bin) = (saved.json(), bin_of(saved.bytes()));
+    change(&mut json);
+    Opened::alone("a.glb", &crate::fixture::glb(json.to_string().as_bytes(), Some(&bin)))
+}
+
+#[test]
+fn what_somebody_else_refers_to_is_not_written_over() {
+    let last = |json: &serde_json::Value, list: &str| json[list].as_array().unwrap().len() - 1;
+    type Meddling<'a> = (&'a str, Box<dyn Fn(&mut serde_json::Value) + 'a>, bool);
+    let ways: Vec<Meddling> = vec![
+        ("nobody", Box::new(|_| ()), true),
+        (
+            "a view over the same bytes",
+            Box::new(|json| {
+                let mut view = json["bufferViews"][last(json, "bufferViews")].clone();
+                view["name"] = "other".into();
+                view["byteOffset"] = (view["byteOffset"].as_u64().unwrap() + 4).into();
+                view["byteLength"] = 4.into();
+                json["bufferViews"].as_array_mut().unwrap().push(view);
+            }),
+            false,
+        ),
+        (
+            "an extension's own range",
+            Box::new(|json| {
+                let view = json["bufferViews"][last(json, "bufferViews")].clone();
+                let range =
+                    serde_json::json!({"buffer": 0, "byteOffset": view["byteOffset"], "byteLength": 4});
+                json["bufferViews"][0]["extensions"] = serde_json::json!({"EXT_meshopt_compression": range});
+            }),
+            false,
+        ),
+        (
+            "another accessor over the view",
+            Box::new(|json| {
+                let accessor = json["accessors"][last(json, "accessors")].clone();
+                json["accessors"].as_array_mut().unwrap().push(accessor);
+            }),
+            false,
+        ),
+        (
+            "an attribute of an extension",
+            Box::new(|json| {
+                let accessor = last(json, "accessors");
+                json["nodes"][0]["extensions"] =
+                    serde_json::json!({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": accessor}}});
+            }),
+            false,
+        ),
+        (
+            "another take",
+            Box::new(|json| {
+                let copy = json["animations"][0].clone();
+                json["animations"].as_array_mut().unwrap().push(copy);
+            }),
+            false,
+        ),
+        (
+            "an accessor that reads shorts",
+            Box::new(|json| {
+                let accessor = last(json, "accessors");
+                json["accessors"][accessor]["sparse"] = serde_json::json!({"count": 1,
+                    "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 0}});
+            }),
+            false,
+        ),
+    ];
+    for (who, change, may) in ways {
+        let opened = meddled(change);
+        let mut takes = opened.takes();
+        shift(&mut takes, 0);
+        let saved = opened.saved(&takes, &NoFiles);
+        assert_eq!(saved.changes.bytes_reused > 0, may, "{who}: {}", saved.changes);
+        let compacted = compact(&opened.source).unwrap().write().remove(0).bytes;
+        let compacted = Opened::alone("a.glb", &compacted);
+        same_takes(&opened.model, &opened.takes(), &compacted.model);
+    }
+}

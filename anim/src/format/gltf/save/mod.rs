@@ -34,6 +34,35 @@
 //! else one of them would appear. Animations are known to extensions by number; those numbers are not followed when
 //! takes are deleted or reordered.
 //!
+//! ```
+//! use dragonfly_anim::format::gltf::save::{SourceFile, TakeNow, plan};
+//! use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+//! use std::sync::Arc;
+//!
+//! let bytes: &[u8] = br#"{
+//!     "asset": {"version": "2.0"}, "nodes": [{"name": "tail"}],
+//!     "buffers": [{"byteLength": 16, "uri": "data:;base64,AAAAAAAAgD8AAAAAAACAPw=="}],
+//!     "bufferViews": [{"buffer": 0, "byteLength": 16}],
+//!     "accessors": [
+//!         {"bufferView": 0, "componentType": 5126, "count": 1, "type": "SCALAR", "min": [0], "max": [0]},
+//!         {"bufferView": 0, "byteOffset": 4, "componentType": 5126, "count": 1, "type": "VEC3"}],
+//!     "animations": [{"name": "wag", "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+//!                     "samplers": [{"input": 0, "output": 1}]}]
+//! }"#;
+//! let options = ReadOptions::default();
+//! let model = read("tail.gltf", bytes, &NoFiles, &options)?.model;
+//! let source = SourceFile::open("tail.gltf", bytes, &NoFiles, &options)?;
+//!
+//! let mut take = (*model.animation.takes[0]).clone();
+//! take.name = "wag slowly".to_owned();
+//! let now = [TakeNow { origin: Some(0), take: Arc::new(take) }];
+//! let plan = plan(&source, &model, &now)?;
+//! assert_eq!(plan.changes().tokens[0].pointer, "/animations/0/name");
+//! let files = plan.write();
+//! assert_eq!(files[0].bytes.len(), bytes.len() + " slowly".len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Reading order: `json` (spans and patches), `container`, `source`, `document`; `channels` and `columns` (what
 //! changed), `animation`, `order`, `nodes` (the tokens), `needs`, `reuse`, `buffer` (the bytes), `plan`, `draw`,
 //! `changes`; `compact`.
