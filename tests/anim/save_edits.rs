@@ -285,6 +285,7 @@ fn removing_a_channel_removes_the_second_one_of_its_target() {
     for track in &mut take.tracks {
         track.translation = Channel::default();
     }
+    // Else the second one would be taken when the file is opened again, which `saved` would find.
     opened.saved(&takes, &NoFiles);
 }
 

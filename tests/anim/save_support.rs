@@ -2,7 +2,7 @@
 
 use crate::doors::FolderFs;
 use dragonfly_anim::data::{Channel, ModelData, MorphTrack, Take, Track};
-use dragonfly_anim::format::gltf::save::{Changes, OutputFile, SaveError, SourceFile, TakeNow, plan};
+use dragonfly_anim::format::gltf::save::{Changes, MARK, OutputFile, SaveError, SourceFile, TakeNow, plan};
 use dragonfly_anim::format::{AssetError, AssetFs, ImportError, NoFiles, ReadOptions, read};
 use std::collections::HashMap;
 use std::path::Path;
@@ -80,6 +80,7 @@ impl Opened {
         let opened = opened.unwrap_or_else(|error| {
             panic!("{}: what was written cannot be opened: {error}\n{changes}", self.source.name())
         });
+        bounds_are_exact(bytes);
         same_scene(&self.model, &opened.model);
         same_takes(&self.model, now, &opened.model);
         Ok(Saved { opened, files, changes })
@@ -136,6 +137,24 @@ pub(crate) fn json_of(file: &[u8]) -> serde_json::Value {
 pub(crate) fn bin_of(file: &[u8]) -> Vec<u8> {
     let chunks = parts(file).chunks;
     chunks.first().filter(|chunk| chunk[0] == b"BIN\0").map(|chunk| chunk[1].to_vec()).unwrap_or_default()
+}
+
+/// Least and greatest key time stand beside the times that a save wrote, in both precisions.
+#[track_caller]
+fn bounds_are_exact(file: &[u8]) {
+    let (json, bin) = (json_of(file), bin_of(file));
+    let ours = json["accessors"].as_array().into_iter().flatten().filter(|accessor| accessor["name"] == MARK);
+    for accessor in ours.filter(|accessor| accessor.get("min").is_some()) {
+        let view = &json["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+        if bin.is_empty() || view["buffer"] != 0 {
+            continue;
+        }
+        let from = view["byteOffset"].as_u64().unwrap() as usize;
+        let count = accessor["count"].as_u64().unwrap() as usize;
+        let float = |key: usize| f32::from_le_bytes(bin[from + 4 * key..][..4].try_into().unwrap());
+        let bound = |name: &str| accessor[name][0].as_f64().unwrap();
+        assert_eq!((bound("min"), bound("max")), (f64::from(float(0)), f64::from(float(count - 1))));
+    }
 }
 
 /// Takes what was announced out of both files and compares the rest, byte for byte.
