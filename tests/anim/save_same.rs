@@ -196,3 +196,35 @@ fn a_file_without_animations_gets_some() {
         }
     }
 }
+
+#[test]
+fn what_is_new_looks_like_its_neighbours() {
+    let opened = Opened::alone("pretty.gltf", text(true).as_bytes());
+    let mut takes = opened.takes();
+    crate::save_edits::shift(&mut takes, 0);
+    let bones = opened.model.animation.skeleton.len() as u32;
+    let track = |bone| dragonfly_anim::data::Track { bone, ..crate::save_edits::moving_track() };
+    let take = crate::support::take((0..bones).map(track).collect());
+    takes.push(dragonfly_anim::format::gltf::save::TakeNow { origin: None, take: take.into() });
+    takes.push(takes[0].clone());
+    // The same lines, whoever writes them; only the order of members may differ, and so the commas.
+    let lines = |text: &str| {
+        let mut lines: Vec<String> = text.lines().map(|line| line.trim_end_matches(',').to_owned()).collect();
+        lines.sort();
+        lines
+    };
+    let plain = opened.saved(&takes, &NoFiles);
+    let plain = String::from_utf8(plain.bytes().to_vec()).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&plain).unwrap();
+    let expected = lines(&serde_json::to_string_pretty(&json).unwrap());
+    for (got, expected) in lines(&plain).iter().zip(&expected) {
+        assert_eq!(got, expected);
+    }
+    for (from, to) in [("\n", "\r\n"), ("  ", "\t"), ("  ", "    "), (": ", " : ")] {
+        let source = text(true).replace(from, to);
+        let saved = Opened::alone("pretty.gltf", source.as_bytes()).saved(&takes, &NoFiles);
+        assert_eq!(String::from_utf8(saved.bytes().to_vec()).unwrap(), plain.replace(from, to), "{to:?}");
+    }
+    let minified = Opened::alone("small.gltf", text(false).as_bytes()).saved(&takes, &NoFiles);
+    assert!(!minified.bytes().contains(&b'\n') && !minified.bytes().contains(&b' '));
+}
