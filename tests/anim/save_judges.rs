@@ -3,7 +3,7 @@
 //! The two need node, and a folder with `validate.mjs`, `ref_gltf.mjs` and their packages: that named by
 //! `DRAGONFLY_EVALUATORS`, or `shared/evaluators` beside the repository.
 
-use crate::doors::{data, shared};
+use crate::doors::{MemoryFs, data, shared};
 use crate::fixture::Fixture;
 use crate::made::rotation;
 use crate::save_edits::{moving_track, shift};
@@ -11,7 +11,7 @@ use crate::save_support::{Opened, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, Track};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::NoFiles;
-use dragonfly_anim::format::gltf::save::{TakeNow, compact};
+use dragonfly_anim::format::gltf::save::{OutputFile, TakeNow, compact};
 use dragonfly_kit::random::Random;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -131,6 +131,19 @@ fn the_gltf_crate_takes_what_it_took_before() {
     assert!(judged > 10);
 }
 
+/// A file with its buffer beside it, and the files that a save of it writes.
+fn edited_beside() -> (Vec<u8>, Vec<OutputFile>) {
+    let fixture = Fixture::new();
+    let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
+    let before = fixture.gltf_beside();
+    let opened = Opened::new("beside.gltf", &before, &door).unwrap();
+    let mut takes = opened.takes();
+    shift(&mut takes, 0);
+    let saved = opened.saved(&takes, &door);
+    assert_eq!(saved.files.len(), 2);
+    (before, saved.files)
+}
+
 /// Errors and warnings of the validator, by code, for each of the files.
 fn issues(evaluators: &Path, files: &[PathBuf]) -> Vec<BTreeMap<String, usize>> {
     let output =
@@ -156,7 +169,7 @@ fn the_validator_finds_no_more_than_before() {
     let Some(evaluators) = evaluators() else { return };
     let folder = std::env::temp_dir().join(format!("dragonfly-judges-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let files = edited();
+    let mut files = edited();
     let mut paths = Vec::new();
     for (name, before, after) in &files {
         for (when, bytes) in [("before", before), ("after", after)] {
@@ -165,6 +178,16 @@ fn the_validator_finds_no_more_than_before() {
             paths.push(path);
         }
     }
+    let name = "beside.gltf".to_owned();
+    let (before, files_beside) = edited_beside();
+    paths.push(folder.join("before-beside.gltf"));
+    std::fs::write(&paths[paths.len() - 1], &before).unwrap();
+    files.push((name, before, Vec::new()));
+    for file in files_beside {
+        std::fs::write(folder.join(&file.name), &file.bytes).unwrap();
+    }
+    std::fs::write(folder.join("all.bin"), &Fixture::new().bin).unwrap();
+    paths.push(folder.join("beside.gltf"));
     let counts = issues(&evaluators, &paths);
     std::fs::remove_dir_all(&folder).unwrap();
     let mut complaints = Vec::new();

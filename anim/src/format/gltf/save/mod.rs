@@ -29,6 +29,7 @@
 //! | a channel of a node with a matrix | the matrix becomes translation, rotation and scale |
 //! | key times below zero, in a take that had none | [`SaveError::Keys`] |
 //! | rotations that are not unit | [`SaveError::Keys`] |
+//! | rotations whose neighbours lie in different hemispheres, or that are unit but for rounding | their bits; reading turns and mends them |
 //!
 //! Taking a channel away takes all channels of its target away, also those that importing left out as second ones:
 //! else one of them would appear. Animations are known to extensions by number; those numbers are not followed when
