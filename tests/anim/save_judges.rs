@@ -1,0 +1,255 @@
+//! Others judge what was written: the `gltf` crate everywhere; the Khronos validator and three.js where they are.
+//!
+//! The two need node, and a folder with `validate.mjs`, `ref_gltf.mjs` and their packages: that named by
+//! `DRAGONFLY_EVALUATORS`, or `shared/evaluators` beside the repository.
+
+use crate::doors::{MemoryFs, data, shared};
+use crate::fixture::Fixture;
+use crate::made::rotation;
+use crate::save_edits::{moving_track, shift};
+use crate::save_support::{Opened, take_mut};
+use dragonfly_anim::data::{Channel, Interpolation, Track};
+use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_anim::format::NoFiles;
+use dragonfly_anim::format::gltf::save::{OutputFile, TakeNow, compact};
+use dragonfly_kit::random::Random;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::panic::catch_unwind;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Arc;
+
+/// The `gltf` crate's own check; some files make it panic, which is no answer.
+fn crate_says(bytes: &[u8]) -> Option<Result<(), String>> {
+    catch_unwind(|| gltf::Gltf::from_slice(bytes).map(|_| ()).map_err(|error| error.to_string())).ok()
+}
+
+/// The crate says of the file what it said of the one before.
+#[track_caller]
+pub(crate) fn crate_says_the_same(before: &[u8], after: &[u8], name: &str) {
+    if let (Some(before), Some(after)) = (crate_says(before), crate_says(after)) {
+        assert_eq!(before, after, "{name}");
+    }
+}
+
+/// The folder of the evaluators, if they can run; says why not.
+fn evaluators() -> Option<PathBuf> {
+    let named = std::env::var_os("DRAGONFLY_EVALUATORS").map(PathBuf::from);
+    let folder = named.or_else(|| shared("evaluators"))?;
+    if !folder.join("node_modules").is_dir() {
+        println!("skipped: no packages in {}", folder.display());
+        return None;
+    }
+    if Command::new("node").arg("--version").output().is_err() {
+        println!("skipped: there is no node");
+        return None;
+    }
+    Some(folder)
+}
+
+/// Edited files, each beside what it was made from.
+fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
+    let fixture = Fixture::new();
+    let folder = data().join("gltf");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let mut sources =
+        vec![("Fixture.glb".to_owned(), fixture.glb()), ("Fixture.gltf".to_owned(), fixture.gltf())];
+    for name in [
+        "Fox.glb",
+        "AnimatedMorphCube.glb",
+        "InterpolationTest.glb",
+        "AnimatedTriangle_embedded.gltf",
+        "SimpleMorph_embedded.gltf",
+        "SimpleSkin_embedded.gltf",
+        "box_sparse.glb",
+    ] {
+        sources.push((name.to_owned(), read(name)));
+    }
+    for path in
+        crate::made::files().iter().filter(|path| path.extension().is_some_and(|ending| ending == "glb"))
+    {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if sources.iter().all(|(known, _)| *known != name) {
+            sources.push((name, std::fs::read(path).unwrap()));
+        }
+    }
+    let mut files = Vec::new();
+    for (name, bytes) in sources {
+        let opened = Opened::alone(&name, &bytes);
+        let bones = opened.model.animation.skeleton.len();
+        let mut takes = opened.takes();
+        if !takes.is_empty() && takes[0].take.tracks.iter().any(|track| !track.translation.is_empty()) {
+            shift(&mut takes, 0);
+        }
+        if bones > 0 {
+            // The node of a skinned mesh is not meant to move.
+            let nodes = &opened.model.animation.skeleton.bones;
+            let skinned = |bone: u32| {
+                let mut skinned = opened.model.instances.iter().filter(|instance| instance.skin.is_some());
+                skinned.any(|instance| instance.node == nodes[bone as usize].node)
+            };
+            let track = |bone| match skinned(bone) {
+                true => Track { bone, ..Track::default() },
+                false => Track { bone, ..moving_track() },
+            };
+            let tracks = (0..bones as u32).map(track).collect();
+            takes.push(TakeNow { origin: None, take: Arc::new(crate::support::take(tracks)) });
+        }
+        for take in &mut takes {
+            let take = Arc::make_mut(&mut take.take);
+            if let Some(track) = take.tracks.first_mut() {
+                let turns = [0.0, 0.1, 0.0, 0.2, 0.3, 0.1].map(glam::Quat::from_rotation_x);
+                track.rotation = Channel::new([0.0, 1.0], turns, Interpolation::CubicSpline);
+            }
+        }
+        let saved = opened.saved(&takes, &NoFiles);
+        // Some of it goes again.
+        let mut takes = saved.opened.takes();
+        if let Some(track) =
+            takes.last_mut().and_then(|take| Arc::make_mut(&mut take.take).tracks.first_mut())
+        {
+            track.scale = Channel::default();
+        }
+        let twice = saved.opened.saved(&takes, &NoFiles);
+        let compacted = compact(&twice.opened.source).unwrap().write().remove(0).bytes;
+        files.push((format!("once-{name}"), bytes.clone(), saved.bytes().to_vec()));
+        files.push((format!("twice-{name}"), bytes.clone(), twice.bytes().to_vec()));
+        files.push((format!("compacted-{name}"), bytes, compacted));
+    }
+    files
+}
+
+#[test]
+fn the_gltf_crate_takes_what_it_took_before() {
+    let mut judged = 0;
+    for (name, before, after) in edited() {
+        crate_says_the_same(&before, &after, &name);
+        judged += usize::from(crate_says(&before) == Some(Ok(())));
+    }
+    println!("{judged} files judged");
+    assert!(judged > 10);
+}
+
+/// A file with its buffer beside it, and the files that a save of it writes.
+fn edited_beside() -> (Vec<u8>, Vec<OutputFile>) {
+    let fixture = Fixture::new();
+    let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
+    let before = fixture.gltf_beside();
+    let opened = Opened::new("beside.gltf", &before, &door).unwrap();
+    let mut takes = opened.takes();
+    shift(&mut takes, 0);
+    let saved = opened.saved(&takes, &door);
+    assert_eq!(saved.files.len(), 2);
+    (before, saved.files)
+}
+
+/// Errors and warnings of the validator, by code, for each of the files.
+fn issues(evaluators: &Path, files: &[PathBuf]) -> Vec<BTreeMap<String, usize>> {
+    let output =
+        Command::new("node").arg(evaluators.join("validate.mjs")).arg("--json").args(files).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let counts = |line: &str| {
+        let report: Value = serde_json::from_str(line).unwrap_or_else(|_| panic!("{line}"));
+        let mut counts = BTreeMap::new();
+        for message in report["issues"]["messages"].as_array().unwrap() {
+            if message["severity"].as_u64().unwrap() < 2 {
+                *counts.entry(message["code"].as_str().unwrap().to_owned()).or_default() += 1;
+            }
+        }
+        counts
+    };
+    let counts: Vec<_> = text.lines().map(counts).collect();
+    assert_eq!(counts.len(), files.len());
+    counts
+}
+
+#[test]
+fn the_validator_finds_no_more_than_before() {
+    let Some(evaluators) = evaluators() else { return };
+    let folder = std::env::temp_dir().join(format!("dragonfly-judges-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let mut files = edited();
+    let mut paths = Vec::new();
+    for (name, before, after) in &files {
+        for (when, bytes) in [("before", before), ("after", after)] {
+            let path = folder.join(format!("{when}-{name}"));
+            std::fs::write(&path, bytes).unwrap();
+            paths.push(path);
+        }
+    }
+    let name = "beside.gltf".to_owned();
+    let (before, files_beside) = edited_beside();
+    paths.push(folder.join("before-beside.gltf"));
+    std::fs::write(&paths[paths.len() - 1], &before).unwrap();
+    files.push((name, before, Vec::new()));
+    for file in files_beside {
+        std::fs::write(folder.join(&file.name), &file.bytes).unwrap();
+    }
+    std::fs::write(folder.join("all.bin"), &Fixture::new().bin).unwrap();
+    paths.push(folder.join("beside.gltf"));
+    let counts = issues(&evaluators, &paths);
+    std::fs::remove_dir_all(&folder).unwrap();
+    let mut complaints = Vec::new();
+    for ((name, ..), counts) in files.iter().zip(counts.chunks(2)) {
+        println!("{name}: before {:?}, after {:?}", counts[0], counts[1]);
+        for (code, count) in &counts[1] {
+            if *count > counts[0].get(code).copied().unwrap_or(0) {
+                complaints.push(format!("{name}: {code}"));
+            }
+        }
+    }
+    println!("{} files judged", files.len());
+    assert!(complaints.is_empty(), "{complaints:?}");
+}
+
+#[test]
+fn three_js_plays_an_edited_clip_as_we_do() {
+    let Some(evaluators) = evaluators() else { return };
+    let fox = Opened::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap());
+    let mut random = Random::new(5);
+    let mut takes = fox.takes();
+    for track in take_mut(&mut takes, 1).tracks.iter_mut().step_by(3) {
+        let turns = [(); 4].map(|()| rotation(&mut random));
+        track.rotation = Channel::new([0.0, 0.2, 0.45, 0.7], turns, Interpolation::Linear);
+        track.scale =
+            Channel::new([0.0, 0.5], [glam::Vec3::ONE, glam::Vec3::splat(1.25)], Interpolation::Step);
+    }
+    shift(&mut takes, 1);
+    let plan = dragonfly_anim::format::gltf::save::plan(&fox.source, &fox.model, &takes).unwrap();
+    let bytes = plan.write().remove(0).bytes;
+    let path = std::env::temp_dir().join(format!("dragonfly-edited-{}.glb", std::process::id()));
+    std::fs::write(&path, &bytes).unwrap();
+    let output = Command::new("node")
+        .arg(evaluators.join("ref_gltf.mjs"))
+        .arg(&path)
+        .args(["--clip", "1", "--samples", "9"])
+        .output()
+        .unwrap();
+    std::fs::remove_file(&path).unwrap();
+    let answer: Value = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&output.stderr)));
+    // What was asked, not what was read back.
+    let mut model = fox.model.clone();
+    model.animation.takes[1] = takes[1].take.clone();
+    let model = Arc::new(model);
+    let mut evaluator = Evaluator::new(Arc::clone(&model));
+    let (mut numbers, mut worst) = (0, 0.0_f64);
+    for sample in answer["clips"][0]["samples"].as_array().unwrap() {
+        let time = sample["t"].as_f64().unwrap() as f32;
+        evaluator.pose(Some(1), time);
+        for (node, world) in sample["world"].as_object().unwrap() {
+            let node: u32 = node.parse().unwrap();
+            let bones = &model.animation.skeleton.bones;
+            let Some(bone) = bones.iter().position(|bone| bone.node == Some(node)) else { continue };
+            let expected: Vec<f64> = world.as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect();
+            let largest = expected.iter().copied().map(f64::abs).fold(1.0, f64::max);
+            for (got, expected) in evaluator.to_root()[bone].to_cols_array().into_iter().zip(&expected) {
+                worst = worst.max((f64::from(got) - expected).abs() / largest);
+                numbers += 1;
+            }
+        }
+    }
+    println!("{numbers} numbers, worst {worst:e}");
+    assert!(numbers > 1000 && worst < 1e-4, "{worst:e} of {numbers} numbers");
+}
