@@ -99,9 +99,8 @@ fn whom(owner: Option<&Owner>) -> String {
 
 impl JournalError {
     /// For `map_err`.
-    pub(super) fn io(path: &Path, what: &'static str) -> impl FnOnce(io::Error) -> Self + use<> {
-        let path = path.to_path_buf();
-        move |error| Self::Io { path, what, error }
+    pub(super) fn io(path: &Path, what: &'static str) -> impl FnOnce(io::Error) -> Self {
+        move |error| Self::Io { path: path.to_path_buf(), what, error }
     }
 }
 
@@ -247,7 +246,6 @@ impl Journal {
     /// When the new one is not on the disk. The old one goes on then.
     pub fn compact(&mut self, snapshot: &[u8]) -> Result<(), JournalError> {
         self.fits(snapshot)?;
-        let fail = JournalError::io(&self.path, "its snapshot cannot be written");
         // The lock makes the name ours, and what has it is of a program that was killed.
         let beside = self.path.with_extension("compact");
         let _ = again(|| self.files.remove(&beside));
@@ -259,7 +257,7 @@ impl Journal {
             Ok(new) => new,
             Err(error) => {
                 let _ = again(|| self.files.remove(&beside));
-                return Err(fail(error));
+                return Err(JournalError::io(&self.path, "its snapshot cannot be written")(error));
             }
         };
         new.path.clone_from(&self.path);

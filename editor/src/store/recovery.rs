@@ -145,6 +145,16 @@ impl Autosave {
         Ok(found)
     }
 
+    /// What is in a journal, to show it before anything is decided; changes nothing.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn entries(&self, found: &Recoverable) -> Result<Vec<Entry>, JournalError> {
+        let path = &found.journal;
+        let file = again(|| self.files.open(path)).map_err(JournalError::io(path, "cannot be read"))?;
+        Ok(contents(&*file, path)?.2)
+    }
+
     /// Looks at one journal; changes nothing.
     pub(super) fn inspect(&self, path: &Path) -> Result<Recoverable, JournalError> {
         let fail = |error| JournalError::io(path, "cannot be read")(error);
