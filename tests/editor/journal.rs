@@ -129,14 +129,14 @@ fn what_is_in_the_file_is_no_unsaved_work_and_its_history_stays() {
     assert_eq!(journal.document().as_deref(), Some(fs::canonicalize(&path).unwrap().as_path()));
     let now = Instant::now();
     journal.append(b"one", now).unwrap();
-    let saved =
-        save_document(&RealFiles, &mut journal, &path, b"saved", &SaveOptions::default()).unwrap();
+    let saved = save_document(&RealFiles, &mut journal, &path, b"saved", &SaveOptions::default()).unwrap();
     assert_eq!(saved.notices, Vec::<String>::new());
     assert_eq!((journal.unsaved(), journal.stamp()), (0, Some(&saved.stamp)));
     journal.append(b"two", now).unwrap();
     assert_eq!(journal.unsaved(), 1);
     // A copy elsewhere is not the document.
-    save_document(&RealFiles, &mut journal, &folder.join("copy.glb"), b"copy", &SaveOptions::default()).unwrap();
+    save_document(&RealFiles, &mut journal, &folder.join("copy.glb"), b"copy", &SaveOptions::default())
+        .unwrap();
     assert_eq!(journal.unsaved(), 1);
     save_document(&RealFiles, &mut journal, &path, b"saved again", &SaveOptions::default()).unwrap();
     journal.compact(b"all").unwrap();
@@ -258,7 +258,8 @@ fn names_that_are_no_text_and_very_long_ones_are_documents_too() {
     let folder = quick_folder("journal-names");
     let autosave = autosave(&folder, RealFiles);
     let long = "x".repeat(251) + ".glb";
-    for name in [&b"fox \xff\xfe.glb"[..], long.as_bytes(), "日本 🦊\n.glb".as_bytes(), b".hidden", b"-"] {
+    for name in [&b"fox \xff\xfe.glb"[..], long.as_bytes(), "日本 🦊\n.glb".as_bytes(), b".hidden", b"-"]
+    {
         let path = folder.path().join(std::ffi::OsStr::from_bytes(name));
         dragonfly::store::replace(&path, b"model").unwrap();
         let mut journal = begin(&autosave, Some(&path), None);

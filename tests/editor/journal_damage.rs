@@ -3,7 +3,9 @@
 
 use crate::journal::{autosave, begin, only};
 use crate::mounted::quick_folder;
-use dragonfly::store::{Attribute, Autosave, Claim, Entry, FileData, JournalError, Reading, RealFiles, Recoverable, Vfs, VfsFile};
+use dragonfly::store::{
+    Attribute, Autosave, Claim, Entry, FileData, JournalError, Reading, RealFiles, Recoverable, Vfs, VfsFile,
+};
 use dragonfly_kit::random::{Random, seed};
 use std::ffi::OsString;
 use std::fs;
@@ -54,33 +56,43 @@ impl Vfs for InMemory {
     fn create_new(&self, _: &Path, _: bool) -> io::Result<Box<dyn VfsFile>> {
         Err(io::ErrorKind::ReadOnlyFilesystem.into())
     }
+
     fn open(&self, _: &Path) -> io::Result<Box<dyn VfsFile>> {
         Ok(Box::new(self.clone()))
     }
+
     fn open_to_write(&self, _: &Path) -> io::Result<Box<dyn VfsFile>> {
         Err(io::ErrorKind::ReadOnlyFilesystem.into())
     }
+
     fn metadata(&self, _: &Path) -> io::Result<FileData> {
-        Err(io::ErrorKind::NotFound.into())
+        VfsFile::metadata(self)
     }
+
     fn read_link(&self, _: &Path) -> io::Result<PathBuf> {
         Err(io::ErrorKind::NotFound.into())
     }
+
     fn resolve(&self, _: &Path) -> io::Result<PathBuf> {
         Err(io::ErrorKind::NotFound.into())
     }
+
     fn rename(&self, _: &Path, _: &Path) -> io::Result<()> {
         Err(io::ErrorKind::ReadOnlyFilesystem.into())
     }
+
     fn remove(&self, _: &Path) -> io::Result<()> {
         Err(io::ErrorKind::ReadOnlyFilesystem.into())
     }
+
     fn create_folder(&self, _: &Path) -> io::Result<()> {
         Ok(())
     }
+
     fn sync_folder(&self, _: &Path) -> io::Result<()> {
         Ok(())
     }
+
     fn list(&self, _: &Path) -> io::Result<Vec<OsString>> {
         Ok(vec!["fox.journal".into()])
     }
@@ -103,36 +115,46 @@ impl VfsFile for InMemory {
             group: 0,
         })
     }
+
     fn read_at(&self, bytes: &mut [u8], offset: u64) -> io::Result<usize> {
         let from = self.0.get(offset as usize..).unwrap_or_default();
         let got = from.len().min(bytes.len());
         bytes[..got].copy_from_slice(&from[..got]);
         Ok(got)
     }
+
     fn write_at(&self, _: &[u8], _: u64) -> io::Result<usize> {
         panic!("nothing is written to a journal that is only looked at")
     }
+
     fn set_size(&self, _: u64) -> io::Result<()> {
         panic!("nothing is cut off a journal that is only looked at")
     }
+
     fn sync_data(&self) -> io::Result<()> {
         Ok(())
     }
+
     fn sync_all(&self) -> io::Result<()> {
         Ok(())
     }
+
     fn try_lock(&self) -> io::Result<bool> {
         Ok(true)
     }
+
     fn set_owner(&self, _: Option<u32>, _: u32) -> io::Result<()> {
         Ok(())
     }
+
     fn set_mode(&self, _: u32) -> io::Result<()> {
         Ok(())
     }
+
     fn attributes(&self) -> io::Result<Vec<Attribute>> {
         Ok(Vec::new())
     }
+
     fn set_attribute(&self, _: &[u8], _: &[u8]) -> io::Result<()> {
         Ok(())
     }

@@ -3,7 +3,7 @@
 use super::journal::{Journal, JournalError, new_number};
 use super::owner::Life;
 use super::record::{Header, PathText};
-use super::recovery::{Reading, Recoverable};
+use super::recoverable::{Reading, Recoverable};
 use super::shelf::Bounds;
 use super::stamp::{FileStamp, hash};
 use super::versions::{VersionLimits, Versions};
@@ -168,21 +168,28 @@ pub(super) enum Lock {
     Unsupported,
 }
 
+/// Takes the lock of `file`, if nobody has it.
+pub(super) fn lock(file: &dyn VfsFile) -> io::Result<Lock> {
+    match again(|| file.try_lock()) {
+        Ok(true) => Ok(Lock::Ours),
+        Ok(false) => Ok(Lock::Held),
+        Err(error) if error.kind() == io::ErrorKind::Unsupported => Ok(Lock::Unsupported),
+        Err(error) => Err(error),
+    }
+}
+
 /// Who looks at a journal holds its lock for a moment; who works with it holds it for long.
 const PATIENCE: usize = 50;
 
 /// Takes the lock of `file`; when another one has it, tries for a tenth of a second.
 pub(super) fn lock_patiently(file: &dyn VfsFile) -> io::Result<Lock> {
-    for turn in 0..PATIENCE {
-        match again(|| file.try_lock()) {
-            Ok(true) => return Ok(Lock::Ours),
-            Ok(false) if turn + 1 < PATIENCE => std::thread::park_timeout(Duration::from_millis(2)),
-            Ok(false) => {}
-            Err(error) if error.kind() == io::ErrorKind::Unsupported => return Ok(Lock::Unsupported),
-            Err(error) => return Err(error),
+    for _ in 1..PATIENCE {
+        match lock(file)? {
+            Lock::Held => std::thread::park_timeout(Duration::from_millis(2)),
+            other => return Ok(other),
         }
     }
-    Ok(Lock::Held)
+    lock(file)
 }
 
 /// The file that `path` leads to, free of links, so that two ways to it are one document; as it is, if it leads

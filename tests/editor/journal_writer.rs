@@ -1,0 +1,234 @@
+//! A program of its own that edits and saves as fast as it can and says what is done: to be killed, or to have its power
+//! cut. It is this file of tests, started again.
+
+use crate::program::Folder;
+use dragonfly::store::{
+    Autosave, Claim, Entry, Expected, Fate, FileStamp, Opening, RealFiles, Resumed, SaveOptions,
+    save_document,
+};
+use dragonfly_kit::random::Random;
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+/// The folder to work in, for the program that is started.
+const CHILD: &str = "DRAGONFLY_STORE_CHILD";
+
+/// Longer than it ever takes to start on a busy machine; and the writer ends by itself after it.
+const LIMIT: Duration = Duration::from_secs(30);
+
+/// The document after so many edits.
+fn document(edits: u32) -> Vec<u8> {
+    let mut bytes = format!("{edits}\n").into_bytes();
+    let mut random = Random::new(u64::from(edits));
+    bytes.extend((0..3000).flat_map(|_| random.bits().to_le_bytes()));
+    bytes
+}
+
+/// Edit number `number`.
+fn edit(number: u32) -> Vec<u8> {
+    let mut bytes = number.to_le_bytes().to_vec();
+    let mut random = Random::new(u64::from(number));
+    bytes.extend((0..random.below(400)).map(|_| random.bits() as u8));
+    bytes
+}
+
+/// How many edits these entries are, which must be all from the first on.
+fn count(entries: &[Entry]) -> u32 {
+    let mut edits = 0;
+    for entry in entries {
+        match entry {
+            Entry::Snapshot(bytes) => edits = u32::from_le_bytes(bytes[..].try_into().expect("a number")),
+            Entry::Edit(bytes) => {
+                edits += 1;
+                assert!(*bytes == edit(edits), "edit {edits} is another one");
+            }
+            Entry::Saved => {}
+        }
+    }
+    edits
+}
+
+/// Not a promise of its own: what the program does that is started.
+#[test]
+fn edits_and_saves_until_it_is_killed() {
+    let Some(folder) = std::env::var_os(CHILD) else { return };
+    let mut out = std::io::stdout();
+    let mut say = |what: &str| writeln!(out, "{what}").and_then(|()| out.flush()).is_ok();
+    say("\nstarted");
+    if let Err(error) = write_on(Path::new(&folder), &mut say) {
+        say(&format!("x {error}"));
+    }
+}
+
+fn write_on(folder: &Path, say: &mut impl FnMut(&str) -> bool) -> Result<(), Box<dyn std::error::Error>> {
+    let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.join("autosave"))).expect("a folder");
+    let path = folder.join("fox.glb");
+    if !path.exists() {
+        dragonfly::store::replace(&path, &document(0))?;
+    }
+    let mut stamp = FileStamp::take(&RealFiles, &path)?;
+    let Resumed { mut journal, entries, .. } = match autosave.begin(Some(&path), Some(&stamp))? {
+        Opening::New(journal) => Resumed { journal: *journal, entries: Vec::new(), cut: 0 },
+        Opening::Found(found) => autosave.keep(&found, Claim::IfFree)?,
+    };
+    let mut edits = count(&entries);
+    let began = Instant::now();
+    while began.elapsed() < LIMIT {
+        edits += 1;
+        journal.append(&edit(edits), Instant::now())?;
+        let mut listens = say(&format!("e {edits}"));
+        if edits.is_multiple_of(7) {
+            journal.end_of_gesture(Instant::now());
+        }
+        if journal.sync_if_due(Instant::now())? {
+            listens &= say(&format!("y {edits}"));
+        }
+        if edits.is_multiple_of(60) {
+            journal.compact(&edits.to_le_bytes())?;
+            listens &= say(&format!("y {edits}"));
+        }
+        if edits.is_multiple_of(25) {
+            let options =
+                SaveOptions { expected: Expected::Stamp(&stamp), versions: Some(autosave.versions()) };
+            let saved = save_document(&RealFiles, &mut journal, &path, &document(edits), &options)?;
+            stamp = saved.stamp;
+            match saved.notices.first() {
+                None => listens &= say(&format!("s {edits}")),
+                Some(notice) => return Err(notice.as_str().into()),
+            }
+        }
+        if !listens {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// The program, while it runs.
+pub(crate) struct Writer {
+    child: Child,
+    lines: Receiver<(Instant, String)>,
+    early: Vec<(Instant, String)>,
+}
+
+/// What the program said was done.
+#[derive(Debug, Default)]
+pub(crate) struct Said {
+    /// Edits that counted as done.
+    pub(crate) edits: u32,
+    /// Of them, those said to be on the disk.
+    pub(crate) synced: u32,
+    /// Edits in the file that was saved last.
+    pub(crate) saved: u32,
+    /// When each of the edits was said to be done: number and instant.
+    pub(crate) times: Vec<(u32, Instant)>,
+    /// What went wrong.
+    pub(crate) complaint: Option<String>,
+}
+
+/// What there is after it was stopped.
+#[derive(Debug)]
+pub(crate) struct Found {
+    pub(crate) edits: u32,
+    pub(crate) saved: u32,
+}
+
+impl Writer {
+    /// Starts it, to work in `folder`.
+    pub(crate) fn start(folder: &Path) -> Self {
+        let module = module_path!().split_once("::").expect("a module of the tests").1;
+        let test = format!("{module}::edits_and_saves_until_it_is_killed");
+        let mut child = Command::new(std::env::current_exe().expect("a running test has a file"))
+            .args([test.as_str(), "--exact", "--nocapture", "--test-threads=1"])
+            .env(CHILD, folder)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the test's own file can be started");
+        let out = BufReader::new(child.stdout.take().expect("piped"));
+        let (sender, lines) = channel();
+        let read = move || {
+            for line in out.lines().map_while(Result::ok) {
+                if sender.send((Instant::now(), line)).is_err() {
+                    break;
+                }
+            }
+        };
+        std::thread::Builder::new().name("reader".to_owned()).spawn(read).expect("a thread");
+        Self { child, lines, early: Vec::new() }
+    }
+
+    /// Returns when the first edit is done.
+    #[track_caller]
+    pub(crate) fn working(&mut self) {
+        let done = |line: &str| line.starts_with("e ") || line.starts_with("x ");
+        while !self.early.last().is_some_and(|(_, line)| done(line)) {
+            self.early.push(self.lines.recv_timeout(LIMIT).expect("it works"));
+        }
+    }
+
+    pub(crate) fn process(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Kills it; all that it said.
+    pub(crate) fn kill(mut self) -> Said {
+        self.child.kill().expect("it runs");
+        self.child.wait().expect("it ends");
+        let mut said = Said::default();
+        // What was in the pipe was said before it was killed.
+        for (at, line) in self.early.drain(..).chain(self.lines.iter()) {
+            let Some((kind, rest)) = line.split_once(' ') else { continue };
+            let number = rest.parse().unwrap_or_default();
+            match kind {
+                "e" => {
+                    said.edits = number;
+                    said.times.push((number, at));
+                }
+                "y" => said.synced = number,
+                "s" => said.saved = number,
+                "x" => said.complaint = Some(rest.to_owned()),
+                _ => {}
+            }
+        }
+        said
+    }
+}
+
+/// Looks at what there is after stop number `stop`, which must be whole and fit together.
+#[track_caller]
+pub(crate) fn check(folder: &Folder, said: &Said, stop: usize) -> Found {
+    check_at(folder.path(), said, stop)
+}
+
+/// As [`check`].
+#[track_caller]
+pub(crate) fn check_at(folder: &Path, said: &Said, stop: usize) -> Found {
+    let path = folder.join("fox.glb");
+    let Ok(bytes) = fs::read(&path) else {
+        assert_eq!(said.edits, 0, "stop {stop}: the document is gone");
+        return Found { edits: 0, saved: 0 };
+    };
+    let number = bytes.split(|byte| *byte == b'\n').next().and_then(|line| std::str::from_utf8(line).ok());
+    let saved: u32 = number.and_then(|number| number.parse().ok()).expect("the document is whole");
+    assert!(bytes == document(saved), "stop {stop}: the document is torn");
+    let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.join("autosave"))).expect("a folder");
+    let found = autosave.recoverable().expect("the folder can be read");
+    // Stopped while it made its first journal, it left none, or one without anything in it.
+    let Some(found) = found.into_iter().find(|found| found.work > 0) else {
+        assert_eq!((said.edits, saved), (0, 0), "stop {stop}: the journal is gone");
+        return Found { edits: 0, saved };
+    };
+    let edits = count(&autosave.entries(&found).expect("the journal can be read"));
+    assert!(saved <= edits, "stop {stop}: {saved} edits are in the document, {edits} in the journal");
+    // Nobody else wrote it, so the journal knows it, however the program was stopped.
+    assert_eq!(found.file, Fate::Same, "stop {stop}: {found:?}");
+    assert_eq!(found.unsaved == 0, saved == edits, "stop {stop}: {found:?}, {saved} of {edits} saved");
+    Found { edits, saved }
+}
