@@ -13,7 +13,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// The folder to work in, for the program that is started.
 const CHILD: &str = "DRAGONFLY_STORE_CHILD";
@@ -58,7 +58,11 @@ fn count(entries: &[Entry]) -> u32 {
 fn edits_and_saves_until_it_is_killed() {
     let Some(folder) = std::env::var_os(CHILD) else { return };
     let mut out = std::io::stdout();
-    let mut say = |what: &str| writeln!(out, "{what}").and_then(|()| out.flush()).is_ok();
+    // With the time when it was done: when it is read says less.
+    let mut say = |what: &str| {
+        let line = format!("{what} {}\n", nanoseconds(SystemTime::now()));
+        out.write_all(line.as_bytes()).and_then(|()| out.flush()).is_ok()
+    };
     say("\nstarted");
     if let Err(error) = write_on(Path::new(&folder), &mut say) {
         say(&format!("x {error}"));
@@ -112,8 +116,13 @@ fn write_on(folder: &Path, say: &mut impl FnMut(&str) -> bool) -> Result<(), Box
 /// The program, while it runs.
 pub(crate) struct Writer {
     child: Child,
-    lines: Receiver<(Instant, String)>,
-    early: Vec<(Instant, String)>,
+    lines: Receiver<String>,
+    early: Vec<String>,
+}
+
+/// The clock on the wall, which two programs share.
+pub(crate) fn nanoseconds(time: SystemTime) -> u128 {
+    time.duration_since(UNIX_EPOCH).expect("after 1970").as_nanos()
 }
 
 /// What the program said was done.
@@ -125,8 +134,10 @@ pub(crate) struct Said {
     pub(crate) synced: u32,
     /// Edits in the file that was saved last.
     pub(crate) saved: u32,
-    /// When each of the edits was said to be done: number and instant.
-    pub(crate) times: Vec<(u32, Instant)>,
+    /// Edits said to be on the disk, by one that was not to be believed any more.
+    pub(crate) late: u32,
+    /// When each of the edits was done: number and [`nanoseconds`].
+    pub(crate) times: Vec<(u32, u128)>,
     /// What went wrong.
     pub(crate) complaint: Option<String>,
 }
@@ -155,7 +166,7 @@ impl Writer {
         let (sender, lines) = channel();
         let read = move || {
             for line in out.lines().map_while(Result::ok) {
-                if sender.send((Instant::now(), line)).is_err() {
+                if sender.send(line).is_err() {
                     break;
                 }
             }
@@ -168,7 +179,7 @@ impl Writer {
     #[track_caller]
     pub(crate) fn working(&mut self) {
         let done = |line: &str| line.starts_with("e ") || line.starts_with("x ");
-        while !self.early.last().is_some_and(|(_, line)| done(line)) {
+        while !self.early.last().is_some_and(|line| done(line)) {
             self.early.push(self.lines.recv_timeout(LIMIT).expect("it works"));
         }
     }
@@ -178,22 +189,36 @@ impl Writer {
     }
 
     /// Kills it; all that it said.
-    pub(crate) fn kill(mut self) -> Said {
+    pub(crate) fn kill(self) -> Said {
+        self.kill_and_believe(u128::MAX)
+    }
+
+    /// Kills it; what it said was done before `end`, in [`nanoseconds`].
+    pub(crate) fn kill_and_believe(mut self, end: u128) -> Said {
         self.child.kill().expect("it runs");
         self.child.wait().expect("it ends");
         let mut said = Said::default();
         // What was in the pipe was said before it was killed.
-        for (at, line) in self.early.drain(..).chain(self.lines.iter()) {
-            let Some((kind, rest)) = line.split_once(' ') else { continue };
-            let number = rest.parse().unwrap_or_default();
+        for line in self.early.drain(..).chain(self.lines.iter()) {
+            let Some((rest, time)) = line.rsplit_once(' ') else { continue };
+            let Some((kind, rest)) = rest.split_once(' ') else { continue };
+            if kind == "x" {
+                said.complaint = Some(rest.to_owned());
+            }
+            let (Ok(number), Ok(time)) = (rest.parse(), time.parse()) else { continue };
+            if time >= end {
+                if kind == "y" || kind == "s" {
+                    said.late = number;
+                }
+                continue;
+            }
             match kind {
                 "e" => {
                     said.edits = number;
-                    said.times.push((number, at));
+                    said.times.push((number, time));
                 }
                 "y" => said.synced = number,
                 "s" => said.saved = number,
-                "x" => said.complaint = Some(rest.to_owned()),
                 _ => {}
             }
         }
