@@ -133,6 +133,11 @@ impl Vfs for FaultyFiles {
         RealFiles.rename(from, to)
     }
 
+    fn rename_to_new(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.0.call()?;
+        RealFiles.rename_to_new(from, to)
+    }
+
     fn remove(&self, path: &Path) -> io::Result<()> {
         self.0.call()?;
         RealFiles.remove(path)

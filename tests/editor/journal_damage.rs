@@ -81,6 +81,10 @@ impl Vfs for InMemory {
         Err(io::ErrorKind::ReadOnlyFilesystem.into())
     }
 
+    fn rename_to_new(&self, _: &Path, _: &Path) -> io::Result<()> {
+        Err(io::ErrorKind::ReadOnlyFilesystem.into())
+    }
+
     fn remove(&self, _: &Path) -> io::Result<()> {
         Err(io::ErrorKind::ReadOnlyFilesystem.into())
     }

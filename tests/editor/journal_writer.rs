@@ -18,6 +18,9 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 /// The folder to work in, for the program that is started.
 const CHILD: &str = "DRAGONFLY_STORE_CHILD";
 
+/// Set when it is only to save, without a journal: what a journal brings to the disk takes other things along.
+const ONLY_SAVES: &str = "DRAGONFLY_STORE_CHILD_ONLY_SAVES";
+
 /// Longer than it ever takes to start on a busy machine; and the writer ends by itself after it.
 const LIMIT: Duration = Duration::from_secs(30);
 
@@ -27,6 +30,16 @@ fn document(edits: u32) -> Vec<u8> {
     let mut random = Random::new(u64::from(edits));
     bytes.extend((0..3000).flat_map(|_| random.bits().to_le_bytes()));
     bytes
+}
+
+/// After how many edits the document at `path` was saved, which must be whole; `None` when there is none.
+#[track_caller]
+pub(crate) fn document_at(path: &Path) -> Option<u32> {
+    let bytes = fs::read(path).ok()?;
+    let number = bytes.split(|byte| *byte == b'\n').next().and_then(|line| std::str::from_utf8(line).ok());
+    let saved: u32 = number.and_then(|number| number.parse().ok()).expect("the document is whole");
+    assert!(bytes == document(saved), "the document is torn");
+    Some(saved)
 }
 
 /// Edit number `number`.
@@ -64,12 +77,29 @@ fn edits_and_saves_until_it_is_killed() {
         out.write_all(line.as_bytes()).and_then(|()| out.flush()).is_ok()
     };
     say("\nstarted");
-    if let Err(error) = write_on(Path::new(&folder), &mut say) {
+    let work = if std::env::var_os(ONLY_SAVES).is_some() { save_on } else { write_on };
+    if let Err(error) = work(Path::new(&folder), &mut say) {
         say(&format!("x {error}"));
     }
 }
 
-fn write_on(folder: &Path, say: &mut impl FnMut(&str) -> bool) -> Result<(), Box<dyn std::error::Error>> {
+type Worked = Result<(), Box<dyn std::error::Error>>;
+
+fn save_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
+    let path = folder.join("fox.glb");
+    let mut saved = document_at(&path).unwrap_or_default();
+    let began = Instant::now();
+    while began.elapsed() < LIMIT {
+        saved += 1;
+        dragonfly::store::replace(&path, &document(saved))?;
+        if !say(&format!("s {saved}")) {
+            break;
+        }
+    }
+    Ok(())
+}
+
+fn write_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
     let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.join("autosave"))).expect("a folder");
     let path = folder.join("fox.glb");
     if !path.exists() {
@@ -96,7 +126,7 @@ fn write_on(folder: &Path, say: &mut impl FnMut(&str) -> bool) -> Result<(), Box
             journal.compact(&edits.to_le_bytes())?;
             listens &= say(&format!("y {edits}"));
         }
-        if edits.is_multiple_of(25) {
+        if edits.is_multiple_of(10) {
             let options =
                 SaveOptions { expected: Expected::Stamp(&stamp), versions: Some(autosave.versions()) };
             let saved = save_document(&RealFiles, &mut journal, &path, &document(edits), &options)?;
@@ -149,14 +179,26 @@ pub(crate) struct Found {
     pub(crate) saved: u32,
 }
 
+fn program() -> std::path::PathBuf {
+    std::env::current_exe().expect("a running test has a file")
+}
+
 impl Writer {
     /// Starts it, to work in `folder`.
     pub(crate) fn start(folder: &Path) -> Self {
+        Self::run(Command::new(program()).env(CHILD, folder))
+    }
+
+    /// Starts it, to do nothing but save.
+    pub(crate) fn start_saving(folder: &Path) -> Self {
+        Self::run(Command::new(program()).env(CHILD, folder).env(ONLY_SAVES, "1"))
+    }
+
+    fn run(command: &mut Command) -> Self {
         let module = module_path!().split_once("::").expect("a module of the tests").1;
         let test = format!("{module}::edits_and_saves_until_it_is_killed");
-        let mut child = Command::new(std::env::current_exe().expect("a running test has a file"))
+        let mut child = command
             .args([test.as_str(), "--exact", "--nocapture", "--test-threads=1"])
-            .env(CHILD, folder)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -178,7 +220,7 @@ impl Writer {
     /// Returns when the first edit is done.
     #[track_caller]
     pub(crate) fn working(&mut self) {
-        let done = |line: &str| line.starts_with("e ") || line.starts_with("x ");
+        let done = |line: &str| ["e ", "s ", "x "].iter().any(|kind| line.starts_with(kind));
         while !self.early.last().is_some_and(|line| done(line)) {
             self.early.push(self.lines.recv_timeout(LIMIT).expect("it works"));
         }
@@ -236,13 +278,10 @@ pub(crate) fn check(folder: &Folder, said: &Said, stop: usize) -> Found {
 #[track_caller]
 pub(crate) fn check_at(folder: &Path, said: &Said, stop: usize) -> Found {
     let path = folder.join("fox.glb");
-    let Ok(bytes) = fs::read(&path) else {
-        assert_eq!(said.edits, 0, "stop {stop}: the document is gone");
+    let Some(saved) = document_at(&path) else {
+        assert_eq!((said.edits, said.saved), (0, 0), "stop {stop}: the document is gone");
         return Found { edits: 0, saved: 0 };
     };
-    let number = bytes.split(|byte| *byte == b'\n').next().and_then(|line| std::str::from_utf8(line).ok());
-    let saved: u32 = number.and_then(|number| number.parse().ok()).expect("the document is whole");
-    assert!(bytes == document(saved), "stop {stop}: the document is torn");
     let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.join("autosave"))).expect("a folder");
     let found = autosave.recoverable().expect("the folder can be read");
     // Stopped while it made its first journal, it left none, or one without anything in it.

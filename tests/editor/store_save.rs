@@ -4,7 +4,7 @@ use crate::mounted::{Mounted, may_mount, quick_folder, said};
 use crate::program::Folder;
 use dragonfly::store::{
     Expected, FileStamp, FileState, RealFiles, SaveError, SaveOptions, Saved, Step, VersionLimits, Versions,
-    cut_off, put_away, replace, save,
+    Vfs, cut_off, put_away, replace, save,
 };
 use std::fs;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
@@ -210,6 +210,22 @@ fn a_file_only_touched_or_restored_is_no_changed_one() {
 }
 
 #[test]
+fn a_change_within_a_tick_of_the_clock_is_noticed() {
+    let folder = Folder::new("save-tick");
+    let path = folder.join("model.glb");
+    fs::write(&path, "as it was read").unwrap();
+    let stamp = FileStamp::take(&RealFiles, &path).unwrap();
+    // Of a file of the same size and times, that held other bytes.
+    let newest = stamp.modified.max(stamp.changed);
+    let other = |taken| FileStamp { hash: !stamp.hash, taken, ..stamp };
+    for taken in [newest - 1, newest, newest + 1_900_000_000] {
+        assert_eq!(other(taken).state(&RealFiles, &path).unwrap(), FileState::Changed);
+    }
+    // Long after, the times would be others, and the file is not read for nothing.
+    assert_eq!(other(newest + 2_100_000_000).state(&RealFiles, &path).unwrap(), FileState::Same);
+}
+
+#[test]
 fn a_new_file_takes_nobodys_place() {
     let folder = Folder::new("save-new");
     let path = folder.join("model.glb");
@@ -218,6 +234,14 @@ fn a_new_file_takes_nobodys_place() {
     let error = save(&RealFiles, &path, b"second", &options).unwrap_err();
     assert!(matches!(error, SaveError::Exists { .. }), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"first");
+    // Nor that of one made between looking and moving.
+    let error = RealFiles.rename_to_new(&path, &folder.join("model.glb")).unwrap_err();
+    assert_eq!(error.kind(), std::io::ErrorKind::AlreadyExists);
+    fs::write(folder.join("second.glb"), "second").unwrap();
+    let error = RealFiles.rename_to_new(&folder.join("second.glb"), &path).unwrap_err();
+    assert_eq!(error.kind(), std::io::ErrorKind::AlreadyExists);
+    assert_eq!(fs::read(&path).unwrap(), b"first");
+    assert_eq!(count(folder.path()), 2);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Where results go: stdout, or a file that is either whole or not there.
 
 use super::Failure;
-use crate::store;
+use crate::store::{self, Expected, RealFiles, SaveError, SaveOptions};
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -70,23 +70,18 @@ pub(super) fn write_new(
         let name =
             if number == 1 { format!("{stem}.{extension}") } else { format!("{stem}-{number}.{extension}") };
         let path = folder.join(name);
-        match fs::File::create_new(&path) {
-            Ok(mut file) => {
-                return file.write_all(bytes).map(|()| path.clone()).map_err(|error| {
-                    let _ = fs::remove_file(&path);
-                    Failure::input(path.display(), format_args!("cannot be written: {error}"))
-                });
-            }
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+        let options = SaveOptions { expected: Expected::Nothing, ..SaveOptions::default() };
+        match store::save(&RealFiles, &path, bytes, &options) {
+            Ok(_) => return Ok(path),
+            // A folder of that name is something else, too.
+            Err(SaveError::Exists { .. } | SaveError::NotRegular { .. }) => {
                 let same = crate::document::read_file(&path, bytes.len() as u64)
                     .is_ok_and(|existing| existing == bytes);
                 if same {
                     return Ok(path);
                 }
             }
-            Err(error) => {
-                return Err(Failure::input(path.display(), format_args!("cannot be written: {error}")));
-            }
+            Err(error) => return Err(Failure::Input(error.to_string())),
         }
     }
     Err(Failure::input(folder.display(), format_args!("holds a thousand files called {stem} already")))

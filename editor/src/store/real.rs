@@ -50,6 +50,10 @@ impl Vfs for RealFiles {
         fs::rename(from, to)
     }
 
+    fn rename_to_new(&self, from: &Path, to: &Path) -> io::Result<()> {
+        moving::to_new(from, to)
+    }
+
     fn remove(&self, path: &Path) -> io::Result<()> {
         fs::remove_file(path)
     }
@@ -269,6 +273,35 @@ mod system {
     pub(super) fn set_mode(_: &File, _: u32) -> io::Result<()> {
         Ok(())
     }
+}
+
+#[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
+mod moving {
+    use rustix::fs::{CWD, RenameFlags, renameat_with};
+    use rustix::io::Errno;
+    use std::io;
+    use std::path::Path;
+
+    pub(super) fn to_new(from: &Path, to: &Path) -> io::Result<()> {
+        match renameat_with(CWD, from, CWD, to, RenameFlags::NOREPLACE) {
+            // Some file systems cannot look and move in one step.
+            Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => super::look_and_move(from, to),
+            other => Ok(other?),
+        }
+    }
+}
+
+#[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+mod moving {
+    pub(super) use super::look_and_move as to_new;
+}
+
+/// The best that can be had without help of the system: what is made in between is overwritten.
+fn look_and_move(from: &Path, to: &Path) -> io::Result<()> {
+    if fs::symlink_metadata(to).is_ok() {
+        return Err(io::ErrorKind::AlreadyExists.into());
+    }
+    fs::rename(from, to)
 }
 
 /// Extended attributes, access lists among them.

@@ -159,7 +159,14 @@ fn replace_file(
         expect(files, target, expected)?;
         // Closed before it moves: some systems move no open file.
         drop(file);
-        again(|| files.rename(&beside, target)).map_err(SaveError::at(target, Step::Replace))?;
+        match expected {
+            Expected::Nothing => again(|| files.rename_to_new(&beside, target)),
+            Expected::Anything | Expected::Stamp(_) => again(|| files.rename(&beside, target)),
+        }
+        .map_err(|error| match error.kind() {
+            io::ErrorKind::AlreadyExists => SaveError::Exists { path: target.to_path_buf() },
+            _ => SaveError::at(target, Step::Replace)(error),
+        })?;
         Ok(data)
     });
     if written.is_err() {

@@ -62,6 +62,8 @@ pub trait Vfs: Debug + Send + Sync {
     fn resolve(&self, path: &Path) -> io::Result<PathBuf>;
     /// Gives a file another name in one step; whatever had that name before is replaced.
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
+    /// Gives a file another name in one step, if nothing has that name; `AlreadyExists` otherwise.
+    fn rename_to_new(&self, from: &Path, to: &Path) -> io::Result<()>;
     /// Removes a name of a file.
     fn remove(&self, path: &Path) -> io::Result<()>;
     /// Makes a folder that is nobody else's, and those above it; nothing when it exists.
