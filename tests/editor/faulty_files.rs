@@ -2,6 +2,7 @@
 
 use dragonfly::store::{Attribute, FileData, RealFiles, Vfs, VfsFile};
 use std::ffi::OsString;
+use std::fmt::{self, Debug, Formatter};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -42,6 +43,15 @@ impl Fault {
     }
 }
 
+/// What somebody else does meanwhile.
+struct Meddling(Box<dyn Fn() + Send + Sync>);
+
+impl Debug for Meddling {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        out.write_str("somebody else")
+    }
+}
+
 /// How many calls there were, and which is to fail.
 #[derive(Debug)]
 struct Plan {
@@ -49,6 +59,7 @@ struct Plan {
     from: u64,
     to: u64,
     fault: Fault,
+    meddling: Option<Meddling>,
 }
 
 impl Plan {
@@ -56,6 +67,10 @@ impl Plan {
     fn call(&self) -> io::Result<bool> {
         let call = self.calls.fetch_add(1, Ordering::Relaxed) + 1;
         if !(self.from..=self.to).contains(&call) {
+            return Ok(false);
+        }
+        if let Some(Meddling(act)) = &self.meddling {
+            act();
             return Ok(false);
         }
         self.fault.error().map_or(Ok(true), Err)
@@ -77,8 +92,15 @@ impl FaultyFiles {
         Self::between(number, u64::MAX, fault)
     }
 
+    /// Right before call `number` somebody else does something; no call fails.
+    pub(crate) fn meddling(number: u64, act: impl Fn() + Send + Sync + 'static) -> Self {
+        let meddling = Some(Meddling(Box::new(act)));
+        let calls = AtomicU64::new(0);
+        Self(Arc::new(Plan { calls, from: number, to: number, fault: Fault::Io, meddling }))
+    }
+
     fn between(from: u64, to: u64, fault: Fault) -> Self {
-        Self(Arc::new(Plan { calls: AtomicU64::new(0), from, to, fault }))
+        Self(Arc::new(Plan { calls: AtomicU64::new(0), from, to, fault, meddling: None }))
     }
 
     /// Calls made so far.

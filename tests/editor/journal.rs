@@ -173,6 +173,10 @@ fn a_program_killed_between_file_and_journal_knows_that_it_saved() {
     drop(journal);
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &Fate::Same));
+    // It was written down, for the time when the file does not tell any more.
+    fs::write(&path, "somebody else's").unwrap();
+    let found = only(&autosave);
+    assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &Fate::Changed));
 }
 
 #[test]

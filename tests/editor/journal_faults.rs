@@ -4,11 +4,12 @@ use crate::faulty_files::{Fault, FaultyFiles};
 use crate::journal::{autosave, begin, edits, only};
 use crate::mounted::quick_folder;
 use dragonfly::store::{
-    Autosave, Bounds, Claim, Entry, FileStamp, Journal, JournalError, Opening, RealFiles, Recoverable,
+    Autosave, Bounds, Claim, Entry, FileStamp, Journal, JournalError, Life, Opening, RealFiles, Recoverable,
 };
 use std::fs;
 use std::io::Write;
 use std::path::Path;
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 /// What the entries of a journal come to.
@@ -32,7 +33,7 @@ fn work(journal: &mut Journal, stamp: &FileStamp) -> (Vec<String>, Vec<JournalEr
     let now = Instant::now();
     let mut done: Vec<String> = Vec::new();
     let mut errors = Vec::new();
-    for step in "aasadSDacaasCaac".chars() {
+    for step in "aasadSDacaascaadSDasaa".chars() {
         let edit = format!("edit {}{step}", done.len());
         let outcome = match step {
             'a' => journal.append(edit.as_bytes(), now).map(|()| done.push(edit)),
@@ -162,6 +163,26 @@ fn every_call_that_can_fail_while_recovering_loses_nothing() {
                     break;
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn a_journal_begun_anew_while_somebody_looks_at_it_is_still_in_use() {
+    let folder = quick_folder("journal-meddling");
+    let sound = autosave(&folder, RealFiles);
+    let mut journal = begin(&sound, None, None);
+    journal.append(b"one", Instant::now()).unwrap();
+    let journal = Arc::new(Mutex::new(journal));
+    for number in 1.. {
+        let owner = Arc::clone(&journal);
+        let files = FaultyFiles::meddling(number, move || {
+            owner.lock().unwrap().compact(b"one").unwrap();
+        });
+        let found = only(&autosave(&folder, files.clone()));
+        assert_eq!(found.life, Life::Lives, "call {number}: {found:?}");
+        if files.calls() < number {
+            break;
         }
     }
 }

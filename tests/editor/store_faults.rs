@@ -5,7 +5,7 @@ use crate::faulty_files::{Fault, FaultyFiles};
 use crate::mounted::quick_folder;
 use crate::program::Folder;
 use dragonfly::store::{
-    Expected, FileStamp, RealFiles, SaveError, SaveOptions, VersionLimits, Versions, save,
+    Expected, FileStamp, FileState, RealFiles, SaveError, SaveOptions, VersionLimits, Versions, save,
 };
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, chown, symlink};
@@ -165,5 +165,45 @@ fn a_disk_that_fails_for_good_leaves_the_old_content_or_the_new_one_whole() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn what_another_program_writes_while_a_save_is_under_way_is_noticed_until_the_last_call() {
+    let all = quick_folder("store-meddling");
+    let new = new();
+    let theirs = b"what another program wrote meanwhile";
+    for case in &CASES[1..] {
+        let mut overwritten = 0;
+        for number in 1.. {
+            let (_, path, _) = prepared(&all, case);
+            let stamp = FileStamp::take(&RealFiles, &path).unwrap();
+            let other = path.clone();
+            let files = FaultyFiles::meddling(number, move || fs::write(&other, theirs).unwrap());
+            let options = SaveOptions { expected: Expected::Stamp(&stamp), ..SaveOptions::default() };
+            let saved = save(&files, &path, &new, &options);
+            let content = fs::read(&path).unwrap();
+            let place = format!("{}, call {number}: {saved:?}", case.name);
+            if files.calls() < number {
+                break;
+            }
+            match saved {
+                Err(error) => {
+                    assert!(matches!(error, SaveError::Changed { .. }), "{place}");
+                    assert!(content == theirs, "{place}");
+                }
+                Ok(saved) if content == new => {
+                    overwritten += 1;
+                    assert_eq!(saved.stamp.state(&RealFiles, &path).unwrap(), FileState::Same, "{place}");
+                }
+                // They were later than we; the next save will notice.
+                Ok(saved) => {
+                    assert_eq!(saved.stamp.state(&RealFiles, &path).unwrap(), FileState::Changed, "{place}");
+                }
+            }
+        }
+        // Between looking and moving, no system lets one do both at once. In place, it is while it is written.
+        let most = if case.name == "one of two names" { 5 } else { 1 };
+        assert!((1..=most).contains(&overwritten), "{}: {overwritten}", case.name);
     }
 }
