@@ -207,3 +207,24 @@ fn what_another_program_writes_while_a_save_is_under_way_is_noticed_until_the_la
         assert!((1..=most).contains(&overwritten), "{}: {overwritten}", case.name);
     }
 }
+
+#[test]
+fn what_another_program_makes_while_a_new_file_is_saved_is_never_overwritten() {
+    let all = quick_folder("store-meddling-new");
+    let theirs = b"what another program made meanwhile";
+    let mut met = 0;
+    for number in 1.. {
+        let (folder, path, _) = prepared(&all, &CASES[0]);
+        let other = path.clone();
+        let files = FaultyFiles::meddling(number, move || fs::write(&other, theirs).unwrap());
+        let options = SaveOptions { expected: Expected::Nothing, ..SaveOptions::default() };
+        let saved = save(&files, &path, &new(), &options);
+        if files.calls() < number {
+            break;
+        }
+        assert!(fs::read(&path).unwrap() == theirs, "call {number}: {saved:?}");
+        assert_eq!(names(&folder), ["model.glb"], "call {number}: {saved:?}");
+        met += usize::from(matches!(saved, Err(SaveError::Exists { .. })));
+    }
+    assert!(met > 5, "{met}");
+}
