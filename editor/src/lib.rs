@@ -11,3 +11,4 @@ pub mod document;
 pub mod graphics;
 pub mod panels;
 pub mod playback;
+pub mod store;

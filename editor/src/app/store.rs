@@ -1,7 +1,7 @@
 //! Settings and panel places on the disk. Failing to keep them is worth a line, never a stop.
 
 use etcetera::{AppStrategy, AppStrategyArgs, choose_app_strategy};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A folder with small text files.
 #[derive(Clone, Debug, Default)]
@@ -38,16 +38,7 @@ impl Store {
     pub fn write(&self, name: &str, text: &str) -> std::io::Result<()> {
         let Some(folder) = &self.folder else { return Ok(()) };
         std::fs::create_dir_all(folder)?;
-        replace(&folder.join(name), text)
+        crate::store::replace(&folder.join(name), text.as_bytes()).map_err(std::io::Error::other)?;
+        Ok(())
     }
-}
-
-fn replace(path: &Path, text: &str) -> std::io::Result<()> {
-    let beside = path.with_extension(format!("{}.tmp", std::process::id()));
-    let written = std::fs::write(&beside, text).and_then(|()| std::fs::rename(&beside, path));
-    if written.is_err() {
-        // What is half written helps nobody; that it cannot be removed changes nothing.
-        let _ = std::fs::remove_file(&beside);
-    }
-    written
 }

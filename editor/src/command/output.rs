@@ -1,6 +1,7 @@
 //! Where results go: stdout, or a file that is either whole or not there.
 
 use super::Failure;
+use crate::store::{self, Expected, RealFiles, SaveError, SaveOptions};
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -35,11 +36,16 @@ pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if path == Path::new("-") {
         return print(|out| out.write_all(bytes));
     }
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    let special = fs::metadata(&target).is_ok_and(|metadata| !metadata.is_file());
-    let written = if special { write_through(&target, bytes) } else { replace(&target, bytes) };
-    match written {
-        Err(error) if special && error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::NobodyListens),
+    let special = fs::metadata(path).is_ok_and(|metadata| !metadata.is_file());
+    if !special {
+        let saved = store::replace(path, bytes).map_err(|error| Failure::Input(error.to_string()))?;
+        for notice in saved.notices {
+            tracing::warn!("{}: {notice}", path.display());
+        }
+        return Ok(());
+    }
+    match write_through(path, bytes) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::NobodyListens),
         Err(error) => Err(Failure::input(path.display(), format_args!("cannot be written: {error}"))),
         Ok(()) => Ok(()),
     }
@@ -50,24 +56,6 @@ fn write_through(target: &Path, bytes: &[u8]) -> io::Result<()> {
         return Err(io::Error::from(io::ErrorKind::IsADirectory));
     }
     fs::OpenOptions::new().write(true).open(target)?.write_all(bytes)
-}
-
-/// Writes beside the target, then takes its place.
-fn replace(target: &Path, bytes: &[u8]) -> io::Result<()> {
-    let Some(name) = target.file_name() else { return Err(io::Error::from(io::ErrorKind::IsADirectory)) };
-    let mut beside = std::ffi::OsString::from(".");
-    beside.push(name);
-    beside.push(format!(".{}.part", std::process::id()));
-    let beside = target.with_file_name(beside);
-    let written = fs::File::create_new(&beside).and_then(|mut file| {
-        file.write_all(bytes)?;
-        file.sync_all()
-    });
-    let moved = written.and_then(|()| fs::rename(&beside, target));
-    if moved.is_err() {
-        let _ = fs::remove_file(&beside);
-    }
-    moved
 }
 
 /// Puts `bytes` into a new file `stem.extension` in `folder`; when that name is taken by something else, into
@@ -82,23 +70,18 @@ pub(super) fn write_new(
         let name =
             if number == 1 { format!("{stem}.{extension}") } else { format!("{stem}-{number}.{extension}") };
         let path = folder.join(name);
-        match fs::File::create_new(&path) {
-            Ok(mut file) => {
-                return file.write_all(bytes).map(|()| path.clone()).map_err(|error| {
-                    let _ = fs::remove_file(&path);
-                    Failure::input(path.display(), format_args!("cannot be written: {error}"))
-                });
-            }
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+        let options = SaveOptions { expected: Expected::Nothing, ..SaveOptions::default() };
+        match store::save(&RealFiles, &path, bytes, &options) {
+            Ok(_) => return Ok(path),
+            // A folder of that name is something else, too.
+            Err(SaveError::Exists { .. } | SaveError::NotRegular { .. }) => {
                 let same = crate::document::read_file(&path, bytes.len() as u64)
                     .is_ok_and(|existing| existing == bytes);
                 if same {
                     return Ok(path);
                 }
             }
-            Err(error) => {
-                return Err(Failure::input(path.display(), format_args!("cannot be written: {error}")));
-            }
+            Err(error) => return Err(Failure::Input(error.to_string())),
         }
     }
     Err(Failure::input(folder.display(), format_args!("holds a thousand files called {stem} already")))
