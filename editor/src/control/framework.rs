@@ -3,7 +3,8 @@
 //! The registered areas form a tree: the parent of a control is the smallest one that it lies wholly inside of, of several
 //! as small the one registered last. An input of the mouse goes to the smallest control under the pointer, of several as
 //! small the one registered last; where controls do not overlap, as they should not, that is the deepest one. So both rules
-//! have an answer for any rectangles.
+//! have an answer for any rectangles. (Where some do overlap in part, those inside of one that is taken out while a button
+//! or key is held may get a parent that did not hear of the press, and then one that did hears nothing of the release.)
 //!
 //! Nothing here is allocated for an input. Names of controls that are gone are noticed, so a control may be taken out while
 //! an input is on its way, by itself or by another.

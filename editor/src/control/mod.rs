@@ -3,6 +3,7 @@
 mod base;
 pub mod expression;
 mod framework;
+pub mod gizmo;
 mod key;
 mod places;
 mod viewport;

@@ -43,8 +43,11 @@ impl Places {
         std::iter::successors(parent(&inner), parent).any(|id| id == outer)
     }
 
-    /// Of the controls from `inner` upwards the last before `outer`.
+    /// Of the controls from `inner` upwards the last before `outer`; `inner` where that is not above it.
     pub(super) fn below(&self, outer: ControlId, inner: ControlId) -> ControlId {
+        if !self.is_inside(inner, outer) {
+            return inner;
+        }
         let before = |id: &ControlId| self.parent(*id).filter(|&parent| parent != outer);
         std::iter::successors(Some(inner), before).last().unwrap_or(inner)
     }
