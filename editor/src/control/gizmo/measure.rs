@@ -67,16 +67,15 @@ impl Measure {
     /// followed by sign?
     pub(super) fn new(tool: Tool, handle: Handle, stand: Stand, start: DVec2, grabbed: bool) -> Self {
         let kind = match tool {
-            Tool::Move => translation(handle, &stand),
+            Tool::Move => translation(handle, &stand, start, grabbed),
             Tool::Rotate => rotation(handle, &stand),
             Tool::Scale => scale(handle, &stand, start, grabbed),
         };
         let is_ratio = tool == Tool::Scale && matches!(kind, Kind::Line { .. });
         let mut measure = Self { kind, stand, start, zero: DVec3::ZERO, is_ratio };
         measure.zero = measure.raw(start);
-        // Not where an arrow is drawn: too near to divide by, or beyond all.
-        let on_arrow = NEAREST * stand.unit..AXIS_TO * 4.0 * stand.unit;
-        if is_ratio && !on_arrow.contains(&measure.zero.x.abs()) {
+        // Too near to divide by.
+        if is_ratio && measure.zero.x.abs() < NEAREST * stand.unit {
             measure.kind = distance(&stand, start);
             measure.is_ratio = false;
             measure.zero = measure.raw(start);
@@ -127,22 +126,28 @@ impl Measure {
     }
 }
 
-fn axis_line(axis: Axis, stand: &Stand) -> Kind {
+/// Along an axis. Where the pointer began away from it, taken hold of by a key, that place counts as the joint's: the pointer
+/// may be past the point where the axis vanishes, and nothing would follow it there.
+fn axis_line(axis: Axis, stand: &Stand, start: DVec2, grabbed: bool) -> Kind {
     let Stand { view, pivot, unit, frame } = stand;
     let along = frame.axis(axis);
-    if let (Some((g, b)), Some(from)) = (view.run(*pivot, along), view.to_screen(*pivot)) {
+    if let (Some((g, b)), Some(joint)) = (view.run(*pivot, along), view.to_screen(*pivot)) {
         let a = g.length();
         // Points a unit, times units a point: the sine of the angle to the line of sight.
         if a * unit > FLAT {
-            return Kind::Line { from, along: g / a, a, b, reach: view.reach(*pivot) };
+            let along = g / a;
+            let way = (start - joint).dot(along);
+            let is_on_it = grabbed && way.abs() < AXIS_TO * 2.0 && a + way * b > a * 0.3;
+            let from = if is_on_it { joint } else { joint + along * way };
+            return Kind::Line { from, along, a, b, reach: view.reach(*pivot) };
         }
     }
     Kind::Up { unit: *unit }
 }
 
-fn translation(handle: Handle, stand: &Stand) -> Kind {
+fn translation(handle: Handle, stand: &Stand, start: DVec2, grabbed: bool) -> Kind {
     match handle {
-        Handle::Axis(axis) => axis_line(axis, stand),
+        Handle::Axis(axis) => axis_line(axis, stand, start, grabbed),
         Handle::Plane(axis) => {
             let normal = stand.frame.axis(axis);
             if normal.dot(stand.view.towards(stand.pivot)).abs() > FLAT {
@@ -174,7 +179,7 @@ fn rotation(handle: Handle, stand: &Stand) -> Kind {
 
 fn scale(handle: Handle, stand: &Stand, start: DVec2, grabbed: bool) -> Kind {
     match handle {
-        Handle::Axis(axis) if grabbed => match axis_line(axis, stand) {
+        Handle::Axis(axis) if grabbed => match axis_line(axis, stand, start, true) {
             line @ Kind::Line { .. } => line,
             _ => Kind::Slide,
         },
