@@ -118,11 +118,7 @@ impl Stand {
             if self.shows(tool, handle) {
                 let distance = match tool {
                     Tool::Rotate => self.distance_to_ring(axis, pointer),
-                    Tool::Move | Tool::Scale => self.distance_to_line(
-                        self.place(axis.unit() * AXIS_FROM),
-                        self.place(axis.unit() * AXIS_TO),
-                        pointer,
-                    ),
+                    Tool::Move | Tool::Scale => self.distance_to_arrow(axis, middle, pointer),
                 };
                 offer(distance, handle);
             }
@@ -142,6 +138,17 @@ impl Stand {
         }
         let radius = if tool == Tool::Rotate { RING } else { CENTRE };
         (pointer.distance(middle) <= radius).then_some(Handle::Centre)
+    }
+
+    /// To the part of an arrow that is not over the middle, so that the middle can always be met.
+    fn distance_to_arrow(&self, axis: Axis, middle: DVec2, pointer: DVec2) -> f64 {
+        let Some(tip) = self.view.to_screen(self.place(axis.unit() * AXIS_TO)) else { return f64::INFINITY };
+        let along = tip - middle;
+        let length = along.length();
+        if length <= AXIS_FROM {
+            return f64::INFINITY;
+        }
+        to_segment(pointer, middle + along * (AXIS_FROM / length), tip)
     }
 
     fn distance_to_line(&self, from: DVec3, to: DVec3, pointer: DVec2) -> f64 {

@@ -33,8 +33,8 @@ enum Kind {
     Line { from: DVec2, along: DVec2, a: f64, b: f64, reach: f64 },
     /// By the pointer's way up.
     Up { unit: f64 },
-    /// Of a plane with this normal.
-    Plane { normal: DVec3 },
+    /// Of a plane with this normal, for a pointer shifted by so much.
+    Plane { normal: DVec3, shift: DVec2 },
     /// Of a plane seen edge on.
     Edge { normal: DVec3, unit: f64 },
     /// From one direction to another in the plane of the ring.
@@ -102,7 +102,9 @@ impl Measure {
                 DVec3::X * t.clamp(-*reach, *reach)
             }
             Kind::Up { unit } => DVec3::X * (-by.y * *unit),
-            Kind::Plane { normal } => to_axes * (view.on_plane(pointer, pivot, *normal) - pivot),
+            Kind::Plane { normal, shift } => {
+                to_axes * (view.on_plane(pointer + *shift, pivot, *normal) - pivot)
+            }
             Kind::Edge { normal, unit } => {
                 let way = (view.right * by.x - view.up * by.y) * *unit;
                 to_axes * (way - *normal * way.dot(*normal))
@@ -151,12 +153,14 @@ fn translation(handle: Handle, stand: &Stand, start: DVec2, grabbed: bool) -> Ki
         Handle::Plane(axis) => {
             let normal = stand.frame.axis(axis);
             if normal.dot(stand.view.towards(stand.pivot)).abs() > FLAT {
-                Kind::Plane { normal }
+                // Taken hold of by a key, the pointer may be beyond the horizon: as for axes.
+                let joint = stand.view.to_screen(stand.pivot).filter(|_| !grabbed);
+                Kind::Plane { normal, shift: joint.map_or(DVec2::ZERO, |joint| joint - start) }
             } else {
                 Kind::Edge { normal, unit: stand.unit }
             }
         }
-        Handle::Centre | Handle::Ring => Kind::Plane { normal: stand.view.back },
+        Handle::Centre | Handle::Ring => Kind::Plane { normal: stand.view.back, shift: DVec2::ZERO },
     }
 }
 
