@@ -35,7 +35,7 @@ fn every_handle_is_met_where_it_is_drawn_on_every_screen() {
                     // Where other arrows or squares come close on the screen, either may be meant.
                     if facing(axis) < 0.7 && Axis::ALL.into_iter().all(|other| facing(other) < 0.8) {
                         assert_eq!(gizmo.hover(Some(screen.at(tip))), Some(Handle::Axis(axis)), "{screen:?}");
-                        let beyond = along(&screen, joint, axes, unit(axis) * (AXIS_TO as f32 * 1.3));
+                        let beyond = along(&screen, joint, axes, unit(axis) * (AXIS_TO as f32 * 2.0));
                         assert_eq!(gizmo.hover(Some(screen.at(beyond))), None);
                     }
                     if facing(axis) > 0.9 {
