@@ -54,7 +54,16 @@ fn what_hands_type_is_understood() {
 
 #[test]
 fn units_are_those_of_what_is_measured() {
-    let lengths = [("10cm", 0.1), ("1m + 5cm", 1.05), ("2", 2.0), ("2 in", 0.0508), ("1/2 m", 0.5), ("10cm/2", 0.05), ("10cm/2cm", 5.0), ("(1+1)km", 2000.0)];
+    let lengths = [
+        ("10cm", 0.1),
+        ("1m + 5cm", 1.05),
+        ("2", 2.0),
+        ("2 in", 0.0508),
+        ("1/2 m", 0.5),
+        ("10cm/2", 0.05),
+        ("10cm/2cm", 5.0),
+        ("(1+1)km", 2000.0),
+    ];
     for (text, value) in lengths {
         let found = evaluate(text, Quantity::Length).unwrap();
         assert!((found - value).abs() < 1e-12, "{text}: {found}");
@@ -137,7 +146,8 @@ fn any_text_has_an_answer() {
     let mut random = Random::new(seed);
     let pieces = [
         "1", "0", "9", ".", ",", "e", "E", "-", "+", "*", "/", "%", "^", "(", ")", ";", " ", "sqrt", "max",
-        "atan2", "pi", "deg", "cm", "°", "√", "−", "×", "\0", "\u{202e}", "😀", "é", "nan", "1e308", "\n", "左",
+        "atan2", "pi", "deg", "cm", "°", "√", "−", "×", "\0", "\u{202e}", "😀", "é", "nan", "1e308", "\n",
+        "左",
     ];
     let mut numbers = 0;
     for _ in 0..30_000 {

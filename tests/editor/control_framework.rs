@@ -350,8 +350,7 @@ fn two_controls_that_take_the_focus_from_each_other_come_to_rest() {
 fn an_input_allocates_nothing() {
     let (mut framework, mut owner, [_, tool, panel]) = window();
     owner.get(tool).passes = true;
-    let events =
-        [to(120.0, 120.0), InputEvent::MouseDown(LEFT), to(300.0, 10.0), InputEvent::MouseUp(LEFT)];
+    let events = [to(120.0, 120.0), InputEvent::MouseDown(LEFT), to(300.0, 10.0), InputEvent::MouseUp(LEFT)];
     let keys = [InputEvent::KeyDown(A), InputEvent::KeyUp(A), InputEvent::Wheel(Vec2::Y), InputEvent::Lost];
     let (count, ()) = counting::count(|| {
         for event in events.into_iter().chain(keys) {
@@ -376,7 +375,10 @@ impl Naive {
     }
 
     fn least(&self, of: impl Iterator<Item = usize>) -> Option<usize> {
-        of.fold(None, |best, next| if best.is_none_or(|best| self.smaller(next, best)) { Some(next) } else { best })
+        of.fold(
+            None,
+            |best, next| if best.is_none_or(|best| self.smaller(next, best)) { Some(next) } else { best },
+        )
     }
 
     fn parent(&self, id: ControlId) -> ControlId {
@@ -416,9 +418,8 @@ fn random_rectangles_and_events_agree_with_the_plain_model() {
                 Vec2::new(random.below(12) as f32 * 10.0 - 5.0, random.below(12) as f32 * 10.0 - 5.0)
             };
             // Few different edges, so that there are many equal and nested ones.
-            let corner = |random: &mut Random| {
-                Vec2::new(random.below(6) as f32 * 20.0, random.below(6) as f32 * 20.0)
-            };
+            let corner =
+                |random: &mut Random| Vec2::new(random.below(6) as f32 * 20.0, random.below(6) as f32 * 20.0);
             match random.below(12) {
                 0 | 1 => {
                     let (a, b) = (corner(&mut random), corner(&mut random));

@@ -2,8 +2,8 @@
 
 use crate::gizmo_rig::{Rig, SPACES, Screen, along, between, unit};
 use dragonfly::control::gizmo::{
-    AXIS_TO, Axis, Gizmo, GizmoAnswer, GizmoDelta, GizmoSettings, GizmoView, Handle, OUTER, Pivot, RING, Space,
-    Tool,
+    AXIS_TO, Axis, Gizmo, GizmoAnswer, GizmoDelta, GizmoSettings, GizmoView, Handle, OUTER, Pivot, RING,
+    Space, Tool,
 };
 use dragonfly::control::{Key, Modifiers};
 use dragonfly_anim::data::Transform;
@@ -88,13 +88,18 @@ fn turns_are_counted_beyond_the_first() {
     for degrees in (0..=800).step_by(20) {
         gizmo.pointer(on_ring(degrees as f32), NONE);
     }
-    let Some(GizmoDelta::Rotate { angle, .. }) = gizmo.readout().map(|readout| readout.delta) else { panic!() };
+    let Some(GizmoDelta::Rotate { angle, .. }) = gizmo.readout().map(|readout| readout.delta) else {
+        panic!()
+    };
     assert!((angle.to_degrees() - 800.0).abs() < 1e-3, "{}", angle.to_degrees());
-    let expected = turned(&rig, Space::View, rig.axes(BONE, Space::View, &screen.camera), Vec3::Z, 80f32.to_radians());
+    let expected =
+        turned(&rig, Space::View, rig.axes(BONE, Space::View, &screen.camera), Vec3::Z, 80f32.to_radians());
     assert!(between(gizmo.drag().bones[0].to_parent.rotation, expected) < 1e-4);
     // Over the middle there is no angle: it stays.
     gizmo.pointer(screen.at(joint), NONE);
-    let Some(GizmoDelta::Rotate { angle, .. }) = gizmo.readout().map(|readout| readout.delta) else { panic!() };
+    let Some(GizmoDelta::Rotate { angle, .. }) = gizmo.readout().map(|readout| readout.delta) else {
+        panic!()
+    };
     assert!((angle.to_degrees() - 800.0).abs() < 1e-3);
 }
 
@@ -287,9 +292,10 @@ fn ctrl_snaps_to_the_steps_of_the_settings() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let joint = rig.joint(BONE);
     let at = |points: f32| screen.at(along(&screen, joint, Mat3::IDENTITY, Vec3::Y * points));
-    for (settings, step) in
-        [(GizmoSettings::default(), 0.1), (GizmoSettings { move_step: 0.25, ..GizmoSettings::default() }, 0.25)]
-    {
+    for (settings, step) in [
+        (GizmoSettings::default(), 0.1),
+        (GizmoSettings { move_step: 0.25, ..GizmoSettings::default() }, 0.25),
+    ] {
         let mut gizmo = gizmo(&rig, &screen, Tool::Move, Space::World);
         gizmo.settings = GizmoSettings { space: Space::World, ..settings };
         gizmo.begin(Some(Handle::Axis(Axis::Y)), at(50.0));
@@ -330,7 +336,8 @@ fn cancelling_gives_the_old_poses_bit_for_bit_and_coming_back_does_almost() {
         rig.select(&mut gizmo, &[1, 3, 2][..1 + random.below(3)]);
         gizmo.look(screen.view());
         // Where it would be taken hold of, away from the middle.
-        let start = screen.size / 2.0 + Vec2::from_angle(random.between(0.0, 6.0)) * random.between(60.0, 90.0);
+        let start =
+            screen.size / 2.0 + Vec2::from_angle(random.between(0.0, 6.0)) * random.between(60.0, 90.0);
         if !gizmo.begin((random.below(4) > 0).then_some(handle), start) {
             continue;
         }
@@ -440,8 +447,11 @@ fn whatever_comes_every_pose_stays_finite() {
         let mut rig = Rig::new();
         for pose in &mut rig.poses {
             if random.below(3) == 0 {
-                pose.scale =
-                    Vec3::new(random.choice(&odd), random.between(-2.0, 2.0), random.choice(&[0.0, -1.0, 1e-20, 1e20]));
+                pose.scale = Vec3::new(
+                    random.choice(&odd),
+                    random.between(-2.0, 2.0),
+                    random.choice(&[0.0, -1.0, 1e-20, 1e20]),
+                );
             }
             if random.below(12) == 0 {
                 pose.translation.x = random.choice(&odd);
@@ -456,15 +466,16 @@ fn whatever_comes_every_pose_stays_finite() {
         }
         let mut screen = Screen::plain();
         for _ in 0..30 {
-            let mut place = || if random.below(10) == 0 { random.choice(&odd) } else { random.between(0.0, 800.0) };
+            let mut place =
+                || if random.below(10) == 0 { random.choice(&odd) } else { random.between(0.0, 800.0) };
             let at = Vec2::new(place(), place());
-            let modifiers =
-                Modifiers { shift: random.below(3) == 0, ctrl: random.below(3) == 0, alt: false };
+            let modifiers = Modifiers { shift: random.below(3) == 0, ctrl: random.below(3) == 0, alt: false };
             match random.below(8) {
                 0 => {
                     screen.camera.orbit(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
                     screen.camera.dolly(random.between(0.1, 3.0));
-                    screen.size = Vec2::new(random.choice(&[0.0, 1.0, 50.0, 4000.0]), random.between(1.0, 900.0));
+                    screen.size =
+                        Vec2::new(random.choice(&[0.0, 1.0, 50.0, 4000.0]), random.between(1.0, 900.0));
                     gizmo.look(GizmoView::of_pixels(&screen.camera, screen.size, random.choice(&odd)));
                 }
                 1 => rig.select(&mut gizmo, &[random.below(6) as u32, random.below(4) as u32]),

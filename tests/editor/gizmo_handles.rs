@@ -39,7 +39,8 @@ fn every_handle_is_met_where_it_is_drawn_on_every_screen() {
                         assert_eq!(gizmo.hover(Some(screen.at(beyond))), None);
                     }
                     if facing(axis) > 0.9 {
-                        let square = along(&screen, joint, axes, (a + b) * (PLANE[0] + PLANE[1]) as f32 / 2.0);
+                        let square =
+                            along(&screen, joint, axes, (a + b) * (PLANE[0] + PLANE[1]) as f32 / 2.0);
                         assert_eq!(gizmo.hover(Some(screen.at(square))), Some(Handle::Plane(axis)));
                     }
                 }
@@ -52,7 +53,8 @@ fn every_handle_is_met_where_it_is_drawn_on_every_screen() {
             assert_eq!(gizmo.hover(Some(around)), Some(Handle::Ring));
             for axis in Axis::ALL.into_iter().filter(|&axis| facing(axis) > 0.5) {
                 let [a, _] = axis.others().map(unit);
-                let mut place = along(&screen, joint, axes, (a * 0.6 + axis.others().map(unit)[1] * 0.8) * RING as f32);
+                let mut place =
+                    along(&screen, joint, axes, (a * 0.6 + axis.others().map(unit)[1] * 0.8) * RING as f32);
                 if (place - joint).dot(screen.towards(joint)) < 0.0 {
                     place = 2.0 * joint - place;
                 }

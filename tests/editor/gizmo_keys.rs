@@ -83,8 +83,12 @@ fn typed_angles_are_degrees_and_typed_factors_are_factors() {
     press(&mut gizmo, "z90");
     let expected = rig.poses[0].rotation * glam::Quat::from_rotation_z(90f32.to_radians());
     assert!(gizmo.drag().bones[0].to_parent.rotation.abs_diff_eq(expected, 1e-6));
-    let factors =
-        [("2", [2.0, 2.0, 2.0]), ("y.5", [1.0, 0.5, 1.0]), ("Y3", [3.0, 1.0, 3.0]), ("150%", [1.5, 1.5, 1.5])];
+    let factors = [
+        ("2", [2.0, 2.0, 2.0]),
+        ("y.5", [1.0, 0.5, 1.0]),
+        ("Y3", [3.0, 1.0, 3.0]),
+        ("150%", [1.5, 1.5, 1.5]),
+    ];
     for (keys, by) in factors {
         let (_, mut gizmo) = dragging(Tool::Scale, Space::Local);
         press(&mut gizmo, keys);
@@ -119,7 +123,8 @@ fn an_axis_key_binds_again_changes_the_space_and_again_sets_free() {
         for tool in [Tool::Move, Tool::Rotate, Tool::Scale] {
             let (_, mut gizmo) = dragging(tool, space);
             let free = gizmo.readout().unwrap().handle;
-            let bound = |gizmo: &Gizmo| gizmo.readout().map(|readout| (readout.handle, readout.space)).unwrap();
+            let bound =
+                |gizmo: &Gizmo| gizmo.readout().map(|readout| (readout.handle, readout.space)).unwrap();
             press(&mut gizmo, "x");
             assert_eq!(bound(&gizmo), (Handle::Axis(Axis::X), space));
             press(&mut gizmo, "x");

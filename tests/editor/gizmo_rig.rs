@@ -81,7 +81,9 @@ impl Rig {
         let to_root = self.to_root();
         match space {
             Space::Local => Mat3::from_mat4(to_root[bone]),
-            Space::Parent => parent.map_or(Mat3::IDENTITY, |parent| Mat3::from_mat4(to_root[parent as usize])),
+            Space::Parent => {
+                parent.map_or(Mat3::IDENTITY, |parent| Mat3::from_mat4(to_root[parent as usize]))
+            }
             Space::World => Mat3::IDENTITY,
             Space::View => Mat3::from_cols(camera.right(), camera.up(), camera.back()),
         }

@@ -120,12 +120,7 @@ pub trait BaseControl {
     }
 
     /// Takes a control out again that lies inside this one, whose name is `own`; tells whether there was such a one.
-    fn unregister_control(
-        &self,
-        own: ControlId,
-        inner: ControlId,
-        framework: &mut ControlFramework,
-    ) -> bool {
+    fn unregister_control(&self, own: ControlId, inner: ControlId, framework: &mut ControlFramework) -> bool {
         inner != own && framework.is_inside(inner, own) && framework.unregister_control(inner)
     }
 

@@ -257,8 +257,7 @@ impl ControlFramework {
         self.held[button as usize] = true;
         if begins {
             let under = self.pointer().and_then(|at| self.under(at, controls));
-            self.capture =
-                under.map_or(Capture::Gone, |control| Capture::By { control, heard: control });
+            self.capture = under.map_or(Capture::Gone, |control| Capture::By { control, heard: control });
         }
         let mouse = Mouse { at: self.mouse?, modifiers: self.modifiers };
         let Capture::By { control, .. } = self.capture else { return None };
@@ -288,9 +287,8 @@ impl ControlFramework {
             return None;
         }
         let stopped = match self.capture {
-            Capture::By { .. } => self.tell_mouse(controls, |control, mouse, framework| {
-                control.mouse_up(button, mouse, framework)
-            }),
+            Capture::By { .. } => self
+                .tell_mouse(controls, |control, mouse, framework| control.mouse_up(button, mouse, framework)),
             _ => None,
         };
         if !self.held.contains(&true) {

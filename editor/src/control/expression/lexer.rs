@@ -36,7 +36,8 @@ impl<'a> Lexer<'a> {
         let at = self.character;
         let Some(letter) = self.peek() else { return Ok((Token::End, at)) };
         let decimal = letter == '.' || (letter == ',' && !self.comma_parts);
-        if letter.is_ascii_digit() || (decimal && self.after(letter).is_some_and(|next| next.is_ascii_digit()))
+        if letter.is_ascii_digit()
+            || (decimal && self.after(letter).is_some_and(|next| next.is_ascii_digit()))
         {
             return Ok((Token::Number(self.number(at)?), at));
         }

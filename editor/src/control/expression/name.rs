@@ -61,15 +61,8 @@ const FUNCTIONS: &[Function] = &[
 ];
 
 /// Name, metres.
-const LENGTHS: &[(&str, f64)] = &[
-    ("mm", 0.001),
-    ("cm", 0.01),
-    ("dm", 0.1),
-    ("m", 1.0),
-    ("km", 1000.0),
-    ("in", 0.0254),
-    ("ft", 0.3048),
-];
+const LENGTHS: &[(&str, f64)] =
+    &[("mm", 0.001), ("cm", 0.01), ("dm", 0.1), ("m", 1.0), ("km", 1000.0), ("in", 0.0254), ("ft", 0.3048)];
 
 /// Name, how many make a turn. So degrees in degrees are multiplied by exactly 1.
 const ANGLES: &[(&str, f64)] = &[("deg", 360.0), ("°", 360.0), ("rad", TAU), ("turn", 1.0)];

@@ -129,8 +129,13 @@ impl Drag {
         self.settle();
         self.view = view;
         if let Some(stand) = self.stand() {
-            self.measure =
-                Measure::new(self.tool, self.handle(), stand, self.pointer, self.by_handle && self.lock.is_none());
+            self.measure = Measure::new(
+                self.tool,
+                self.handle(),
+                stand,
+                self.pointer,
+                self.by_handle && self.lock.is_none(),
+            );
             self.anchor = DVec3::ZERO;
         }
     }
@@ -252,7 +257,9 @@ impl Drag {
                 let factor = 1.0 + amount.x;
                 GizmoDelta::Scale(match self.handle() {
                     Handle::Axis(axis) => DVec3::ONE + axis.unit() * amount.x,
-                    Handle::Plane(normal) => DVec3::splat(factor) * (DVec3::ONE - normal.unit()) + normal.unit(),
+                    Handle::Plane(normal) => {
+                        DVec3::splat(factor) * (DVec3::ONE - normal.unit()) + normal.unit()
+                    }
                     Handle::Centre | Handle::Ring => DVec3::splat(factor),
                 })
             }

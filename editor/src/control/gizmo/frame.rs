@@ -83,12 +83,7 @@ pub struct GizmoTarget {
 impl GizmoTarget {
     /// Bone `bone` of a pose: `poses` relative to the parents, `to_root` of all bones. `None` where there is no such bone or
     /// its numbers are not finite.
-    pub fn of(
-        skeleton: &Skeleton,
-        poses: &[Transform],
-        to_root: &[Mat4],
-        bone: BoneIndex,
-    ) -> Option<Self> {
+    pub fn of(skeleton: &Skeleton, poses: &[Transform], to_root: &[Mat4], bone: BoneIndex) -> Option<Self> {
         let parent = skeleton.bones.get(bone as usize)?.parent;
         let parent_to_root = match parent {
             Some(parent) => *to_root.get(parent as usize)?,

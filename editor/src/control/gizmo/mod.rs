@@ -29,8 +29,8 @@ pub use shape::{GizmoRole, GizmoShape, GizmoVertex};
 pub use view::GizmoView;
 
 use super::key::{Key, Modifiers};
-use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use drag::Drag;
+use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use glam::{DVec3, Mat4, Vec2};
 use handle::Stand;
 use typed::Typed;
@@ -162,13 +162,14 @@ impl Gizmo {
         select::targets(&pose, selected, each, &mut self.chosen, &mut self.targets);
         let active = active.or(selected.last().copied());
         let active = active.and_then(|bone| GizmoTarget::of(skeleton, poses, to_root, bone));
-        self.placed = active.or(self.targets.last().copied()).filter(|_| !self.targets.is_empty()).map(|active| {
-            let pivot = match self.settings.pivot {
-                Pivot::Median => select::median(&pose, selected).unwrap_or(active.origin()),
-                Pivot::Individual | Pivot::Active => active.origin(),
-            };
-            Placed { active, pivot }
-        });
+        self.placed =
+            active.or(self.targets.last().copied()).filter(|_| !self.targets.is_empty()).map(|active| {
+                let pivot = match self.settings.pivot {
+                    Pivot::Median => select::median(&pose, selected).unwrap_or(active.origin()),
+                    Pivot::Individual | Pivot::Active => active.origin(),
+                };
+                Placed { active, pivot }
+            });
     }
 
     /// From where it is seen.

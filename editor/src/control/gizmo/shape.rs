@@ -74,7 +74,8 @@ impl GizmoShape {
 
     /// All handles.
     pub(super) fn waiting(&mut self, stand: &Stand, tool: Tool, hovered: Option<Handle>) {
-        let role = |handle: Handle, role: GizmoRole| if hovered == Some(handle) { GizmoRole::Hover } else { role };
+        let role =
+            |handle: Handle, role: GizmoRole| if hovered == Some(handle) { GizmoRole::Hover } else { role };
         for axis in Axis::ALL {
             for handle in [Handle::Axis(axis), Handle::Plane(axis)] {
                 if stand.shows(tool, handle) {
@@ -119,7 +120,9 @@ impl GizmoShape {
                 let [a, b, c, d] = stand.square(axis);
                 self.triangle([a, b, c], role, 0.35);
                 self.triangle([a, c, d], role, 0.35);
-                [(a, b), (b, c), (c, d), (d, a)].into_iter().for_each(|(from, to)| self.line(from, to, role, 1.0));
+                [(a, b), (b, c), (c, d), (d, a)]
+                    .into_iter()
+                    .for_each(|(from, to)| self.line(from, to, role, 1.0));
             }
             (Tool::Rotate, Handle::Centre) => self.disc(stand, RING, role, 0.06),
             (_, Handle::Centre) => self.disc(stand, CENTRE, role, 0.8),
@@ -147,7 +150,8 @@ impl GizmoShape {
             }
             return;
         }
-        let corner = |x: f64, y: f64, z: f64| stand.place(along * (AXIS_TO - 5.0 + 5.0 * z) + (a * x + b * y) * 5.0);
+        let corner =
+            |x: f64, y: f64, z: f64| stand.place(along * (AXIS_TO - 5.0 + 5.0 * z) + (a * x + b * y) * 5.0);
         for turn in 0..3 {
             for side in [-1.0, 1.0] {
                 let on_face = |u: f64, v: f64| match turn {
@@ -176,7 +180,8 @@ impl GizmoShape {
 
     fn disc(&mut self, stand: &Stand, radius: f64, role: GizmoRole, opacity: f32) {
         for index in 0..SIDES * 2 {
-            let [from, to] = [index, index + 1].map(|end| facing(stand, radius, end as f64 / (SIDES * 2) as f64));
+            let [from, to] =
+                [index, index + 1].map(|end| facing(stand, radius, end as f64 / (SIDES * 2) as f64));
             self.triangle([stand.pivot, from, to], role, opacity);
         }
     }

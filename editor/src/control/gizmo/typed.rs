@@ -76,7 +76,8 @@ impl Typed {
             }
             Key::Letter(letter) => {
                 let begins = letter.is_ascii_digit() || matches!(letter, '.' | ',' | '-' | '+' | '−' | '(');
-                let continues = letter.is_alphabetic() || matches!(letter, ' ' | '*' | '/' | '%' | ')' | '^' | '°');
+                let continues =
+                    letter.is_alphabetic() || matches!(letter, ' ' | '*' | '/' | '%' | ')' | '^' | '°');
                 let fits = begins || (continues && !field.text.is_empty());
                 if !fits {
                     return false;
