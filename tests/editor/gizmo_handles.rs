@@ -143,7 +143,7 @@ fn what_is_drawn_shows_what_is_hovered_and_what_is_dragged() {
         gizmo.present(&mut shape);
         assert!(has(shape.lines(), GizmoRole::Active) && !has(shape.lines(), GizmoRole::X));
         assert!(has(shape.lines(), GizmoRole::Y), "the line it is bound to");
-        assert_eq!(has(shape.triangles(), GizmoRole::Active), true);
+        assert!(has(shape.triangles(), GizmoRole::Active), "{tool:?}");
         let finite = shape.lines().iter().chain(shape.triangles()).all(|vertex| vertex.position.is_finite());
         assert!(finite);
         assert_eq!((shape.lines().len() % 2, shape.triangles().len() % 3), (0, 0));

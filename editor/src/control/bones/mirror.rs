@@ -136,14 +136,13 @@ fn keys(name: &str, words: &[SideWord], guess: MirrorGuess) -> Vec<(String, Side
             let counted = uncounted(name);
             let inside = |word: &&SideWord| word.range.end <= counted.len();
             let words = words.iter().filter(inside);
-            let number = counted.len() < name.len();
             let keys = words.map(|word| (without(word, true), word));
             // The key without what follows the name proper.
             let cut = |(key, word): (String, &SideWord)| {
                 let rest = name[counted.len()..].to_lowercase();
                 (key.strip_suffix(&rest).unwrap_or(&key).to_owned(), word.side)
             };
-            if number { keys.map(cut).collect() } else { Vec::new() }
+            keys.map(cut).collect()
         }
         MirrorGuess::Glued => {
             let glued = glued_side_words(name);

@@ -86,7 +86,7 @@ impl<'a> Lexer<'a> {
             }
         }
         // `2e` begins no exponent: `2exp(1)` is for the parser to judge.
-        let rest = self.text[self.byte..].as_bytes();
+        let rest = &self.text.as_bytes()[self.byte..];
         let signed = usize::from(matches!(rest.get(1), Some(b'+' | b'-')));
         if matches!(rest.first(), Some(b'e' | b'E')) && rest.get(1 + signed).is_some_and(u8::is_ascii_digit) {
             self.byte += 1 + signed;

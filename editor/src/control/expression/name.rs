@@ -97,7 +97,7 @@ impl Unit {
     }
 
     /// An angle in radians as this unit writes it.
-    pub(super) fn from_radians(self, angle: f64) -> f64 {
+    pub(super) fn of_radians(self, angle: f64) -> f64 {
         if self == Self::Degrees { angle.to_degrees() } else { angle }
     }
 }

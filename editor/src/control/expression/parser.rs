@@ -176,7 +176,7 @@ impl<'a> Parser<'a> {
         self.unit = outer;
         self.close()?;
         self.depth -= 1;
-        finite(if kind == Kind::ToAngle { outer.from_radians(result) } else { result }, at)
+        finite(if kind == Kind::ToAngle { outer.of_radians(result) } else { result }, at)
     }
 
     fn close(&mut self) -> Result<(), ExpressionError> {
