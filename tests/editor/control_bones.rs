@@ -26,7 +26,7 @@ fn repeated_clicks_go_through_what_lies_behind_and_begin_again() {
     // Small steps do not carry the place along.
     let mut cycle = ClickCycle::default();
     let creeping: Vec<_> =
-        (0..4).map(|step| cycle.click(at + Vec2::X * (2 * step) as f32, &hits).unwrap()).collect();
+        (0..4).map(|step| cycle.click(at + Vec2::X * (2 * step) as f32, &[7, 3, 5, 9]).unwrap()).collect();
     assert_eq!(creeping, [7, 3, 5, 7]);
     // The pose changed: another order, or what was chosen is gone.
     let mut cycle = ClickCycle::default();

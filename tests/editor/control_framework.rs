@@ -265,6 +265,21 @@ fn keys_go_to_the_focus_else_to_what_is_under_the_mouse_and_end_where_they_began
 }
 
 #[test]
+fn keys_go_to_what_is_dragged_wherever_the_mouse_and_the_focus_are() {
+    let (mut framework, mut owner, [_, tool, panel]) = window();
+    framework.set_focus(panel);
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(to(700.0, 50.0), &mut owner);
+    owner.forget();
+    framework.resolve_input(InputEvent::KeyDown(Key::Escape), &mut owner);
+    assert_eq!((owner.told(tool), owner.told(panel)), (vec![Told::KeyDown(Key::Escape, false)], vec![]));
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
+    assert_eq!(owner.told(panel).last(), Some(&Told::KeyDown(A, false)));
+}
+
+#[test]
 fn lost_input_cancels_what_is_captured_and_lets_every_key_go() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     owner.get(tool).passes = true;

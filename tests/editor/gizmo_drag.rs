@@ -341,6 +341,7 @@ fn cancelling_gives_the_old_poses_bit_for_bit_and_coming_back_does_almost() {
         if !gizmo.begin((random.below(4) > 0).then_some(handle), start) {
             continue;
         }
+        assert_eq!(rig.after(&gizmo), rig.poses, "nothing has happened yet");
         let mut changed = false;
         let mut at = start;
         for _ in 0..10 {

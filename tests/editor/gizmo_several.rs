@@ -87,6 +87,25 @@ fn each_about_its_own_joint_keeps_its_place() {
 }
 
 #[test]
+fn what_is_done_in_the_plane_of_the_picture_is_the_same_for_all() {
+    let (rig, screen) = (Rig::new(), Screen::plain());
+    let before = rig.to_root();
+    for tool in [Tool::Move, Tool::Rotate] {
+        let mut gizmo = Gizmo::new(tool);
+        rig.select(&mut gizmo, &[1, 3]);
+        gizmo.look(screen.view());
+        assert!(gizmo.begin(None, Vec2::new(300.0, 300.0)));
+        gizmo.pointer(Vec2::new(360.0, 250.0), Modifiers::default());
+        let after = rig.to_root_of(&rig.after(&gizmo));
+        let way = |bone: usize| after[bone].w_axis.truncate() - before[bone].w_axis.truncate();
+        let turn = |bone: usize| Mat3::from_mat4(after[bone]) * Mat3::from_mat4(before[bone]).inverse();
+        assert!(near(way(1), way(3)), "{tool:?}");
+        assert!(turn(1).abs_diff_eq(turn(3), 1e-5), "{tool:?}");
+        assert!(after[1] != before[1]);
+    }
+}
+
+#[test]
 fn a_chain_can_be_curled() {
     let rig = Rig::new();
     let curl = GizmoSettings { curl: true, ..settings(Space::Local, Pivot::Individual) };
@@ -215,7 +234,14 @@ fn under_a_flat_parent_the_joint_stays_and_the_rest_is_finite() {
                 let gizmo = dragged(&rig, tool, settings(Space::World, pivot), &[1, 3], keys);
                 for change in &gizmo.drag().bones {
                     assert!(change.to_parent.is_finite());
-                    assert_eq!(change.to_parent.translation, rig.poses[change.bone as usize].translation);
+                    let start = rig.poses[change.bone as usize];
+                    assert_eq!(change.to_parent.translation, start.translation);
+                    if tool == Tool::Rotate {
+                        assert!(
+                            between(change.to_parent.rotation, start.rotation) > 0.5,
+                            "it turns all the same"
+                        );
+                    }
                 }
             }
         }

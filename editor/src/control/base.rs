@@ -134,7 +134,8 @@ pub trait BaseControl {
         let _ = framework;
     }
 
-    /// A key went down, or repeats because it is held.
+    /// A key went down, or repeats because it is held. Goes to the control that has the mouse captured, else to the one with
+    /// the focus, else to the one under the mouse.
     fn key_down(
         &mut self,
         key: Key,

@@ -328,9 +328,12 @@ impl ControlFramework {
         let target = match held {
             Some(control) => control,
             None => {
-                let under = self.pointer().filter(|_| self.focus.is_none());
-                let control =
-                    self.focus.or_else(|| self.captured()).or_else(|| self.under(under?, controls))?;
+                // While something is dragged keys are for that: Escape, an axis, a number.
+                let known = self.captured().or(self.focus);
+                let control = match known {
+                    Some(control) => control,
+                    None => self.under(self.pointer()?, controls)?,
+                };
                 self.remember(key, control, controls);
                 control
             }
