@@ -17,6 +17,7 @@ mod faults;
 mod fixture;
 mod fixture_layer;
 mod folder;
+mod gizmo_control;
 mod gizmo_drag;
 mod gizmo_handles;
 mod gizmo_keys;

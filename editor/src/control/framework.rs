@@ -382,7 +382,14 @@ impl ControlFramework {
 
     /// Releases will not be heard of: what was begun with the mouse is taken back, keys are let go.
     fn lost(&mut self, controls: &mut dyn Controls) {
+        let captured = self.captured();
         self.lost_mouse(controls);
+        // What was begun by a key holds no button, but the focus.
+        if let Some(control) =
+            self.focus.filter(|_| self.focus != captured).and_then(|id| self.there(id, controls))
+        {
+            control.input_lost(self);
+        }
         self.mouse = None;
         self.modifiers = Modifiers::default();
         for index in 0..KEYS {

@@ -11,6 +11,7 @@
 //! axes; the same a third time sets free. Digits type a number. Shift is precise, Ctrl snaps. Enter confirms, Escape
 //! cancels.
 
+mod control;
 mod delta;
 mod drag;
 mod frame;
@@ -21,6 +22,7 @@ mod shape;
 mod typed;
 mod view;
 
+pub use control::GizmoControl;
 pub use delta::GizmoDelta;
 pub use drag::{BoneDrag, GizmoDrag};
 pub use frame::{Axis, GizmoTarget, Pivot, Space};
@@ -180,11 +182,15 @@ impl Gizmo {
         }
     }
 
-    /// Notes and tells the handle under the pointer, points from the top left of the picture; none while dragging.
+    /// The handle at a place, points from the top left of the picture; none while dragging.
+    pub fn handle_at(&self, pointer: Vec2) -> Option<Handle> {
+        let free = pointer.is_finite() && self.going.is_none();
+        free.then(|| self.stand()?.hit(self.tool, pointer.as_dvec2())).flatten()
+    }
+
+    /// Notes and tells the handle under the pointer.
     pub fn hover(&mut self, pointer: Option<Vec2>) -> Option<Handle> {
-        let pointer = pointer.filter(|pointer| pointer.is_finite() && self.going.is_none());
-        let stand = self.stand();
-        self.hovered = pointer.and_then(|pointer| stand?.hit(self.tool, pointer.as_dvec2()));
+        self.hovered = pointer.and_then(|pointer| self.handle_at(pointer));
         self.hovered
     }
 
