@@ -9,6 +9,8 @@ mod control_bones;
 mod control_expression;
 mod control_framework;
 mod control_mirror;
+mod control_probe;
+mod control_random;
 mod device_loss;
 mod documents;
 mod drag;

@@ -1,7 +1,8 @@
 //! What every control is (thesis §3.2.9.3).
 
 use super::Button;
-use super::framework::{ControlFramework, PlaceError};
+use super::framework::ControlFramework;
+use super::input::PlaceError;
 use super::key::{Key, Modifiers};
 use glam::Vec2;
 

@@ -11,43 +11,10 @@
 
 use super::Button;
 use super::base::{Area, BaseControl, ControlId, Controls, Mouse, Pass};
-use super::key::{Key, Modifiers};
+use super::input::{InputEvent, PlaceError};
+use super::key::{HELD_KEYS, HeldKeys, Key, Modifiers};
 use super::places::Places;
 use glam::Vec2;
-
-/// What happened. Places are points from the top left of the window, y down.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum InputEvent {
-    /// The mouse is there now.
-    MouseMove(Vec2),
-    /// The mouse left the window. While a button is held the window system goes on telling places outside.
-    MouseGone,
-    /// A button went down, where the mouse is.
-    MouseDown(Button),
-    /// A button came up.
-    MouseUp(Button),
-    /// The wheel was turned, points.
-    Wheel(Vec2),
-    /// A key went down, or repeats.
-    KeyDown(Key),
-    /// A key came up.
-    KeyUp(Key),
-    /// What is held besides changed.
-    Modifiers(Modifiers),
-    /// The window lost the keyboard, a device was unplugged: releases will not be heard of.
-    Lost,
-}
-
-/// Why a control has no place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum PlaceError {
-    /// It must lie inside of a control, and does not.
-    #[error("the area is not inside of its parent")]
-    NotInside,
-    /// There is no such control.
-    #[error("the parent is not registered")]
-    NoParent,
-}
 
 /// Who has the mouse while buttons are held.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,8 +27,6 @@ enum Capture {
     Gone,
 }
 
-/// Keys held at once that are remembered with who heard of them; hands have ten fingers.
-const KEYS: usize = 16;
 /// Rounds of telling who has focus and mouse, after which two controls that take it from each other have to stop.
 const ROUNDS: usize = 8;
 
@@ -81,7 +46,7 @@ pub struct ControlFramework {
     focus: Option<ControlId>,
     /// Which control was told that it has the focus.
     focus_told: Option<ControlId>,
-    keys: [Option<(Key, ControlId)>; KEYS],
+    keys: HeldKeys,
 }
 
 impl ControlFramework {
@@ -97,7 +62,7 @@ impl ControlFramework {
             entered: None,
             focus: None,
             focus_told: None,
-            keys: [None; KEYS],
+            keys: HeldKeys::default(),
         }
     }
 
@@ -136,9 +101,7 @@ impl ControlFramework {
         if !self.places.remove(id) {
             return false;
         }
-        for held in self.keys.iter_mut().filter(|held| held.is_some_and(|held| held.1 == id)) {
-            *held = held.zip(parent).map(|((key, _), parent)| (key, parent));
-        }
+        self.keys.hand_on(id, parent);
         let forget = |known: &mut Option<ControlId>| *known = known.filter(|&known| known != id);
         forget(&mut self.entered);
         forget(&mut self.focus);
@@ -324,7 +287,7 @@ impl ControlFramework {
     }
 
     fn key_down(&mut self, key: Key, controls: &mut dyn Controls) -> Option<ControlId> {
-        let held = self.keys.iter().flatten().find(|held| held.0 == key).map(|held| held.1);
+        let held = self.keys.find(key);
         let target = match held {
             Some(control) => control,
             None => {
@@ -334,7 +297,10 @@ impl ControlFramework {
                     Some(control) => control,
                     None => self.under(self.pointer()?, controls)?,
                 };
-                self.remember(key, control, controls);
+                if let Some(oldest) = self.keys.full() {
+                    self.key_up(oldest, controls);
+                }
+                self.keys.put(key, control);
                 control
             }
         };
@@ -345,21 +311,9 @@ impl ControlFramework {
     }
 
     fn key_up(&mut self, key: Key, controls: &mut dyn Controls) -> Option<ControlId> {
-        let held = self.keys.iter_mut().find(|held| held.is_some_and(|held| held.0 == key))?;
-        let (_, control) = held.take()?;
+        let control = self.keys.take(key)?;
         let modifiers = self.modifiers;
         self.tell(control, controls, |control, framework| control.key_up(key, modifiers, framework))
-    }
-
-    /// Notes who heard of a key. With more keys than fingers the one in the first place counts as let go.
-    fn remember(&mut self, key: Key, control: ControlId, controls: &mut dyn Controls) {
-        let free = self.keys.iter().position(Option::is_none);
-        if let (None, Some((oldest, _))) = (free, self.keys[0]) {
-            self.key_up(oldest, controls);
-            self.keys.rotate_left(1);
-        }
-        let free = self.keys.iter().position(Option::is_none).unwrap_or(KEYS - 1);
-        self.keys[free] = Some((key, control));
     }
 
     /// To a control and to those that it is passed on to.
@@ -392,10 +346,9 @@ impl ControlFramework {
         }
         self.mouse = None;
         self.modifiers = Modifiers::default();
-        for index in 0..KEYS {
-            if let Some((key, _)) = self.keys[index] {
-                self.key_up(key, controls);
-            }
+        for _ in 0..HELD_KEYS {
+            let Some(key) = self.keys.first() else { return };
+            self.key_up(key, controls);
         }
     }
 

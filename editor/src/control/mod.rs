@@ -5,12 +5,14 @@ pub mod bones;
 pub mod expression;
 mod framework;
 pub mod gizmo;
+mod input;
 mod key;
 mod places;
 mod viewport;
 
 pub use base::{Area, BaseControl, ControlId, Controls, Mouse, Pass, PassFlags};
-pub use framework::{ControlFramework, InputEvent, PlaceError};
+pub use framework::ControlFramework;
+pub use input::{InputEvent, PlaceError};
 pub use key::{Key, Modifiers};
 pub(crate) use viewport::orbit;
 pub use viewport::{Button, Input, Outcome, ViewportControl};
