@@ -242,3 +242,32 @@ fn an_input_allocates_nothing() {
     });
     assert_eq!(count.allocations, 0, "{count:?}");
 }
+
+#[test]
+fn what_grabs_the_input_has_it_everywhere_until_it_lets_go() {
+    let (mut framework, mut owner, [picture, tool, _]) = window();
+    framework.grab(tool);
+    assert_eq!(framework.resolve_input(to(700.0, 50.0), &mut owner), Some(tool));
+    framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::KeyUp(A), &mut owner);
+    use Told::{Down, Enter, KeyDown, KeyUp, Leave, Lost, Move, Up};
+    let told = [Enter, Move, KeyDown(A, false), Down(LEFT), Up(LEFT), KeyUp(A)];
+    assert_eq!(owner.told(tool), told);
+    framework.release();
+    framework.resolve_input(to(300.0, 300.0), &mut owner);
+    assert_eq!((owner.told(tool), owner.told(picture)), (vec![Leave], vec![Enter, Move]));
+    framework.grab(tool);
+    framework.update(&mut owner);
+    framework.resolve_input(InputEvent::Lost, &mut owner);
+    assert_eq!(owner.told(tool), [Enter, Lost, Leave]);
+    framework.grab(tool);
+    framework.resolve_input(to(700.0, 50.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::Lost, &mut owner);
+    assert_eq!(owner.told(tool), [Enter, Move, Down(LEFT), Lost, Leave], "told once");
+    framework.grab(tool);
+    framework.unregister_control(tool);
+    assert_eq!(framework.captured(), None);
+}

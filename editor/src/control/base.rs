@@ -190,7 +190,7 @@ pub trait BaseControl {
 
     /// What the control was doing with the mouse ends here, and is to be taken back: the release will never be heard of.
     /// Goes to the control that has the mouse captured and to those that it passed the press on to; when the whole window
-    /// lost its input, also to the one with the focus.
+    /// lost its input, also to one that grabbed it.
     fn input_lost(&mut self, framework: &mut ControlFramework) {
         let _ = framework;
     }

@@ -41,6 +41,8 @@ pub struct ControlFramework {
     modifiers: Modifiers,
     held: [bool; 3],
     capture: Capture,
+    /// Who has the mouse without a button being held.
+    grabbed: Option<ControlId>,
     /// Which control was told that the mouse is over it.
     entered: Option<ControlId>,
     focus: Option<ControlId>,
@@ -59,6 +61,7 @@ impl ControlFramework {
             modifiers: Modifiers::default(),
             held: [false; 3],
             capture: Capture::Free,
+            grabbed: None,
             entered: None,
             focus: None,
             focus_told: None,
@@ -104,6 +107,7 @@ impl ControlFramework {
         self.keys.hand_on(id, parent);
         let forget = |known: &mut Option<ControlId>| *known = known.filter(|&known| known != id);
         forget(&mut self.entered);
+        forget(&mut self.grabbed);
         forget(&mut self.focus);
         forget(&mut self.focus_told);
         true
@@ -141,16 +145,29 @@ impl ControlFramework {
         self.focus = None;
     }
 
+    /// Gives mouse and keyboard to a control wherever they are, though no button is held, until [`Self::release`] or until
+    /// input is lost: for what is begun by a key.
+    pub fn grab(&mut self, id: ControlId) {
+        if self.places.area(id).is_some() {
+            self.grabbed = Some(id);
+        }
+    }
+
+    /// Ends [`Self::grab`].
+    pub fn release(&mut self) {
+        self.grabbed = None;
+    }
+
     /// Who has the keyboard.
     pub fn focus(&self) -> Option<ControlId> {
         self.focus
     }
 
-    /// Who has the mouse while a button is held.
+    /// Who has the mouse while a button is held, or because it grabbed it.
     pub fn captured(&self) -> Option<ControlId> {
         match self.capture {
             Capture::By { control, .. } => Some(control),
-            _ => None,
+            _ => self.grabbed,
         }
     }
 
@@ -219,7 +236,7 @@ impl ControlFramework {
         let begins = !self.held.contains(&true);
         self.held[button as usize] = true;
         if begins {
-            let under = self.pointer().and_then(|at| self.under(at, controls));
+            let under = self.grabbed.or_else(|| self.under(self.pointer()?, controls));
             self.capture = under.map_or(Capture::Gone, |control| Capture::By { control, heard: control });
         }
         let mouse = Mouse { at: self.mouse?, modifiers: self.modifiers };
@@ -268,6 +285,7 @@ impl ControlFramework {
     ) -> Option<ControlId> {
         let (first, is_captured) = match self.capture {
             Capture::By { control, .. } => (Some(control), true),
+            Capture::Free if self.grabbed.is_some() => (self.grabbed, true),
             Capture::Free => (self.under(self.pointer()?, controls), false),
             Capture::Gone => (None, false),
         };
@@ -336,12 +354,13 @@ impl ControlFramework {
 
     /// Releases will not be heard of: what was begun with the mouse is taken back, keys are let go.
     fn lost(&mut self, controls: &mut dyn Controls) {
-        let captured = self.captured();
+        let captured = match self.capture {
+            Capture::By { control, .. } => Some(control),
+            _ => None,
+        };
+        let grabbed = self.grabbed.take().filter(|&grabbed| Some(grabbed) != captured);
         self.lost_mouse(controls);
-        // What was begun by a key holds no button, but the focus.
-        if let Some(control) =
-            self.focus.filter(|_| self.focus != captured).and_then(|id| self.there(id, controls))
-        {
+        if let Some(control) = grabbed.and_then(|id| self.there(id, controls)) {
             control.input_lost(self);
         }
         self.mouse = None;
@@ -370,7 +389,7 @@ impl ControlFramework {
             let over = match self.capture {
                 // Who has the mouse keeps it.
                 Capture::By { .. } | Capture::Gone => self.entered,
-                Capture::Free => self.pointer().and_then(|at| self.under(at, controls)),
+                Capture::Free => self.grabbed.or_else(|| self.under(self.pointer()?, controls)),
             };
             if over == self.entered && self.focus == self.focus_told {
                 return;

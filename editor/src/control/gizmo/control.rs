@@ -20,13 +20,13 @@ pub struct GizmoControl {
 }
 
 impl GizmoControl {
-    /// Begins a drag by a key, with the pointer at `at` in the window; the gizmo, whose name is `own`, has the keyboard until
-    /// it ends. `false` where there is nothing to drag.
+    /// Begins a drag by a key, with the pointer at `at` in the window; the gizmo, whose name is `own`, has mouse and keyboard
+    /// until it ends. `false` where there is nothing to drag.
     pub fn begin_by_key(&mut self, own: ControlId, at: Vec2, framework: &mut ControlFramework) -> bool {
         let begins = self.gizmo.begin(None, at - self.corner);
         if begins {
             self.by_key = true;
-            framework.set_focus(own);
+            framework.grab(own);
             self.answer = Some(GizmoAnswer::Changed);
         }
         begins
@@ -44,7 +44,7 @@ impl GizmoControl {
         }
         self.answer = Some(answer);
         if answer != GizmoAnswer::Changed && std::mem::take(&mut self.by_key) {
-            framework.null_focus();
+            framework.release();
         }
         Pass::Stop
     }
@@ -108,11 +108,5 @@ impl BaseControl for GizmoControl {
     fn input_lost(&mut self, framework: &mut ControlFramework) {
         let answer = self.gizmo.cancel();
         self.note(answer, framework);
-    }
-
-    fn null_focus(&mut self, framework: &mut ControlFramework) {
-        if self.by_key {
-            self.input_lost(framework);
-        }
     }
 }
