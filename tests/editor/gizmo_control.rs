@@ -113,6 +113,16 @@ fn a_handle_is_dragged_and_what_misses_it_goes_to_the_picture() {
     assert!(window.is_moved());
     window.to(CORNER + Vec2::splat(20.0));
     assert!(window.control().gizmo.hovered().is_none());
+    // A drag begun by a key while the button of a cancelled one is still held does not end with that.
+    window.to(tip);
+    window.send(InputEvent::MouseDown(Button::Left));
+    window.send(InputEvent::KeyDown(Key::Escape));
+    let Window { framework, owner, .. } = &mut window;
+    assert!(owner.gizmo.1.begin_by_key(own, tip, framework));
+    window.send(InputEvent::MouseUp(Button::Left));
+    assert!(window.control().gizmo.is_dragging());
+    window.send(InputEvent::KeyUp(Key::Escape));
+    window.send(InputEvent::KeyDown(Key::Escape));
     // With Alt the picture has the mouse.
     window.send(InputEvent::Modifiers(Modifiers { alt: true, ..Modifiers::default() }));
     window.to(tip);
