@@ -24,7 +24,7 @@ pub struct SkinHit {
     pub distance: f32,
 }
 
-/// The bones under the pointer by the skin, the nearest first and each once, as far as [`LAYERS`] layers go. Hidden bones and
+/// The bones under the pointer by the skin, the nearest first and each once, as far as sixteen layers go. Hidden bones and
 /// what no bone moves are looked through.
 ///
 /// `pose` is refitted to the pose of `evaluator`. Allocates as `out` grows.
