@@ -5,6 +5,7 @@ use super::body::{placed, triangles};
 use super::scene::Scene;
 use super::shape::{Body, BoneInstance, SkeletonShape};
 use crate::camera::Ray;
+use crate::control::bones::{HiddenBones, Region, bones_in_region};
 use dragonfly_anim::data::BoneIndex;
 use glam::{Mat4, Vec2, Vec3, Vec4Swizzles};
 
@@ -20,9 +21,62 @@ pub fn pick(scene: &Scene, position: [f32; 2]) -> Option<BoneIndex> {
     hit(shape, &ray).or_else(|| nearest(scene, shape, pixel))
 }
 
+/// All bones at a pixel of the window, each once, as [`pick`] finds the first: those that the line of sight meets, the nearest
+/// first; where it meets none, those that it just misses, the nearest on the screen first. Not the hidden ones. For clicks
+/// that go through what lies behind ([`crate::control::bones::ClickCycle`]).
+pub fn pick_all(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
+    out.clear();
+    let Some(((ray, pixel), model)) = scene.ray(position).zip(scene.model()) else { return };
+    let mut hits: Vec<(f32, BoneIndex)> = Vec::new();
+    for_each_hit(model.shape(), &ray, |distance, bone| hits.push((distance, bone)));
+    hits.retain(|hit| !hidden.is_hidden(hit.1));
+    if hits.is_empty() {
+        for_each_near(scene, model.shape(), pixel, |distance, bone| hits.push((distance, bone)));
+        hits.retain(|hit| !hidden.is_hidden(hit.1));
+    }
+    // Stable: of two as near the one found first, as in `pick`.
+    hits.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (_, bone) in hits {
+        if !out.contains(&bone) {
+            out.push(bone);
+        }
+    }
+}
+
+/// The bones in a part of the viewport, which is given in points from its top left, in the order of the skeleton; not the
+/// hidden ones. See [`bones_in_region`] for what inside means.
+pub fn pick_region(scene: &Scene, region: &Region<'_>, hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
+    out.clear();
+    let Some(model) = scene.model() else { return };
+    let clip_from_world = scene.clip_from_world(&scene.bounds().sphere);
+    let points = scene.size() / scene.look.pixels_per_point;
+    let shape = model.shape();
+    // The balls at the joints are no shapes of their own where the bone has another.
+    let shapes = Body::ALL.into_iter().flat_map(|body| {
+        let ends = move |instance: &BoneInstance| match body {
+            Body::Ball => [instance.head; 2],
+            _ => [instance.head, instance.tail],
+        };
+        let instances = shape.instances(body).iter().map(ends);
+        instances.zip(shape.owners(body)).map(|([head, tail], &bone)| (bone, head, tail))
+    });
+    bones_in_region(region, shapes, |place| on_screen(&clip_from_world, place, points), out);
+    hidden.retain_shown(out);
+}
+
 /// The bone that the ray meets first.
 fn hit(shape: &SkeletonShape, ray: &Ray) -> Option<BoneIndex> {
     let mut first: Option<(f32, BoneIndex)> = None;
+    for_each_hit(shape, ray, |distance, bone| {
+        if first.is_none_or(|(nearest, _)| distance < nearest) {
+            first = Some((distance, bone));
+        }
+    });
+    first.map(|(_, bone)| bone)
+}
+
+/// Calls `found` with every triangle of a bone that the ray meets, and how far away.
+fn for_each_hit(shape: &SkeletonShape, ray: &Ray, mut found: impl FnMut(f32, BoneIndex)) {
     for body in Body::ALL {
         let corners = triangles(body);
         for (instance, &bone) in shape.instances(body).iter().zip(shape.owners(body)) {
@@ -31,15 +85,12 @@ fn hit(shape: &SkeletonShape, ray: &Ray) -> Option<BoneIndex> {
             }
             for face in corners.chunks_exact(3) {
                 let face = [0, 1, 2].map(|corner| placed(&face[corner], instance));
-                if let Some(distance) = meets(ray, face)
-                    && first.is_none_or(|(nearest, _)| distance < nearest)
-                {
-                    first = Some((distance, bone));
+                if let Some(distance) = meets(ray, face) {
+                    found(distance, bone);
                 }
             }
         }
     }
-    first.map(|(_, bone)| bone)
 }
 
 /// Does the ray come into the sphere around a bone?
@@ -71,21 +122,30 @@ fn meets(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<f32> {
 
 /// The bone whose line on the screen comes closest to the pixel, if close enough.
 fn nearest(scene: &Scene, shape: &SkeletonShape, pixel: Vec2) -> Option<BoneIndex> {
+    let mut best: Option<(f32, BoneIndex)> = None;
+    for_each_near(scene, shape, pixel, |distance, bone| {
+        if best.is_none_or(|(nearest, _)| distance < nearest) {
+            best = Some((distance, bone));
+        }
+    });
+    best.map(|(_, bone)| bone)
+}
+
+/// Calls `found` with every bone whose line on the screen comes close enough to the pixel, and how close.
+fn for_each_near(scene: &Scene, shape: &SkeletonShape, pixel: Vec2, mut found: impl FnMut(f32, BoneIndex)) {
     let clip_from_world = scene.clip_from_world(&scene.bounds().sphere);
     let size = scene.size();
     let reach = REACH * scene.look.pixels_per_point;
-    let mut best: Option<(f32, BoneIndex)> = None;
     for body in Body::ALL {
         for (instance, &bone) in shape.instances(body).iter().zip(shape.owners(body)) {
             let ends = [instance.head, instance.tail].map(|end| on_screen(&clip_from_world, end, size));
             let [Some(head), Some(tail)] = ends else { continue };
             let distance = to_segment(pixel, head, tail);
-            if distance <= reach && best.is_none_or(|(nearest, _)| distance < nearest) {
-                best = Some((distance, bone));
+            if distance <= reach {
+                found(distance, bone);
             }
         }
     }
-    best.map(|(_, bone)| bone)
 }
 
 /// Pixels from the top left of the viewport; `None` behind the eye.

@@ -1,0 +1,112 @@
+//! The gizmo as a control of the scene: it is where its handles are, and everywhere while it drags.
+
+use super::{Gizmo, GizmoAnswer};
+use crate::control::base::{BaseControl, ControlId, Mouse, Pass};
+use crate::control::framework::ControlFramework;
+use crate::control::key::{Key, Modifiers};
+use crate::control::viewport::Button;
+use glam::Vec2;
+
+/// Registered over the whole picture, inside of its control, so that what misses a handle goes to the picture.
+#[derive(Clone, Debug, Default)]
+pub struct GizmoControl {
+    /// The gizmo itself.
+    pub gizmo: Gizmo,
+    /// Top left of the picture, points from that of the window.
+    pub corner: Vec2,
+    /// Was the drag begun by a key, so that no button is held?
+    by_key: bool,
+    answer: Option<GizmoAnswer>,
+}
+
+impl GizmoControl {
+    /// Begins a drag by a key, with the pointer at `at` in the window; the gizmo, whose name is `own`, has mouse and keyboard
+    /// until it ends. `false` where there is nothing to drag.
+    pub fn begin_by_key(&mut self, own: ControlId, at: Vec2, framework: &mut ControlFramework) -> bool {
+        let begins = self.gizmo.begin(None, at - self.corner);
+        if begins {
+            self.by_key = true;
+            framework.grab(own);
+            self.answer = Some(GizmoAnswer::Changed);
+        }
+        begins
+    }
+
+    /// What became of the drag since this was asked last: changed, confirmed or cancelled. [`Gizmo::drag`] has the poses.
+    pub fn take_answer(&mut self) -> Option<GizmoAnswer> {
+        self.answer.take()
+    }
+
+    /// Notes an answer; tells whether the input was for the gizmo.
+    fn note(&mut self, answer: GizmoAnswer, framework: &mut ControlFramework) -> Pass {
+        if answer == GizmoAnswer::Ignored {
+            return Pass::ToParent;
+        }
+        self.answer = Some(answer);
+        if answer != GizmoAnswer::Changed && std::mem::take(&mut self.by_key) {
+            framework.release();
+        }
+        Pass::Stop
+    }
+}
+
+impl BaseControl for GizmoControl {
+    fn is_pos_on(&self, point: Vec2) -> bool {
+        self.gizmo.is_dragging() || self.gizmo.handle_at(point - self.corner).is_some()
+    }
+
+    fn mouse_move(&mut self, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+        let at = mouse.at - self.corner;
+        if self.gizmo.is_dragging() {
+            let answer = self.gizmo.pointer(at, mouse.modifiers);
+            return self.note(answer, framework);
+        }
+        self.gizmo.hover(Some(at));
+        Pass::ToParent
+    }
+
+    fn mouse_leave(&mut self, _framework: &mut ControlFramework) {
+        self.gizmo.hover(None);
+    }
+
+    fn mouse_down(&mut self, button: Button, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+        let at = mouse.at - self.corner;
+        let answer = match button {
+            Button::Left if self.gizmo.is_dragging() => self.gizmo.confirm(),
+            // With Alt the mouse turns the camera, whatever is under it.
+            Button::Left if !mouse.modifiers.alt => {
+                let handle = self.gizmo.handle_at(at);
+                let begins = handle.is_some() && self.gizmo.begin(handle, at);
+                if begins { GizmoAnswer::Changed } else { GizmoAnswer::Ignored }
+            }
+            Button::Right => self.gizmo.cancel(),
+            Button::Left | Button::Middle => GizmoAnswer::Ignored,
+        };
+        self.note(answer, framework)
+    }
+
+    fn mouse_up(&mut self, button: Button, _mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+        if button != Button::Left || self.by_key {
+            return Pass::ToParent;
+        }
+        let answer = self.gizmo.confirm();
+        self.note(answer, framework)
+    }
+
+    fn key_down(
+        &mut self,
+        key: Key,
+        modifiers: Modifiers,
+        _repeat: bool,
+        framework: &mut ControlFramework,
+    ) -> Pass {
+        let answer = self.gizmo.key_down(key, modifiers);
+        self.note(answer, framework)
+    }
+
+    /// The drag is taken back: its end would never be heard of.
+    fn input_lost(&mut self, framework: &mut ControlFramework) {
+        let answer = self.gizmo.cancel();
+        self.note(answer, framework);
+    }
+}

@@ -1,0 +1,308 @@
+//! A drag from its beginning to its end: what is bound, measured, snapped, typed.
+
+use super::delta::{GizmoDelta, apply};
+use super::frame::{Axis, Frame, GizmoTarget, Pivot, Space};
+use super::handle::{Handle, Stand, Tool};
+use super::measure::Measure;
+use super::typed::Typed;
+use super::view::GizmoView;
+use super::{GizmoSettings, Placed};
+use crate::control::expression::Quantity;
+use crate::control::key::{Key, Modifiers};
+use dragonfly_anim::data::{BoneIndex, Transform};
+use glam::{DVec2, DVec3};
+
+/// A bone and its new pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoneDrag {
+    /// Which.
+    pub bone: BoneIndex,
+    /// Relative to its parent.
+    pub to_parent: Transform,
+}
+
+/// What a drag has made so far: the new pose of each dragged bone, in the order of the skeleton.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GizmoDrag {
+    /// Each with its whole new pose.
+    pub bones: Vec<BoneDrag>,
+}
+
+/// An axis lock: which, whether the plane across it, and how often its key was pressed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Lock {
+    handle: Handle,
+    presses: u8,
+}
+
+/// A drag that goes on.
+#[derive(Clone, Debug)]
+pub(super) struct Drag {
+    pub(super) tool: Tool,
+    /// What was taken hold of.
+    grabbed: Handle,
+    /// Was it a handle, and not a key?
+    by_handle: bool,
+    lock: Option<Lock>,
+    settings: GizmoSettings,
+    placed: Placed,
+    /// Seen from where it is, and from where it was at the beginning: its axes stay those.
+    view: GizmoView,
+    first: GizmoView,
+    start: DVec2,
+    pointer: DVec2,
+    modifiers: Modifiers,
+    measure: Measure,
+    /// The amount up to the last change of pace or view, and what the measure said there.
+    settled: DVec3,
+    anchor: DVec3,
+}
+
+impl Drag {
+    /// `None` where there is nothing to drag, or it lies behind the eye.
+    pub(super) fn begin(
+        tool: Tool,
+        handle: Option<Handle>,
+        settings: GizmoSettings,
+        placed: Placed,
+        view: GizmoView,
+        pointer: DVec2,
+    ) -> Option<Self> {
+        let by_key = if tool == Tool::Rotate { Handle::Ring } else { Handle::Centre };
+        let grabbed = handle.unwrap_or(by_key);
+        let stand = Stand::new(view, placed.pivot, placed.active.frame(settings.space, &view))?;
+        let measure = Measure::new(tool, grabbed, stand, pointer, handle.is_some());
+        Some(Self {
+            tool,
+            grabbed,
+            by_handle: handle.is_some(),
+            lock: None,
+            settings,
+            placed,
+            view,
+            first: view,
+            start: pointer,
+            pointer,
+            modifiers: Modifiers::default(),
+            measure,
+            settled: DVec3::ZERO,
+            anchor: DVec3::ZERO,
+        })
+    }
+
+    /// How the drag is bound now.
+    pub(super) fn handle(&self) -> Handle {
+        self.lock.map_or(self.grabbed, |lock| lock.handle)
+    }
+
+    /// Whose axes it follows now.
+    pub(super) fn space(&self) -> Space {
+        match self.lock {
+            Some(Lock { presses: 2, .. }) => self.settings.space.other(),
+            _ => self.settings.space,
+        }
+    }
+
+    /// Where it stands: where it began.
+    pub(super) fn stand(&self) -> Option<Stand> {
+        Stand::new(self.view, self.placed.pivot, self.placed.active.frame(self.space(), &self.first))
+    }
+
+    pub(super) fn start(&self) -> DVec2 {
+        self.start
+    }
+
+    /// The pointer is there, and these keys are held. Shift slows down from where it was pressed, without a jump.
+    pub(super) fn pointer(&mut self, pointer: DVec2, modifiers: Modifiers) {
+        if modifiers.shift != self.modifiers.shift {
+            self.settle();
+        }
+        self.modifiers = modifiers;
+        self.pointer = pointer;
+    }
+
+    /// The camera moved, or the window has another size. The drag goes on from what it has.
+    pub(super) fn look(&mut self, view: GizmoView) {
+        if view == self.view {
+            return;
+        }
+        self.settle();
+        self.view = view;
+        if let Some(stand) = self.stand() {
+            self.measure = Measure::new(
+                self.tool,
+                self.handle(),
+                stand,
+                self.pointer,
+                self.by_handle && self.lock.is_none(),
+            );
+            self.anchor = DVec3::ZERO;
+        }
+    }
+
+    /// A key: an axis or a part of a number. `false` for others.
+    pub(super) fn key(&mut self, key: Key, modifiers: Modifiers, typed: &mut Typed) -> bool {
+        let axis = match key {
+            Key::Letter('x') => Some(Axis::X),
+            Key::Letter('y') => Some(Axis::Y),
+            Key::Letter('z') => Some(Axis::Z),
+            _ => None,
+        };
+        match axis {
+            Some(axis) => {
+                self.press(axis, modifiers.shift);
+                typed.limit(self.fields());
+                true
+            }
+            None => typed.key(key, self.fields(), self.quantity()),
+        }
+    }
+
+    /// Binds to an axis or to the plane across it; again, in the other space; again, not at all.
+    fn press(&mut self, axis: Axis, plane: bool) {
+        let plane = plane && self.tool != Tool::Rotate;
+        let handle = if plane { Handle::Plane(axis) } else { Handle::Axis(axis) };
+        self.lock = match self.lock {
+            Some(lock) if lock.handle == handle => {
+                (lock.presses < 2).then_some(Lock { handle, presses: lock.presses + 1 })
+            }
+            _ => Some(Lock { handle, presses: 1 }),
+        };
+        // Measured from where the drag began, as if it had been bound so from then on.
+        if let Some(stand) = self.stand() {
+            let grabbed = self.by_handle && self.lock.is_none();
+            self.measure = Measure::new(self.tool, self.handle(), stand, self.start, grabbed);
+            (self.settled, self.anchor) = (DVec3::ZERO, DVec3::ZERO);
+        }
+    }
+
+    fn pace(&self) -> f64 {
+        if self.modifiers.shift { self.settings.precise } else { 1.0 }
+    }
+
+    fn settle(&mut self) {
+        let raw = self.measure.at(self.pointer);
+        self.settled += (raw - self.anchor) * self.pace();
+        self.anchor = raw;
+    }
+
+    /// How many numbers can be typed.
+    pub(super) fn fields(&self) -> usize {
+        match (self.tool, self.handle()) {
+            (Tool::Move, Handle::Centre | Handle::Ring) => 3,
+            (Tool::Move, Handle::Plane(_)) | (Tool::Rotate, Handle::Centre) => 2,
+            _ => 1,
+        }
+    }
+
+    pub(super) fn quantity(&self) -> Quantity {
+        match self.tool {
+            Tool::Move => Quantity::Length,
+            Tool::Rotate => Quantity::Angle,
+            Tool::Scale => Quantity::Number,
+        }
+    }
+
+    /// The delta of now.
+    pub(super) fn delta(&mut self, typed: &Typed) -> GizmoDelta {
+        let raw = self.measure.at(self.pointer);
+        let mut amount = self.settled + (raw - self.anchor) * self.pace();
+        if self.modifiers.ctrl {
+            let step = self.settings.step(self.tool) * self.pace();
+            let snapped = (amount / step).round() * step;
+            amount = if snapped.is_finite() { snapped } else { amount };
+        }
+        let count = self.fields();
+        if typed.is_used(count) {
+            let values = typed.values(count);
+            amount = match self.tool {
+                Tool::Move => self.bound(DVec3::from_array(values.map(|value| value.unwrap_or(0.0)))),
+                Tool::Rotate => DVec3::from_array(values.map(|value| value.unwrap_or(0.0).to_radians())),
+                Tool::Scale => DVec3::X * (values[0].unwrap_or(1.0) - 1.0),
+            };
+        } else if self.tool == Tool::Move {
+            amount = self.along(amount);
+        }
+        self.delta_of(amount)
+    }
+
+    /// Typed numbers, in their order, to the axes that the drag is bound to.
+    fn bound(&self, typed: DVec3) -> DVec3 {
+        match self.handle() {
+            Handle::Axis(axis) => axis.unit() * typed.x,
+            Handle::Plane(normal) => {
+                // In the order of the alphabet, as they are shown.
+                let mut axes = normal.others();
+                axes.sort_by_key(|axis| *axis as usize);
+                axes[0].unit() * typed.x + axes[1].unit() * typed.y
+            }
+            Handle::Centre | Handle::Ring => typed,
+        }
+    }
+
+    /// A measured way to the axes: along one it is in x.
+    fn along(&self, amount: DVec3) -> DVec3 {
+        match self.handle() {
+            Handle::Axis(axis) => axis.unit() * amount.x,
+            Handle::Plane(normal) => amount * (DVec3::ONE - normal.unit()),
+            Handle::Centre | Handle::Ring => amount,
+        }
+    }
+
+    fn delta_of(&self, amount: DVec3) -> GizmoDelta {
+        match self.tool {
+            Tool::Move => GizmoDelta::Move(amount),
+            Tool::Rotate => self.turn(amount),
+            Tool::Scale => {
+                let factor = 1.0 + amount.x;
+                GizmoDelta::Scale(match self.handle() {
+                    Handle::Axis(axis) => DVec3::ONE + axis.unit() * amount.x,
+                    Handle::Plane(normal) => {
+                        DVec3::splat(factor) * (DVec3::ONE - normal.unit()) + normal.unit()
+                    }
+                    Handle::Centre | Handle::Ring => DVec3::splat(factor),
+                })
+            }
+        }
+    }
+
+    fn turn(&self, amount: DVec3) -> GizmoDelta {
+        let frame = self.placed.active.frame(self.space(), &self.first);
+        // Seen from outside, a rotation in mirrored axes runs the other way.
+        let inside = |axis: DVec3| frame.axes.transpose() * axis * frame.sign;
+        match self.handle() {
+            Handle::Axis(axis) | Handle::Plane(axis) => {
+                GizmoDelta::Rotate { axis: axis.unit(), angle: amount.x }
+            }
+            Handle::Ring => GizmoDelta::Rotate { axis: inside(self.first.back), angle: amount.x },
+            Handle::Centre => {
+                let about = self.first.up * amount.x + self.first.right * amount.y;
+                let angle = about.length();
+                let axis = inside(about / angle);
+                let axis = if axis.is_finite() { axis } else { DVec3::Y };
+                GizmoDelta::Rotate { axis, angle }
+            }
+        }
+    }
+
+    /// Writes the new pose of every target.
+    pub(super) fn apply(&self, targets: &[GizmoTarget], delta: &GizmoDelta, out: &mut Vec<BoneDrag>) {
+        out.clear();
+        let common = self.placed.active.frame(self.space(), &self.first);
+        for target in targets {
+            let (frame, pivot) = match self.settings.pivot {
+                Pivot::Individual => (self.own_frame(target, common), None),
+                Pivot::Median | Pivot::Active => (common, Some(self.placed.pivot)),
+            };
+            let to_parent = apply(target, &frame, pivot, delta);
+            out.push(BoneDrag { bone: target.bone, to_parent });
+        }
+    }
+
+    /// Each along its own axes, but what is done in the plane or along the line of the picture: that is one for all.
+    fn own_frame(&self, target: &GizmoTarget, common: Frame) -> Frame {
+        let in_view = matches!((self.tool, self.handle()), (Tool::Move, Handle::Centre))
+            || (self.tool == Tool::Rotate && matches!(self.handle(), Handle::Centre | Handle::Ring));
+        if in_view { common } else { target.frame(self.space(), &self.first) }
+    }
+}

@@ -1,0 +1,230 @@
+//! What a gizmo looks like, as lists of lines and triangles for a pass to draw.
+
+use super::delta::GizmoDelta;
+use super::frame::Axis;
+use super::handle::{AXIS_FROM, AXIS_TO, CENTRE, Handle, OUTER, PIECES, RING, Stand, Tool};
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec2, DVec3, Vec3};
+use std::f64::consts::TAU;
+
+/// Which colour a part has; the theme says which.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum GizmoRole {
+    /// Of the x axis.
+    X = 0,
+    /// Of the y axis.
+    Y = 1,
+    /// Of the z axis.
+    Z = 2,
+    /// Of the plane and the line of the picture, and of what is even.
+    View = 3,
+    /// Under the pointer.
+    Hover = 4,
+    /// Being dragged.
+    Active = 5,
+}
+
+impl GizmoRole {
+    fn of(axis: Axis) -> Self {
+        [Self::X, Self::Y, Self::Z][axis as usize]
+    }
+}
+
+/// A corner of a line or a triangle.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct GizmoVertex {
+    /// Scene space.
+    pub position: Vec3,
+    /// A [`GizmoRole`].
+    pub role: u32,
+    /// 0 to 1.
+    pub opacity: f32,
+}
+
+/// Lists that keep their memory from frame to frame.
+#[derive(Clone, Debug, Default)]
+pub struct GizmoShape {
+    lines: Vec<GizmoVertex>,
+    triangles: Vec<GizmoVertex>,
+}
+
+/// Sides of a cone or a disc.
+const SIDES: usize = 12;
+/// Points that a guide along a bound axis reaches to either side.
+const GUIDE: f64 = 4000.0;
+
+impl GizmoShape {
+    /// Two corners a line.
+    pub fn lines(&self) -> &[GizmoVertex] {
+        &self.lines
+    }
+
+    /// Three corners a triangle; either side may be seen.
+    pub fn triangles(&self) -> &[GizmoVertex] {
+        &self.triangles
+    }
+
+    /// Nothing, with the memory kept.
+    pub fn clear(&mut self) {
+        self.lines.clear();
+        self.triangles.clear();
+    }
+
+    /// All handles.
+    pub(super) fn waiting(&mut self, stand: &Stand, tool: Tool, hovered: Option<Handle>) {
+        let role =
+            |handle: Handle, role: GizmoRole| if hovered == Some(handle) { GizmoRole::Hover } else { role };
+        for axis in Axis::ALL {
+            for handle in [Handle::Axis(axis), Handle::Plane(axis)] {
+                if stand.shows(tool, handle) {
+                    self.handle(stand, tool, handle, role(handle, GizmoRole::of(axis)));
+                }
+            }
+        }
+        for handle in [Handle::Centre, Handle::Ring] {
+            if stand.shows(tool, handle) {
+                self.handle(stand, tool, handle, role(handle, GizmoRole::View));
+            }
+        }
+    }
+
+    /// The handle that is dragged, the line it is bound to, and the angle turned.
+    pub(super) fn dragging(
+        &mut self,
+        stand: &Stand,
+        tool: Tool,
+        handle: Handle,
+        delta: Option<GizmoDelta>,
+        start: DVec2,
+    ) {
+        match handle {
+            Handle::Axis(axis) => self.guide(stand, axis),
+            Handle::Plane(normal) => normal.others().into_iter().for_each(|axis| self.guide(stand, axis)),
+            Handle::Centre | Handle::Ring => {}
+        }
+        if stand.shows(tool, handle) {
+            self.handle(stand, tool, handle, GizmoRole::Active);
+        }
+        if let Some(GizmoDelta::Rotate { axis, angle }) = delta {
+            self.turned(stand, stand.frame.axes * axis, stand.frame.sign * angle, start);
+        }
+    }
+
+    fn handle(&mut self, stand: &Stand, tool: Tool, handle: Handle, role: GizmoRole) {
+        match (tool, handle) {
+            (Tool::Rotate, Handle::Axis(axis) | Handle::Plane(axis)) => self.ring(stand, axis, role),
+            (_, Handle::Axis(axis)) => self.arrow(stand, axis, tool, role),
+            (_, Handle::Plane(axis)) => {
+                let [a, b, c, d] = stand.square(axis);
+                self.triangle([a, b, c], role, 0.35);
+                self.triangle([a, c, d], role, 0.35);
+                [(a, b), (b, c), (c, d), (d, a)]
+                    .into_iter()
+                    .for_each(|(from, to)| self.line(from, to, role, 1.0));
+            }
+            (Tool::Rotate, Handle::Centre) => self.disc(stand, RING, role, 0.06),
+            (_, Handle::Centre) => self.disc(stand, CENTRE, role, 0.8),
+            (_, Handle::Ring) => {
+                let around = |index: usize| facing(stand, OUTER, index as f64 / PIECES as f64);
+                (0..PIECES).for_each(|index| self.line(around(index), around(index + 1), role, 1.0));
+            }
+        }
+    }
+
+    /// A line with a cone for moving, with a cube for scaling.
+    fn arrow(&mut self, stand: &Stand, axis: Axis, tool: Tool, role: GizmoRole) {
+        let along = axis.unit();
+        let [a, b] = axis.others().map(Axis::unit);
+        let neck = if tool == Tool::Move { AXIS_TO - 18.0 } else { AXIS_TO - 10.0 };
+        self.line(stand.place(along * AXIS_FROM), stand.place(along * neck), role, 1.0);
+        if tool == Tool::Move {
+            let rim = |index: usize| {
+                let (sin, cos) = (index as f64 / SIDES as f64 * TAU).sin_cos();
+                stand.place(along * neck + (a * cos + b * sin) * 5.0)
+            };
+            for index in 0..SIDES {
+                self.triangle([rim(index), rim(index + 1), stand.place(along * AXIS_TO)], role, 1.0);
+                self.triangle([rim(index + 1), rim(index), stand.place(along * neck)], role, 1.0);
+            }
+            return;
+        }
+        let corner =
+            |x: f64, y: f64, z: f64| stand.place(along * (AXIS_TO - 5.0 + 5.0 * z) + (a * x + b * y) * 5.0);
+        for turn in 0..3 {
+            for side in [-1.0, 1.0] {
+                let on_face = |u: f64, v: f64| match turn {
+                    0 => corner(side, u, v),
+                    1 => corner(u, side, v),
+                    _ => corner(u, v, side),
+                };
+                let [p, q, r, s] =
+                    [on_face(-1.0, -1.0), on_face(1.0, -1.0), on_face(1.0, 1.0), on_face(-1.0, 1.0)];
+                self.triangle([p, q, r], role, 1.0);
+                self.triangle([p, r, s], role, 1.0);
+            }
+        }
+    }
+
+    /// The half towards the viewer; what is dragged is shown whole.
+    fn ring(&mut self, stand: &Stand, axis: Axis, role: GizmoRole) {
+        for index in 0..PIECES {
+            let [from, to] = [index, index + 1].map(|end| stand.on_ring(axis, end as f64 / PIECES as f64));
+            let is_front = stand.in_front(from) && stand.in_front(to);
+            if is_front || role == GizmoRole::Active {
+                self.line(from, to, role, if is_front { 1.0 } else { 0.35 });
+            }
+        }
+    }
+
+    fn disc(&mut self, stand: &Stand, radius: f64, role: GizmoRole, opacity: f32) {
+        for index in 0..SIDES * 2 {
+            let [from, to] =
+                [index, index + 1].map(|end| facing(stand, radius, end as f64 / (SIDES * 2) as f64));
+            self.triangle([stand.pivot, from, to], role, opacity);
+        }
+    }
+
+    fn guide(&mut self, stand: &Stand, axis: Axis) {
+        let [from, to] = [-GUIDE, GUIDE].map(|along| stand.place(axis.unit() * along));
+        self.line(from, to, GizmoRole::of(axis), 0.6);
+    }
+
+    /// The angle turned as a fan from where it began; a full disc beyond a turn.
+    fn turned(&mut self, stand: &Stand, axis: DVec3, angle: f64, start: DVec2) {
+        let Some(axis) = axis.try_normalize() else { return };
+        let from = stand.view.on_plane(start, stand.pivot, axis) - stand.pivot;
+        let from = (from - axis * from.dot(axis)).normalize_or(axis.any_orthonormal_vector());
+        let across = axis.cross(from);
+        let radius = RING * stand.unit;
+        let angle = angle.clamp(-TAU, TAU);
+        let at = |index: usize| {
+            let (sin, cos) = (angle * index as f64 / PIECES as f64).sin_cos();
+            stand.pivot + (from * cos + across * sin) * radius
+        };
+        for index in 0..PIECES {
+            self.triangle([stand.pivot, at(index), at(index + 1)], GizmoRole::Active, 0.25);
+        }
+        self.line(stand.pivot, at(0), GizmoRole::Active, 1.0);
+        self.line(stand.pivot, at(PIECES), GizmoRole::Active, 1.0);
+    }
+
+    fn line(&mut self, from: DVec3, to: DVec3, role: GizmoRole, opacity: f32) {
+        self.lines.extend([from, to].map(|place| vertex(place, role, opacity)));
+    }
+
+    fn triangle(&mut self, corners: [DVec3; 3], role: GizmoRole, opacity: f32) {
+        self.triangles.extend(corners.map(|place| vertex(place, role, opacity)));
+    }
+}
+
+fn vertex(place: DVec3, role: GizmoRole, opacity: f32) -> GizmoVertex {
+    GizmoVertex { position: place.as_vec3(), role: role as u32, opacity }
+}
+
+/// A point of a circle in the plane of the picture.
+fn facing(stand: &Stand, radius: f64, share: f64) -> DVec3 {
+    let (sin, cos) = (share * TAU).sin_cos();
+    stand.pivot + (stand.view.right * cos + stand.view.up * sin) * (radius * stand.unit)
+}

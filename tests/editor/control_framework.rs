@@ -1,0 +1,273 @@
+//! Every input finds the control that it is for, whatever the controls do meanwhile.
+
+use crate::control_probe::{Deed, Owner, Told};
+use dragonfly::control::{
+    Area, BaseControl, Button, ControlFramework, ControlId, InputEvent, Key, PlaceError,
+};
+use dragonfly_kit::counting;
+use glam::Vec2;
+
+fn area(x: f32, y: f32, width: f32, height: f32) -> Area {
+    Area::new(Vec2::new(x, y), Vec2::new(x + width, y + height))
+}
+
+fn to(x: f32, y: f32) -> InputEvent {
+    InputEvent::MouseMove(Vec2::new(x, y))
+}
+
+const A: Key = Key::Letter('a');
+const LEFT: Button = Button::Left;
+
+/// A window with a picture in it, a tool in that, and a panel beside it.
+fn window() -> (ControlFramework, Owner, [ControlId; 3]) {
+    let (mut framework, mut owner) = (ControlFramework::new(Vec2::new(800.0, 600.0)), Owner::default());
+    // The inner one first: the order of registration does not matter.
+    let tool = owner.add(&mut framework, area(100.0, 100.0, 50.0, 50.0));
+    let picture = owner.add(&mut framework, area(0.0, 0.0, 600.0, 600.0));
+    let panel = owner.add(&mut framework, area(600.0, 0.0, 200.0, 600.0));
+    (framework, owner, [picture, tool, panel])
+}
+
+#[test]
+fn a_control_is_the_parent_of_all_that_lie_wholly_inside_it() {
+    let (mut framework, mut owner, [picture, tool, panel]) = window();
+    assert_eq!(framework.parent(tool), Some(picture));
+    assert_eq!(framework.parent(picture), Some(ControlId::ROOT));
+    assert_eq!(framework.parent(panel), Some(ControlId::ROOT));
+    assert_eq!(framework.parent(ControlId::ROOT), None);
+    // As large as the picture, and later: it comes between the two.
+    let between = owner.add(&mut framework, area(0.0, 0.0, 600.0, 600.0));
+    assert_eq!(framework.parent(tool), Some(between));
+    assert_eq!(framework.parent(between), Some(picture));
+    assert!(framework.is_inside(tool, picture) && !framework.is_inside(picture, tool));
+    // It goes: those inside get its parent. Its name means nothing any more.
+    assert!(framework.unregister_control(between));
+    assert!(!framework.unregister_control(between));
+    assert_eq!(framework.parent(tool), Some(picture));
+    // It leaves the picture.
+    assert!(framework.move_control(tool, area(590.0, 0.0, 50.0, 50.0)));
+    assert_eq!(framework.parent(tool), Some(ControlId::ROOT));
+    assert!(!framework.unregister_control(ControlId::ROOT));
+}
+
+#[test]
+fn a_control_can_be_registered_inside_another_only() {
+    let (mut framework, mut owner, [picture, tool, panel]) = window();
+    let inside = owner.get(picture).register_control(picture, area(10.0, 10.0, 5.0, 5.0), &mut framework);
+    assert_eq!(framework.parent(inside.unwrap()), Some(picture));
+    let outside = owner.get(tool).register_control(tool, area(10.0, 10.0, 5.0, 5.0), &mut framework);
+    assert_eq!(outside, Err(PlaceError::NotInside));
+    assert!(!owner.get(panel).unregister_control(panel, tool, &mut framework), "not its own");
+    assert!(owner.get(picture).unregister_control(picture, tool, &mut framework));
+    assert_eq!(framework.register_inside(tool, area(0.0, 0.0, 1.0, 1.0)), Err(PlaceError::NoParent));
+}
+
+#[test]
+fn the_mouse_goes_to_the_deepest_control_and_on_to_its_parents_as_far_as_each_passes_it() {
+    let (mut framework, mut owner, [picture, tool, panel]) = window();
+    owner.get(tool).passes = true;
+    assert_eq!(framework.resolve_input(to(120.0, 120.0), &mut owner), Some(picture));
+    assert_eq!(owner.told(tool), [Told::Enter, Told::Move]);
+    assert_eq!(owner.told(picture), [Told::Move]);
+    owner.get(tool).passes = false;
+    assert_eq!(framework.resolve_input(InputEvent::Wheel(Vec2::Y), &mut owner), Some(tool));
+    assert_eq!((owner.told(tool), owner.told(picture)), (vec![Told::Wheel], vec![]));
+    framework.resolve_input(to(700.0, 50.0), &mut owner);
+    assert_eq!(owner.told(tool), [Told::Leave]);
+    assert_eq!(owner.told(panel), [Told::Enter, Told::Move]);
+    assert_eq!(owner.told(picture), []);
+    // A control that is round is met on its disc only.
+    owner.get(tool).circle = Some((Vec2::new(125.0, 125.0), 10.0));
+    assert_eq!(framework.resolve_input(to(101.0, 101.0), &mut owner), Some(picture));
+    assert_eq!(framework.resolve_input(to(900.0, 50.0), &mut owner), None, "outside of the window");
+    framework.resize(Vec2::new(50.0, 50.0));
+    assert_eq!(framework.resolve_input(to(700.0, 50.0), &mut owner), None, "the window is smaller");
+}
+
+#[test]
+fn a_held_button_keeps_the_mouse_with_the_control_it_went_down_on() {
+    let (mut framework, mut owner, [picture, tool, panel]) = window();
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(to(700.0, 50.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(Button::Right), &mut owner);
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    framework.resolve_input(to(-50.0, 50.0), &mut owner);
+    assert_eq!(framework.captured(), Some(tool));
+    framework.resolve_input(InputEvent::MouseUp(Button::Right), &mut owner);
+    use Told::{Down, Enter, Leave, Move, Up};
+    let right = Button::Right;
+    let expected = [Enter, Move, Down(LEFT), Move, Down(right), Up(LEFT), Move, Up(right), Leave];
+    assert_eq!(owner.told(tool), expected);
+    assert_eq!(framework.captured(), None);
+    assert_eq!((owner.told(panel), owner.told(picture)), (vec![], vec![]));
+    // A press that began beside the window belongs to nobody, even when it comes in.
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    assert_eq!(owner.told(tool), [Enter], "after the release");
+}
+
+#[test]
+fn keys_go_to_the_focus_else_to_what_is_under_the_mouse_and_end_where_they_began() {
+    let (mut framework, mut owner, [picture, tool, panel]) = window();
+    framework.resolve_input(to(300.0, 300.0), &mut owner);
+    owner.forget();
+    framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
+    framework.set_focus(panel);
+    framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
+    framework.resolve_input(InputEvent::KeyDown(Key::Enter), &mut owner);
+    framework.resolve_input(InputEvent::KeyUp(A), &mut owner);
+    assert_eq!(owner.told(picture), [Told::KeyDown(A, false), Told::KeyDown(A, true), Told::KeyUp(A)]);
+    assert_eq!(owner.told(panel), [Told::Focus, Told::KeyDown(Key::Enter, false)]);
+    framework.null_focus();
+    framework.update(&mut owner);
+    framework.resolve_input(InputEvent::KeyUp(Key::Enter), &mut owner);
+    framework.resolve_input(InputEvent::KeyUp(Key::Enter), &mut owner);
+    assert_eq!(owner.told(panel), [Told::NoFocus, Told::KeyUp(Key::Enter)]);
+    // Passed on like everything else.
+    owner.get(tool).passes = true;
+    framework.set_focus(tool);
+    assert_eq!(framework.resolve_input(InputEvent::KeyDown(A), &mut owner), Some(picture));
+}
+
+#[test]
+fn keys_go_to_what_is_dragged_wherever_the_mouse_and_the_focus_are() {
+    let (mut framework, mut owner, [_, tool, panel]) = window();
+    framework.set_focus(panel);
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(to(700.0, 50.0), &mut owner);
+    owner.forget();
+    framework.resolve_input(InputEvent::KeyDown(Key::Escape), &mut owner);
+    assert_eq!((owner.told(tool), owner.told(panel)), (vec![Told::KeyDown(Key::Escape, false)], vec![]));
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
+    assert_eq!(owner.told(panel).last(), Some(&Told::KeyDown(A, false)));
+}
+
+#[test]
+fn lost_input_cancels_what_is_captured_and_lets_every_key_go() {
+    let (mut framework, mut owner, [picture, tool, panel]) = window();
+    owner.get(tool).passes = true;
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
+    owner.forget();
+    framework.resolve_input(InputEvent::Lost, &mut owner);
+    assert_eq!(owner.told(tool), [Told::Lost, Told::KeyUp(A), Told::Leave]);
+    assert_eq!(owner.told(picture), [Told::Lost, Told::KeyUp(A)], "the press was passed on to it");
+    assert_eq!(owner.told(panel), []);
+    assert_eq!(framework.captured(), None);
+    // The release that comes late means nothing.
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::KeyUp(A), &mut owner);
+    assert_eq!(owner.told(tool), []);
+    // A second press without a release in between: the first was lost.
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    use Told::{Down, Enter, Lost, Move};
+    assert_eq!(owner.told(tool), [Enter, Move, Down(LEFT), Lost, Down(LEFT)]);
+}
+
+#[test]
+fn controls_come_and_go_while_an_input_is_on_its_way() {
+    let (mut framework, mut owner, [picture, tool, _]) = window();
+    owner.get(tool).passes = true;
+    owner.get(tool).deed = Deed::UnregisterSelf;
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    owner.forget();
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    assert_eq!(framework.captured(), Some(picture), "the press goes on to the parent, which keeps the mouse");
+    framework.resolve_input(to(700.0, 120.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    assert_eq!(owner.told(picture), [Told::Down(LEFT), Told::Move, Told::Up(LEFT)]);
+    assert_eq!(owner.told(tool), [Told::Down(LEFT)]);
+
+    let (mut framework, mut owner, [picture, tool, _]) = window();
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.unregister_control(tool);
+    framework.resolve_input(to(130.0, 120.0), &mut owner);
+    assert_eq!(owner.told(picture), [], "nobody has a mouse whose owner is gone");
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    assert_eq!(owner.told(picture), [Told::Enter]);
+
+    let (mut framework, mut owner, [picture, tool, _]) = window();
+    owner.get(tool).passes = true;
+    owner.get(tool).deed = Deed::Unregister(picture);
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    owner.forget();
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    assert_eq!(owner.told(picture), [], "it is gone, though its owner has it still");
+
+    let (mut framework, mut owner, [_, tool, panel]) = window();
+    owner.get(tool).deed = Deed::Register(area(110.0, 110.0, 20.0, 20.0));
+    framework.resolve_input(to(120.0, 120.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    assert_eq!(framework.hovered(), Some(tool), "a control that its owner does not have is not met");
+    owner.get(tool).deed = Deed::Focus(panel);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    assert_eq!(owner.told(panel), [Told::Focus]);
+}
+
+#[test]
+fn two_controls_that_take_the_focus_from_each_other_come_to_rest() {
+    let (mut framework, mut owner, [picture, _, panel]) = window();
+    owner.get(picture).greedy = true;
+    owner.get(panel).greedy = true;
+    framework.set_focus(picture);
+    framework.update(&mut owner);
+    framework.set_focus(panel);
+    framework.update(&mut owner);
+    framework.update(&mut owner);
+    owner.forget();
+    framework.update(&mut owner);
+    assert!(owner.probes.iter().all(|probe| probe.told.is_empty()));
+}
+
+#[test]
+fn an_input_allocates_nothing() {
+    let (mut framework, mut owner, [_, tool, panel]) = window();
+    owner.get(tool).passes = true;
+    let events = [to(120.0, 120.0), InputEvent::MouseDown(LEFT), to(300.0, 10.0), InputEvent::MouseUp(LEFT)];
+    let keys = [InputEvent::KeyDown(A), InputEvent::KeyUp(A), InputEvent::Wheel(Vec2::Y), InputEvent::Lost];
+    let (count, ()) = counting::count(|| {
+        for event in events.into_iter().chain(keys) {
+            framework.resolve_input(event, &mut owner);
+            framework.set_focus(panel);
+        }
+    });
+    assert_eq!(count.allocations, 0, "{count:?}");
+}
+
+#[test]
+fn what_grabs_the_input_has_it_everywhere_until_it_lets_go() {
+    let (mut framework, mut owner, [picture, tool, _]) = window();
+    framework.grab(tool);
+    assert_eq!(framework.resolve_input(to(700.0, 50.0), &mut owner), Some(tool));
+    framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::KeyUp(A), &mut owner);
+    use Told::{Down, Enter, KeyDown, KeyUp, Leave, Lost, Move, Up};
+    let told = [Enter, Move, KeyDown(A, false), Down(LEFT), Up(LEFT), KeyUp(A)];
+    assert_eq!(owner.told(tool), told);
+    framework.release();
+    framework.resolve_input(to(300.0, 300.0), &mut owner);
+    assert_eq!((owner.told(tool), owner.told(picture)), (vec![Leave], vec![Enter, Move]));
+    framework.grab(tool);
+    framework.update(&mut owner);
+    framework.resolve_input(InputEvent::Lost, &mut owner);
+    assert_eq!(owner.told(tool), [Enter, Lost, Leave]);
+    framework.grab(tool);
+    framework.resolve_input(to(700.0, 50.0), &mut owner);
+    framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
+    framework.resolve_input(InputEvent::Lost, &mut owner);
+    assert_eq!(owner.told(tool), [Enter, Move, Down(LEFT), Lost, Leave], "told once");
+    framework.grab(tool);
+    framework.unregister_control(tool);
+    assert_eq!(framework.captured(), None);
+}

@@ -1,0 +1,138 @@
+//! Controls that note what they are told, for the tests of the framework.
+
+use dragonfly::control::{
+    Area, BaseControl, Button, ControlFramework, ControlId, Controls, Key, Modifiers, Mouse, Pass,
+};
+use glam::Vec2;
+
+/// What a control was told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Told {
+    Enter,
+    Leave,
+    Move,
+    Wheel,
+    Down(Button),
+    Up(Button),
+    KeyDown(Key, bool),
+    KeyUp(Key),
+    Focus,
+    NoFocus,
+    Lost,
+}
+
+/// What a control does besides, when a button goes down on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum Deed {
+    #[default]
+    Nothing,
+    UnregisterSelf,
+    Unregister(ControlId),
+    Register(Area),
+    Focus(ControlId),
+}
+
+pub(crate) struct Probe {
+    pub(crate) id: ControlId,
+    pub(crate) passes: bool,
+    /// Is it round, inside its area?
+    pub(crate) circle: Option<(Vec2, f32)>,
+    pub(crate) deed: Deed,
+    /// Takes the focus whenever it loses it.
+    pub(crate) greedy: bool,
+    pub(crate) told: Vec<Told>,
+}
+
+impl Probe {
+    pub(crate) fn note(&mut self, told: Told) -> Pass {
+        self.told.push(told);
+        if self.passes { Pass::ToParent } else { Pass::Stop }
+    }
+}
+
+impl BaseControl for Probe {
+    fn is_pos_on(&self, point: Vec2) -> bool {
+        self.circle.is_none_or(|(center, radius)| center.distance(point) < radius)
+    }
+    fn set_focus(&mut self, _: &mut ControlFramework) {
+        self.note(Told::Focus);
+    }
+    fn null_focus(&mut self, framework: &mut ControlFramework) {
+        self.note(Told::NoFocus);
+        if self.greedy {
+            framework.set_focus(self.id);
+        }
+    }
+    fn key_down(&mut self, key: Key, _: Modifiers, repeat: bool, _: &mut ControlFramework) -> Pass {
+        self.note(Told::KeyDown(key, repeat))
+    }
+    fn key_up(&mut self, key: Key, _: Modifiers, _: &mut ControlFramework) -> Pass {
+        self.note(Told::KeyUp(key))
+    }
+    fn mouse_enter(&mut self, _: &mut ControlFramework) {
+        self.note(Told::Enter);
+    }
+    fn mouse_leave(&mut self, _: &mut ControlFramework) {
+        self.note(Told::Leave);
+    }
+    fn mouse_move(&mut self, _: Mouse, _: &mut ControlFramework) -> Pass {
+        self.note(Told::Move)
+    }
+    fn mouse_wheel(&mut self, _: Vec2, _: Mouse, _: &mut ControlFramework) -> Pass {
+        self.note(Told::Wheel)
+    }
+    fn mouse_down(&mut self, button: Button, _: Mouse, framework: &mut ControlFramework) -> Pass {
+        match self.deed {
+            Deed::Nothing => {}
+            Deed::UnregisterSelf => assert!(framework.unregister_control(self.id)),
+            Deed::Unregister(other) => _ = framework.unregister_control(other),
+            Deed::Register(area) => _ = framework.register_control(area),
+            Deed::Focus(other) => framework.set_focus(other),
+        }
+        self.note(Told::Down(button))
+    }
+    fn mouse_up(&mut self, button: Button, _: Mouse, _: &mut ControlFramework) -> Pass {
+        self.note(Told::Up(button))
+    }
+    fn input_lost(&mut self, _: &mut ControlFramework) {
+        self.note(Told::Lost);
+    }
+}
+
+/// The owner of all controls.
+#[derive(Default)]
+pub(crate) struct Owner {
+    pub(crate) probes: Vec<Probe>,
+}
+
+impl Controls for Owner {
+    fn control(&mut self, id: ControlId) -> Option<&mut dyn BaseControl> {
+        self.probes.iter_mut().find(|probe| probe.id == id).map(|probe| probe as &mut dyn BaseControl)
+    }
+}
+
+impl Owner {
+    pub(crate) fn add(&mut self, framework: &mut ControlFramework, area: Area) -> ControlId {
+        let id = framework.register_control(area);
+        self.own(id);
+        id
+    }
+
+    pub(crate) fn own(&mut self, id: ControlId) {
+        let told = Vec::with_capacity(256);
+        self.probes.push(Probe { id, passes: false, circle: None, deed: Deed::Nothing, greedy: false, told });
+    }
+
+    pub(crate) fn get(&mut self, id: ControlId) -> &mut Probe {
+        self.probes.iter_mut().find(|probe| probe.id == id).unwrap()
+    }
+
+    /// What a control was told since the last time.
+    pub(crate) fn told(&mut self, id: ControlId) -> Vec<Told> {
+        std::mem::take(&mut self.get(id).told)
+    }
+
+    pub(crate) fn forget(&mut self) {
+        self.probes.iter_mut().for_each(|probe| probe.told.clear());
+    }
+}

@@ -1,0 +1,173 @@
+//! What the tests of gizmos stand on: a small skeleton, cameras, and where things appear, computed the other way: with the
+//! matrices that the picture is drawn with.
+
+use dragonfly::camera::{Camera, Projection};
+use dragonfly::control::gizmo::{Axis, Gizmo, GizmoView, Space};
+use dragonfly_anim::animation::to_root;
+use dragonfly_anim::bounds::Sphere;
+use dragonfly_anim::data::{Bone, BoneIndex, Skeleton, Transform};
+use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
+
+/// A skeleton in a pose.
+pub(crate) struct Rig {
+    pub(crate) skeleton: Skeleton,
+    pub(crate) poses: Vec<Transform>,
+}
+
+impl Rig {
+    /// Root, 1 on root, 2 on 1, 3 on root: all turned, nothing stretched.
+    pub(crate) fn new() -> Self {
+        let turn = |x: f32, y: f32, z: f32| Quat::from_xyzw(x, y, z, 1.0).normalize();
+        let at = |x: f32, y: f32, z: f32, rotation: Quat| Transform {
+            translation: Vec3::new(x, y, z),
+            rotation,
+            scale: Vec3::ONE,
+        };
+        Self::of(
+            &[None, Some(0), Some(1), Some(0)],
+            vec![
+                at(0.1, 0.2, -0.1, turn(0.1, 0.3, -0.2)),
+                at(0.0, 0.5, 0.1, turn(-0.4, 0.2, 0.3)),
+                at(0.2, 0.4, 0.0, turn(0.3, 0.1, 0.5)),
+                at(-0.4, 0.3, 0.2, turn(0.2, -0.6, 0.1)),
+            ],
+        )
+    }
+
+    pub(crate) fn of(parents: &[Option<BoneIndex>], poses: Vec<Transform>) -> Self {
+        let bone = |(parent, rest): (&Option<BoneIndex>, &Transform)| Bone {
+            name: String::new(),
+            parent: *parent,
+            rest: *rest,
+            rest_matrix: None,
+            offset: Mat4::IDENTITY,
+            node: None,
+        };
+        let bones = parents.iter().zip(&poses).map(bone).collect();
+        Self { skeleton: Skeleton { bones }, poses }
+    }
+
+    pub(crate) fn to_root(&self) -> Vec<Mat4> {
+        self.to_root_of(&self.poses)
+    }
+
+    pub(crate) fn to_root_of(&self, poses: &[Transform]) -> Vec<Mat4> {
+        let mut matrices = vec![Mat4::IDENTITY; poses.len()];
+        to_root(&self.skeleton, poses, &mut matrices);
+        matrices
+    }
+
+    pub(crate) fn joint(&self, bone: usize) -> Vec3 {
+        self.to_root()[bone].w_axis.truncate()
+    }
+
+    /// The poses after a drag.
+    pub(crate) fn after(&self, gizmo: &Gizmo) -> Vec<Transform> {
+        let mut poses = self.poses.clone();
+        for change in &gizmo.drag().bones {
+            poses[change.bone as usize] = change.to_parent;
+        }
+        poses
+    }
+
+    /// Selects bones, the last one active.
+    pub(crate) fn select(&self, gizmo: &mut Gizmo, bones: &[BoneIndex]) {
+        gizmo.select(&self.skeleton, &self.poses, &self.to_root(), bones, None);
+    }
+
+    /// The axes of a bone in a space, of a rig where nothing is stretched.
+    pub(crate) fn axes(&self, bone: usize, space: Space, camera: &Camera) -> Mat3 {
+        let parent = self.skeleton.bones[bone].parent;
+        let to_root = self.to_root();
+        match space {
+            Space::Local => Mat3::from_mat4(to_root[bone]),
+            Space::Parent => {
+                parent.map_or(Mat3::IDENTITY, |parent| Mat3::from_mat4(to_root[parent as usize]))
+            }
+            Space::World => Mat3::IDENTITY,
+            Space::View => Mat3::from_cols(camera.right(), camera.up(), camera.back()),
+        }
+    }
+}
+
+/// A picture: from where, how large in points, on which screen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Screen {
+    pub(crate) camera: Camera,
+    pub(crate) size: Vec2,
+    pub(crate) pixels_per_point: f32,
+}
+
+impl Screen {
+    pub(crate) fn plain() -> Self {
+        let camera = Camera { target: Vec3::new(0.1, 0.6, 0.0), ..Camera::default() };
+        Self { camera, size: Vec2::new(800.0, 600.0), pixels_per_point: 1.0 }
+    }
+
+    /// Near and far, from several sides, with and without perspective, of many sizes and scales.
+    pub(crate) fn all() -> Vec<Self> {
+        let mut screens = Vec::new();
+        let sides = [(0.5, 0.26), (-2.2, -0.6), (0.0, 0.0), (1.2, 1.3)];
+        for (index, (yaw, pitch)) in sides.into_iter().enumerate() {
+            for projection in [Projection::Perspective, Projection::Orthographic] {
+                for distance in [2.0, 3.0, 30.0] {
+                    let size = [Vec2::new(800.0, 600.0), Vec2::new(1500.0, 420.0), Vec2::new(500.0, 900.0)];
+                    let target = Vec3::new(0.1, 0.6, 0.0);
+                    let camera = Camera { target, distance, yaw, pitch, projection, ..Camera::default() };
+                    let pixels_per_point = [1.0, 1.5, 2.0, 0.75][index];
+                    screens.push(Self { camera, size: size[index % 3], pixels_per_point });
+                }
+            }
+        }
+        screens
+    }
+
+    /// As the program would make it: from pixels.
+    pub(crate) fn view(&self) -> GizmoView {
+        GizmoView::of_pixels(&self.camera, self.size * self.pixels_per_point, self.pixels_per_point)
+    }
+
+    /// Where a place appears, in points, by the matrices that draw it.
+    pub(crate) fn at(&self, place: Vec3) -> Vec2 {
+        let bounds = Sphere { center: Vec3::ZERO, radius: 3.0 };
+        let clip_from_view = self.camera.clip_from_view(self.size.x / self.size.y, &bounds);
+        let clip = clip_from_view * self.camera.view_from_world() * place.extend(1.0);
+        let place = clip.truncate() / clip.w;
+        Vec2::new(place.x * 0.5 + 0.5, 0.5 - place.y * 0.5) * self.size
+    }
+
+    /// Scene units that a point covers at a place.
+    pub(crate) fn unit(&self, place: Vec3) -> f32 {
+        let depth = match self.camera.projection {
+            Projection::Perspective => (self.camera.eye() - place).dot(self.camera.back()),
+            Projection::Orthographic => self.camera.distance,
+        };
+        2.0 * (self.camera.field_of_view / 2.0).tan() * depth / self.size.y
+    }
+
+    /// Unit vector from a place to the viewer.
+    pub(crate) fn towards(&self, place: Vec3) -> Vec3 {
+        match self.camera.projection {
+            Projection::Perspective => (self.camera.eye() - place).normalize(),
+            Projection::Orthographic => self.camera.back(),
+        }
+    }
+}
+
+/// A place so many points along the axes from a joint.
+pub(crate) fn along(screen: &Screen, joint: Vec3, axes: Mat3, points: Vec3) -> Vec3 {
+    joint + axes * points * screen.unit(joint)
+}
+
+/// Radians between two rotations.
+pub(crate) fn between(a: Quat, b: Quat) -> f32 {
+    let (a, b) = (a.as_dquat().normalize(), b.as_dquat().normalize());
+    let difference = a.conjugate() * b;
+    (2.0 * difference.xyz().length().atan2(difference.w.abs())) as f32
+}
+
+pub(crate) const SPACES: [Space; 4] = [Space::Local, Space::Parent, Space::World, Space::View];
+
+pub(crate) fn unit(axis: Axis) -> Vec3 {
+    Vec3::AXES[axis as usize]
+}
