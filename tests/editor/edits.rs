@@ -2,7 +2,9 @@
 
 use crate::made_take::{BONES, animation};
 use dragonfly::document::adapter::{EditError, ModelAdapter, Slot};
-use dragonfly::document::edit::{Between, BonePose, BoneRef, EXAMPLES, Edit, KeySet, NewKey, Property, ResetTo, TakeRef};
+use dragonfly::document::edit::{
+    Between, BonePose, BoneRef, EXAMPLES, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
+};
 use dragonfly::document::history::{Edited, Gesture};
 use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Take, Track, Transform};
 use dragonfly_anim::sample::sample_take;
@@ -110,7 +112,13 @@ fn setting_what_is_there_changes_nothing_and_resetting_gives_the_original_back()
     assert!(Arc::ptr_eq(&model.slots()[0].original, &model.slots()[0].result));
     model.apply(&set(0.0, BonePose { translation: Some([9.0, 9.0, 9.0]), ..pose("root") })).unwrap();
     let (bones, properties) = (vec![bone("root")], Vec::new());
-    let reset = |to| Edit::Reset { take: walk(), time: 0.0, bones: bones.clone(), properties: Vec::clone(&properties), to };
+    let reset = |to| Edit::Reset {
+        take: walk(),
+        time: 0.0,
+        bones: bones.clone(),
+        properties: Vec::clone(&properties),
+        to,
+    };
     model.apply(&reset(ResetTo::Original)).unwrap();
     assert!(Arc::ptr_eq(&model.slots()[0].original, &model.slots()[0].result));
     model.apply(&reset(ResetTo::Rest)).unwrap();
@@ -168,14 +176,15 @@ fn keys_that_keep_the_motion_leave_every_curve_where_it_was() {
 #[test]
 fn channels_with_one_column_of_times_have_one_afterwards() {
     let mut model = model(7);
-    model.apply(&Edit::AddKeys {
-        take: walk(),
-        time: 0.2,
-        bones: vec![bone("root"), bone("hip")],
-        properties: Vec::new(),
-        value: NewKey::Current,
-    })
-    .unwrap();
+    model
+        .apply(&Edit::AddKeys {
+            take: walk(),
+            time: 0.2,
+            bones: vec![bone("root"), bone("hip")],
+            properties: Vec::new(),
+            value: NewKey::Current,
+        })
+        .unwrap();
     let tracks = &model.slots()[0].original.tracks;
     assert!(Arc::ptr_eq(&tracks[0].translation.times, &tracks[1].scale.times));
     model.apply(&Edit::RetimeTake { take: walk(), start: None, length: Some(2.0) }).unwrap();
@@ -234,7 +243,8 @@ fn a_take_reversed_twice_is_the_take_and_once_it_runs_backwards() {
         let time = step as f32 * 0.025;
         let (old, new) = (sampled(&model, &before, 1.0 - time), sampled(&model, &once, time));
         for linear_or_cubic in [0, 1, 3] {
-            let apart = apart(&old[linear_or_cubic..=linear_or_cubic], &new[linear_or_cubic..=linear_or_cubic]);
+            let apart =
+                apart(&old[linear_or_cubic..=linear_or_cubic], &new[linear_or_cubic..=linear_or_cubic]);
             assert!(apart < 2e-4, "{time} {linear_or_cubic}: {apart}");
         }
     }
@@ -257,16 +267,24 @@ fn the_two_parts_of_a_split_take_play_what_the_whole_did() {
     assert!((first.end() - 0.44).abs() < 1e-6 && (second.end() - 0.56).abs() < 1e-6);
     for step in 0..=44 {
         let time = step as f32 * 0.01;
-        assert!(apart(&sampled(&model, &before, time)[..1], &sampled(&model, &first, time)[..1]) < 1e-5, "{time}");
+        assert!(
+            apart(&sampled(&model, &before, time)[..1], &sampled(&model, &first, time)[..1]) < 1e-5,
+            "{time}"
+        );
         let later = 0.44 + time;
-        assert!(apart(&sampled(&model, &before, later)[..1], &sampled(&model, &second, time)[..1]) < 1e-5, "{later}");
+        assert!(
+            apart(&sampled(&model, &before, later)[..1], &sampled(&model, &second, time)[..1]) < 1e-5,
+            "{later}"
+        );
     }
 }
 
 #[test]
 fn a_channel_made_a_spline_runs_through_its_keys_and_back_it_is_what_it_was() {
     let mut model = model(13);
-    model.apply(&set(0.5, BonePose { rotation: Some(Quat::from_rotation_z(1.0).to_array()), ..pose("root") })).unwrap();
+    model
+        .apply(&set(0.5, BonePose { rotation: Some(Quat::from_rotation_z(1.0).to_array()), ..pose("root") }))
+        .unwrap();
     let before = Arc::clone(&model.slots()[0].result);
     let to = |interpolation| Edit::SetInterpolation {
         take: walk(),
@@ -303,7 +321,8 @@ fn every_example_reads_as_an_edit_and_writes_itself_again() {
     let names: Vec<String> = EXAMPLES
         .iter()
         .map(|example| {
-            let edit: Edit = serde_json::from_str(example.json).unwrap_or_else(|error| panic!("{}: {error}", example.json));
+            let edit: Edit = serde_json::from_str(example.json)
+                .unwrap_or_else(|error| panic!("{}: {error}", example.json));
             let text = serde_json::to_string(&edit).unwrap();
             assert_eq!(serde_json::from_str::<Edit>(&text).unwrap(), edit);
             let value: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -369,14 +388,25 @@ fn any_edit(random: &mut Random, takes: usize) -> Edit {
     match random.below(22) {
         0..=2 => Edit::Set { take, time, poses },
         3 => Edit::Offset { take, time, poses },
-        4 => Edit::Reset { take, time, bones, properties, to: random.choice(&[ResetTo::Original, ResetTo::Rest]) },
+        4 => Edit::Reset {
+            take,
+            time,
+            bones,
+            properties,
+            to: random.choice(&[ResetTo::Original, ResetTo::Rest]),
+        },
         5 | 6 => {
             let value = random.choice(&[NewKey::Predecessor, NewKey::Current]);
             Edit::AddKeys { take, time: random.between(0.0, 1.5), bones, properties, value }
         }
         7 => Edit::DeleteKeys { take, keys: keys() },
         8 => Edit::MoveKeys { take, keys: keys(), by: random.between(-0.2, 0.4) },
-        9 => Edit::ScaleKeys { take, keys: keys(), about: time, factor: random.choice(&[0.5, 2.0, -1.0, 0.01]) },
+        9 => Edit::ScaleKeys {
+            take,
+            keys: keys(),
+            about: time,
+            factor: random.choice(&[0.5, 2.0, -1.0, 0.01]),
+        },
         10 => Edit::DuplicateKeys { take, keys: keys(), by: random.between(-0.2, 0.5) },
         11 => Edit::Ripple { take, from: time, by: random.between(-0.3, 0.3) },
         12 => Edit::SnapKeys { take, keys: keys(), rate: random.choice(&[8.0, 24.0, 30.0]) },
@@ -399,7 +429,11 @@ fn any_edit(random: &mut Random, takes: usize) -> Edit {
         19 => Edit::SplitTake { take, time, name },
         20 => Edit::TrimTake { take, from: time * 0.5, to: time },
         _ if random.below(2) == 0 => Edit::ReverseTake { take },
-        _ => Edit::RetimeTake { take, start: Some(random.between(0.0, 0.5)), length: Some(random.between(0.1, 2.0)) },
+        _ => Edit::RetimeTake {
+            take,
+            start: Some(random.between(0.0, 0.5)),
+            length: Some(random.between(0.1, 2.0)),
+        },
     }
 }
 
@@ -411,7 +445,9 @@ fn same(a: &ModelAdapter, b: &ModelAdapter) -> bool {
 
 fn same_slot(a: &Slot, b: &Slot) -> bool {
     let changes = |slot: &Slot| -> Vec<_> {
-        slot.changed().map(|(bone, property)| (bone, property, slot.changes(bone, property).to_vec())).collect()
+        slot.changed()
+            .map(|(bone, property)| (bone, property, slot.changes(bone, property).to_vec()))
+            .collect()
     };
     (a.id, a.origin) == (b.id, b.origin)
         && same_take(&a.original, &b.original)
@@ -420,7 +456,11 @@ fn same_slot(a: &Slot, b: &Slot) -> bool {
 }
 
 fn same_take(a: &Take, b: &Take) -> bool {
-    fn same_channel<T: Copy, const N: usize>(a: &Channel<T>, b: &Channel<T>, numbers: fn(T) -> [f32; N]) -> bool {
+    fn same_channel<T: Copy, const N: usize>(
+        a: &Channel<T>,
+        b: &Channel<T>,
+        numbers: fn(T) -> [f32; N],
+    ) -> bool {
         let bits = |value: T| numbers(value).map(f32::to_bits);
         a.interpolation == b.interpolation
             && a.values.len() == b.values.len()
@@ -463,7 +503,10 @@ fn whatever_was_done_undo_leads_back_to_the_bit_and_redo_forth_again() {
             if edited.apply(edit.clone(), None).is_ok() {
                 states.push(edited.adapter().clone());
             } else {
-                assert!(same(&before, edited.adapter()), "seed {number}: {edit:?} failed and changed something");
+                assert!(
+                    same(&before, edited.adapter()),
+                    "seed {number}: {edit:?} failed and changed something"
+                );
             }
             if let Err(broken) = edited.adapter().check() {
                 panic!("seed {number}: {edit:?}: {broken}");

@@ -8,11 +8,11 @@ use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 
 /// Bones of the model: `root`, `hip`, `hand.L`, `hand.R`, `still`.
-pub const BONES: [&str; 5] = ["root", "hip", "hand.L", "hand.R", "still"];
+pub(crate) const BONES: [&str; 5] = ["root", "hip", "hand.L", "hand.R", "still"];
 
 /// Two takes: "walk" (linear, step and cubic channels, morph weights; one column of times for most), "wave" (one key a
 /// channel).
-pub fn animation(random: &mut Random) -> AnimationData {
+pub(crate) fn animation(random: &mut Random) -> AnimationData {
     let bones = BONES.iter().enumerate().map(|(index, name)| Bone {
         name: (*name).to_owned(),
         parent: (index > 0).then_some(index as u32 / 2),
@@ -33,7 +33,13 @@ pub fn animation(random: &mut Random) -> AnimationData {
         Track { bone: 4, ..Track::default() },
     ];
     let wave = (0..5).map(|bone| track(random, bone, &one, Interpolation::Linear)).collect();
-    let take = |name: &str, tracks, length, morphs| Take { name: name.to_owned(), start: 0.0, length, tracks, morphs };
+    let take = |name: &str, tracks, length, morphs| Take {
+        name: name.to_owned(),
+        start: 0.0,
+        length,
+        tracks,
+        morphs,
+    };
     let morph = MorphTrack {
         instance: 0,
         targets: 2,
@@ -43,7 +49,10 @@ pub fn animation(random: &mut Random) -> AnimationData {
     };
     AnimationData {
         skeleton,
-        takes: vec![Arc::new(take("walk", walk, 1.0, vec![morph])), Arc::new(take("wave", wave, 0.0, Vec::new()))],
+        takes: vec![
+            Arc::new(take("walk", walk, 1.0, vec![morph])),
+            Arc::new(take("wave", wave, 0.0, Vec::new())),
+        ],
     }
 }
 

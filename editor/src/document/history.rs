@@ -85,13 +85,15 @@ impl Edited {
         Ok(())
     }
 
-    /// Takes a gesture back as if it had never begun.
-    pub fn cancel(&mut self, gesture: Gesture) {
+    /// Takes a gesture back as if it had never begun; was it the last step?
+    pub fn cancel(&mut self, gesture: Gesture) -> bool {
         let is_last = self.done == self.steps.len();
-        if is_last && self.steps.back().is_some_and(|step| step.gesture == Some(gesture)) {
+        let its_step = self.steps.back().is_some_and(|step| step.gesture == Some(gesture));
+        if is_last && its_step {
             self.undo();
             self.forget_after(self.done);
         }
+        is_last && its_step
     }
 
     /// Undoes the last step; is there one?

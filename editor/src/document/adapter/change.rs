@@ -89,7 +89,12 @@ pub(super) fn triple<K: Kind>(channel: &Channel<K::Value>, key: usize) -> Triple
 }
 
 /// Puts a key into a column of values that has room for it.
-pub(super) fn put<K: Kind>(values: &mut [K::Value], interpolation: Interpolation, key: usize, triple: &Triple) {
+pub(super) fn put<K: Kind>(
+    values: &mut [K::Value],
+    interpolation: Interpolation,
+    key: usize,
+    triple: &Triple,
+) {
     let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
     let from = if per_key == 3 { 0 } else { 1 };
     for (value, numbers) in values.iter_mut().skip(key * per_key).take(per_key).zip(&triple[from..]) {

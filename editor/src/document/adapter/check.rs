@@ -50,10 +50,14 @@ fn slot_is_right(slot: &Slot) -> Found {
     for take in [original, result] {
         let now = (take.start.to_bits(), take.length.to_bits());
         let (start, length) = extent(take);
-        ensure(now == (start.to_bits(), length.to_bits()), || "start and length are not those of the keys".to_owned())?;
+        ensure(now == (start.to_bits(), length.to_bits()), || {
+            "start and length are not those of the keys".to_owned()
+        })?;
     }
     for (bone, property) in slot.changed() {
-        ensure((bone as usize) < original.tracks.len(), || format!("a change of bone {bone}, which is not there"))?;
+        ensure((bone as usize) < original.tracks.len(), || {
+            format!("a change of bone {bone}, which is not there")
+        })?;
         ensure(!slot.changes(bone, property).is_empty(), || "a list of no changes is kept".to_owned())?;
     }
     for bone in 0..original.tracks.len() as u32 {
@@ -73,7 +77,9 @@ fn channel_is_right<K: Kind>(slot: &Slot, result: &Take, bone: u32, property: Pr
     ensure(result.interpolation == original.interpolation, || format!("{}: interpolations differ", at()))?;
     ensure(Arc::ptr_eq(&result.times, &original.times), || format!("{}: times are not shared", at()))?;
     let whole = result.values.len() == result.times.len() * result.values_per_key();
-    ensure(whole && original.values.len() == result.values.len(), || format!("{}: columns of other lengths", at()))?;
+    ensure(whole && original.values.len() == result.values.len(), || {
+        format!("{}: columns of other lengths", at())
+    })?;
     if changes.is_empty() {
         return ensure(Arc::ptr_eq(&result.values, &original.values), || {
             format!("{}: values are not shared", at())
@@ -88,7 +94,9 @@ fn channel_is_right<K: Kind>(slot: &Slot, result: &Take, bone: u32, property: Pr
     for key in 0..original.len() {
         let as_read = triple::<K>(original, key);
         let change = slot.key_change(bone, property, key);
-        ensure(change != Some(KeyChange::identity::<K>()), || format!("{}: key {key}: a change of nothing", at()))?;
+        ensure(change != Some(KeyChange::identity::<K>()), || {
+            format!("{}: key {key}: a change of nothing", at())
+        })?;
         let wanted = change.map_or(as_read, |change| change.result::<K>(&as_read));
         let now = triple::<K>(result, key);
         // Without a spline there are no tangents to compare.

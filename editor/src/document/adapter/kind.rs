@@ -224,7 +224,6 @@ pub(super) enum AnyChannel {
 
 /// A value type that [`AnyChannel`] knows.
 pub(super) trait Held: Value {
-
     fn wrap(channel: Channel<Self>) -> AnyChannel;
     fn unwrap(channel: &AnyChannel) -> Option<&Channel<Self>>;
 }

@@ -71,7 +71,9 @@ impl ModelAdapter {
             .takes
             .iter()
             .enumerate()
-            .map(|(index, take)| Arc::new(Slot::unchanged(TakeId(index as u32), Some(index), Arc::clone(take))))
+            .map(|(index, take)| {
+                Arc::new(Slot::unchanged(TakeId(index as u32), Some(index), Arc::clone(take)))
+            })
             .collect();
         Self { skeleton: Arc::clone(&animation.skeleton), next: slots.len() as u32, slots }
     }

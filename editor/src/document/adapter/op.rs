@@ -55,7 +55,9 @@ impl Op {
         size_of::<Self>()
             + match self {
                 Self::Changes(_, changes) => size_of_val(changes.as_slice()),
-                Self::Splice(_, remove, insert) => size_of_val(remove.as_slice()) + size_of_val(insert.as_slice()),
+                Self::Splice(_, remove, insert) => {
+                    size_of_val(remove.as_slice()) + size_of_val(insert.as_slice())
+                }
                 Self::Replace(_, content) => content.bytes(),
                 Self::Morphs(_, morphs) => {
                     morphs.iter().map(|morph| 4 * (morph.times.len() + morph.weights.len())).sum()

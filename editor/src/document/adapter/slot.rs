@@ -106,10 +106,8 @@ impl Slot {
         wanted: &[(u32, Option<KeyChange>)],
     ) -> Vec<(u32, Option<KeyChange>)> {
         let changes = Arc::make_mut(self.changes.entry((bone, property)).or_default());
-        let before: Vec<_> = wanted
-            .iter()
-            .map(|&(key, change)| (key, exchange(changes, key, change)))
-            .collect();
+        let before: Vec<_> =
+            wanted.iter().map(|&(key, change)| (key, exchange(changes, key, change))).collect();
         if changes.is_empty() {
             self.changes.remove(&(bone, property));
         }
@@ -180,7 +178,8 @@ pub(super) fn extent(take: &Take) -> (f32, f32) {
     let of_bones = take.tracks.iter().flat_map(|track| {
         [track.translation.range(), track.rotation.range(), track.scale.range()].into_iter().flatten()
     });
-    let of_morphs = take.morphs.iter().filter_map(|morph| Some((*morph.times.first()?, *morph.times.last()?)));
+    let of_morphs =
+        take.morphs.iter().filter_map(|morph| Some((*morph.times.first()?, *morph.times.last()?)));
     let range = of_bones.chain(of_morphs).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
     range.map_or((0.0, 0.0), |(start, end)| (start, end - start))
 }
@@ -242,10 +241,8 @@ fn spliced<K: Kind>(
     insert: &[(u32, Key)],
     shared: &mut Shared,
 ) -> Vec<(u32, Key)> {
-    let taken: Vec<(u32, Key)> = remove
-        .iter()
-        .filter_map(|&at| Some((at, slot.key::<K>(property, bone, at as usize)?)))
-        .collect();
+    let taken: Vec<(u32, Key)> =
+        remove.iter().filter_map(|&at| Some((at, slot.key::<K>(property, bone, at as usize)?))).collect();
     let old = slot.original_of::<K>(bone).cloned().unwrap_or_default();
     let (per_key, keys) = (old.values_per_key(), (old.len() + insert.len()).saturating_sub(taken.len()));
     let mut times = Vec::with_capacity(keys);

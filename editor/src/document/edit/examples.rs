@@ -35,7 +35,10 @@ pub const EXAMPLES: &[Example] = &[
         r#"{"edit":"delete_keys","take":"Walk","keys":[{"bones":["Head"],"from":0.2,"to":0.4}]}"#,
         "Deletes the head's keys between two times.",
     ),
-    example(r#"{"edit":"move_keys","take":"Walk","keys":[{"at":[0.5]}],"by":0.1}"#, "Moves all keys at half a second."),
+    example(
+        r#"{"edit":"move_keys","take":"Walk","keys":[{"at":[0.5]}],"by":0.1}"#,
+        "Moves all keys at half a second.",
+    ),
     example(
         r#"{"edit":"scale_keys","take":"Walk","keys":[{"from":0,"to":1}],"about":0,"factor":2}"#,
         "Slows the first second down to half.",
@@ -44,7 +47,10 @@ pub const EXAMPLES: &[Example] = &[
         r#"{"edit":"duplicate_keys","take":"Walk","keys":[{"bones":["Head"],"at":[0]}],"by":1}"#,
         "Copies the head's first keys one second on.",
     ),
-    example(r#"{"edit":"ripple","take":"Walk","from":0.5,"by":0.25}"#, "Makes room of a quarter of a second."),
+    example(
+        r#"{"edit":"ripple","take":"Walk","from":0.5,"by":0.25}"#,
+        "Makes room of a quarter of a second.",
+    ),
     example(r#"{"edit":"snap_keys","take":"Walk","keys":[{}],"rate":30}"#, "Moves all keys to whole frames."),
     example(
         r#"{"edit":"set_interpolation","take":"Walk","bones":["Head"],"interpolation":"cubic_spline"}"#,

@@ -11,9 +11,11 @@
 //! bone that there is not, a time where no key is: an error that says so, and nothing changes.
 
 mod examples;
+mod lines;
 mod target;
 
 pub use examples::{EXAMPLES, Example};
+pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
 
 use serde::{Deserialize, Serialize};

@@ -52,8 +52,11 @@ pub(super) fn arrange<K: Kind>(work: &mut Work, place: Place, chosen: &[(u32, f3
         }
     }
     let before = |position: usize, time: f32| kept.partition_point(|&other| other < time) + position;
-    let insert =
-        moved.into_iter().enumerate().map(|(position, key)| (before(position, key.time) as u32, key)).collect();
+    let insert = moved
+        .into_iter()
+        .enumerate()
+        .map(|(position, key)| (before(position, key.time) as u32, key))
+        .collect();
     work.perform(Op::Splice(place, remove, insert));
 }
 

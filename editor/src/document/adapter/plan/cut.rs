@@ -62,8 +62,7 @@ fn channel<K: Kind>(work: &mut Work, place: Place, from: f32, to: f32) {
     let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return };
     let inside = |time: f32| time >= from - SAME_TIME && time <= to + SAME_TIME;
     let on = |wanted: f32| times.iter().any(|&time| (time - wanted).abs() <= SAME_TIME);
-    let remove: Vec<u32> =
-        (0..times.len() as u32).filter(|&key| !inside(times[key as usize])).collect();
+    let remove: Vec<u32> = (0..times.len() as u32).filter(|&key| !inside(times[key as usize])).collect();
     let kept = times.len() - remove.len();
     let mut insert: Vec<(u32, Key)> = Vec::new();
     if !on(from) && (first < from || kept == 0) {

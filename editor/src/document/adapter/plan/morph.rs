@@ -85,7 +85,8 @@ fn slope(track: &MorphTrack, target: usize, time: f32) -> f32 {
         return 0.0;
     }
     let width = track.targets as usize;
-    let at = |key: usize, row: usize| track.weights.get((key * 3 + row) * width + target).copied().unwrap_or(0.0);
+    let at =
+        |key: usize, row: usize| track.weights.get((key * 3 + row) * width + target).copied().unwrap_or(0.0);
     let (u, span) = (keys.mix, track.times[keys.after] - track.times[keys.before]);
     6.0 * (u * u - u) / span * (at(keys.before, 1) - at(keys.after, 1))
         + (3.0 * u * u - 4.0 * u + 1.0) * at(keys.before, 2)

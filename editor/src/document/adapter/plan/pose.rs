@@ -12,7 +12,12 @@ pub(super) fn set(work: &mut Work, take: &TakeRef, time: f32, poses: &[BonePose]
     each(work, take, time, poses, Way::Set)
 }
 
-pub(super) fn offset(work: &mut Work, take: &TakeRef, time: f32, poses: &[BonePose]) -> Result<(), EditError> {
+pub(super) fn offset(
+    work: &mut Work,
+    take: &TakeRef,
+    time: f32,
+    poses: &[BonePose],
+) -> Result<(), EditError> {
     each(work, take, time, poses, Way::Offset)
 }
 
@@ -51,13 +56,7 @@ enum Way {
     Offset,
 }
 
-fn each(
-    work: &mut Work,
-    take: &TakeRef,
-    time: f32,
-    poses: &[BonePose],
-    way: Way,
-) -> Result<(), EditError> {
+fn each(work: &mut Work, take: &TakeRef, time: f32, poses: &[BonePose], way: Way) -> Result<(), EditError> {
     let take = work.take(take)?;
     key_time(time, work.slot(take))?;
     let mut met = false;

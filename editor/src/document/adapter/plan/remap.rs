@@ -94,7 +94,10 @@ fn channel<K: Kind>(work: &mut Work, place: Place, clock: Clock) -> Result<(), E
     // Without tangents and forwards the values stay where they are, and are shared.
     let content = if !backwards && (!spline || clock.stretch == 1.0) {
         let original = Channel { times: times.into(), ..old.clone() };
-        Content { original: K::Value::wrap(original), changes: slot.changes(place.bone, place.property).to_vec() }
+        Content {
+            original: K::Value::wrap(original),
+            changes: slot.changes(place.bone, place.property).to_vec(),
+        }
     } else {
         let mut changes = Vec::new();
         let mut values = vec![K::Value::ZERO; old.values.len()];

@@ -61,7 +61,11 @@ fn smooth<K: Kind>(channel: &Channel<K::Value>) -> Channel<K::Value> {
         let slope = slope::<K>(channel, key);
         put::<K>(&mut values, Interpolation::CubicSpline, key, &[slope, value::<K>(channel, key), slope]);
     }
-    Channel { times: Arc::clone(&channel.times), values: values.into(), interpolation: Interpolation::CubicSpline }
+    Channel {
+        times: Arc::clone(&channel.times),
+        values: values.into(),
+        interpolation: Interpolation::CubicSpline,
+    }
 }
 
 fn value<K: Kind>(channel: &Channel<K::Value>, key: usize) -> Numbers {
@@ -134,8 +138,11 @@ pub(super) fn tangents(
         return Err(EditError::Nothing("no tangent is given"));
     }
     let place = Place { take, bone, property };
-    let key = key_at(work.slot(take).times(bone, property), time)
-        .map_err(|_| EditError::NoKey { bone, property, time })?;
+    let key = key_at(work.slot(take).times(bone, property), time).map_err(|_| EditError::NoKey {
+        bone,
+        property,
+        time,
+    })?;
     with_kind!(property, set_tangents::<K>(work, place, key, arrive, leave))
 }
 

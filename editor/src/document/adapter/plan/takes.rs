@@ -17,9 +17,7 @@ pub(super) fn create(
     let source = copy.map(|take| work.take(take)).transpose()?;
     let id = work.adapter.new_id();
     let (slot, behind) = match source {
-        Some(source) => {
-            (work.slot(source).copied(id), work.index(source) + 1)
-        }
+        Some(source) => (work.slot(source).copied(id), work.index(source) + 1),
         None => {
             let take = Arc::new(rest(&work.adapter.skeleton));
             if take.keys() == 0 {
