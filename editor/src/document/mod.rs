@@ -3,6 +3,7 @@
 pub mod adapter;
 mod cancel;
 pub mod edit;
+mod editable;
 mod folder;
 pub mod history;
 pub mod images;
@@ -14,6 +15,7 @@ mod owner;
 mod view;
 
 pub use cancel::{Cancel, Progress, Stage};
+pub use editable::{Editable, SaveError, SavePlan};
 pub use folder::{DoorError, Folder, read_file};
 pub use load::{LoadError, Loader, Source, load_model};
 pub use open::Change;

@@ -18,13 +18,14 @@ pub use examples::{EXAMPLES, Example};
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Grows when a reader of today could misunderstand an edit of tomorrow.
 pub const VERSION: u32 = 1;
 
 /// Parts of a bone's pose; what is left out stays as it is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BonePose {
     /// Which bone.
@@ -41,7 +42,7 @@ pub struct BonePose {
 }
 
 /// What a reset leads back to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ResetTo {
     /// The pose as it was read: the change is taken away, bit for bit.
@@ -52,7 +53,7 @@ pub enum ResetTo {
 }
 
 /// What a new key holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum NewKey {
     /// What the key before it holds, exactly (thesis §2.2.2.4); before the first key: what the first one holds.
@@ -63,7 +64,7 @@ pub enum NewKey {
 }
 
 /// How a channel finds what lies between its keys.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Between {
     /// The key before.
@@ -75,7 +76,7 @@ pub enum Between {
 }
 
 /// One thing done to a document.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "edit", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Edit {
     /// Gives bones a pose at a time. Where a channel has no key there, one is added that keeps the motion.

@@ -1,11 +1,12 @@
 //! What an edit is about: which take, which bones, which channels, which keys.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A take, by its place in the list or by its name; of several takes with one name the first is meant.
 ///
 /// In JSON a number or a string.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum TakeRef {
     /// Place in the list of takes as it is now, from 0.
@@ -17,7 +18,7 @@ pub enum TakeRef {
 /// A bone, by its index or by its name; of several bones with one name the first is meant.
 ///
 /// In JSON a number or a string.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum BoneRef {
     /// Place in the skeleton, from 0.
@@ -27,7 +28,7 @@ pub enum BoneRef {
 }
 
 /// What of a bone's pose a channel moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Property {
     /// Metres, parent space.
@@ -53,7 +54,7 @@ impl Property {
 }
 
 /// Keys of a take: those of some channels, at some times.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct KeySet {
     /// Which bones; all where empty.
