@@ -123,6 +123,11 @@ impl<'a> DataUri<'a> {
         Some(Ok(Self { mime, body, is_base64: base64.is_some() }))
     }
 
+    /// Is the data base64? Else it is percent-encoded.
+    pub fn is_base64(&self) -> bool {
+        self.is_base64
+    }
+
     /// At most how many bytes [`Self::decode`] yields.
     pub fn capacity(&self) -> usize {
         if self.is_base64 { self.body.len() / 4 * 3 + 3 } else { self.body.len() }

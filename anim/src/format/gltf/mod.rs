@@ -23,6 +23,7 @@ mod mesh;
 mod morph;
 mod node;
 mod references;
+pub mod save;
 mod scene;
 mod skin;
 mod survey;

@@ -1,0 +1,348 @@
+//! What an edit makes of one animation: which channels go, which samplers are written, which are new.
+
+use super::channels::{Action, ChannelEdit};
+use super::document::{Document, FileAnimation, Target};
+use super::error::SaveError;
+use super::json::list::{ListEdit, edit};
+use super::json::patch::Patch;
+use super::json::style::{Fresh, Style};
+use super::json::token::quoted;
+use super::json::tree::{Id, Kind};
+use super::needs::{NeedId, Needs};
+use std::collections::{HashMap, HashSet};
+
+/// The key times of a sampler.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Input {
+    /// Those of an accessor that is there and holds them.
+    Kept(usize),
+    Needed(NeedId),
+}
+
+/// A sampler that is written.
+#[derive(Clone, Debug)]
+pub(super) struct SamplerDraft {
+    /// Which of the animation's; the count and above for new ones.
+    pub(super) number: usize,
+    pub(super) input: Input,
+    pub(super) output: NeedId,
+    interpolation: &'static str,
+}
+
+/// A channel that gets a sampler.
+#[derive(Clone, Debug)]
+enum ChannelDraft {
+    /// One that is there is sent to another sampler.
+    Moved(Id, usize),
+    New(Target, usize),
+}
+
+/// An animation, edited.
+#[derive(Debug, Default)]
+pub(super) struct Draft {
+    /// Another name.
+    pub(super) name: Option<String>,
+    removed: Vec<Id>,
+    channels: Vec<ChannelDraft>,
+    pub(super) samplers: Vec<SamplerDraft>,
+}
+
+impl Draft {
+    /// What the new channels move.
+    pub(super) fn new_targets(&self) -> impl Iterator<Item = Target> + '_ {
+        self.channels.iter().filter_map(|channel| match channel {
+            ChannelDraft::New(target, _) => Some(*target),
+            ChannelDraft::Moved(..) => None,
+        })
+    }
+
+    /// The samplers of the animation that are written over.
+    pub(super) fn rewritten(&self) -> HashSet<usize> {
+        self.samplers.iter().map(|sampler| sampler.number).collect()
+    }
+
+    /// What `edits` make of `animation`, or of nothing. `is_ours` says which accessors earlier saves wrote.
+    pub(super) fn of(
+        document: &Document<'_>,
+        animation: Option<&FileAnimation>,
+        edits: &[ChannelEdit],
+        name: Option<String>,
+        is_ours: &dyn Fn(usize) -> bool,
+        needs: &mut Needs,
+    ) -> Self {
+        let mut draft = Self { name, ..Self::default() };
+        let Some(animation) = animation else {
+            for (number, channel) in edits.iter().enumerate() {
+                let Action::Set(keys) = &channel.action else { continue };
+                let input = Input::Needed(needs.input(&keys.times, None));
+                let output = needs.output(keys, None);
+                draft.samplers.push(SamplerDraft {
+                    number,
+                    input,
+                    output,
+                    interpolation: keys.interpolation,
+                });
+                draft.channels.push(ChannelDraft::New(channel.target, number));
+            }
+            return draft;
+        };
+        let removed: HashSet<Target> =
+            edits.iter().filter(|e| matches!(e.action, Action::Remove)).map(|e| e.target).collect();
+        let goes = |target: Option<Target>| target.is_some_and(|target| removed.contains(&target));
+        draft.removed = animation.channels.iter().filter(|c| goes(c.target)).map(|c| c.id).collect();
+        let mut pool = Pool::of(document, animation, &draft.removed, is_ours);
+        for channel in edits {
+            let Action::Set(keys) = &channel.action else { continue };
+            let there = animation.channel(channel.target).map(|number| animation.channels[number]);
+            let old = there.and_then(|there| there.sampler);
+            let before = |name| old.and_then(|old| pool.accessor(document, animation, old, name));
+            let kept = before("input").filter(|&input| document.holds_times(input, &keys.times));
+            let number = match old.filter(|&old| pool.is_alone(old)) {
+                Some(own) => own,
+                None => {
+                    if let Some(old) = old {
+                        pool.leave(old);
+                    }
+                    pool.another()
+                }
+            };
+            let before = |name| pool.accessor(document, animation, number, name);
+            let input = match kept {
+                Some(kept) => Input::Kept(kept),
+                None => Input::Needed(needs.input(&keys.times, before("input"))),
+            };
+            let output = needs.output(keys, before("output"));
+            draft.samplers.push(SamplerDraft { number, input, output, interpolation: keys.interpolation });
+            match there {
+                Some(there) if old != Some(number) => {
+                    draft.channels.push(ChannelDraft::Moved(there.id, number))
+                }
+                Some(_) => {}
+                None => draft.channels.push(ChannelDraft::New(channel.target, number)),
+            }
+        }
+        draft
+    }
+
+    /// The patches to the text of `animation`. `accessors` are those that the needs became.
+    pub(super) fn patches(
+        &self,
+        document: &Document<'_>,
+        animation: &FileAnimation,
+        accessors: &[usize],
+        style: &Style,
+        pointer: &str,
+    ) -> Result<Vec<Patch>, SaveError> {
+        let json = document.json;
+        let mut patches = Vec::new();
+        let list = |name: &str| match json.member(animation.id, name) {
+            Some(list) if json.kind(list) == Kind::Array => Ok(list),
+            _ => Err(SaveError::File {
+                place: format!("{pointer}/{name}"),
+                reason: "the animation has no such list".to_owned(),
+            }),
+        };
+        // Only those members of the animation itself that are new.
+        let mut members = ListEdit::default();
+        let spot = style.spot(json, Some(animation.id), 3);
+        if let Some(name) = &self.name {
+            match json.member(animation.id, "name") {
+                Some(old) => {
+                    patches.push(Patch::new(json.span(old), quoted(name), format!("{pointer}/name")))
+                }
+                None => members.inserted.push((None, style.member("name", &Fresh::string(name), &spot))),
+            }
+        }
+        patches.extend(edit(json, animation.id, &members, style, &spot, &format!("{pointer}/name")));
+        if !self.removed.is_empty() || !self.channels.is_empty() {
+            let id = list("channels")?;
+            let spot = style.spot(json, Some(id), 4);
+            let mut change = ListEdit { removed: self.removed.clone(), inserted: Vec::new() };
+            let last = json.items(id).filter(|item| self.removed.binary_search(item).is_err()).last();
+            for channel in &self.channels {
+                match channel {
+                    ChannelDraft::Moved(id, sampler) => {
+                        let token = json.member(*id, "sampler").ok_or_else(|| SaveError::File {
+                            place: format!("{pointer}/channels"),
+                            reason: "a channel names no sampler".to_owned(),
+                        })?;
+                        let pointer = format!("{pointer}/channels/sampler");
+                        patches.push(Patch::new(json.span(token), sampler.to_string(), pointer));
+                    }
+                    ChannelDraft::New(target, sampler) => {
+                        let fresh = fresh_channel(*target, *sampler);
+                        change.inserted.push((last, style.write(&fresh, &spot)));
+                    }
+                }
+            }
+            patches.extend(edit(json, id, &change, style, &spot, &format!("{pointer}/channels")));
+        }
+        if !self.samplers.is_empty() {
+            let id = list("samplers")?;
+            let spot = style.spot(json, Some(id), 4);
+            let mut change = ListEdit::default();
+            let last = animation.samplers.last().copied();
+            for sampler in &self.samplers {
+                let (input, output) = sampler.accessors(accessors);
+                match animation.samplers.get(sampler.number) {
+                    Some(&old) => {
+                        let pointer = format!("{pointer}/samplers/{}", sampler.number);
+                        patches.extend(sampler.rewritten(document, old, input, output, style, &pointer));
+                    }
+                    None => {
+                        let fresh = sampler.fresh(input, output);
+                        change.inserted.push((last, style.write(&fresh, &spot)));
+                    }
+                }
+            }
+            patches.extend(edit(json, id, &change, style, &spot, &format!("{pointer}/samplers")));
+        }
+        Ok(patches)
+    }
+
+    /// The whole of a new animation.
+    pub(super) fn fresh(&self, accessors: &[usize]) -> Fresh {
+        let mut members = Vec::new();
+        if let Some(name) = self.name.as_ref().filter(|name| !name.is_empty()) {
+            members.push(("name", Fresh::string(name)));
+        }
+        let channels = self.channels.iter().filter_map(|channel| match channel {
+            ChannelDraft::New(target, sampler) => Some(fresh_channel(*target, *sampler)),
+            ChannelDraft::Moved(..) => None,
+        });
+        members.push(("channels", Fresh::Array(channels.collect())));
+        let samplers = self.samplers.iter().map(|sampler| {
+            let (input, output) = sampler.accessors(accessors);
+            sampler.fresh(input, output)
+        });
+        members.push(("samplers", Fresh::Array(samplers.collect())));
+        Fresh::Object(members)
+    }
+}
+
+fn fresh_channel((node, path): Target, sampler: usize) -> Fresh {
+    let target = vec![("node", Fresh::whole(node as usize)), ("path", Fresh::string(path.name()))];
+    Fresh::Object(vec![("sampler", Fresh::whole(sampler)), ("target", Fresh::Object(target))])
+}
+
+impl SamplerDraft {
+    /// Numbers of its accessors.
+    fn accessors(&self, accessors: &[usize]) -> (usize, usize) {
+        let input = match self.input {
+            Input::Kept(input) => input,
+            Input::Needed(need) => accessors[need],
+        };
+        (input, accessors[self.output])
+    }
+
+    fn fresh(&self, input: usize, output: usize) -> Fresh {
+        let mut members = vec![("input", Fresh::whole(input)), ("output", Fresh::whole(output))];
+        if self.interpolation != "LINEAR" {
+            members.insert(1, ("interpolation", Fresh::string(self.interpolation)));
+        }
+        Fresh::Object(members)
+    }
+
+    /// The tokens of the sampler `old` that differ.
+    fn rewritten(
+        &self,
+        document: &Document<'_>,
+        old: Id,
+        input: usize,
+        output: usize,
+        style: &Style,
+        pointer: &str,
+    ) -> Vec<Patch> {
+        let json = document.json;
+        let mut patches = Vec::new();
+        let mut members = ListEdit::default();
+        let last = json.items(old).last();
+        let spot = style.spot(json, Some(old), 5);
+        for (name, token, is_default) in [
+            ("input", input.to_string(), false),
+            ("output", output.to_string(), false),
+            ("interpolation", quoted(self.interpolation), self.interpolation == "LINEAR"),
+        ] {
+            match json.member(old, name) {
+                Some(id) if same_value(document, id, &token) => {}
+                Some(id) => patches.push(Patch::new(json.span(id), token, format!("{pointer}/{name}"))),
+                None if is_default => {}
+                None => members.inserted.push((last, style.member(name, &Fresh::Raw(token), &spot))),
+            }
+        }
+        patches.extend(edit(json, old, &members, style, &spot, pointer));
+        patches
+    }
+}
+
+/// Does the value say what `token` says, however it is spelt?
+fn same_value(document: &Document<'_>, id: Id, token: &str) -> bool {
+    let json = document.json;
+    match json.string(id) {
+        Some(said) => quoted(&said) == token,
+        None => json.whole(id).is_some_and(|number| number.to_string() == token),
+    }
+}
+
+/// The samplers of an animation while its channels change hands.
+struct Pool {
+    /// Channels that use each sampler.
+    users: HashMap<usize, usize>,
+    /// Samplers that nobody uses and that an earlier save wrote.
+    idle: Vec<usize>,
+    /// The number of the next new one.
+    next: usize,
+}
+
+impl Pool {
+    fn of(
+        document: &Document<'_>,
+        animation: &FileAnimation,
+        removed: &[Id],
+        is_ours: &dyn Fn(usize) -> bool,
+    ) -> Self {
+        let mut users: HashMap<usize, usize> = HashMap::new();
+        for channel in &animation.channels {
+            if let Some(sampler) = channel.sampler.filter(|_| removed.binary_search(&channel.id).is_err()) {
+                *users.entry(sampler).or_default() += 1;
+            }
+        }
+        let mut pool = Self { users, idle: Vec::new(), next: animation.samplers.len() };
+        let idle = (0..animation.samplers.len()).rev().filter(|&number| {
+            let ours = |name| pool.accessor(document, animation, number, name).is_some_and(is_ours);
+            !pool.users.contains_key(&number) && ours("input") && ours("output")
+        });
+        pool.idle = idle.collect();
+        pool
+    }
+
+    fn is_alone(&self, sampler: usize) -> bool {
+        self.users.get(&sampler) == Some(&1)
+    }
+
+    /// A channel goes to another sampler.
+    fn leave(&mut self, sampler: usize) {
+        if let Some(users) = self.users.get_mut(&sampler) {
+            *users = users.saturating_sub(1);
+        }
+    }
+
+    /// A sampler that nobody uses.
+    fn another(&mut self) -> usize {
+        self.idle.pop().unwrap_or_else(|| {
+            self.next += 1;
+            self.next - 1
+        })
+    }
+
+    /// The accessor that a sampler of the file names.
+    fn accessor(
+        &self,
+        document: &Document<'_>,
+        animation: &FileAnimation,
+        sampler: usize,
+        name: &str,
+    ) -> Option<usize> {
+        document.json.index_member(*animation.samplers.get(sampler)?, name)
+    }
+}

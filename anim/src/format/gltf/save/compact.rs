@@ -1,0 +1,184 @@
+//! Taking away what earlier saves appended and nothing uses any more.
+
+use super::buffer::Target;
+use super::columns::shape_width;
+use super::document::Document;
+use super::draw::Draw;
+use super::error::SaveError;
+use super::json::list::{ListEdit, edit};
+use super::json::patch::Patch;
+use super::json::style::Fresh;
+use super::json::tree::Id;
+use super::plan::{Plan, fresh_view};
+use super::reuse::{Granted, MARK, Slot, others_past, slots};
+use super::source::SourceFile;
+use std::collections::{HashMap, HashSet};
+
+/// Plans a file without what earlier saves appended and nothing uses any more: bytes of the buffer, accessors, buffer
+/// views. All takes stay as they are, and so does every byte that no save of ours wrote.
+///
+/// Nothing changes where somebody else appended to the buffer after us. Accessors and views are taken out of their
+/// lists only where ours are the last ones, since the numbers of others must stay; else only their room shrinks.
+pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
+    let document = Document::of(source);
+    let target = Target::choose(&document);
+    let mut slots = slots(&document, target.index, target.present);
+    slots.sort_by_key(|slot| slot.offset);
+    let mut draw = Draw::new(&document);
+    let (Some(first), Some(last)) = (slots.first(), slots.last()) else { return draw.finish() };
+    let is_last = last.offset + last.room == target.present;
+    if !is_last || others_past(&document, target.index, first.offset, &slots) {
+        return draw.finish();
+    }
+    let start = first.offset;
+    let idle = Idle::of(&document, &slots);
+    let used = idle.used_accessors(&document);
+    let (accessors, views) = (document.accessors.len() - slots.len(), document.views.len() - slots.len());
+    let at_end = slots.iter().all(|slot| slot.accessor >= accessors && slot.view >= views);
+    let mut live: Vec<Slot> =
+        slots.iter().filter(|slot| !at_end || used.contains(&slot.accessor)).copied().collect();
+    if live.is_empty() && (accessors == 0 || views == 0 || start == 0) {
+        // A list or a buffer may not be empty.
+        live.push(slots[0]);
+    }
+    let mut end = start;
+    let mut moves = HashMap::new();
+    let mut writes = Vec::new();
+    let bytes = target.bytes(&document);
+    for (number, slot) in live.iter().enumerate() {
+        let to = match at_end {
+            true => Slot { accessor: accessors + number, view: views + number, ..*slot },
+            false => *slot,
+        };
+        let room = needed(&document, slot);
+        let granted = Granted { slot: Some(to), offset: end, room };
+        if end != slot.offset {
+            writes.push((end, bytes[slot.offset..slot.offset + room].to_vec()));
+        }
+        if to != *slot || granted.offset != slot.offset || room != slot.room {
+            let fresh = moved_accessor(&document, slot.accessor, to.view);
+            draw.replace(document.accessors[to.accessor], "accessors", to.accessor, &fresh);
+            let fresh = fresh_view(target.index, &granted);
+            draw.replace(document.views[to.view], "bufferViews", to.view, &fresh);
+        }
+        moves.insert(slot.accessor, to.accessor);
+        end += room;
+    }
+    if at_end {
+        cut(&mut draw, "accessors", &document.accessors, accessors + live.len())?;
+        cut(&mut draw, "bufferViews", &document.views, views + live.len())?;
+    }
+    send_samplers(&mut draw, &idle, &moves);
+    draw.buffer(target, &writes, end)?;
+    draw.finish()
+}
+
+/// Bytes that the accessor of a slot takes.
+fn needed(document: &Document<'_>, slot: &Slot) -> usize {
+    let (json, id) = (document.json, document.accessors[slot.accessor]);
+    let shape = json.string_member(id, "type").unwrap_or_default();
+    let size = json.index_member(id, "count").and_then(|count| count.checked_mul(shape_width(&shape) * 4));
+    size.filter(|&size| size > 0 && size <= slot.room).unwrap_or(slot.room)
+}
+
+/// The accessor over another view.
+fn moved_accessor(document: &Document<'_>, accessor: usize, view: usize) -> Fresh {
+    let (json, id) = (document.json, document.accessors[accessor]);
+    let mut members = vec![("name", Fresh::string(MARK)), ("bufferView", Fresh::whole(view))];
+    for name in ["componentType", "count", "type", "min", "max"] {
+        if let Some(value) = json.member(id, name) {
+            members.push((name, copied(document, value)));
+        }
+    }
+    Fresh::Object(members)
+}
+
+/// A token, or a list of tokens, as it stands.
+fn copied(document: &Document<'_>, id: Id) -> Fresh {
+    let json = document.json;
+    let raw = |id| Fresh::Raw(String::from_utf8_lossy(json.token(id)).into_owned());
+    match json.items(id).next() {
+        Some(_) => Fresh::Array(json.items(id).map(raw).collect()),
+        None => raw(id),
+    }
+}
+
+/// Takes the elements from `keep` on away.
+fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[Id], keep: usize) -> Result<(), SaveError> {
+    let Some(list) = draw.list(name)? else { return Ok(()) };
+    let change = ListEdit { removed: items[keep..].to_vec(), inserted: Vec::new() };
+    let json = draw.document.json;
+    let spot = draw.style.spot(json, Some(list), 2);
+    draw.patches.extend(edit(json, list, &change, &draw.style, &spot, &format!("/{name}")));
+    Ok(())
+}
+
+/// Samplers that no channel uses and whose accessors are ours: they are sent to the accessors of another sampler of
+/// their animation, which frees their own.
+struct Idle {
+    /// By animation and sampler: the sampler whose accessors it gets.
+    instead: HashMap<(usize, usize), usize>,
+}
+
+impl Idle {
+    fn of(document: &Document<'_>, slots: &[Slot]) -> Self {
+        let ours: HashSet<usize> = slots.iter().map(|slot| slot.accessor).collect();
+        let mut instead = HashMap::new();
+        for (index, animation) in document.animations.iter().enumerate() {
+            let users: HashSet<usize> =
+                animation.channels.iter().filter_map(|channel| channel.sampler).collect();
+            let Some(&busy) = users.iter().min().filter(|&&busy| busy < animation.samplers.len()) else {
+                continue;
+            };
+            for (number, &sampler) in animation.samplers.iter().enumerate() {
+                let is_ours =
+                    |name| document.json.index_member(sampler, name).is_some_and(|a| ours.contains(&a));
+                if !users.contains(&number) && is_ours("input") && is_ours("output") {
+                    instead.insert((index, number), busy);
+                }
+            }
+        }
+        Self { instead }
+    }
+
+    /// The sampler whose accessors the sampler gets: mostly itself.
+    fn source(&self, document: &Document<'_>, animation: usize, sampler: usize) -> Id {
+        let number = self.instead.get(&(animation, sampler)).copied().unwrap_or(sampler);
+        document.animations[animation].samplers[number]
+    }
+
+    fn used_accessors(&self, document: &Document<'_>) -> HashSet<usize> {
+        let mut used = HashSet::new();
+        for (index, animation) in document.animations.iter().enumerate() {
+            for number in 0..animation.samplers.len() {
+                let sampler = self.source(document, index, number);
+                used.extend(document.json.index_member(sampler, "input"));
+                used.extend(document.json.index_member(sampler, "output"));
+            }
+        }
+        used
+    }
+}
+
+/// Writes the new numbers of accessors into the samplers.
+fn send_samplers(draw: &mut Draw<'_, '_>, idle: &Idle, moves: &HashMap<usize, usize>) {
+    let document = draw.document;
+    let json = document.json;
+    for (index, animation) in document.animations.iter().enumerate() {
+        for (number, &sampler) in animation.samplers.iter().enumerate() {
+            let source = idle.source(document, index, number);
+            for name in ["input", "output"] {
+                let (Some(token), Some(old)) = (json.member(sampler, name), json.index_member(sampler, name))
+                else {
+                    continue;
+                };
+                let wanted = json.index_member(source, name).unwrap_or(old);
+                let new = moves.get(&wanted).copied().unwrap_or(wanted);
+                if new != old {
+                    let pointer = format!("/animations/{index}/samplers/{number}/{name}");
+                    draw.patches.push(Patch::new(json.span(token), new.to_string(), pointer));
+                }
+            }
+        }
+    }
+}

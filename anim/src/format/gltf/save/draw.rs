@@ -1,0 +1,235 @@
+//! Patches as they come together: lists that grow or have to be made, and the buffer they are about.
+
+use super::buffer::{Home, Tail, Target, base64, beside, data_uri_patch};
+use super::changes::{ChangedToken, Changes, shortened};
+use super::document::Document;
+use super::error::SaveError;
+use super::json::list::{ListEdit, edit};
+use super::json::patch::{Patch, sort};
+use super::json::style::{Fresh, Style};
+use super::json::token::quoted;
+use super::json::tree::{Id, Kind};
+use super::plan::{OutputFile, Plan};
+use super::reuse::MARK;
+use crate::format::uri::relative_path;
+use crate::limits::FILE_BYTES;
+use std::collections::HashSet;
+
+/// A plan in the making.
+pub(super) struct Draw<'d, 'a> {
+    pub(super) document: &'d Document<'a>,
+    pub(super) style: Style,
+    pub(super) patches: Vec<Patch>,
+    /// Members of the root that come or go.
+    pub(super) root: ListEdit,
+    pub(super) changes: Changes,
+    chunk: Option<Tail>,
+    beside: Option<OutputFile>,
+}
+
+impl<'d, 'a> Draw<'d, 'a> {
+    pub(super) fn new(document: &'d Document<'a>) -> Self {
+        Self {
+            document,
+            style: Style::of(document.json),
+            patches: Vec::new(),
+            root: ListEdit::default(),
+            changes: Changes::default(),
+            chunk: None,
+            beside: None,
+        }
+    }
+
+    /// The array that is the member `name` of the root, if there is such a member.
+    pub(super) fn list(&self, name: &str) -> Result<Option<Id>, SaveError> {
+        let json = self.document.json;
+        match json.member(0, name) {
+            Some(list) if json.kind(list) == Kind::Array => Ok(Some(list)),
+            None => Ok(None),
+            Some(_) => Err(SaveError::File { place: format!("/{name}"), reason: "not a list".to_owned() }),
+        }
+    }
+
+    /// Appends elements to a list of the root, which is made when it is not there.
+    pub(super) fn append(&mut self, name: &'static str, items: Vec<Fresh>) -> Result<(), SaveError> {
+        if items.is_empty() {
+            return Ok(());
+        }
+        let json = self.document.json;
+        let Some(list) = self.list(name)? else {
+            self.new_list(name, items);
+            return Ok(());
+        };
+        let spot = self.style.spot(json, Some(list), 2);
+        let last = json.items(list).last();
+        let inserted = items.iter().map(|item| (last, self.style.write(item, &spot))).collect();
+        let change = ListEdit { removed: Vec::new(), inserted };
+        self.patches.extend(edit(json, list, &change, &self.style, &spot, &format!("/{name}")));
+        Ok(())
+    }
+
+    /// A list of the root that was not there.
+    pub(super) fn new_list(&mut self, name: &'static str, items: Vec<Fresh>) {
+        let json = self.document.json;
+        let spot = self.style.spot(json, Some(0), 1).with_lines(&self.style);
+        let last = json.items(0).filter(|item| !self.root.removed.contains(item)).last();
+        self.root.inserted.push((last, self.style.member(name, &Fresh::Array(items), &spot)));
+    }
+
+    /// Writes `fresh` in the place of an element, unless it is written there already.
+    pub(super) fn replace(&mut self, id: Id, list: &str, number: usize, fresh: &Fresh) {
+        let json = self.document.json;
+        let spot = self.style.spot(json, json.member(0, list), 2);
+        let text = self.style.write(fresh, &spot);
+        if text.as_bytes() != json.token(id) {
+            self.patches.push(Patch::new(json.span(id), text, format!("/{list}/{number}")));
+        }
+    }
+
+    /// Writes `writes` over the buffer, which is `end` bytes long afterwards.
+    pub(super) fn buffer(
+        &mut self,
+        target: Target,
+        writes: &[(usize, Vec<u8>)],
+        end: usize,
+    ) -> Result<(), SaveError> {
+        let document = self.document;
+        let old = target.bytes(document);
+        if writes.is_empty() && end == old.len() {
+            return Ok(());
+        }
+        let tail = Tail::of(old, writes, end);
+        self.changes.bytes_appended = end.saturating_sub(old.len());
+        self.changes.bytes_removed = old.len().saturating_sub(end);
+        let within = |write: &(usize, Vec<u8>)| write.1.len().min(old.len().saturating_sub(write.0));
+        self.changes.bytes_reused = writes.iter().map(within).sum();
+        let mut members = vec![("name", Fresh::string(MARK)), ("byteLength", Fresh::whole(end))];
+        let uri = match target.home {
+            Home::Chunk => None,
+            Home::DataUri => None,
+            Home::NewDataUri => Some(format!("data:application/octet-stream;base64,{}", base64(&tail.bytes))),
+            Home::OurFile | Home::NewFile => Some(self.file_beside(target, old, &tail)),
+        };
+        if target.is_new(document) {
+            members.extend(uri.map(|uri| ("uri", Fresh::Raw(quoted(&uri)))));
+            self.append("buffers", vec![Fresh::Object(members)])?;
+        } else {
+            self.adjust(target, end, old, &tail, uri)?;
+        }
+        if target.home == Home::Chunk {
+            self.chunk = Some(tail);
+        }
+        Ok(())
+    }
+
+    /// Patches the length, and the URI, of a buffer that is there.
+    fn adjust(
+        &mut self,
+        target: Target,
+        end: usize,
+        old: &[u8],
+        tail: &Tail,
+        uri: Option<String>,
+    ) -> Result<(), SaveError> {
+        let json = self.document.json;
+        let buffer = self.document.buffers[target.index];
+        let pointer = |name: &str| format!("/buffers/{}/{name}", target.index);
+        let member = |name: &str| {
+            json.member(buffer, name)
+                .ok_or_else(|| SaveError::File { place: pointer(name), reason: "is missing".to_owned() })
+        };
+        let length = member("byteLength")?;
+        if json.whole(length) != Some(end as u64) {
+            self.patches.push(Patch::new(json.span(length), end.to_string(), pointer("byteLength")));
+        }
+        if target.home == Home::DataUri {
+            self.patches.push(data_uri_patch(self.document, member("uri")?, old, tail, &pointer("uri")));
+        }
+        if let Some(uri) = uri {
+            self.patches.push(Patch::new(json.span(member("uri")?), quoted(&uri), pointer("uri")));
+        }
+        Ok(())
+    }
+
+    /// Plans a buffer beside the file; its URI.
+    fn file_beside(&mut self, target: Target, old: &[u8], tail: &Tail) -> String {
+        let json = self.document.json;
+        let uri = |id: &Id| relative_path(&json.string_member(*id, "uri")?).ok();
+        let taken: HashSet<String> =
+            self.document.buffers.iter().chain(&json.list(0, "images")).filter_map(uri).collect();
+        let bytes = [&old[..tail.from], &tail.bytes].concat();
+        let before = self.document.buffers.get(target.index).and_then(uri);
+        let mut others = taken;
+        if let Some(before) = &before {
+            others.remove(before);
+        }
+        let name = beside(&self.document.source.name, &bytes, &others);
+        self.changes.files_left.extend(before.filter(|before| *before != name));
+        self.beside = Some(OutputFile { name: name.clone(), bytes });
+        name
+    }
+
+    /// The plan, if nothing in it contradicts itself and the file does not grow too large.
+    pub(super) fn finish(mut self) -> Result<Plan<'a>, SaveError> {
+        let document = self.document;
+        let json = document.json;
+        let spot = self.style.spot(json, Some(0), 1);
+        self.patches.extend(edit(json, 0, &self.root, &self.style, &spot, ""));
+        self.patches.retain(|patch| !(patch.span.is_empty() && patch.text.is_empty()));
+        if !sort(&mut self.patches) {
+            let reason = "two edits of this save would change the same bytes".to_owned();
+            return Err(SaveError::File { place: "file".to_owned(), reason });
+        }
+        self.check_size()?;
+        let token = |patch: &Patch| ChangedToken {
+            pointer: patch.pointer.clone(),
+            offset: patch.span.start,
+            length: patch.span.len(),
+            old: shortened(&String::from_utf8_lossy(&json.file[patch.span.clone()])),
+            new: shortened(&patch.text),
+            new_length: patch.text.len(),
+        };
+        self.changes.tokens = self.patches.iter().map(token).collect();
+        if !self.changes.is_empty() {
+            self.changes.files.extend(self.beside.iter().map(|file| file.name.clone()));
+            self.changes.files.push(document.source.name.clone());
+        }
+        Ok(Plan {
+            source: document.source,
+            patches: self.patches,
+            chunk: self.chunk,
+            beside: self.beside,
+            changes: self.changes,
+        })
+    }
+
+    fn check_size(&self) -> Result<(), SaveError> {
+        let old = document_size(self.document);
+        let gone: u64 = self.patches.iter().map(|patch| patch.span.len() as u64).sum();
+        let come: u64 = self.patches.iter().map(|patch| patch.text.len() as u64).sum();
+        let chunk = self.chunk.as_ref().map_or(0, |tail| tail.bytes.len() as u64 + 16);
+        check_size(old - gone + come + chunk)
+    }
+}
+
+fn document_size(document: &Document<'_>) -> u64 {
+    document.source.bytes.len() as u64
+}
+
+/// Refuses a file that could not be opened again. A container could say twice as much.
+fn check_size(bytes: u64) -> Result<(), SaveError> {
+    if bytes > FILE_BYTES { Err(SaveError::TooLarge { bytes, limit: FILE_BYTES }) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_could_not_be_opened_again_is_not_planned() {
+        assert_eq!(check_size(FILE_BYTES), Ok(()));
+        for bytes in [FILE_BYTES + 1, u64::from(u32::MAX) + 1, u64::MAX] {
+            assert_eq!(check_size(bytes), Err(SaveError::TooLarge { bytes, limit: FILE_BYTES }));
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Adding and removing elements of arrays and members of objects, commas included.
+
+use super::patch::Patch;
+use super::style::{Spot, Style, gap, lead};
+use super::tree::{Id, Json};
+
+/// What is to become of an array or object.
+#[derive(Clone, Debug, Default)]
+pub(in super::super) struct ListEdit {
+    /// Items that go, ascending.
+    pub(in super::super) removed: Vec<Id>,
+    /// New items: after which of those that stay (`None`: before all), and their texts, in order.
+    pub(in super::super) inserted: Vec<(Option<Id>, String)>,
+}
+
+/// The patches that do it. Items that stay, and the space between them, keep their bytes.
+pub(in super::super) fn edit(
+    json: Json<'_>,
+    list: Id,
+    edit: &ListEdit,
+    style: &Style,
+    spot: &Spot,
+    pointer: &str,
+) -> Vec<Patch> {
+    let items: Vec<Id> = json.items(list).collect();
+    let stays: Vec<bool> = items.iter().map(|item| edit.removed.binary_search(item).is_err()).collect();
+    let fresh = style.gaps(spot);
+    if !stays.contains(&true) {
+        let inner = json.span(list).start + 1..json.span(list).end - 1;
+        if edit.inserted.is_empty() && items.is_empty() {
+            return Vec::new();
+        }
+        let between = gap(json, list).map_or_else(|| format!(",{}", fresh[1]), |gap| format!(",{gap}"));
+        let texts: Vec<&str> = edit.inserted.iter().map(|(_, text)| text.as_str()).collect();
+        let mut text = texts.join(&between);
+        let span = match (items.first(), items.last()) {
+            (Some(&first), Some(&last)) if !texts.is_empty() => {
+                json.item_span(first).start..json.item_span(last).end
+            }
+            _ => {
+                if !texts.is_empty() {
+                    text = format!("{}{text}{}", fresh[0], fresh[2]);
+                }
+                inner
+            }
+        };
+        return vec![Patch::new(span, text, pointer)];
+    }
+    let mut patches = removals(json, &items, &stays, pointer);
+    let between = gap(json, list).unwrap_or_else(|| match lead(json, list) {
+        Some(lead) if !lead.is_empty() => lead,
+        _ => style.comma().to_owned(),
+    });
+    let first = items.iter().zip(&stays).find(|(_, stays)| **stays).map(|(item, _)| *item);
+    for (after, text) in &edit.inserted {
+        let patch = match (after, first) {
+            (None, Some(first)) => {
+                let at = json.item_span(first).start;
+                Patch::new(at..at, format!("{text},{between}"), pointer)
+            }
+            (Some(item), _) => {
+                let at = json.item_span(*item).end;
+                Patch::new(at..at, format!(",{between}{text}"), pointer)
+            }
+            (None, None) => continue,
+        };
+        patches.push(patch);
+    }
+    patches
+}
+
+/// Takes runs of items away, each with the comma and the space that it needed. One item stays at least.
+fn removals(json: Json<'_>, items: &[Id], stays: &[bool], pointer: &str) -> Vec<Patch> {
+    let mut patches = Vec::new();
+    let mut at = 0;
+    while at < items.len() {
+        if stays[at] {
+            at += 1;
+            continue;
+        }
+        let end = (at..items.len()).find(|&other| stays[other]).unwrap_or(items.len());
+        let span = match items.get(end) {
+            Some(&next) => json.item_span(items[at]).start..json.item_span(next).start,
+            None => json.item_span(items[at - 1]).end..json.item_span(items[end - 1]).end,
+        };
+        patches.push(Patch::new(span, "", pointer));
+        at = end;
+    }
+    patches
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::patch::{patched, sort};
+    use super::super::style::Fresh;
+    use super::super::tree::Tree;
+    use super::*;
+
+    fn edited(text: &str, removed: &[usize], inserted: &[(Option<usize>, &str)]) -> String {
+        let tree = Tree::read(text.as_bytes(), 0..text.len()).unwrap();
+        let json = Json::new(text.as_bytes(), &tree);
+        let items: Vec<Id> = json.items(0).collect();
+        let change = ListEdit {
+            removed: removed.iter().map(|&number| items[number]).collect(),
+            inserted: inserted
+                .iter()
+                .map(|(at, text)| (at.map(|at| items[at]), (*text).to_owned()))
+                .collect(),
+        };
+        let style = Style::of(json);
+        let spot = style.spot(json, Some(0), 1);
+        let mut patches = edit(json, 0, &change, &style, &spot, "");
+        assert!(sort(&mut patches));
+        String::from_utf8(patched(text.as_bytes(), 0..text.len(), &patches)).unwrap()
+    }
+
+    #[test]
+    fn items_go_with_their_commas() {
+        let list = "[ 1 , 2,3\n]";
+        assert_eq!(edited(list, &[0], &[]), "[ 2,3\n]");
+        assert_eq!(edited(list, &[1], &[]), "[ 1 , 3\n]");
+        assert_eq!(edited(list, &[2], &[]), "[ 1 , 2\n]");
+        assert_eq!(edited(list, &[0, 1], &[]), "[ 3\n]");
+        assert_eq!(edited(list, &[1, 2], &[]), "[ 1\n]");
+        assert_eq!(edited(list, &[0, 1, 2], &[]), "[]");
+        assert_eq!(edited("{\"a\":1, \"b\":2}", &[0], &[]), "{\"b\":2}");
+    }
+
+    #[test]
+    fn items_come_as_their_neighbours_are() {
+        assert_eq!(edited("[]", &[], &[(None, "1"), (None, "2")]), "[1,2]");
+        assert_eq!(edited("[1]", &[], &[(Some(0), "2"), (Some(0), "3")]), "[1,2,3]");
+        assert_eq!(edited("[1, 2]", &[], &[(Some(1), "3")]), "[1, 2, 3]");
+        assert_eq!(edited("[1, 2]", &[], &[(None, "0")]), "[0, 1, 2]");
+        assert_eq!(edited("[\n\t1\n]", &[], &[(Some(0), "2")]), "[\n\t1,\n\t2\n]");
+        assert_eq!(edited("[1,2,3]", &[2], &[(Some(1), "4")]), "[1,2,4]");
+        assert_eq!(edited("[1,2,3]", &[0], &[(None, "0")]), "[0,2,3]");
+        assert_eq!(edited("[1, 2]", &[0, 1], &[(None, "3"), (None, "4")]), "[3, 4]");
+        assert_eq!(
+            edited("{\r\n  \"a\": 1\r\n}", &[], &[(Some(0), "\"b\": 2")]),
+            "{\r\n  \"a\": 1,\r\n  \"b\": 2\r\n}"
+        );
+    }
+
+    #[test]
+    fn a_new_value_is_written_as_its_neighbours_are() {
+        let written = |text: &str| {
+            let tree = Tree::read(text.as_bytes(), 0..text.len()).unwrap();
+            let json = Json::new(text.as_bytes(), &tree);
+            let list = json.member(0, "list");
+            let style = Style::of(json);
+            let spot = style.spot(json, list, 2);
+            let inner = Fresh::Object(vec![("d", Fresh::whole(3))]);
+            let numbers = Fresh::Array(vec![Fresh::whole(1), Fresh::whole(2)]);
+            style.write(&Fresh::Object(vec![("b", inner), ("c", numbers)]), &spot)
+        };
+        assert_eq!(written("{\"list\":[{\"a\":1}]}"), "{\"b\":{\"d\":3},\"c\":[1,2]}");
+        assert_eq!(written("{\"list\": [{\"a\": 1, \"b\": 2}]}"), "{\"b\": {\"d\": 3}, \"c\": [1, 2]}");
+        assert_eq!(
+            written("{\n\t\"list\" : [\n\t\t{\n\t\t\t\"a\" : [1, 2]\n\t\t}\n\t]\n}"),
+            "{\n\t\t\t\"b\" : {\n\t\t\t\t\"d\" : 3\n\t\t\t},\n\t\t\t\"c\" : [1, 2]\n\t\t}"
+        );
+        assert_eq!(
+            written("{\r\n \"list\": [\r\n  {\"a\": 1}\r\n ]\r\n}"),
+            "{\"b\": {\"d\": 3}, \"c\": [1, 2]}"
+        );
+        assert_eq!(
+            written("{\n \"list\": []\n}"),
+            "{\n   \"b\": {\n    \"d\": 3\n   },\n   \"c\": [1, 2]\n  }"
+        );
+    }
+}

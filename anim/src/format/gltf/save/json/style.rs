@@ -1,0 +1,201 @@
+//! How a text is written, and new values written that way.
+//!
+//! Indent, newline, the space around colons and after commas are taken from the neighbours of a new value; where it
+//! has none, from the document at large.
+
+use super::tree::{Id, Json, Kind};
+
+/// A value to be written.
+#[derive(Clone, Debug)]
+pub(in super::super) enum Fresh {
+    /// A token as it stands.
+    Raw(String),
+    Object(Vec<(&'static str, Fresh)>),
+    Array(Vec<Fresh>),
+}
+
+impl Fresh {
+    /// A whole number.
+    pub(in super::super) fn whole(number: usize) -> Self {
+        Self::Raw(number.to_string())
+    }
+
+    /// A string.
+    pub(in super::super) fn string(text: &str) -> Self {
+        Self::Raw(super::token::quoted(text))
+    }
+}
+
+/// Line ends and indent of a document that uses them.
+#[derive(Clone, Debug, PartialEq)]
+struct Lines {
+    newline: String,
+    unit: String,
+}
+
+/// How a document is written at large.
+#[derive(Clone, Debug, PartialEq)]
+pub(in super::super) struct Style {
+    lines: Option<Lines>,
+    colon: String,
+    comma: String,
+    numbers_on_one_line: bool,
+}
+
+/// Where a new value goes: at which indent, and whether it and what is in it take several lines.
+#[derive(Clone, Debug, PartialEq)]
+pub(in super::super) struct Spot {
+    indent: String,
+    several_lines: bool,
+    inner_lines: bool,
+}
+
+impl Spot {
+    /// The same place for a value that takes as many lines as the document at large.
+    pub(in super::super) fn with_lines(self, style: &Style) -> Self {
+        let several = style.lines.is_some();
+        Self { several_lines: several, inner_lines: several, ..self }
+    }
+}
+
+impl Style {
+    /// The style of a document.
+    pub(in super::super) fn of(json: Json<'_>) -> Self {
+        let first = json.items(0).next();
+        let colon = first.and_then(|id| json.colon(id)).map_or(":".to_owned(), text);
+        let lines = lead(json, 0).and_then(|lead| {
+            let end = lead.rfind('\n')? + 1;
+            let newline = if lead[..end].ends_with("\r\n") { "\r\n" } else { "\n" };
+            Some(Lines { newline: newline.to_owned(), unit: lead[end..].to_owned() })
+        });
+        let mut style = Self { lines, colon, comma: String::new(), numbers_on_one_line: true };
+        let gap_on_one_line = |id| gap(json, id).filter(|gap| !gap.contains('\n'));
+        let spaced = || if style.colon.ends_with(' ') { " ".to_owned() } else { String::new() };
+        style.comma = (0..json.len()).find_map(gap_on_one_line).unwrap_or_else(spaced);
+        let numbers = (0..json.len()).find(|&id| {
+            json.kind(id) == Kind::Array
+                && json.items(id).next().is_some_and(|id| json.kind(id) == Kind::Number)
+        });
+        if let Some(lead) = numbers.and_then(|id| lead(json, id)) {
+            style.numbers_on_one_line = !lead.contains('\n');
+        }
+        style
+    }
+
+    /// Where a new item of the array or object `list`, at `depth` arrays and objects (the root's items: 1), goes.
+    pub(in super::super) fn spot(&self, json: Json<'_>, list: Option<Id>, depth: usize) -> Spot {
+        let unit = self.lines.as_ref().map_or("", |lines| &lines.unit);
+        let several = self.lines.is_some();
+        let mut spot = Spot { indent: unit.repeat(depth), several_lines: several, inner_lines: several };
+        let Some(list) = list else { return spot };
+        if let Some(between) = gap(json, list).or_else(|| lead(json, list))
+            && let Some(end) = between.rfind('\n')
+        {
+            spot.indent = between[end + 1..].to_owned();
+        }
+        let Some(neighbour) = json.items(list).last() else { return spot };
+        if let Some(lead) = lead(json, neighbour) {
+            spot.several_lines = several && lead.contains('\n');
+            let inner = json.items(neighbour).find(|&id| json.kind(id) == Kind::Object);
+            let inner = inner.and_then(|id| self::lead(json, id));
+            spot.inner_lines = spot.several_lines && inner.is_none_or(|lead| lead.contains('\n'));
+        }
+        spot
+    }
+
+    /// The text of a value at a spot.
+    pub(in super::super) fn write(&self, value: &Fresh, spot: &Spot) -> String {
+        let mut out = String::new();
+        self.put(value, &spot.indent, spot.several_lines, spot.inner_lines, &mut out);
+        out
+    }
+
+    /// The text of a member at a spot.
+    pub(in super::super) fn member(&self, name: &str, value: &Fresh, spot: &Spot) -> String {
+        format!("\"{name}\"{}{}", self.colon, self.write(value, spot))
+    }
+
+    /// What stands between a bracket and the first of new items at a spot, between them, and before the closing one.
+    pub(in super::super) fn gaps(&self, spot: &Spot) -> [String; 3] {
+        match &self.lines {
+            Some(lines) => {
+                let outer = spot.indent.strip_suffix(&lines.unit).unwrap_or("");
+                let inner = format!("{}{}", lines.newline, spot.indent);
+                [inner.clone(), inner, format!("{}{outer}", lines.newline)]
+            }
+            None => [String::new(), self.comma.clone(), String::new()],
+        }
+    }
+
+    /// What stands after a comma between items on one line.
+    pub(in super::super) fn comma(&self) -> &str {
+        &self.comma
+    }
+
+    fn put(&self, value: &Fresh, indent: &str, several: bool, inner: bool, out: &mut String) {
+        let (brackets, count) = match value {
+            Fresh::Raw(token) => return out.push_str(token),
+            Fresh::Object(members) => (['{', '}'], members.len()),
+            Fresh::Array(items) => (['[', ']'], items.len()),
+        };
+        let is_numbers =
+            matches!(value, Fresh::Array(items) if items.iter().all(|i| matches!(i, Fresh::Raw(_))));
+        let lines = self.lines.as_ref().filter(|_| several && !(is_numbers && self.numbers_on_one_line));
+        let deeper = lines.map(|lines| format!("{indent}{}", lines.unit)).unwrap_or_default();
+        out.push(brackets[0]);
+        for number in 0..count {
+            if number > 0 {
+                out.push(',');
+            }
+            match lines {
+                Some(lines) => out.extend([&lines.newline, &deeper].map(String::as_str)),
+                None if number > 0 => out.push_str(&self.comma),
+                None => {}
+            }
+            match value {
+                Fresh::Object(members) => {
+                    let (name, value) = &members[number];
+                    out.push_str(&format!("\"{name}\"{}", self.colon));
+                    self.put(value, &deeper, inner, inner, out);
+                }
+                Fresh::Array(items) => self.put(&items[number], &deeper, inner, inner, out),
+                Fresh::Raw(_) => {}
+            }
+        }
+        if let Some(lines) = lines
+            && count > 0
+        {
+            out.extend([&lines.newline, indent]);
+        }
+        out.push(brackets[1]);
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The space between the opening bracket and the first item; `None` when there is no item.
+pub(super) fn lead(json: Json<'_>, list: Id) -> Option<String> {
+    if !matches!(json.kind(list), Kind::Array | Kind::Object) {
+        return None;
+    }
+    let first = json.items(list).next()?;
+    Some(text(&json.file[json.span(list).start + 1..json.item_span(first).start]))
+}
+
+/// The space between the last comma and the last item; `None` when there are less than two.
+pub(super) fn gap(json: Json<'_>, list: Id) -> Option<String> {
+    if !matches!(json.kind(list), Kind::Array | Kind::Object) {
+        return None;
+    }
+    let mut items = json.items(list);
+    let mut before = items.next()?;
+    let mut last = items.next()?;
+    for item in items {
+        (before, last) = (last, item);
+    }
+    let between = &json.file[json.item_span(before).end..json.item_span(last).start];
+    let comma = between.iter().position(|&byte| byte == b',')?;
+    Some(text(&between[comma + 1..]))
+}

@@ -1,0 +1,89 @@
+//! The list of animations: which stay, which go, which come, in which order.
+
+use super::draw::Draw;
+use super::error::SaveError;
+use super::json::list::{ListEdit, edit};
+use super::json::patch::{Patch, patched, sort};
+use super::json::style::Fresh;
+use super::plan::TakeDraft;
+use std::collections::HashSet;
+
+/// Writes the list. Animations that stay in their order keep their places and bytes; where the order changes, each
+/// place gets the text of the animation that belongs there, and the space between the places stays.
+pub(super) fn write_animations(
+    draw: &mut Draw<'_, '_>,
+    takes: &[TakeDraft],
+    accessors: &[usize],
+) -> Result<(), SaveError> {
+    let document = draw.document;
+    let json = document.json;
+    let list = draw.list("animations")?;
+    let Some(list) = list else {
+        let fresh: Vec<Fresh> = takes.iter().map(|take| take.draft.fresh(accessors)).collect();
+        if !fresh.is_empty() {
+            draw.new_list("animations", fresh);
+        }
+        return Ok(());
+    };
+    if takes.is_empty() {
+        // An empty list is not allowed.
+        if !document.animations.is_empty() {
+            draw.root.removed.push(list);
+        }
+        return Ok(());
+    }
+    let spot = draw.style.spot(json, Some(list), 2);
+    let order: Vec<usize> = takes.iter().filter(|take| !take.is_copy).filter_map(|take| take.base).collect();
+    let mut places = order.clone();
+    places.sort_unstable();
+    let stays: HashSet<usize> = order.iter().copied().collect();
+    let gone = (0..document.animations.len()).filter(|index| !stays.contains(index));
+    let mut change =
+        ListEdit { removed: gone.map(|index| document.animations[index].id).collect(), inserted: Vec::new() };
+    let mut filled = 0_usize;
+    for take in takes {
+        let pointer = take.base.map_or("/animations".to_owned(), |base| format!("/animations/{base}"));
+        let patches = match take.base {
+            Some(base) => {
+                let animation = &document.animations[base];
+                take.draft.patches(document, animation, accessors, &draw.style, &pointer)?
+            }
+            None => Vec::new(),
+        };
+        let text = |patches: Vec<Patch>| match take.base {
+            Some(base) => text_of(draw, base, patches),
+            None => Ok(draw.style.write(&take.draft.fresh(accessors), &spot)),
+        };
+        if take.is_copy || take.base.is_none() {
+            let after = filled.checked_sub(1).map(|before| document.animations[places[before]].id);
+            change.inserted.push((after, text(patches)?));
+            continue;
+        }
+        let place = places[filled];
+        filled += 1;
+        if take.base == Some(place) {
+            draw.patches.extend(patches);
+        } else {
+            let text = text(patches)?;
+            let span = json.span(document.animations[place].id);
+            draw.patches.push(Patch::new(span, text, format!("/animations/{place}")));
+        }
+    }
+    draw.patches.extend(edit(json, list, &change, &draw.style, &spot, "/animations"));
+    Ok(())
+}
+
+/// The text of an animation with patches made in it.
+fn text_of(draw: &Draw<'_, '_>, animation: usize, mut patches: Vec<Patch>) -> Result<String, SaveError> {
+    let json = draw.document.json;
+    let broken = || SaveError::File {
+        place: format!("/animations/{animation}"),
+        reason: "two edits of this save would change the same bytes".to_owned(),
+    };
+    patches.retain(|patch| !(patch.span.is_empty() && patch.text.is_empty()));
+    if !sort(&mut patches) {
+        return Err(broken());
+    }
+    let span = json.span(draw.document.animations[animation].id);
+    String::from_utf8(patched(json.file, span, &patches)).map_err(|_| broken())
+}

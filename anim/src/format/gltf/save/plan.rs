@@ -1,0 +1,357 @@
+//! From takes to the bytes that change.
+
+use super::animation::{Draft, Input};
+use super::buffer::{Tail, Target};
+use super::changes::{ChangedChannel, Changes, ChannelChange, TakeChange, WrittenAccessor};
+use super::channels::{Action, ChannelEdit, edits, placeholder};
+use super::columns::shape_width;
+use super::document::{Document, FileAnimation, Path};
+use super::draw::Draw;
+use super::error::SaveError;
+use super::json::patch::Patch;
+use super::json::style::Fresh;
+use super::json::token::number;
+use super::needs::{Need, Needs};
+use super::nodes::without_matrix;
+use super::order::write_animations;
+use super::reuse::{Granted, MARK, Request, Slot, grant, slots};
+use super::source::SourceFile;
+use crate::data::{ModelData, Take};
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+/// A take as it is to be in the file.
+#[derive(Clone, Debug)]
+pub struct TakeNow {
+    /// The animation of the file that it was made from, by number; `None` for one that is new. The first take with an
+    /// origin is that animation; further ones are copies of it, with what importing left out.
+    pub origin: Option<usize>,
+    /// Name and keys. Where a channel is the one that was opened (the same `Arc`, or the same bits), the file's own
+    /// numbers stay. Start and length are not written: in glTF they are what the keys say.
+    pub take: Arc<Take>,
+}
+
+/// A file to be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutputFile {
+    /// Relative to the folder of the file that was opened; its own name for the file itself.
+    pub name: String,
+    /// All of it.
+    pub bytes: Vec<u8>,
+}
+
+/// What a save will do: made by [`plan`], shown by [`Plan::changes`], done by [`Plan::write`].
+#[derive(Clone)]
+pub struct Plan<'a> {
+    pub(super) source: &'a SourceFile,
+    pub(super) patches: Vec<Patch>,
+    /// The end of the binary chunk, exchanged.
+    pub(super) chunk: Option<Tail>,
+    pub(super) beside: Option<OutputFile>,
+    pub(super) changes: Changes,
+}
+
+impl Plan<'_> {
+    /// What will change.
+    pub fn changes(&self) -> &Changes {
+        &self.changes
+    }
+
+    /// The files to write, in the order in which to write them: what is beside the file first, the file itself last.
+    /// Just the same bytes where nothing changes.
+    pub fn write(&self) -> Vec<OutputFile> {
+        let chunk = self.chunk.as_ref().map(|tail| (tail.from, tail.bytes.as_slice()));
+        let bytes = if self.patches.is_empty() && chunk.is_none() {
+            self.source.bytes.to_vec()
+        } else {
+            self.source.container.write(&self.source.bytes, &self.patches, chunk)
+        };
+        let file = OutputFile { name: self.source.name.clone(), bytes };
+        self.beside.iter().cloned().chain([file]).collect()
+    }
+}
+
+/// A take on its way into the file.
+pub(super) struct TakeDraft {
+    /// The animation that it is, or is a copy of.
+    pub(super) base: Option<usize>,
+    /// Is it that animation, or a copy?
+    pub(super) is_copy: bool,
+    pub(super) name: String,
+    edits: Vec<ChannelEdit>,
+    pub(super) draft: Draft,
+}
+
+/// Finds out what a save has to change so that `source` holds the takes `now`, in that order.
+///
+/// `opened` is the model as it was read from the same bytes. Errors: it is not, or keys that glTF cannot hold; see
+/// [`SaveError`]. Takes time and memory in proportion to the file's JSON text and to the channels that changed.
+pub fn plan<'a>(source: &'a SourceFile, opened: &ModelData, now: &[TakeNow]) -> Result<Plan<'a>, SaveError> {
+    let document = Document::of(source);
+    check_same_file(&document, opened)?;
+    let target = Target::choose(&document);
+    let slots = slots(&document, target.index, target.present);
+    let ours: HashSet<usize> = slots.iter().map(|slot| slot.accessor).collect();
+    let mut needs = Needs::default();
+    let mut met = HashSet::new();
+    let mut takes = Vec::with_capacity(now.len());
+    for take in now {
+        let is_copy = take.origin.is_some_and(|origin| !met.insert(origin));
+        takes.push(take_draft(&document, opened, take, is_copy, &ours, &mut needs)?);
+    }
+    let mut draw = Draw::new(&document);
+    let accessors = write_numbers(&mut draw, target, slots, &takes, needs)?;
+    let animated = takes.iter().flat_map(|take| take.draft.new_targets());
+    let animated = animated.filter(|target| target.1 != Path::Weights).map(|target| target.0);
+    without_matrix(&mut draw, opened, animated)?;
+    write_animations(&mut draw, &takes, &accessors)?;
+    describe(&mut draw.changes, &document, &takes);
+    draw.finish()
+}
+
+/// The animations of the file are the takes that were opened.
+fn check_same_file(document: &Document<'_>, opened: &ModelData) -> Result<(), SaveError> {
+    let mismatch = |place: &str, reason: String| Err(SaveError::Mismatch { place: place.to_owned(), reason });
+    let (takes, animations) = (opened.animation.takes.len(), document.animations.len());
+    if takes != animations {
+        return mismatch("/animations", format!("{animations} in the file, {takes} takes were opened"));
+    }
+    let nodes = document.nodes.len();
+    let bones = opened.animation.skeleton.bones.iter().map(|bone| bone.node);
+    let instances = opened.instances.iter().map(|instance| instance.node);
+    if let Some(node) = bones.chain(instances).flatten().find(|&node| node as usize >= nodes) {
+        return mismatch("/nodes", format!("{nodes} in the file, node {node} was opened"));
+    }
+    for (index, animation) in document.animations.iter().enumerate() {
+        let count = animation.samplers.len();
+        if animation.channels.iter().any(|channel| channel.sampler.is_none_or(|sampler| sampler >= count)) {
+            return mismatch(&format!("/animations/{index}/channels"), "a channel has no sampler".to_owned());
+        }
+    }
+    Ok(())
+}
+
+fn take_draft(
+    document: &Document<'_>,
+    opened: &ModelData,
+    now: &TakeNow,
+    is_copy: bool,
+    ours: &HashSet<usize>,
+    needs: &mut Needs,
+) -> Result<TakeDraft, SaveError> {
+    let base = match now.origin {
+        Some(origin) => {
+            let pair = opened.animation.takes.get(origin).zip(document.animations.get(origin));
+            let (take, animation) = pair.ok_or_else(|| SaveError::Mismatch {
+                place: format!("take \"{}\"", now.take.name),
+                reason: format!("the file has no animation {origin}"),
+            })?;
+            Some((take.as_ref(), animation))
+        }
+        None => None,
+    };
+    let take = now.take.as_ref();
+    let mut edits = edits(opened, base, take)?;
+    if (!edits.is_empty() || base.is_none()) && !moves(base.map(|base| base.1), &edits) {
+        let still = placeholder(opened, base.map(|base| base.0), take)?;
+        let kept = bone_at_rest(opened);
+        edits.retain(|edit| Some(edit.target.0) != kept || edit.target.1 != Path::Translation);
+        edits.extend(still);
+    }
+    let name = match base {
+        Some((before, _)) => (before.name != take.name).then(|| take.name.clone()),
+        None => Some(take.name.clone()),
+    };
+    let animation = base.map(|base| base.1);
+    let draft = Draft::of(document, animation, &edits, name, &|accessor| ours.contains(&accessor), needs);
+    Ok(TakeDraft { base: now.origin, is_copy, name: take.name.clone(), edits, draft })
+}
+
+/// The node that stands for "nothing moves".
+fn bone_at_rest(opened: &ModelData) -> Option<u32> {
+    let mut bones = opened.animation.skeleton.bones.iter();
+    bones.find(|bone| bone.node.is_some() && bone.rest_matrix.is_none())?.node
+}
+
+/// Will the animation have a channel?
+fn moves(animation: Option<&FileAnimation>, edits: &[ChannelEdit]) -> bool {
+    let removed: HashSet<_> =
+        edits.iter().filter(|edit| matches!(edit.action, Action::Remove)).map(|edit| edit.target).collect();
+    let stays = |animation: &FileAnimation| {
+        let stays = |target: Option<_>| target.is_none_or(|target| !removed.contains(&target));
+        animation.channels.iter().any(|channel| stays(channel.target))
+    };
+    edits.iter().any(|edit| matches!(edit.action, Action::Set(_))) || animation.is_some_and(stays)
+}
+
+/// Finds room for what the takes need, and writes accessors, views and bytes; the accessor of each need.
+fn write_numbers(
+    draw: &mut Draw<'_, '_>,
+    target: Target,
+    slots: Vec<Slot>,
+    takes: &[TakeDraft],
+    needs: Needs,
+) -> Result<Vec<usize>, SaveError> {
+    let document = draw.document;
+    let pinned = pinned(document, takes);
+    let (held, free): (Vec<Slot>, Vec<Slot>) =
+        slots.into_iter().partition(|slot| pinned.contains(&slot.accessor));
+    let bytes = target.bytes(document);
+    let inputs: HashMap<&[u8], usize> =
+        held.iter().filter_map(|slot| Some((input_bytes(document, slot, bytes)?, slot.accessor))).collect();
+    let known = |need: &Need| need.bounds.and_then(|_| inputs.get(need.bytes.as_slice()).copied());
+    let mut accessors: Vec<Option<usize>> = needs.list.iter().map(known).collect();
+    let open: Vec<usize> = (0..accessors.len()).filter(|&need| accessors[need].is_none()).collect();
+    let request =
+        |&need: &usize| Request { size: needs.list[need].bytes.len(), before: needs.list[need].before };
+    let requests: Vec<Request> = open.iter().map(request).collect();
+    if requests.is_empty() {
+        return Ok(accessors.into_iter().flatten().collect());
+    }
+    let mut end = target.present.next_multiple_of(4);
+    let granted = grant(&requests, free, &mut end);
+    let (mut new_accessors, mut new_views, mut writes) = (Vec::new(), Vec::new(), Vec::new());
+    for (need, granted) in open.into_iter().zip(granted) {
+        let (accessor, view) = match granted.slot {
+            Some(slot) => (slot.accessor, slot.view),
+            None => {
+                let number = new_accessors.len();
+                (document.accessors.len() + number, document.views.len() + number)
+            }
+        };
+        accessors[need] = Some(accessor);
+        let need = &needs.list[need];
+        let (fresh_accessor, fresh_view) = (fresh_accessor(need, view), fresh_view(target.index, &granted));
+        match granted.slot {
+            Some(slot) => {
+                draw.replace(document.accessors[accessor], "accessors", accessor, &fresh_accessor);
+                if slot.room != granted.room {
+                    draw.replace(document.views[view], "bufferViews", view, &fresh_view);
+                }
+            }
+            None => {
+                new_accessors.push(fresh_accessor);
+                new_views.push(fresh_view);
+            }
+        }
+        // A need that is there already, byte for byte, costs nothing.
+        if bytes.get(granted.offset..granted.offset + need.bytes.len()) != Some(&need.bytes) {
+            writes.push((granted.offset, need.bytes.clone()));
+        }
+        draw.changes.accessors.push(WrittenAccessor {
+            accessor,
+            view,
+            shape: need.shape,
+            count: need.count,
+            bytes: need.bytes.len(),
+            is_reused: granted.slot.is_some(),
+        });
+    }
+    draw.append("accessors", new_accessors)?;
+    draw.append("bufferViews", new_views)?;
+    let end = if end == target.present.next_multiple_of(4) { target.present } else { end };
+    draw.buffer(target, &writes, end)?;
+    Ok(accessors.into_iter().flatten().collect())
+}
+
+/// Accessors that animations will still refer to without having written them.
+fn pinned(document: &Document<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
+    let mut pinned = HashSet::new();
+    for take in takes {
+        let Some(animation) = take.base.and_then(|base| document.animations.get(base)) else { continue };
+        let rewritten = take.draft.rewritten();
+        for (number, &sampler) in animation.samplers.iter().enumerate() {
+            if !rewritten.contains(&number) {
+                pinned.extend(document.json.index_member(sampler, "input"));
+                pinned.extend(document.json.index_member(sampler, "output"));
+            }
+        }
+        pinned.extend(take.draft.samplers.iter().filter_map(|sampler| match sampler.input {
+            Input::Kept(accessor) => Some(accessor),
+            Input::Needed(_) => None,
+        }));
+    }
+    pinned
+}
+
+/// The key times in a slot, if that is what it holds.
+fn input_bytes<'b>(document: &Document<'_>, slot: &Slot, bytes: &'b [u8]) -> Option<&'b [u8]> {
+    let (json, id) = (document.json, document.accessors[slot.accessor]);
+    let size = json.index_member(id, "count")?.checked_mul(4).filter(|&size| size <= slot.room)?;
+    let is_input = json.string_member(id, "type")? == "SCALAR" && json.member(id, "min").is_some();
+    bytes.get(slot.offset..slot.offset + size).filter(|_| is_input)
+}
+
+pub(super) fn fresh_accessor(need: &Need, view: usize) -> Fresh {
+    debug_assert_eq!(need.bytes.len(), need.count * shape_width(need.shape) * 4);
+    let mut members = vec![
+        ("name", Fresh::string(MARK)),
+        ("bufferView", Fresh::whole(view)),
+        ("componentType", Fresh::whole(5126)),
+        ("count", Fresh::whole(need.count)),
+        ("type", Fresh::string(need.shape)),
+    ];
+    if let Some((least, greatest)) = need.bounds {
+        members.push(("min", Fresh::Array(vec![Fresh::Raw(number(least))])));
+        members.push(("max", Fresh::Array(vec![Fresh::Raw(number(greatest))])));
+    }
+    Fresh::Object(members)
+}
+
+pub(super) fn fresh_view(buffer: usize, granted: &Granted) -> Fresh {
+    Fresh::Object(vec![
+        ("name", Fresh::string(MARK)),
+        ("buffer", Fresh::whole(buffer)),
+        ("byteOffset", Fresh::whole(granted.offset)),
+        ("byteLength", Fresh::whole(granted.room)),
+    ])
+}
+
+/// Takes and channels, for people.
+fn describe(changes: &mut Changes, document: &Document<'_>, takes: &[TakeDraft]) {
+    let names: HashMap<usize, String> = document
+        .animations
+        .iter()
+        .enumerate()
+        .map(|(index, animation)| {
+            (index, document.json.string_member(animation.id, "name").unwrap_or_default().into_owned())
+        })
+        .collect();
+    let stay: Vec<usize> = takes.iter().filter(|take| !take.is_copy).filter_map(|take| take.base).collect();
+    let mut in_order = stay.clone();
+    in_order.sort_unstable();
+    for (index, name) in (0..document.animations.len()).filter_map(|index| Some((index, names.get(&index)?)))
+    {
+        if in_order.binary_search(&index).is_err() {
+            changes.takes.push((name.clone(), TakeChange::Deleted));
+        }
+    }
+    let mut place = 0;
+    for take in takes {
+        let base = take.base.filter(|_| !take.is_copy);
+        match base {
+            None => changes.takes.push((take.name.clone(), TakeChange::Added)),
+            Some(base) => {
+                if take.draft.name.is_some() {
+                    changes.takes.push((take.name.clone(), TakeChange::Renamed));
+                }
+                if in_order[place] != base {
+                    changes.takes.push((take.name.clone(), TakeChange::Moved));
+                }
+                place += 1;
+            }
+        }
+        let animation = take.base.and_then(|base| document.animations.get(base));
+        for edit in &take.edits {
+            let was_there = animation.is_some_and(|animation| animation.channel(edit.target).is_some());
+            let change = match (&edit.action, was_there) {
+                (Action::Remove, _) => ChannelChange::Removed,
+                (Action::Set(_), true) => ChannelChange::Changed,
+                (Action::Set(_), false) => ChannelChange::Added,
+            };
+            let (take, bone) = (take.name.clone(), edit.label.clone());
+            let (node, path) = (edit.target.0, edit.target.1.name());
+            changes.channels.push(ChangedChannel { take, node, bone, path, change });
+        }
+    }
+}

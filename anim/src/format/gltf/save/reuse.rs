@@ -1,0 +1,247 @@
+//! What earlier saves appended, and using its room again.
+//!
+//! Each appended accessor has a buffer view of its own, and both are named [`MARK`]. A mark alone is not believed: a
+//! pair counts as ours only if it is as we write it, and if nothing but animation samplers refers to it, so that
+//! overwriting it changes nothing else. The view's length is the room there is; the accessor may need less.
+
+use super::document::Document;
+use super::json::tree::{Id, Json, Kind};
+use std::collections::{HashMap, HashSet};
+
+/// The name of what a save appends: buffers, buffer views and accessors.
+pub const MARK: &str = "dragonfly.keys";
+
+/// Does an object bear the mark?
+pub(super) fn is_ours(json: Json<'_>, id: Id) -> bool {
+    json.string_member(id, "name").as_deref() == Some(MARK)
+}
+
+/// An accessor and its view that an earlier save appended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Slot {
+    pub(super) accessor: usize,
+    pub(super) view: usize,
+    /// Bytes from the start of the buffer, a multiple of four.
+    pub(super) offset: usize,
+    /// Bytes of room, a multiple of four.
+    pub(super) room: usize,
+}
+
+/// All slots in a buffer whose `length` bytes are there, by accessor.
+pub(super) fn slots(document: &Document<'_>, buffer: usize, length: usize) -> Vec<Slot> {
+    let marked: Vec<usize> = (0..document.accessors.len())
+        .filter(|&accessor| is_ours(document.json, document.accessors[accessor]))
+        .collect();
+    if marked.is_empty() {
+        return Vec::new();
+    }
+    let references = references(document);
+    let alone = undisturbed(document, buffer, &references);
+    let slot = |accessor: usize| {
+        let (json, id) = (document.json, document.accessors[accessor]);
+        let view = json.index_member(id, "bufferView")?;
+        let view_id = *document.views.get(view)?;
+        let (in_buffer, offset, room) = document.view_range(view)?;
+        let plain = json.whole_member(id, "byteOffset").unwrap_or(0) == 0
+            && json.whole_member(id, "componentType") == Some(5126)
+            && ["sparse", "normalized", "extensions"].iter().all(|name| json.member(id, name).is_none())
+            && ["byteStride", "target", "extensions"].iter().all(|name| json.member(view_id, name).is_none());
+        let (offset, room) = (usize::try_from(offset).ok()?, usize::try_from(room).ok()?);
+        let fits = in_buffer == buffer
+            && offset % 4 == 0
+            && room % 4 == 0
+            && room > 0
+            && offset.checked_add(room)? <= length;
+        let ours = plain
+            && fits
+            && is_ours(json, view_id)
+            && !references.accessors.contains(&accessor)
+            && references.views.get(&view) == Some(&1)
+            && alone.contains(&view);
+        ours.then_some(Slot { accessor, view, offset, room })
+    };
+    marked.into_iter().filter_map(slot).collect()
+}
+
+/// Who refers to what, animation samplers left out.
+struct References {
+    /// Accessors that something other than an animation sampler names.
+    accessors: HashSet<usize>,
+    /// How often each view is named.
+    views: HashMap<usize, usize>,
+    /// Pieces of buffers that extensions name themselves: buffer, from, to.
+    ranges: Vec<(usize, u64, u64)>,
+}
+
+/// Members that hold an accessor's number in meshes, skins and the extensions that are known.
+const ACCESSORS: &[&str] = &["indices", "inverseBindMatrices", "accessor", "input", "output"];
+
+/// One look over the whole text. What an unknown extension means is guessed from the names of its members; better
+/// one reference too many than one too few.
+fn references(document: &Document<'_>) -> References {
+    let json = document.json;
+    let samplers: HashSet<Id> = document.animations.iter().flat_map(|a| a.samplers.iter().copied()).collect();
+    let mut found = References { accessors: HashSet::new(), views: HashMap::new(), ranges: Vec::new() };
+    let mut around: Vec<Around> = Vec::new();
+    for id in 0..json.len() {
+        while around.last().is_some_and(|outer| outer.end <= id) {
+            around.pop();
+        }
+        let outer = around.last();
+        let holds_accessors = outer.is_some_and(|outer| outer.holds_accessors);
+        let in_sampler = outer.is_some_and(|outer| outer.is_sampler);
+        let key = json.key(id);
+        let key = key.as_deref().unwrap_or_default();
+        match json.kind(id) {
+            Kind::Object | Kind::Array => {
+                found.ranges.extend(range_of(document, id));
+                // `/accessors` itself is no list of numbers.
+                let is_list = around.len() > 1 && ["attributes", "targets", "accessors"].contains(&key);
+                around.push(Around {
+                    end: json.end(id),
+                    holds_accessors: holds_accessors || is_list,
+                    is_sampler: samplers.contains(&id),
+                });
+            }
+            Kind::Number => {
+                let number = json.whole(id).and_then(|number| usize::try_from(number).ok());
+                match number {
+                    Some(view) if key == "bufferView" => *found.views.entry(view).or_default() += 1,
+                    Some(accessor) if holds_accessors || (ACCESSORS.contains(&key) && !in_sampler) => {
+                        found.accessors.insert(accessor);
+                    }
+                    _ => {}
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// An array or object around a value.
+struct Around {
+    end: Id,
+    /// Are the numbers in it accessors?
+    holds_accessors: bool,
+    /// Is it a sampler of an animation?
+    is_sampler: bool,
+}
+
+/// The piece of a buffer that an object names, if it does and is no buffer view.
+fn range_of(document: &Document<'_>, id: Id) -> Option<(usize, u64, u64)> {
+    let json = document.json;
+    let (buffer, length) = (json.index_member(id, "buffer")?, json.whole_member(id, "byteLength")?);
+    let from = json.whole_member(id, "byteOffset").unwrap_or(0);
+    document.views.binary_search(&id).is_err().then_some((buffer, from, from.saturating_add(length)))
+}
+
+/// The views of a buffer that share no byte with another view or range.
+fn undisturbed(document: &Document<'_>, buffer: usize, references: &References) -> HashSet<usize> {
+    let views = (0..document.views.len()).filter_map(|view| {
+        let (of, from, length) = document.view_range(view)?;
+        (of == buffer).then_some((from, from.saturating_add(length), Some(view)))
+    });
+    let ranges = references.ranges.iter().filter(|range| range.0 == buffer).map(|r| (r.1, r.2, None));
+    let mut pieces: Vec<(u64, u64, Option<usize>)> = views.chain(ranges).collect();
+    pieces.sort_unstable();
+    let mut alone = HashSet::new();
+    let mut end = 0;
+    for (number, &(from, to, view)) in pieces.iter().enumerate() {
+        let next = pieces.get(number + 1).map_or(u64::MAX, |next| next.0);
+        if from >= end && to <= next {
+            alone.extend(view);
+        }
+        end = end.max(to);
+    }
+    alone
+}
+
+/// Does anything but the slots reach past byte `start` of a buffer?
+pub(super) fn others_past(document: &Document<'_>, buffer: usize, start: usize, slots: &[Slot]) -> bool {
+    let own: HashSet<usize> = slots.iter().map(|slot| slot.view).collect();
+    let past = |range: (usize, u64, u64)| range.0 == buffer && range.2 > start as u64;
+    let views = (0..document.views.len()).filter(|view| !own.contains(view));
+    let mut views = views.filter_map(|view| {
+        let (buffer, from, length) = document.view_range(view)?;
+        Some((buffer, from, from.saturating_add(length)))
+    });
+    views.any(past) || references(document).ranges.into_iter().any(past)
+}
+
+/// What a column needs of the buffer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Request {
+    /// Bytes, a multiple of four.
+    pub(super) size: usize,
+    /// The accessor that held the column's predecessor.
+    pub(super) before: Option<usize>,
+}
+
+/// Where a column goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Granted {
+    /// The slot whose accessor and view are used again; `None` for new ones.
+    pub(super) slot: Option<Slot>,
+    pub(super) offset: usize,
+    pub(super) room: usize,
+}
+
+/// Finds room for every request: its own old place where it fits; else the smallest free slot that is large enough;
+/// else the last slot of the buffer, made longer; else new room at `end`. The end moves along.
+pub(super) fn grant(requests: &[Request], mut free: Vec<Slot>, end: &mut usize) -> Vec<Granted> {
+    let mut granted: Vec<Option<Granted>> = vec![None; requests.len()];
+    let same = |slot: Slot| Granted { slot: Some(slot), offset: slot.offset, room: slot.room };
+    let by_accessor: HashMap<usize, Slot> = free.iter().map(|slot| (slot.accessor, *slot)).collect();
+    let mut taken: HashSet<usize> = HashSet::new();
+    for (request, granted) in requests.iter().zip(&mut granted) {
+        let own = request.before.and_then(|accessor| by_accessor.get(&accessor));
+        if let Some(own) = own.filter(|own| own.room >= request.size)
+            && taken.insert(own.accessor)
+        {
+            *granted = Some(same(*own));
+        }
+    }
+    free.retain(|slot| !taken.contains(&slot.accessor));
+    free.sort_by_key(|slot| (slot.room, slot.offset));
+    for (request, granted) in requests.iter().zip(&mut granted).filter(|(_, granted)| granted.is_none()) {
+        let fits = free.partition_point(|slot| slot.room < request.size);
+        *granted = Some(if fits < free.len() {
+            same(free.remove(fits))
+        } else if let Some(last) = free.iter().position(|slot| slot.offset + slot.room == *end) {
+            let slot = free.remove(last);
+            *end = slot.offset + request.size;
+            Granted { slot: Some(slot), offset: slot.offset, room: request.size }
+        } else {
+            let offset = *end;
+            *end += request.size;
+            Granted { slot: None, offset, room: request.size }
+        });
+    }
+    granted.into_iter().flatten().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn slot(accessor: usize, offset: usize, room: usize) -> Slot {
+        Slot { accessor, view: accessor, offset, room }
+    }
+
+    #[test]
+    fn room_is_used_again_before_there_is_more_of_it() {
+        let free = vec![slot(1, 100, 40), slot(2, 140, 12), slot(3, 152, 20)];
+        let requests = [
+            Request { size: 12, before: None },
+            Request { size: 12, before: Some(1) },
+            Request { size: 24, before: Some(2) },
+            Request { size: 8, before: None },
+        ];
+        let mut end = 172;
+        let granted = grant(&requests, free, &mut end);
+        let slots: Vec<_> = granted.iter().map(|granted| granted.slot.map(|slot| slot.accessor)).collect();
+        assert_eq!(slots, [Some(2), Some(1), Some(3), None]);
+        assert_eq!((granted[2].offset, granted[2].room, end), (152, 24, 184));
+    }
+}

@@ -1,0 +1,121 @@
+//! The file as it was opened.
+
+use super::super::buffer;
+use super::container::Container;
+use super::json::tree::{Json, Tree};
+use super::reuse::is_ours;
+use crate::format::{AssetFs, ImportError, Place, ReadOptions, guard::Guard};
+use crate::limits::FILE_BYTES;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A `.gltf` or `.glb` file as it was opened: its bytes, and where every value of its JSON lies. Nothing changes it;
+/// copies share everything.
+#[derive(Clone)]
+pub struct SourceFile {
+    pub(super) name: String,
+    pub(super) bytes: Arc<[u8]>,
+    pub(super) container: Container,
+    tree: Arc<Tree>,
+    /// Buffers in files beside this one, as far as a save looks into them.
+    pub(super) beside: Arc<HashMap<usize, Arc<[u8]>>>,
+}
+
+impl SourceFile {
+    /// Takes the bytes of a file called `name` (used to name a buffer beside it), and asks `door` for those buffers
+    /// beside it that a save needs to see: those with key times, and those that an earlier save wrote. One that
+    /// cannot be had is done without.
+    ///
+    /// Needs about 25 bytes of memory a JSON value, and the file's own. Errors: the frame or the text is broken; the
+    /// file is larger than [`FILE_BYTES`]. It does not check what the text says: [`crate::format::read`] does.
+    pub fn open(
+        name: &str,
+        bytes: impl Into<Arc<[u8]>>,
+        door: &dyn AssetFs,
+        options: &ReadOptions<'_>,
+    ) -> Result<Self, ImportError> {
+        let bytes: Arc<[u8]> = bytes.into();
+        if bytes.len() as u64 > FILE_BYTES {
+            let size = bytes.len() as u64;
+            return Err(ImportError::TooLarge { place: Place::File, what: "bytes", size, limit: FILE_BYTES });
+        }
+        options.budget.input(bytes.len());
+        let guard = Guard::new(options);
+        let container = Container::of(&bytes, &guard)?;
+        let broken = |at: usize, reason: &str| ImportError::Invalid {
+            place: Place::Byte(at as u64),
+            code: super::super::check::INVALID_JSON,
+            reason: reason.to_owned(),
+        };
+        if let Err(error) = std::str::from_utf8(&bytes[container.text.clone()]) {
+            return Err(broken(container.text.start + error.valid_up_to(), "the text is not UTF-8"));
+        }
+        let tree = Tree::read(&bytes, container.text.clone()).map_err(|e| broken(e.at, e.reason))?;
+        let mut source =
+            Self { name: name.to_owned(), bytes, container, tree: Arc::new(tree), beside: Arc::default() };
+        source.beside = Arc::new(source.fetched(door, &guard));
+        Ok(source)
+    }
+
+    /// The file's bytes.
+    pub fn bytes(&self) -> &Arc<[u8]> {
+        &self.bytes
+    }
+
+    /// The name that it was opened under.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    pub(super) fn json(&self) -> Json<'_> {
+        Json::new(&self.bytes, &self.tree)
+    }
+
+    /// Is the file a binary container?
+    pub fn is_glb(&self) -> bool {
+        self.container.glb.is_some()
+    }
+
+    /// Buffers beside the file that matter here.
+    fn fetched(&self, door: &dyn AssetFs, guard: &Guard<'_>) -> HashMap<usize, Arc<[u8]>> {
+        let json = self.json();
+        let store = buffer::Store::new(door, guard);
+        let mut wanted = buffers_of_key_times(json);
+        let mut fetched = HashMap::new();
+        let buffers = json.list(0, "buffers");
+        wanted.extend((0..buffers.len()).filter(|&index| is_ours(json, buffers[index])));
+        wanted.sort_unstable();
+        wanted.dedup();
+        for index in wanted {
+            let Some(&buffer) = buffers.get(index) else { continue };
+            let uri = json.string_member(buffer, "uri").filter(|uri| !is_data(uri));
+            let place = Place::Pointer(format!("/buffers/{index}/uri"));
+            if let Some(Ok(file)) = uri.map(|uri| store.fetch(&uri, &place)) {
+                fetched.insert(index, file.bytes);
+            }
+        }
+        fetched
+    }
+}
+
+/// Does the URI carry its data itself?
+pub(super) fn is_data(uri: &str) -> bool {
+    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
+}
+
+/// The buffers that inputs of animation samplers lie in.
+fn buffers_of_key_times(json: Json<'_>) -> Vec<usize> {
+    let (accessors, views) = (json.list(0, "accessors"), json.list(0, "bufferViews"));
+    let mut found = Vec::new();
+    for animation in json.list(0, "animations") {
+        for sampler in json.list(animation, "samplers") {
+            let buffer = || {
+                let accessor = *accessors.get(json.index_member(sampler, "input")?)?;
+                let view = *views.get(json.index_member(accessor, "bufferView")?)?;
+                json.index_member(view, "buffer")
+            };
+            found.extend(buffer());
+        }
+    }
+    found
+}

@@ -1,0 +1,168 @@
+//! Open and save without an edit is the same file, byte for byte, however it is written.
+
+use crate::doors::{MemoryFs, shared};
+use crate::fixture::{Fixture, chunk, container, glb};
+use crate::made::files;
+use crate::save_support::Opened;
+use dragonfly_anim::format::{AssetFs, NoFiles};
+use std::path::PathBuf;
+
+#[track_caller]
+fn stays(name: &str, bytes: &[u8], door: &dyn AssetFs) -> Opened {
+    let opened = Opened::new(name, bytes, door).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let saved = opened.saved(&opened.takes(), door);
+    assert!(saved.bytes() == bytes, "{name}");
+    assert!(saved.changes.is_empty() && saved.changes.files.is_empty(), "{name}: {}", saved.changes);
+    assert_eq!(saved.files.len(), 1);
+    opened
+}
+
+/// The same, and that an edit touches nothing else in it.
+#[track_caller]
+fn stays_and_can_be_edited(name: &str, bytes: &[u8], door: &dyn AssetFs) {
+    let opened = stays(name, bytes, door);
+    let mut takes = opened.takes();
+    crate::save_edits::shift(&mut takes, 0);
+    let saved = opened.saved(&takes, door);
+    assert!(!saved.changes.is_empty(), "{name}");
+    let again = saved.opened.saved(&saved.opened.takes(), &crate::save_support::Over::new(&saved.files, door));
+    assert!(again.bytes() == saved.bytes(), "{name}");
+}
+
+#[test]
+fn every_file_there_is_stays_the_same() {
+    let mut all = files();
+    let mut folders: Vec<PathBuf> = shared("assets").into_iter().collect();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if entry.is_dir() {
+                folders.push(entry);
+            } else if entry.extension().is_some_and(|ending| ending == "glb" || ending == "gltf") {
+                all.push(entry);
+            }
+        }
+    }
+    all.sort();
+    all.dedup();
+    for path in &all {
+        let (opened, door) = Opened::file(path);
+        let saved = opened.saved(&opened.takes(), &door);
+        assert!(saved.bytes() == &**opened.source.bytes(), "{}", path.display());
+    }
+    println!("{} files stay the same", all.len());
+    assert!(all.len() >= 8);
+}
+
+/// The fixture with its one buffer as a data URI, as text.
+fn text(pretty: bool) -> String {
+    let text = String::from_utf8(Fixture::new().gltf()).unwrap();
+    if pretty {
+        serde_json::to_string_pretty(&serde_json::from_str::<serde_json::Value>(&text).unwrap()).unwrap()
+    } else {
+        text
+    }
+}
+
+#[test]
+fn odd_spellings_stay() {
+    let plain = text(false);
+    let pretty = text(true);
+    let odd = [
+        ("a byte order mark", format!("\u{feff}{plain}")),
+        ("carriage returns", pretty.replace('\n', "\r\n")),
+        ("tabs", pretty.replace("  ", "\t")),
+        ("spaces around", format!("\n\n  {pretty} \t\r\n")),
+        ("spaces before colons and commas", pretty.replace(':', " :\t").replace("data :\t", "data:").replace(',', " ,\n").replace("base64 ,\n", "base64,")),
+        ("numbers", pretty.replace("0.5", "5e-1").replace("\"rotation\": [", "\"rotation\": [ ").replace("1.0", "1.000E+0")),
+        ("escaped names", plain.replace("\"animations\"", "\"\\u0061nimations\"").replace("\"samplers\"", "\"sampl\\u0065rs\"").replace("\"path\"", "\"\\u0070ath\"")),
+        ("unknown members", plain.replacen('{', "{\"one\":{\"two\":[{},[],null,-0.0,true]},", 1)),
+        ("extras", plain.replace("\"channels\"", "\"extras\":{\"animations\":[{\"a\":1,\"a\":2}]},\"channels\"")),
+        ("duplicates in what is not read", plain.replacen('{', "{\"extras\":{\"a\":1,\"a\":{\"b\":1}},", 1)),
+        ("slashes escaped", plain.replace("application/octet-stream", "application\\/octet-stream")),
+    ];
+    for (what, text) in odd {
+        println!("{what}");
+        assert!(what == "spaces around" || text != plain && text != pretty, "{what} is not there");
+        stays_and_can_be_edited("odd.gltf", text.as_bytes(), &NoFiles);
+        let fixture = Fixture::new();
+        let text = text.as_bytes();
+        // The same text in a container, its buffer still a data URI.
+        stays_and_can_be_edited("odd.glb", &glb(text, None), &NoFiles);
+        // The binary chunk is of no buffer then.
+        stays_and_can_be_edited("odd.glb", &glb(text, Some(&fixture.bin)), &NoFiles);
+    }
+}
+
+#[test]
+fn odd_containers_stay() {
+    let fixture = Fixture::new();
+    let json = serde_json::to_vec(&fixture.json).unwrap();
+    let pad = |json: &[u8], with: &[u8]| {
+        let mut json = json.to_vec();
+        json.extend(with);
+        json
+    };
+    let chunks = |json: &[u8], bin: &[u8], more: &[u8]| {
+        container(&[chunk(b"JSON", json), chunk(b"BIN\0", bin), more.to_vec()].concat())
+    };
+    let bin = &fixture.bin;
+    let longer = pad(bin, &[7; 40]);
+    let odd = [
+        ("no padding", chunks(&json, bin, b"")),
+        ("ten spaces", chunks(&pad(&json, &[b' '; 10]), bin, b"")),
+        ("a newline", chunks(&pad(&json, b"\n"), bin, b"")),
+        ("zeros", chunks(&pad(&json, b"\0\0\0"), bin, b"")),
+        ("spaces and zeros", chunks(&pad(&json, b"  \0"), bin, b"")),
+        ("a byte order mark", chunks(&pad(b"\xef\xbb\xbf", &json), bin, b"")),
+        ("a chunk more", chunks(&json, bin, &chunk(b"what", b"abcdefgh"))),
+        ("two chunks more", chunks(&json, bin, &[chunk(b"what", b"abc"), chunk(b"BIN\0", b"defg")].concat())),
+        ("bytes behind", pad(&chunks(&json, bin, b""), b"trailing")),
+        ("a longer chunk", chunks(&json, &longer, b"")),
+        ("a chunk of odd length", chunks(&json, &longer[..longer.len() - 3], b"")),
+    ];
+    for (what, bytes) in odd {
+        println!("{what}");
+        stays_and_can_be_edited("odd.glb", &bytes, &NoFiles);
+    }
+}
+
+#[test]
+fn several_buffers_stay() {
+    let fixture = Fixture::new();
+    let beside = fixture.gltf_beside();
+    let name = fixture_bin_name(&beside);
+    let door = MemoryFs::with(&[(&name, &fixture.bin), ("other.bin", &[1, 2, 3, 4])]);
+    stays_and_can_be_edited("beside.gltf", &beside, &door);
+    // Buffer 0 beside a container.
+    stays_and_can_be_edited("beside.glb", &glb(&beside, None), &door);
+    stays_and_can_be_edited("beside.glb", &glb(&beside, Some(b"????")), &door);
+    let mut several = Fixture::new();
+    let buffers = several.json["buffers"].as_array_mut().unwrap();
+    buffers.push(serde_json::json!({"byteLength": 4, "uri": "other.bin"}));
+    buffers.push(serde_json::json!({"byteLength": 3, "uri": "data:application/octet-stream;base64,AQIDBA=="}));
+    stays_and_can_be_edited("several.glb", &several.glb(), &door);
+    stays_and_can_be_edited("several.gltf", &several.gltf(), &door);
+}
+
+fn fixture_bin_name(gltf: &[u8]) -> String {
+    let json: serde_json::Value = serde_json::from_slice(gltf).unwrap();
+    json["buffers"][0]["uri"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_file_without_animations_gets_some() {
+    for (name, text) in [
+        ("bare.gltf", "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"name\":\"a\"}],\"skins\":[{\"joints\":[0]}]}"),
+        ("bare.gltf", "{\n  \"asset\": {\n    \"version\": \"2.0\"\n  },\n  \"nodes\": [\n    {\"name\": \"a\"}\n  ],\n  \"skins\": [\n    {\"joints\": [0]}\n  ]\n}\n"),
+    ] {
+        for bytes in [text.as_bytes().to_vec(), glb(text.as_bytes(), None)] {
+            let opened = stays(name, &bytes, &NoFiles);
+            let mut take = crate::support::take(vec![crate::save_edits::moving_track()]);
+            take.name = "new".to_owned();
+            let now = [dragonfly_anim::format::gltf::save::TakeNow { origin: None, take: take.into() }];
+            let saved = opened.saved(&now, &NoFiles);
+            println!("{}", String::from_utf8_lossy(saved.bytes()));
+            assert_eq!(saved.json()["animations"].as_array().unwrap().len(), 1);
+        }
+    }
+}

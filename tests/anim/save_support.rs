@@ -1,0 +1,241 @@
+//! Opening, saving, opening again, and comparing what came back with what was asked.
+
+use crate::doors::FolderFs;
+use dragonfly_anim::data::{Channel, ModelData, MorphTrack, Take, Track};
+use dragonfly_anim::format::gltf::save::{Changes, OutputFile, SaveError, SourceFile, TakeNow, plan};
+use dragonfly_anim::format::{AssetError, AssetFs, ImportError, NoFiles, ReadOptions, read};
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Files that were written, before those that were there.
+pub(crate) struct Over<'a> {
+    pub(crate) files: HashMap<String, Vec<u8>>,
+    pub(crate) under: &'a dyn AssetFs,
+}
+
+impl<'a> Over<'a> {
+    pub(crate) fn new(files: &[OutputFile], under: &'a dyn AssetFs) -> Self {
+        Self { files: files.iter().map(|file| (file.name.clone(), file.bytes.clone())).collect(), under }
+    }
+}
+
+impl AssetFs for Over<'_> {
+    fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
+        match self.files.get(path) {
+            Some(bytes) => Ok(bytes.clone()),
+            None => self.under.read(path, limit),
+        }
+    }
+}
+
+/// A file with its model.
+pub(crate) struct Opened {
+    pub(crate) source: SourceFile,
+    pub(crate) model: ModelData,
+}
+
+impl Opened {
+    pub(crate) fn new(name: &str, bytes: &[u8], door: &dyn AssetFs) -> Result<Self, ImportError> {
+        let model = read(name, bytes, door, &ReadOptions::default())?.model;
+        let source = SourceFile::open(name, bytes, door, &ReadOptions::default())?;
+        Ok(Self { source, model })
+    }
+
+    /// A file that stands alone.
+    pub(crate) fn alone(name: &str, bytes: &[u8]) -> Self {
+        Self::new(name, bytes, &NoFiles).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// A file with those in its folder.
+    pub(crate) fn file(path: &Path) -> (Self, FolderFs) {
+        let door = FolderFs(path.parent().unwrap().to_owned());
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let opened = Self::new(name, &std::fs::read(path).unwrap(), &door);
+        (opened.unwrap_or_else(|error| panic!("{}: {error}", path.display())), door)
+    }
+
+    /// The takes as they are, in their order.
+    pub(crate) fn takes(&self) -> Vec<TakeNow> {
+        let takes = self.model.animation.takes.iter().enumerate();
+        takes.map(|(index, take)| TakeNow { origin: Some(index), take: take.clone() }).collect()
+    }
+
+    /// Saves, checks that the rest stays, opens again and checks that everything is as asked.
+    #[track_caller]
+    pub(crate) fn saved(&self, now: &[TakeNow], door: &dyn AssetFs) -> Saved {
+        self.try_saved(now, door).unwrap_or_else(|error| panic!("{}: {error}", self.source.name()))
+    }
+
+    #[track_caller]
+    pub(crate) fn try_saved(&self, now: &[TakeNow], door: &dyn AssetFs) -> Result<Saved, SaveError> {
+        let plan = plan(&self.source, &self.model, now)?;
+        let files = plan.write();
+        let changes = plan.changes().clone();
+        rest_stays(self.source.bytes(), &files.last().unwrap().bytes, &changes);
+        assert_eq!(files.iter().map(|file| &file.name).last(), Some(&self.source.name().to_owned()));
+        let over = Over::new(&files, door);
+        let bytes = &files.last().unwrap().bytes;
+        let opened = Opened::new(self.source.name(), bytes, &over);
+        let opened = opened.unwrap_or_else(|error| {
+            panic!("{}: what was written cannot be opened: {error}\n{changes}", self.source.name())
+        });
+        same_scene(&self.model, &opened.model);
+        same_takes(&self.model, now, &opened.model);
+        Ok(Saved { opened, files, changes })
+    }
+}
+
+/// A file that was written and opened again.
+pub(crate) struct Saved {
+    pub(crate) opened: Opened,
+    pub(crate) files: Vec<OutputFile>,
+    pub(crate) changes: Changes,
+}
+
+impl Saved {
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.files.last().unwrap().bytes
+    }
+
+    /// The file's JSON.
+    pub(crate) fn json(&self) -> serde_json::Value {
+        json_of(self.bytes())
+    }
+}
+
+/// A file's JSON text, chunks after it, and what follows the container.
+fn parts(file: &[u8]) -> (&[u8], Vec<(&[u8], &[u8])>, &[u8]) {
+    if !file.starts_with(b"glTF") {
+        return (file, Vec::new(), b"");
+    }
+    let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+    let (mut at, end) = (12, word(8));
+    let mut chunks = Vec::new();
+    while at < end {
+        chunks.push((&file[at + 4..at + 8], &file[at + 8..at + 8 + word(at)]));
+        at += 8 + word(at);
+    }
+    (chunks.remove(0).1, chunks, &file[end..])
+}
+
+pub(crate) fn json_of(file: &[u8]) -> serde_json::Value {
+    let text = parts(file).0;
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+    let zeros = text.iter().rev().take_while(|&&byte| byte == 0).count();
+    serde_json::from_slice(&text[..text.len() - zeros]).unwrap()
+}
+
+/// The binary chunk.
+pub(crate) fn bin_of(file: &[u8]) -> Vec<u8> {
+    let chunks = parts(file).1;
+    chunks.first().filter(|chunk| chunk.0 == b"BIN\0").map(|chunk| chunk.1.to_vec()).unwrap_or_default()
+}
+
+/// Takes what was announced out of both files and compares the rest, byte for byte.
+#[track_caller]
+pub(crate) fn rest_stays(old: &[u8], new: &[u8], changes: &Changes) {
+    if changes.is_empty() {
+        assert!(old == new, "nothing changes, and yet the files differ");
+        return;
+    }
+    let is_glb = old.starts_with(b"glTF");
+    let base = if is_glb { 20 } else { 0 };
+    let ((old_text, old_chunks, old_rest), (new_text, new_chunks, new_rest)) = (parts(old), parts(new));
+    let (mut from, mut at) = (0, 0);
+    for token in &changes.tokens {
+        let length = token.offset - base - from;
+        assert!(old_text[from..][..length] == new_text[at..][..length], "before {}", token.pointer);
+        from += length + token.length;
+        at += length + token.new_length;
+    }
+    let (old_text, new_text) = (&old_text[from..], &new_text[at..]);
+    if !is_glb {
+        assert!(old_text == new_text, "after the last token");
+        return;
+    }
+    let bare = |text: &[u8]| text.iter().copied().filter(|byte| *byte != b' ').collect::<Vec<u8>>();
+    assert_eq!(bare(old_text), bare(new_text), "only spaces are padding");
+    assert!(new_text.len().abs_diff(old_text.len()) < 4, "{} and {}", old_text.len(), new_text.len());
+    assert!(old_rest == new_rest, "after the container");
+    let is_bin = |chunks: &[(&[u8], &[u8])]| chunks.first().is_some_and(|chunk| chunk.0 == b"BIN\0");
+    let (old_skip, new_skip) = (usize::from(is_bin(&old_chunks)), usize::from(is_bin(&new_chunks)));
+    assert!(old_chunks[old_skip..] == new_chunks[new_skip..], "chunks of other kinds");
+    let (old_bin, new_bin) = (bin_of(old), bin_of(new));
+    if changes.bytes_reused == 0 && changes.bytes_removed == 0 {
+        assert!(new_bin.starts_with(&old_bin), "the bytes of the buffer");
+        assert_eq!(new_bin.len(), old_bin.len() + changes.bytes_appended);
+    }
+}
+
+/// Meshes, skins, materials, images and the skeleton are the same, bones known by their nodes.
+#[track_caller]
+pub(crate) fn same_scene(a: &ModelData, b: &ModelData) {
+    assert_eq!(a.name, b.name);
+    assert!(a.meshes == b.meshes, "meshes differ");
+    assert!(a.materials == b.materials, "materials differ");
+    assert!(a.images == b.images, "images differ");
+    let node = |model: &ModelData, bone: u32| model.animation.skeleton.bones[bone as usize].node;
+    assert_eq!(a.skins.len(), b.skins.len());
+    for (a_skin, b_skin) in a.skins.iter().zip(&b.skins) {
+        assert_eq!((&a_skin.name, &a_skin.offsets), (&b_skin.name, &b_skin.offsets));
+        let nodes = |model, bones: &[u32]| bones.iter().map(|&bone| node(model, bone)).collect::<Vec<_>>();
+        assert_eq!(nodes(a, &a_skin.bones), nodes(b, &b_skin.bones));
+    }
+    assert_eq!(a.instances.len(), b.instances.len());
+    for (a, b) in a.instances.iter().zip(&b.instances) {
+        assert_eq!((a.mesh, a.node, a.skin, &a.morph_weights), (b.mesh, b.node, b.skin, &b.morph_weights));
+    }
+    for bone in &b.animation.skeleton.bones {
+        let before = a.animation.skeleton.bones.iter().find(|before| before.node == bone.node).unwrap();
+        assert_eq!((&before.name, before.rest, before.rest_matrix), (&bone.name, bone.rest, bone.rest_matrix));
+    }
+}
+
+/// The takes of `after` are those asked for, to the last bit.
+#[track_caller]
+pub(crate) fn same_takes(before: &ModelData, asked: &[TakeNow], after: &ModelData) {
+    assert_eq!(asked.len(), after.animation.takes.len());
+    for (asked, got) in asked.iter().zip(&after.animation.takes) {
+        let is_empty = asked.take.tracks.iter().all(Track::is_empty) && asked.take.morphs.is_empty();
+        assert_eq!(asked.take.name, got.name);
+        if !is_empty {
+            same_take(before, &asked.take, after, got);
+        }
+    }
+}
+
+#[track_caller]
+fn same_take(before: &ModelData, asked: &Take, after: &ModelData, got: &Take) {
+    let place = |what: &str, node| format!("take {:?}, node {node:?}, {what}", asked.name);
+    let nothing = Track::default();
+    for (bone, asked) in before.animation.skeleton.bones.iter().zip(&asked.tracks) {
+        let bones = &after.animation.skeleton.bones;
+        let got = bones.iter().position(|other| other.node == bone.node);
+        let got = got.map_or(&nothing, |index| &got.tracks[index]);
+        assert!(same_channel(&asked.translation, &got.translation), "{}", place("translation", bone.node));
+        assert!(same_channel(&asked.rotation, &got.rotation), "{}", place("rotation", bone.node));
+        assert!(same_channel(&asked.scale, &got.scale), "{}", place("scale", bone.node));
+    }
+    let sorted = |take: &Take| {
+        let mut morphs: Vec<MorphTrack> = take.morphs.iter().filter(|m| !m.times.is_empty()).cloned().collect();
+        morphs.sort_by_key(|morph| morph.instance);
+        morphs
+    };
+    assert!(sorted(asked) == sorted(got), "{}", place("weights", None));
+    let times = asked.tracks.iter().flat_map(Track::key_times);
+    let times = times.chain(asked.morphs.iter().flat_map(|morph| morph.times.to_vec()));
+    let (start, end) = times.fold((f32::MAX, f32::MIN), |(a, b), time| (a.min(time), b.max(time)));
+    if start <= end {
+        assert_eq!((got.start, got.length), (start, end - start));
+    }
+}
+
+fn same_channel<T: PartialEq + Copy>(a: &Channel<T>, b: &Channel<T>) -> bool {
+    (a.times.is_empty() && b.times.is_empty()) || a == b
+}
+
+/// The take `index` of `takes`, to be changed.
+pub(crate) fn take_mut(takes: &mut [TakeNow], index: usize) -> &mut Take {
+    Arc::make_mut(&mut takes[index].take)
+}
