@@ -8,6 +8,7 @@ mod complaints;
 mod device_loss;
 mod documents;
 mod drag;
+mod edit_command;
 mod edits;
 mod explain;
 mod faults;
