@@ -1,9 +1,10 @@
 //! The document thread opens, fails, gives up, and always says so.
 
 use crate::arm;
+use dragonfly::document::edit::{Edit, TakeRef};
 use dragonfly::document::{
-    Cancel, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Progress, Source, View, images,
-    load_model,
+    Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Progress, Source, View,
+    images, load_model,
 };
 use dragonfly_anim::data::Image;
 use dragonfly_kit::eventually;
@@ -287,4 +288,50 @@ fn the_picture_gets_the_newest_view_while_the_main_thread_stands_still() {
     bench.stage.iterate(&bench.graphics);
     assert_eq!(bench.picture.0.borrow()[1].loaded.title, "last.glb");
     assert!(bench.heard.0.borrow().is_empty(), "the main thread had no part in it");
+}
+
+#[test]
+fn an_edit_is_shown_to_panels_and_picture_alike_and_a_wrong_one_is_refused_with_its_reason() {
+    let heard = Heard::default();
+    let shown = Picture::default();
+    let mut main = Thread::capture("main", || {});
+    let replies = main.context().register_receiver(heard.clone());
+    let picture = main.context().register_receiver(shown.clone());
+    let document = Document::start(replies, picture).unwrap();
+    document.open(Source::BuiltIn);
+    let newest = || shown.0.borrow().last().cloned();
+    let mut wait = |what: &dyn Fn() -> bool| {
+        eventually(Duration::from_secs(30), || {
+            main.iterate();
+            what()
+        });
+    };
+    wait(&|| newest().is_some());
+    let opened = newest().unwrap();
+    assert!(opened.history.saved && opened.history.steps.is_empty());
+    let rename = |take: usize| {
+        Change::Edit(Edit::RenameTake { take: TakeRef::Index(take), name: "Stroll".to_owned() }, None)
+    };
+    document.change(rename(0));
+    wait(&|| newest().is_some_and(|view| view.generation == 2));
+    let edited = newest().unwrap();
+    assert_eq!(edited.takes[0].name, "Stroll");
+    assert!(std::sync::Arc::ptr_eq(&edited.loaded, &opened.loaded), "the model is the same one");
+    assert!(std::sync::Arc::ptr_eq(&edited.takes[1], &opened.takes[1]), "and so is what was not touched");
+    assert_eq!(
+        (edited.history.steps.as_slice(), edited.history.done, edited.history.saved),
+        (&["Rename take"][..], 1, false)
+    );
+    document.change(rename(99));
+    let refused = |reply: &DocumentReply| matches!(reply, DocumentReply::Refused(reason) if reason == "there is no take 99");
+    wait(&|| heard.0.borrow().iter().any(refused));
+    document.change(Change::Undo);
+    wait(&|| newest().is_some_and(|view| view.generation == 3));
+    let undone = newest().unwrap();
+    assert_eq!(
+        (undone.takes[0].name.as_str(), undone.history.done, undone.history.saved),
+        (opened.takes[0].name.as_str(), 0, true)
+    );
+    document.stop();
+    Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
 }

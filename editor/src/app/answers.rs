@@ -23,7 +23,8 @@ impl Receiver for Replies {
     fn receive(&mut self, reply: DocumentReply, _main: &mut Context) {
         let mut interface = self.interface.borrow_mut();
         let state = &mut interface.state;
-        let ends = !matches!(reply, DocumentReply::Loading { .. } | DocumentReply::View(_));
+        use DocumentReply::{Loading as Goes, Refused, View};
+        let ends = !matches!(reply, Goes { .. } | View(_) | Refused(_));
         let passed_over = if ends { std::mem::take(&mut state.passed_over) } else { 0 };
         match reply {
             DocumentReply::Loading { title, progress } => state.loading = Some(Loading { title, progress }),
@@ -39,6 +40,7 @@ impl Receiver for Replies {
                 say_passed_over(&mut state.status, passed_over);
                 state.status.say(Level::Error, reason);
             }
+            DocumentReply::Refused(reason) => state.status.say(Level::Warning, reason),
             DocumentReply::View(view) => {
                 state.now = Instant::now();
                 state.show(view);

@@ -5,6 +5,7 @@
 
 mod choice;
 mod demo;
+mod edit;
 mod explain;
 mod failure;
 mod info;
@@ -37,6 +38,7 @@ enum Commands {
     Pose(pose::Arguments),
     Explain(explain::Arguments),
     Render(render::Arguments),
+    Edit(edit::Arguments),
     Demo(demo::Arguments),
 }
 
@@ -51,6 +53,8 @@ Examples:
                                     exact numbers, for other programs
   dragonfly explain Fox.glb --time 0.5 --bone b_Head_05
                                     how one bone comes to stand where it stands
+  dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb
+                                    edits without a window; the rest of the file stays
 
 FILE may be `demo:` for the built-in model.
 Exit codes: 0 done, 1 a difference was found, 2 wrong input, 3 trouble of the machine.
@@ -101,6 +105,7 @@ fn run(command_line: CommandLine) -> Result<(), Failure> {
         Some(Commands::Pose(arguments)) => arguments.run(),
         Some(Commands::Explain(arguments)) => arguments.run(),
         Some(Commands::Render(arguments)) => arguments.run(),
+        Some(Commands::Edit(arguments)) => arguments.run(),
         Some(Commands::Demo(arguments)) => arguments.run(),
     }
 }

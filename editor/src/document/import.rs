@@ -35,7 +35,8 @@ pub(super) fn file(
     read(&title, bytes, &folder, progress, cancel)
 }
 
-fn read(
+/// `bytes` of a file called `title`; what they refer to is asked of `door`.
+pub(super) fn read(
     title: &str,
     bytes: &[u8],
     door: &dyn AssetFs,

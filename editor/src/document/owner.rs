@@ -1,7 +1,8 @@
 //! The document thread: owns what is open, loads in jobs, publishes the newest view.
 
 use super::job::{JobNews, LoadJob};
-use super::{LoadError, LoadedModel, Loader, Progress, Source, View, load_model};
+use super::open::Open;
+use super::{Change, LoadError, LoadedModel, Loader, Progress, Source, View, load_model};
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -14,6 +15,8 @@ pub enum DocumentMessage {
     Open(Source),
     /// Gives up what is being loaded.
     CancelLoading,
+    /// Edits what is open, undoes, does again.
+    Change(Change),
     /// From a job; `ticket` tells whether anybody still waits for it.
     #[doc(hidden)]
     News(u64, NewsBox),
@@ -46,12 +49,13 @@ pub enum DocumentReply {
         /// Place and reason.
         reason: String,
     },
+    /// An edit could not be done, and nothing changed.
+    Refused(String),
 }
 
 /// The document, as its own thread sees it.
 pub struct Document {
-    /// The state as it is now.
-    open: Option<View>,
+    open: Option<Open>,
     generation: u64,
     /// Has it changed since the last view?
     changed: bool,
@@ -158,7 +162,8 @@ impl Document {
             }
             JobNews::Done(Ok(loaded)) => {
                 let loaded = Arc::new(loaded);
-                self.change(View::opened(self.generation + 1, Arc::clone(&loaded)));
+                self.open = Some(Open::new(Arc::clone(&loaded)));
+                self.changed();
                 self.reply(DocumentReply::Opened(loaded));
             }
             JobNews::Done(Err(LoadError::Cancelled)) => self.reply(DocumentReply::Cancelled),
@@ -169,16 +174,24 @@ impl Document {
         }
     }
 
-    /// The state is `view` from now on; it is published when all that came with this change is done.
-    fn change(&mut self, view: View) {
-        self.generation = view.generation;
-        self.open = Some(view);
+    fn change(&mut self, change: Change) {
+        let Some(open) = &mut self.open else { return };
+        match open.change(change) {
+            Ok(true) => self.changed(),
+            Ok(false) => {}
+            Err(error) => self.reply(DocumentReply::Refused(error.to_string())),
+        }
+    }
+
+    /// The state is another from now on; it is published when all that came with this change is done.
+    fn changed(&mut self) {
+        self.generation += 1;
         self.changed = true;
     }
 
     /// Shows the newest state to everybody.
     fn publish(&mut self) {
-        let Some(view) = self.open.clone() else { return };
+        let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
         // As in `reply`; the picture first, because nobody has to be quick for it.
         let _ = self.picture.send(view.clone());
         let _ = self.views.send(DocumentReply::View(view));
@@ -197,6 +210,7 @@ impl Receiver for Document {
         match message {
             DocumentMessage::Open(source) => self.open(source),
             DocumentMessage::CancelLoading => self.cancel(),
+            DocumentMessage::Change(change) => self.change(change),
             DocumentMessage::News(ticket, NewsBox(news)) => self.hear(ticket, news),
         }
     }
@@ -221,6 +235,11 @@ impl DocumentHandle {
     /// See [`DocumentMessage::CancelLoading`].
     pub fn cancel_loading(&self) {
         self.send(DocumentMessage::CancelLoading);
+    }
+
+    /// See [`DocumentMessage::Change`].
+    pub fn change(&self, change: Change) {
+        self.send(DocumentMessage::Change(change));
     }
 
     /// Its thread.

@@ -1,5 +1,7 @@
 //! What the document publishes: immutable, shared, never locked.
 
+use super::adapter::{ModelAdapter, Slot};
+use super::history::Edited;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, ModelData, Take};
 use std::path::PathBuf;
@@ -36,6 +38,17 @@ pub struct LoadedModel {
     pub warnings: Vec<String>,
 }
 
+/// What was done so far, for the menu and the list of the history.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HistoryView {
+    /// A few words for each step, the first one first.
+    pub steps: Vec<&'static str>,
+    /// How many of them are done; the others can be done again.
+    pub done: usize,
+    /// Is everything as it was opened or saved?
+    pub saved: bool,
+}
+
 /// The newest state of the document. Panels read it; nobody changes it.
 #[derive(Clone, Debug)]
 pub struct View {
@@ -46,13 +59,29 @@ pub struct View {
     /// Its takes as they are now. They are apart from the model, so that a change of one keeps everything else, on the
     /// device as well: who has a model shown compares the `loaded` of two views.
     pub takes: Arc<[Arc<Take>]>,
+    /// The same takes as they were read, and what was changed of them.
+    pub slots: Arc<[Arc<Slot>]>,
+    /// What was done.
+    pub history: Arc<HistoryView>,
 }
 
 impl View {
     /// `loaded`, unchanged.
     pub fn opened(generation: u64, loaded: Arc<LoadedModel>) -> Self {
-        let takes = loaded.model.animation.takes.as_slice().into();
-        Self { generation, loaded, takes }
+        let edited = Edited::new(ModelAdapter::new(&loaded.model.animation));
+        let history = Arc::new(HistoryView { saved: true, ..HistoryView::default() });
+        Self::of(generation, loaded, edited.adapter(), history)
+    }
+
+    /// `loaded` with its takes as they are in `adapter`.
+    pub(super) fn of(
+        generation: u64,
+        loaded: Arc<LoadedModel>,
+        adapter: &ModelAdapter,
+        history: Arc<HistoryView>,
+    ) -> Self {
+        let takes = adapter.results().cloned().collect();
+        Self { generation, loaded, takes, slots: adapter.slots().into(), history }
     }
 
     /// The skeleton and the takes as they are now.

@@ -69,6 +69,7 @@
 //! `changes`; `compact`.
 
 mod animation;
+mod beside;
 mod buffer;
 mod changes;
 mod channels;

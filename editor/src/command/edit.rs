@@ -1,0 +1,211 @@
+//! `dragonfly edit FILE --edits EDITS -o OUT`: edits without a window, saved without touching the rest.
+
+use super::choice::source;
+use super::output::{print, print_json, write_file};
+use super::{Command, Failure, tell};
+use crate::document::adapter::ModelAdapter;
+use crate::document::edit::{EXAMPLES, Edit, VERSION, parse_lines};
+use crate::document::{Cancel, Editable, SavePlan, read_file};
+use serde::Serialize;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Edits takes and saves them; of a glTF file every byte that the edits do not concern stays as it is
+#[derive(Clone, Debug, clap::Args)]
+#[command(after_help = "\
+Edits are JSON, one object a line; --list shows every edit with an example. What cannot be done stops the command\n\
+with the line, and nothing is written.\n\n\
+Examples:\n  dragonfly edit --list\n  \
+dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb\n  \
+echo '{\"edit\":\"reverse_take\",\"take\":\"Run\"}' | dragonfly edit Fox.glb --edits - --dry-run")]
+pub(super) struct Arguments {
+    /// A model (.glb, .gltf, .dfm), or `demo:` for the built-in dragonfly
+    #[arg(value_name = "FILE", required_unless_present_any = ["list", "schema"])]
+    file: Option<PathBuf>,
+    /// The edits, one JSON object a line; `-` is standard input
+    #[arg(long, value_name = "EDITS")]
+    edits: Option<PathBuf>,
+    /// Where to; may be FILE itself, which is replaced in one step
+    #[arg(short, long, value_name = "OUT", required_unless_present_any = ["list", "schema", "dry_run"])]
+    output: Option<PathBuf>,
+    /// Says what would change, and writes nothing
+    #[arg(long)]
+    dry_run: bool,
+    /// Takes away what earlier saves appended and nothing uses any more
+    #[arg(long, conflicts_with = "edits")]
+    compact: bool,
+    /// One JSON document instead of text
+    #[arg(long)]
+    json: bool,
+    /// Every edit with an example
+    #[arg(long, conflicts_with_all = ["file", "edits", "output", "dry_run", "compact", "schema"])]
+    list: bool,
+    /// A JSON schema of the edits
+    #[arg(long, conflicts_with_all = ["file", "edits", "output", "dry_run", "compact"])]
+    schema: bool,
+}
+
+/// Most bytes of edits that are read.
+const EDITS_BYTES: u64 = 1 << 30;
+
+impl Command for Arguments {
+    fn run(self) -> Result<(), Failure> {
+        if self.list {
+            return list(self.json);
+        }
+        if self.schema {
+            return print_json(&schemars::schema_for!(Edit));
+        }
+        let Some(file) = &self.file else { return Err(Failure::input("FILE", "is not given")) };
+        let editable = Editable::open(&source(file), &Cancel::default())?;
+        let edits = self.edits.as_deref().map(read_edits).transpose()?.unwrap_or_default();
+        let mut adapter = ModelAdapter::new(&editable.model.animation);
+        for (line, edit) in &edits {
+            adapter.apply(edit).map_err(|error| {
+                Failure::input(self.edits_name(), format_args!("line {line}: {error}"))
+            })?;
+        }
+        let plan = if self.compact { editable.compact() } else { editable.plan(&adapter) };
+        let plan = plan.map_err(|error| Failure::input(&editable.title, error))?;
+        let written = match &self.output {
+            Some(output) if !self.dry_run => save(&editable, &plan, output)?,
+            _ => Vec::new(),
+        };
+        self.report(&editable.title, edits.len(), &plan, written)
+    }
+}
+
+impl Arguments {
+    fn edits_name(&self) -> String {
+        match &self.edits {
+            Some(path) if path != Path::new("-") => path.display().to_string(),
+            _ => "edits".to_owned(),
+        }
+    }
+
+    fn report(&self, title: &str, edits: usize, plan: &SavePlan, written: Vec<Written>) -> Result<(), Failure> {
+        // Bytes of a model on stdout leave no room for words.
+        let to_stdout = !self.dry_run && self.output.as_deref() == Some(Path::new("-"));
+        if self.json && !to_stdout {
+            let changes = plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.to_json()).ok());
+            return print_json(&Report { file: title.to_owned(), edits, changes, written });
+        }
+        if self.dry_run {
+            return print(|out| match &plan.changes {
+                Some(changes) => write!(out, "{changes}"),
+                None => writeln!(out, "the whole file is written anew: {} bytes", plan.files[0].bytes.len()),
+            });
+        }
+        for file in written {
+            tell(format_args!("wrote {} ({} bytes)", file.path, file.bytes));
+        }
+        Ok(())
+    }
+}
+
+#[derive(Serialize)]
+struct Report {
+    file: String,
+    edits: usize,
+    /// Null where the whole file is written.
+    changes: Option<serde_json::Value>,
+    written: Vec<Written>,
+}
+
+#[derive(Serialize)]
+struct Written {
+    path: String,
+    bytes: usize,
+}
+
+fn list(json: bool) -> Result<(), Failure> {
+    #[derive(Serialize)]
+    struct Entry {
+        example: serde_json::Value,
+        says: &'static str,
+    }
+    #[derive(Serialize)]
+    struct List {
+        version: u32,
+        edits: Vec<Entry>,
+    }
+    if !json {
+        return print(|out| {
+            EXAMPLES.iter().try_for_each(|example| writeln!(out, "# {}\n{}\n", example.says, example.json))
+        });
+    }
+    let value = |text| serde_json::from_str(text).unwrap_or_default();
+    let edits = EXAMPLES.iter().map(|example| Entry { example: value(example.json), says: example.says }).collect();
+    print_json(&List { version: VERSION, edits })
+}
+
+fn read_edits(path: &Path) -> Result<Vec<(usize, Edit)>, Failure> {
+    let name = if path == Path::new("-") { "edits".to_owned() } else { path.display().to_string() };
+    let bytes = if path == Path::new("-") {
+        let mut bytes = Vec::new();
+        let read = std::io::stdin().lock().take(EDITS_BYTES).read_to_end(&mut bytes);
+        read.map_err(|error| Failure::input(&name, error))?;
+        bytes
+    } else {
+        read_file(path, EDITS_BYTES).map_err(|error| Failure::input(&name, error))?
+    };
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Failure::input(&name, format_args!("byte {at}: this is no text"))
+    })?;
+    parse_lines(&text).map_err(|error| Failure::input(&name, error))
+}
+
+/// Writes what the plan says, beside `output` what belongs beside it; the file itself last, so that it never names what
+/// is not there.
+fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, Failure> {
+    let mut written = Vec::new();
+    let Some((main, beside)) = plan.files.split_last() else { return Ok(written) };
+    let beside_stdout = output == Path::new("-");
+    if beside_stdout && !(beside.is_empty() && editable.needs().is_empty()) {
+        return Err(Failure::input("-", "the model needs files beside it; give it a name"));
+    }
+    let folder = output.parent().unwrap_or(Path::new(""));
+    let mut put = |path: &Path, bytes: &[u8]| {
+        write_file(path, bytes)?;
+        written.push(Written { path: path.display().to_string(), bytes: bytes.len() });
+        Ok::<(), Failure>(())
+    };
+    for file in beside {
+        put(&folder.join(&file.name), &file.bytes)?;
+    }
+    for (path, bytes) in taken_along(editable, folder)? {
+        put(&path, &bytes)?;
+    }
+    put(output, &main.bytes)?;
+    Ok(written)
+}
+
+/// Files that the model needs and that are not where it goes.
+fn taken_along(editable: &Editable, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+    let Some(from) = editable.folder() else { return Ok(Vec::new()) };
+    let here = |path: &Path| std::fs::canonicalize(if path == Path::new("") { Path::new(".") } else { path });
+    if here(from).ok() == here(folder).ok() {
+        return Ok(Vec::new());
+    }
+    let door = crate::document::Folder::new(if from == Path::new("") { Path::new(".") } else { from })
+        .map_err(|error| Failure::input(from.display(), error))?;
+    let mut found = Vec::new();
+    for name in editable.needs() {
+        let target = folder.join(&name);
+        // What could not be read when the model was opened was a warning then.
+        let Ok(bytes) = door.read(&name, dragonfly_anim::limits::FILE_BYTES) else { continue };
+        match std::fs::read(&target) {
+            Ok(there) if there == bytes => {}
+            Ok(_) => return Err(Failure::input(target.display(), "is another file than the one the model needs")),
+            Err(_) => {
+                if let Some(folder) = target.parent() {
+                    std::fs::create_dir_all(folder)
+                        .map_err(|error| Failure::input(folder.display(), format_args!("cannot be made: {error}")))?;
+                }
+                found.push((target, bytes));
+            }
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,196 @@
+//! From an edit to operations: a file a family of edits.
+
+mod arrange;
+mod cut;
+mod keys;
+mod morph;
+mod pose;
+mod remap;
+mod spline;
+mod takes;
+mod timing;
+
+use super::kind::{Held, Kind};
+use super::op::{Op, Place};
+use super::slot::{Content, Slot, TakeId};
+use super::times::Shared;
+use super::{EditError, ModelAdapter};
+use crate::document::edit::{BoneRef, Edit, KeySet, Property, SAME_TIME, TakeRef};
+use dragonfly_anim::data::{Bone, Channel};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// An edit under way: the document as it is so far, and what leads back.
+pub(super) struct Work {
+    adapter: ModelAdapter,
+    undo: Vec<Op>,
+    shared: Shared,
+}
+
+/// Does `edit` on `work`.
+pub(super) fn run(work: &mut Work, edit: &Edit) -> Result<(), EditError> {
+    match edit {
+        Edit::Set { take, time, poses } => pose::set(work, take, *time, poses),
+        Edit::Offset { take, time, poses } => pose::offset(work, take, *time, poses),
+        Edit::Reset { take, time, bones, properties, to } => {
+            pose::reset(work, take, *time, (bones, properties), *to)
+        }
+        Edit::AddKeys { take, time, bones, properties, value } => {
+            keys::add(work, take, *time, (bones, properties), *value)
+        }
+        Edit::DeleteKeys { take, keys } => keys::delete(work, take, keys),
+        Edit::MoveKeys { take, keys, by } => timing::shift(work, take, keys, *by),
+        Edit::ScaleKeys { take, keys, about, factor } => timing::scale(work, take, keys, *about, *factor),
+        Edit::DuplicateKeys { take, keys, by } => timing::duplicate(work, take, keys, *by),
+        Edit::Ripple { take, from, by } => timing::ripple(work, take, *from, *by),
+        Edit::SnapKeys { take, keys, rate } => timing::snap(work, take, keys, *rate),
+        Edit::SetInterpolation { take, bones, properties, interpolation } => {
+            spline::interpolate(work, take, (bones, properties), *interpolation)
+        }
+        Edit::SetTangents { take, time, bone, property, arrive, leave } => {
+            let tangents = [arrive.as_deref(), leave.as_deref()];
+            spline::tangents(work, take, *time, bone, *property, tangents)
+        }
+        Edit::CreateTake { name, copy, at } => takes::create(work, name, copy.as_ref(), *at),
+        Edit::DeleteTake { take } => takes::delete(work, take),
+        Edit::RenameTake { take, name } => takes::rename(work, take, name),
+        Edit::MoveTake { take, to } => takes::reorder(work, take, *to),
+        Edit::SplitTake { take, time, name } => cut::split(work, take, *time, name),
+        Edit::TrimTake { take, from, to } => cut::trim(work, take, *from, *to),
+        Edit::ReverseTake { take } => remap::reverse(work, take),
+        Edit::RetimeTake { take, start, length } => remap::retime(work, take, *start, *length),
+    }
+}
+
+/// Bones and properties as an edit names them; none of either means all.
+type Named<'a> = (&'a [BoneRef], &'a [Property]);
+
+impl Work {
+    pub(super) fn on(adapter: ModelAdapter) -> Self {
+        Self { adapter, undo: Vec::new(), shared: Shared::default() }
+    }
+
+    /// The document, and what leads back from it in the order of doing.
+    pub(super) fn done(self) -> (ModelAdapter, Vec<Op>) {
+        (self.adapter, self.undo)
+    }
+
+    pub(super) fn perform(&mut self, op: Op) {
+        let inverse = self.adapter.perform(op, &mut self.shared);
+        self.undo.push(inverse);
+    }
+
+    /// Puts a channel in place of another; it shares its times with those that got the same of the same.
+    fn replace<K: Kind>(&mut self, place: Place, mut content: Content, old_times: &Arc<[f32]>) {
+        if let Some(channel) = K::Value::unwrap(&content.original) {
+            let times = self.shared.times(old_times, channel.times.to_vec());
+            content.original = K::Value::wrap(Channel { times, ..channel.clone() });
+        }
+        self.perform(Op::Replace(place, Box::new(content)));
+    }
+
+    fn take(&self, take: &TakeRef) -> Result<TakeId, EditError> {
+        let slots = &self.adapter.slots;
+        let found = match take {
+            TakeRef::Index(index) => slots.get(*index),
+            // A name wins over a number.
+            TakeRef::Name(name) => slots.iter().find(|slot| slot.original.name == *name),
+        };
+        found.map(|slot| slot.id).ok_or_else(|| EditError::NoTake(take.clone()))
+    }
+
+    fn index(&self, take: TakeId) -> usize {
+        self.adapter.slots.iter().position(|slot| slot.id == take).unwrap_or_default()
+    }
+
+    /// The take as it is so far.
+    fn slot(&self, take: TakeId) -> &Arc<Slot> {
+        &self.adapter.slots[self.index(take)]
+    }
+
+    fn bone(&self, bone: &BoneRef) -> Result<u32, EditError> {
+        let bones = &self.adapter.skeleton.bones;
+        let found = match bone {
+            BoneRef::Index(index) => Some(*index).filter(|&index| (index as usize) < bones.len()),
+            BoneRef::Name(name) => self.adapter.skeleton.find(name),
+        };
+        found.ok_or_else(|| EditError::NoBone(bone.clone()))
+    }
+
+    fn skeleton_bone(&self, bone: u32) -> &Bone {
+        &self.adapter.skeleton.bones[bone as usize]
+    }
+
+    /// The channels that are meant, bone after bone.
+    fn channels(&self, take: TakeId, (bones, properties): Named<'_>) -> Result<Vec<Place>, EditError> {
+        let slot = self.slot(take);
+        let bones: Vec<u32> = if bones.is_empty() {
+            (0..slot.original.tracks.len() as u32).collect()
+        } else {
+            let found: BTreeSet<u32> = bones.iter().map(|bone| self.bone(bone)).collect::<Result<_, _>>()?;
+            found.into_iter().collect()
+        };
+        if let Some(&bone) = bones.iter().find(|&&bone| bone as usize >= slot.original.tracks.len()) {
+            return Err(EditError::NoTrack(bone));
+        }
+        let wanted = |property: &Property| properties.is_empty() || properties.contains(property);
+        let of_bone = |bone: u32| {
+            let places = Property::ALL.into_iter().filter(wanted);
+            places.map(move |property| Place { take, bone, property })
+        };
+        Ok(bones.into_iter().flat_map(of_bone).collect())
+    }
+
+    /// The keys that are meant: the channels with any, and which of theirs, ascending.
+    fn keys(&self, take: TakeId, sets: &[KeySet]) -> Result<Vec<(Place, Vec<u32>)>, EditError> {
+        let mut found: Vec<(Place, Vec<u32>)> = Vec::new();
+        for set in sets {
+            for number in set.at.iter().flatten().chain(&set.from).chain(&set.to) {
+                finite("a time", *number)?;
+            }
+            for place in self.channels(take, (&set.bones, &set.properties))? {
+                let times = self.slot(take).times(place.bone, place.property);
+                let held = (0..times.len() as u32).filter(|&key| set.holds(times[key as usize]));
+                let held: Vec<u32> = held.collect();
+                if held.is_empty() {
+                    continue;
+                }
+                match found.iter_mut().find(|(other, _)| *other == place) {
+                    Some((_, keys)) => {
+                        keys.extend(held);
+                        keys.sort_unstable();
+                        keys.dedup();
+                    }
+                    None => found.push((place, held)),
+                }
+            }
+        }
+        if found.is_empty() { Err(EditError::Nothing("no key is meant")) } else { Ok(found) }
+    }
+}
+
+/// Where the key at `time` is; else where one would come.
+fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
+    let after = times.partition_point(|&key| key < time - SAME_TIME);
+    match times.get(after) {
+        Some(&key) if (key - time).abs() <= SAME_TIME => Ok(after),
+        _ => Err(times.partition_point(|&key| key < time)),
+    }
+}
+
+fn finite(what: &'static str, value: f32) -> Result<f32, EditError> {
+    // Sums and products of two of them are numbers, too.
+    if value.is_finite() && value.abs() <= 1e18 { Ok(value) } else { Err(EditError::Number { what, value }) }
+}
+
+/// A time at which a key may lie.
+fn key_time(time: f32, slot: &Slot) -> Result<f32, EditError> {
+    finite("a time", time)?;
+    // What was read before 0 s may stay there.
+    if time < slot.original.start.min(0.0) { Err(EditError::BeforeZero(time)) } else { Ok(time) }
+}
+
+/// The rest value of a channel.
+fn rest<K: Kind>(work: &Work, bone: u32) -> K::Value {
+    K::of(&dragonfly_anim::sample::rest_pose(work.skeleton_bone(bone)))
+}

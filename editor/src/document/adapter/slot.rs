@@ -1,0 +1,305 @@
+//! One take in its three forms: as it was read, what was changed, and what comes of both.
+
+use super::change::{KeyChange, Triple, put, triple};
+use super::kind::{AnyChannel, Held, Kind, Numbers, with_kind};
+use super::times::Shared;
+use crate::document::edit::Property;
+use dragonfly_anim::data::{Channel, MorphTrack, Take};
+use dragonfly_anim::sample::Value;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Tells a take from all others of its document, also from those that are gone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+pub struct TakeId(pub u32);
+
+/// The changes of one channel: which key, and what of it; ascending, none that changes nothing.
+pub type Changes = Vec<(u32, KeyChange)>;
+
+/// A key with everything that belongs to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Key {
+    /// Seconds.
+    pub(super) time: f32,
+    pub(super) original: Triple,
+    pub(super) change: Option<KeyChange>,
+}
+
+/// A whole channel: its original and its changes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Content {
+    pub(super) original: AnyChannel,
+    pub(super) changes: Changes,
+}
+
+/// One take in its three forms. Where nothing was changed, all of it is shared: original and result are one.
+#[derive(Clone, Debug)]
+pub struct Slot {
+    /// Which take.
+    pub id: TakeId,
+    /// Its place among the takes of the file; `None` for one made here.
+    pub origin: Option<usize>,
+    /// As it was read; keys and takes made or deleted since are made and deleted in it, too.
+    pub original: Arc<Take>,
+    /// Original + changes: what is shown and saved.
+    pub result: Arc<Take>,
+    changes: BTreeMap<(u32, Property), Arc<Changes>>,
+}
+
+impl Slot {
+    pub(super) fn unchanged(id: TakeId, origin: Option<usize>, take: Arc<Take>) -> Self {
+        Self { id, origin, original: Arc::clone(&take), result: take, changes: BTreeMap::new() }
+    }
+
+    /// The same take under another number, made here.
+    pub(super) fn copied(&self, id: TakeId) -> Self {
+        Self { id, origin: None, ..self.clone() }
+    }
+
+    /// What was changed of a channel.
+    pub fn changes(&self, bone: u32, property: Property) -> &[(u32, KeyChange)] {
+        self.changes.get(&(bone, property)).map_or(&[], |changes| changes.as_slice())
+    }
+
+    /// What was changed of the value of one key; the change that changes nothing where nothing was.
+    pub fn change(&self, bone: u32, property: Property, key: usize) -> Numbers {
+        self.key_change(bone, property, key).map_or(property.identity(), |change| change.value)
+    }
+
+    pub(super) fn key_change(&self, bone: u32, property: Property, key: usize) -> Option<KeyChange> {
+        let changes = self.changes(bone, property);
+        let at = changes.binary_search_by_key(&(key as u32), |(key, _)| *key).ok()?;
+        Some(changes[at].1)
+    }
+
+    /// Channels of which something was changed.
+    pub fn changed(&self) -> impl Iterator<Item = (u32, Property)> + '_ {
+        self.changes.keys().copied()
+    }
+
+    pub(super) fn original_of<K: Kind>(&self, bone: u32) -> Option<&Channel<K::Value>> {
+        self.original.tracks.get(bone as usize).map(K::channel)
+    }
+
+    pub(super) fn key<K: Kind>(&self, property: Property, bone: u32, key: usize) -> Option<Key> {
+        let channel = self.original_of::<K>(bone)?;
+        let time = *channel.times.get(key)?;
+        let change = self.key_change(bone, property, key);
+        Some(Key { time, original: triple::<K>(channel, key), change })
+    }
+
+    /// Times of a channel's keys.
+    pub(super) fn times(&self, bone: u32, property: Property) -> &Arc<[f32]> {
+        let track = &self.original.tracks[bone as usize];
+        match property {
+            Property::Translation => &track.translation.times,
+            Property::Rotation => &track.rotation.times,
+            Property::Scale => &track.scale.times,
+        }
+    }
+
+    /// Gives keys other changes, `None` for none; what they had before.
+    pub(super) fn set_changes(
+        &mut self,
+        bone: u32,
+        property: Property,
+        wanted: &[(u32, Option<KeyChange>)],
+    ) -> Vec<(u32, Option<KeyChange>)> {
+        let changes = Arc::make_mut(self.changes.entry((bone, property)).or_default());
+        let before: Vec<_> =
+            wanted.iter().map(|&(key, change)| (key, exchange(changes, key, change))).collect();
+        if changes.is_empty() {
+            self.changes.remove(&(bone, property));
+        }
+        with_kind!(property, refresh::<K>(self, property, bone, Some(wanted)));
+        before
+    }
+
+    /// Takes keys out (ascending positions as they are) and puts others in (ascending positions as they will be);
+    /// answers with the positions and keys that undo it.
+    pub(super) fn splice(
+        &mut self,
+        bone: u32,
+        property: Property,
+        remove: &[u32],
+        insert: &[(u32, Key)],
+        shared: &mut Shared,
+    ) -> (Vec<u32>, Vec<(u32, Key)>) {
+        let taken = with_kind!(property, spliced::<K>(self, property, bone, remove, insert, shared));
+        (insert.iter().map(|(at, _)| *at).collect(), taken)
+    }
+
+    /// Puts a whole channel in the place of another; the other.
+    pub(super) fn replace(&mut self, bone: u32, property: Property, content: Content) -> Content {
+        with_kind!(property, replaced::<K>(self, property, bone, content))
+    }
+
+    /// Puts in other morph tracks; those from before.
+    pub(super) fn set_morphs(&mut self, morphs: Vec<MorphTrack>) -> Vec<MorphTrack> {
+        let before = self.original.morphs.clone();
+        self.both(|take| take.morphs.clone_from(&morphs));
+        before
+    }
+
+    pub(super) fn set_name(&mut self, name: &str) -> String {
+        let before = self.original.name.clone();
+        self.both(|take| take.name = name.to_owned());
+        before
+    }
+
+    /// Does the same to original and result.
+    fn both(&mut self, mut change: impl FnMut(&mut Take)) {
+        change(Arc::make_mut(&mut self.original));
+        if self.changes.is_empty() {
+            self.result = Arc::clone(&self.original);
+        } else {
+            change(Arc::make_mut(&mut self.result));
+        }
+        self.measure();
+    }
+
+    /// Start and length are those of the keys.
+    fn measure(&mut self) {
+        let (start, length) = extent(&self.original);
+        for take in [&mut self.original, &mut self.result] {
+            if take.start.to_bits() != start.to_bits() || take.length.to_bits() != length.to_bits() {
+                let take = Arc::make_mut(take);
+                (take.start, take.length) = (start, length);
+            }
+        }
+        if self.changes.is_empty() {
+            self.result = Arc::clone(&self.original);
+        }
+    }
+}
+
+/// Seconds: the first key of any channel, and from it to the last one.
+pub(super) fn extent(take: &Take) -> (f32, f32) {
+    let of_bones = take.tracks.iter().flat_map(|track| {
+        [track.translation.range(), track.rotation.range(), track.scale.range()].into_iter().flatten()
+    });
+    let of_morphs =
+        take.morphs.iter().filter_map(|morph| Some((*morph.times.first()?, *morph.times.last()?)));
+    let range = of_bones.chain(of_morphs).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+    range.map_or((0.0, 0.0), |(start, end)| (start, end - start))
+}
+
+/// Puts one change into a list; the one that was there.
+fn exchange(changes: &mut Changes, key: u32, change: Option<KeyChange>) -> Option<KeyChange> {
+    match (changes.binary_search_by_key(&key, |(key, _)| *key), change) {
+        (Ok(at), Some(change)) => Some(std::mem::replace(&mut changes[at].1, change)),
+        (Ok(at), None) => Some(changes.remove(at).1),
+        (Err(at), Some(change)) => {
+            changes.insert(at, (key, change));
+            None
+        }
+        (Err(_), None) => None,
+    }
+}
+
+/// Makes the result of a channel anew: of the keys in `touched`, or of all.
+fn refresh<K: Kind>(
+    slot: &mut Slot,
+    property: Property,
+    bone: u32,
+    touched: Option<&[(u32, Option<KeyChange>)]>,
+) {
+    if slot.changes.is_empty() {
+        slot.result = Arc::clone(&slot.original);
+        return;
+    }
+    let Some(original) = slot.original_of::<K>(bone).cloned() else { return };
+    let changes = slot.changes.get(&(bone, property)).map_or(&[][..], |changes| changes.as_slice());
+    let result = K::channel_mut(&mut Arc::make_mut(&mut slot.result).tracks[bone as usize]);
+    if changes.is_empty() {
+        *result = original;
+        return;
+    }
+    // Only the keys that were touched differ from the last result, if there is one of its own.
+    let (mut values, keys): (Arc<[K::Value]>, Vec<u32>) = match touched {
+        Some(touched) if !Arc::ptr_eq(&result.values, &original.values) => {
+            (Arc::from(&*result.values), touched.iter().map(|(key, _)| *key).collect())
+        }
+        _ => (Arc::from(&*original.values), changes.iter().map(|(key, _)| *key).collect()),
+    };
+    if let Some(values) = Arc::get_mut(&mut values) {
+        for key in keys {
+            let as_read = triple::<K>(&original, key as usize);
+            let change = changes.binary_search_by_key(&key, |(key, _)| *key).ok().map(|at| changes[at].1);
+            let now = change.map_or(as_read, |change| change.result::<K>(&as_read));
+            put::<K>(values, original.interpolation, key as usize, &now);
+        }
+    }
+    *result = Channel { values, ..original };
+}
+
+fn spliced<K: Kind>(
+    slot: &mut Slot,
+    property: Property,
+    bone: u32,
+    remove: &[u32],
+    insert: &[(u32, Key)],
+    shared: &mut Shared,
+) -> Vec<(u32, Key)> {
+    let taken: Vec<(u32, Key)> =
+        remove.iter().filter_map(|&at| Some((at, slot.key::<K>(property, bone, at as usize)?))).collect();
+    let old = slot.original_of::<K>(bone).cloned().unwrap_or_default();
+    let (per_key, keys) = (old.values_per_key(), (old.len() + insert.len()).saturating_sub(taken.len()));
+    let mut times = Vec::with_capacity(keys);
+    let mut values: Vec<K::Value> = Vec::with_capacity(keys * per_key);
+    let mut changes = Changes::new();
+    let mut kept = (0..old.len() as u32).filter(|at| remove.binary_search(at).is_err());
+    let mut inserted = insert.iter().peekable();
+    let old_changes = slot.changes(bone, property).to_vec();
+    for at in 0..keys as u32 {
+        if let Some((_, key)) = inserted.next_if(|(place, _)| *place == at) {
+            times.push(key.time);
+            values.extend(std::iter::repeat_n(K::Value::ZERO, per_key));
+            put::<K>(&mut values, old.interpolation, at as usize, &key.original);
+            changes.extend(key.change.map(|change| (at, change)));
+        } else if let Some(from) = kept.next() {
+            let first = from as usize * per_key;
+            times.push(old.times[from as usize]);
+            values.extend_from_slice(&old.values[first..first + per_key]);
+            if let Ok(found) = old_changes.binary_search_by_key(&from, |(key, _)| *key) {
+                changes.push((at, old_changes[found].1));
+            }
+        }
+    }
+    let times = shared.times(&old.times, times);
+    let original = Channel { times, values: values.into(), interpolation: old.interpolation };
+    put_channel::<K>(slot, property, bone, original, changes);
+    taken
+}
+
+fn replaced<K: Kind>(slot: &mut Slot, property: Property, bone: u32, content: Content) -> Content {
+    let before = Content {
+        original: K::Value::wrap(slot.original_of::<K>(bone).cloned().unwrap_or_default()),
+        changes: slot.changes(bone, property).to_vec(),
+    };
+    if let Some(original) = K::Value::unwrap(&content.original) {
+        put_channel::<K>(slot, property, bone, original.clone(), content.changes);
+    }
+    before
+}
+
+/// Puts an original channel and its changes in, and makes the result.
+fn put_channel<K: Kind>(
+    slot: &mut Slot,
+    property: Property,
+    bone: u32,
+    original: Channel<K::Value>,
+    changes: Changes,
+) {
+    if changes.is_empty() {
+        slot.changes.remove(&(bone, property));
+    } else {
+        slot.changes.insert((bone, property), Arc::new(changes));
+    }
+    *K::channel_mut(&mut Arc::make_mut(&mut slot.original).tracks[bone as usize]) = original.clone();
+    if !slot.changes.is_empty() {
+        *K::channel_mut(&mut Arc::make_mut(&mut slot.result).tracks[bone as usize]) = original;
+    }
+    refresh::<K>(slot, property, bone, None);
+    slot.measure();
+}

@@ -1,0 +1,32 @@
+//! Channels that had one column of times keep one.
+
+use std::sync::Arc;
+
+/// The columns of times that one edit made, by the columns they were made of.
+///
+/// A file often has one column for all channels of a take. Where an edit does the same to all of them, they have one
+/// afterwards, too: in memory, and in the file that is saved.
+#[derive(Debug, Default)]
+pub(super) struct Shared(Vec<(Times, Times)>);
+
+/// Seconds, ascending; shared by channels.
+type Times = Arc<[f32]>;
+
+/// More columns than this are not compared: an edit that makes that many makes different ones.
+const REMEMBERED: usize = 8;
+
+impl Shared {
+    /// `new` as a column; the one that another channel got for the same, if any did.
+    pub(super) fn times(&mut self, old: &Times, new: Vec<f32>) -> Times {
+        let same = |(from, to): &&(Times, Times)| Arc::ptr_eq(from, old) && **to == *new;
+        if let Some((_, to)) = self.0.iter().find(same) {
+            return Arc::clone(to);
+        }
+        let new: Times = new.into();
+        if self.0.len() == REMEMBERED {
+            self.0.remove(0);
+        }
+        self.0.push((Arc::clone(old), Arc::clone(&new)));
+        new
+    }
+}

@@ -1,0 +1,164 @@
+//! What `dragonfly edit` promises: edits from a text, saved without touching the rest.
+
+use crate::program::{Folder, data, dragonfly, outcome, run};
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+
+const TURN: &str = r#"{"edit":"set","take":"Run","time":0.25,"poses":[{"bone":"b_Head_05","rotation":[0,0.2588190,0,0.9659258]}]}"#;
+
+fn fox() -> String {
+    data("gltf/Fox.glb").display().to_string()
+}
+
+fn text(path: &Path) -> String {
+    path.display().to_string()
+}
+
+/// A file with `lines` in it.
+fn edits(folder: &Folder, lines: &str) -> String {
+    let path = folder.join("edits.jsonl");
+    std::fs::write(&path, lines).expect("a file");
+    text(&path)
+}
+
+/// The rotation of a bone relative to its parent, by `explain`.
+fn rotation(file: &str, bone: &str, time: &str) -> Vec<f64> {
+    let arguments = ["explain", file, "--take", "Run", "--time", time, "--bone", bone, "--json"];
+    let explained = run(arguments).expect(0).json();
+    let bones = explained["bones"].as_array().expect("bones").clone();
+    let numbers = bones.last().expect("a bone")["rotation"]["value"].as_array().expect("numbers").clone();
+    numbers.iter().map(|number| number.as_f64().expect("a number")).collect()
+}
+
+#[test]
+fn without_an_edit_every_file_is_saved_byte_for_byte() {
+    let folder = Folder::new("edit-same");
+    let mut files: Vec<PathBuf> = std::fs::read_dir(data("gltf")).expect("models").flatten().map(|e| e.path()).collect();
+    files.retain(|path| path.extension().is_some_and(|end| end == "glb" || end == "gltf"));
+    assert!(files.len() > 5);
+    for file in files {
+        let saved = folder.join("same");
+        run(["edit", &text(&file), "-o", &text(&saved)]).expect(0);
+        assert_eq!(std::fs::read(&file).expect("bytes"), std::fs::read(&saved).expect("bytes"), "{}", file.display());
+    }
+}
+
+#[test]
+fn an_edit_is_saved_as_it_was_asked_and_the_rest_of_the_file_keeps_its_bytes() {
+    let folder = Folder::new("edit-turn");
+    let saved = text(&folder.join("turned.glb"));
+    let report = run(["edit", &fox(), "--edits", &edits(&folder, TURN), "-o", &saved, "--json"]).expect(0).json();
+    assert_eq!((report["file"].as_str(), report["edits"].as_u64()), (Some("Fox.glb"), Some(1)));
+    assert_eq!(report["changes"]["channels"][0]["bone"], "b_Head_05");
+    assert_eq!(report["changes"]["channels"].as_array().map(Vec::len), Some(1));
+    let wanted = [0.0, 0.258819, 0.0, 0.9659258];
+    for (number, wanted) in rotation(&saved, "b_Head_05", "0.25").iter().zip(wanted) {
+        assert!((number - wanted).abs() < 1e-6, "{number} is not {wanted}");
+    }
+    assert_eq!(rotation(&saved, "b_Neck_04", "0.25"), rotation(&fox(), "b_Neck_04", "0.25"));
+    // The binary chunk begins as it did, and what was appended comes behind it.
+    let (before, after) = (std::fs::read(data("gltf/Fox.glb")).unwrap(), std::fs::read(&saved).unwrap());
+    let chunk = |bytes: &[u8]| {
+        let json = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+        let from = 12 + 8 + json + 8;
+        bytes[from..].to_vec()
+    };
+    assert!(chunk(&after).starts_with(&chunk(&before)));
+    // Once more: the room that was appended is used again.
+    let again = text(&folder.join("again.glb"));
+    run(["edit", &saved, "--edits", &edits(&folder, &TURN.replace("0.2588190", "0.3")), "-o", &again]).expect(0);
+    assert_eq!(std::fs::metadata(&again).unwrap().len(), after.len() as u64);
+}
+
+#[test]
+fn what_a_save_would_change_is_said_and_nothing_is_written() {
+    let folder = Folder::new("edit-dry");
+    let edits = edits(&folder, TURN);
+    let before: Vec<_> = std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
+    let said = run(["edit", &fox(), "--edits", &edits, "--dry-run"]).expect(0);
+    for word in ["take \"Run\", \"b_Head_05\"", "accessor", "bytes appended"] {
+        assert!(said.text().contains(word), "{word} is missing in\n{}", said.text());
+    }
+    let after: Vec<_> = std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
+    assert_eq!(before, after);
+    let nothing = run(["edit", &fox(), "--dry-run"]).expect(0);
+    assert_eq!(nothing.text(), "nothing changes\n");
+}
+
+#[test]
+fn a_file_may_take_its_own_place_and_edits_may_come_from_standard_input() {
+    let folder = Folder::new("edit-place");
+    let file = folder.join("Fox.glb");
+    std::fs::copy(data("gltf/Fox.glb"), &file).unwrap();
+    let mut command = dragonfly(["edit", &text(&file), "--edits", "-", "-o", &text(&file)]);
+    let lines = folder.join("lines");
+    std::fs::write(&lines, "{\"edit\":\"rename_take\",\"take\":0,\"name\":\"Look\"}\n\n{\"edit\":\"delete_take\",\"take\":\"Walk\"}\n").unwrap();
+    outcome(command.stdin(Stdio::from(std::fs::File::open(&lines).unwrap()))).expect(0);
+    let info = run(["info", &text(&file), "--json"]).expect(0).json();
+    let names: Vec<&str> = info["takes"].as_array().unwrap().iter().filter_map(|take| take["name"].as_str()).collect();
+    assert_eq!(names, ["Look", "Run"]);
+    let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
+    assert_eq!(left.len(), 2, "nothing else is left in the folder: {left:?}");
+}
+
+#[test]
+fn a_model_with_files_beside_it_takes_them_along() {
+    let folder = Folder::new("edit-beside");
+    let source = data("gltf/SimpleSkin2/SimpleSkin.gltf");
+    let line = r#"{"edit":"retime_take","take":0,"length":2}"#;
+    let saved = folder.join("out/Skin.gltf");
+    std::fs::create_dir(folder.join("out")).unwrap();
+    run(["edit", &text(&source), "--edits", &edits(&folder, line), "-o", &text(&saved)]).expect(0);
+    let info = run(["info", &text(&saved), "--json"]).expect(0).json();
+    let take = &info["takes"][0];
+    assert_eq!(take["end"].as_f64().unwrap() - take["start"].as_f64().unwrap(), 2.0);
+    assert_eq!(info["meshes"], run(["info", &text(&source), "--json"]).expect(0).json()["meshes"]);
+}
+
+#[test]
+fn what_cannot_be_done_is_code_2_with_its_line_and_writes_nothing() {
+    let folder = Folder::new("edit-wrong");
+    let out = folder.join("out.glb");
+    for (lines, word) in [
+        ("{\"edit\":\"fly\"}", "line 1"),
+        ("{\"edit\":\"reverse_take\",\"take\":0}\n{\"edit\":\"delete_take\",\"take\":\"Nap\"}", "line 2: there is no take \"Nap\""),
+        ("{\"edit\":\"reverse_take\",\"take\":0,\"twice\":true}", "unknown field `twice`"),
+        ("nonsense", "line 1: column"),
+        ("\u{0}", "line 1"),
+    ] {
+        let outcome = run(["edit", &fox(), "--edits", &edits(&folder, lines), "-o", &text(&out)]).expect(2);
+        assert!(outcome.stderr.contains(word), "{lines}: {}", outcome.stderr);
+        assert!(!out.exists());
+    }
+    run(["edit", &fox(), "--edits", "/nowhere", "-o", &text(&out)]).expect(2);
+    run(["edit", &fox()]).expect(2);
+    run(["edit", "demo:", "-o", "/nowhere/out.glb"]).expect(2);
+}
+
+#[test]
+fn the_list_of_edits_and_their_schema_can_be_read_by_programs() {
+    let list = run(["edit", "--list", "--json"]).expect(0).json();
+    let names: Vec<&str> =
+        list["edits"].as_array().unwrap().iter().filter_map(|entry| entry["example"]["edit"].as_str()).collect();
+    assert!(names.len() == 20 && names.contains(&"split_take"), "{names:?}");
+    assert_eq!(list["version"], 1);
+    let people = run(["edit", "--list"]).expect(0);
+    assert!(people.text().contains("# Turns the head 30°"));
+    let schema = run(["edit", "--schema"]).expect(0).json();
+    assert_eq!(schema["oneOf"].as_array().map(Vec::len), Some(20));
+}
+
+#[test]
+fn our_own_format_is_edited_too() {
+    let folder = Folder::new("edit-dfm");
+    let (dfm, saved) = (folder.join("fox.dfm"), folder.join("saved.dfm"));
+    let model = dragonfly_anim::format::read(
+        "Fox.glb",
+        &std::fs::read(data("gltf/Fox.glb")).unwrap(),
+        &dragonfly_anim::format::NoFiles,
+        &dragonfly_anim::format::ReadOptions::default(),
+    );
+    std::fs::write(&dfm, dragonfly_anim::format::dfm::write(&model.unwrap().model).unwrap()).unwrap();
+    run(["edit", &text(&dfm), "--edits", &edits(&folder, TURN), "-o", &text(&saved)]).expect(0);
+    assert!((rotation(&text(&saved), "b_Head_05", "0.25")[1] - 0.258819).abs() < 1e-6);
+}
