@@ -33,13 +33,19 @@ fn rotation(file: &str, bone: &str, time: &str) -> Vec<f64> {
 #[test]
 fn without_an_edit_every_file_is_saved_byte_for_byte() {
     let folder = Folder::new("edit-same");
-    let mut files: Vec<PathBuf> = std::fs::read_dir(data("gltf")).expect("models").flatten().map(|e| e.path()).collect();
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(data("gltf")).expect("models").flatten().map(|e| e.path()).collect();
     files.retain(|path| path.extension().is_some_and(|end| end == "glb" || end == "gltf"));
     assert!(files.len() > 5);
     for file in files {
         let saved = folder.join("same");
         run(["edit", &text(&file), "-o", &text(&saved)]).expect(0);
-        assert_eq!(std::fs::read(&file).expect("bytes"), std::fs::read(&saved).expect("bytes"), "{}", file.display());
+        assert_eq!(
+            std::fs::read(&file).expect("bytes"),
+            std::fs::read(&saved).expect("bytes"),
+            "{}",
+            file.display()
+        );
     }
 }
 
@@ -47,7 +53,8 @@ fn without_an_edit_every_file_is_saved_byte_for_byte() {
 fn an_edit_is_saved_as_it_was_asked_and_the_rest_of_the_file_keeps_its_bytes() {
     let folder = Folder::new("edit-turn");
     let saved = text(&folder.join("turned.glb"));
-    let report = run(["edit", &fox(), "--edits", &edits(&folder, TURN), "-o", &saved, "--json"]).expect(0).json();
+    let report =
+        run(["edit", &fox(), "--edits", &edits(&folder, TURN), "-o", &saved, "--json"]).expect(0).json();
     assert_eq!((report["file"].as_str(), report["edits"].as_u64()), (Some("Fox.glb"), Some(1)));
     assert_eq!(report["changes"]["channels"][0]["bone"], "b_Head_05");
     assert_eq!(report["changes"]["channels"].as_array().map(Vec::len), Some(1));
@@ -66,7 +73,8 @@ fn an_edit_is_saved_as_it_was_asked_and_the_rest_of_the_file_keeps_its_bytes() {
     assert!(chunk(&after).starts_with(&chunk(&before)));
     // Once more: the room that was appended is used again.
     let again = text(&folder.join("again.glb"));
-    run(["edit", &saved, "--edits", &edits(&folder, &TURN.replace("0.2588190", "0.3")), "-o", &again]).expect(0);
+    run(["edit", &saved, "--edits", &edits(&folder, &TURN.replace("0.2588190", "0.3")), "-o", &again])
+        .expect(0);
     assert_eq!(std::fs::metadata(&again).unwrap().len(), after.len() as u64);
 }
 
@@ -74,12 +82,14 @@ fn an_edit_is_saved_as_it_was_asked_and_the_rest_of_the_file_keeps_its_bytes() {
 fn what_a_save_would_change_is_said_and_nothing_is_written() {
     let folder = Folder::new("edit-dry");
     let edits = edits(&folder, TURN);
-    let before: Vec<_> = std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
+    let before: Vec<_> =
+        std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
     let said = run(["edit", &fox(), "--edits", &edits, "--dry-run"]).expect(0);
     for word in ["take \"Run\", \"b_Head_05\"", "accessor", "bytes appended"] {
         assert!(said.text().contains(word), "{word} is missing in\n{}", said.text());
     }
-    let after: Vec<_> = std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
+    let after: Vec<_> =
+        std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
     assert_eq!(before, after);
     let nothing = run(["edit", &fox(), "--dry-run"]).expect(0);
     assert_eq!(nothing.text(), "nothing changes\n");
@@ -95,9 +105,11 @@ fn a_file_may_take_its_own_place_and_edits_may_come_from_standard_input() {
     std::fs::write(&lines, "{\"edit\":\"rename_take\",\"take\":0,\"name\":\"Look\"}\n\n{\"edit\":\"delete_take\",\"take\":\"Walk\"}\n").unwrap();
     outcome(command.stdin(Stdio::from(std::fs::File::open(&lines).unwrap()))).expect(0);
     let info = run(["info", &text(&file), "--json"]).expect(0).json();
-    let names: Vec<&str> = info["takes"].as_array().unwrap().iter().filter_map(|take| take["name"].as_str()).collect();
+    let names: Vec<&str> =
+        info["takes"].as_array().unwrap().iter().filter_map(|take| take["name"].as_str()).collect();
     assert_eq!(names, ["Look", "Run"]);
-    let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
+    let left: Vec<_> =
+        std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
     assert_eq!(left.len(), 2, "nothing else is left in the folder: {left:?}");
 }
 
@@ -121,7 +133,10 @@ fn what_cannot_be_done_is_code_2_with_its_line_and_writes_nothing() {
     let out = folder.join("out.glb");
     for (lines, word) in [
         ("{\"edit\":\"fly\"}", "line 1"),
-        ("{\"edit\":\"reverse_take\",\"take\":0}\n{\"edit\":\"delete_take\",\"take\":\"Nap\"}", "line 2: there is no take \"Nap\""),
+        (
+            "{\"edit\":\"reverse_take\",\"take\":0}\n{\"edit\":\"delete_take\",\"take\":\"Nap\"}",
+            "line 2: there is no take \"Nap\"",
+        ),
         ("{\"edit\":\"reverse_take\",\"take\":0,\"twice\":true}", "unknown field `twice`"),
         ("nonsense", "line 1: column"),
         ("\u{0}", "line 1"),
@@ -138,8 +153,12 @@ fn what_cannot_be_done_is_code_2_with_its_line_and_writes_nothing() {
 #[test]
 fn the_list_of_edits_and_their_schema_can_be_read_by_programs() {
     let list = run(["edit", "--list", "--json"]).expect(0).json();
-    let names: Vec<&str> =
-        list["edits"].as_array().unwrap().iter().filter_map(|entry| entry["example"]["edit"].as_str()).collect();
+    let names: Vec<&str> = list["edits"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|entry| entry["example"]["edit"].as_str())
+        .collect();
     assert!(names.len() == 20 && names.contains(&"split_take"), "{names:?}");
     assert_eq!(list["version"], 1);
     let people = run(["edit", "--list"]).expect(0);

@@ -61,9 +61,9 @@ impl Command for Arguments {
         let edits = self.edits.as_deref().map(read_edits).transpose()?.unwrap_or_default();
         let mut adapter = ModelAdapter::new(&editable.model.animation);
         for (line, edit) in &edits {
-            adapter.apply(edit).map_err(|error| {
-                Failure::input(self.edits_name(), format_args!("line {line}: {error}"))
-            })?;
+            adapter
+                .apply(edit)
+                .map_err(|error| Failure::input(self.edits_name(), format_args!("line {line}: {error}")))?;
         }
         let plan = if self.compact { editable.compact() } else { editable.plan(&adapter) };
         let plan = plan.map_err(|error| Failure::input(&editable.title, error))?;
@@ -83,11 +83,18 @@ impl Arguments {
         }
     }
 
-    fn report(&self, title: &str, edits: usize, plan: &SavePlan, written: Vec<Written>) -> Result<(), Failure> {
+    fn report(
+        &self,
+        title: &str,
+        edits: usize,
+        plan: &SavePlan,
+        written: Vec<Written>,
+    ) -> Result<(), Failure> {
         // Bytes of a model on stdout leave no room for words.
         let to_stdout = !self.dry_run && self.output.as_deref() == Some(Path::new("-"));
         if self.json && !to_stdout {
-            let changes = plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.to_json()).ok());
+            let changes =
+                plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.to_json()).ok());
             return print_json(&Report { file: title.to_owned(), edits, changes, written });
         }
         if self.dry_run {
@@ -135,7 +142,8 @@ fn list(json: bool) -> Result<(), Failure> {
         });
     }
     let value = |text| serde_json::from_str(text).unwrap_or_default();
-    let edits = EXAMPLES.iter().map(|example| Entry { example: value(example.json), says: example.says }).collect();
+    let edits =
+        EXAMPLES.iter().map(|example| Entry { example: value(example.json), says: example.says }).collect();
     print_json(&List { version: VERSION, edits })
 }
 
@@ -197,11 +205,14 @@ fn taken_along(editable: &Editable, folder: &Path) -> Result<Vec<(PathBuf, Vec<u
         let Ok(bytes) = door.read(&name, dragonfly_anim::limits::FILE_BYTES) else { continue };
         match std::fs::read(&target) {
             Ok(there) if there == bytes => {}
-            Ok(_) => return Err(Failure::input(target.display(), "is another file than the one the model needs")),
+            Ok(_) => {
+                return Err(Failure::input(target.display(), "is another file than the one the model needs"));
+            }
             Err(_) => {
                 if let Some(folder) = target.parent() {
-                    std::fs::create_dir_all(folder)
-                        .map_err(|error| Failure::input(folder.display(), format_args!("cannot be made: {error}")))?;
+                    std::fs::create_dir_all(folder).map_err(|error| {
+                        Failure::input(folder.display(), format_args!("cannot be made: {error}"))
+                    })?;
                 }
                 found.push((target, bytes));
             }
