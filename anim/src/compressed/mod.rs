@@ -113,9 +113,9 @@
 //! In memory, tables included ([`CompressedTake::bytes_in_memory`]), a short take has 6 to 8 KB, atlas 83,309 and 62,529
 //! bytes.
 //!
-//! On an AMD EPYC with AVX2 (two cores, other programs running), release build: a pose cost 1.3 to 1.5 ns a bone (21
-//! instructions, by callgrind) for the short takes and 1.9 ns (30 and 29 instructions) for atlas, where nearly every bone
-//! moves; any time costs the same. Compression took 2 to 20 ms for the short takes and 0.6 to 0.9 s for atlas (ACL: 2 s).
+//! On an AMD EPYC with AVX2 (two cores), release build: a pose cost 1.3 to 1.5 ns a bone (21 instructions, by
+//! callgrind) for the short takes and 1.9 ns (30 and 29 instructions) for atlas, where nearly every bone moves; any time
+//! costs the same. Compression took 1 to 5 ms for the short takes and 0.21 to 0.23 s for atlas (ACL: 2 s).
 //! `cargo bench -p dragonfly-anim -- compressed` prints bytes, errors and times.
 //!
 //! A version that stored every second key as what it differs by from half way between its neighbours had 1 to 16 % fewer
