@@ -11,4 +11,5 @@ pub mod document;
 pub mod graphics;
 pub mod panels;
 pub mod playback;
+pub mod protocol;
 pub mod store;

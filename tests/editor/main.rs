@@ -56,6 +56,7 @@ mod screen;
 mod settings;
 mod shaders;
 mod skinning_on_device;
+mod stdio;
 mod store_faults;
 mod store_full;
 mod store_power;

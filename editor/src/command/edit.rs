@@ -5,7 +5,7 @@ use super::output::{print, print_json, write_file};
 use super::{Command, Failure, tell};
 use crate::document::adapter::ModelAdapter;
 use crate::document::edit::{EXAMPLES, Edit, VERSION, parse_lines};
-use crate::document::{Cancel, Editable, SavePlan, read_file};
+use crate::document::{Cancel, Editable, SavePlan, make_folder, read_file};
 use serde::Serialize;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -164,59 +164,20 @@ fn read_edits(path: &Path) -> Result<Vec<(usize, Edit)>, Failure> {
     parse_lines(&text).map_err(|error| Failure::input(&name, error))
 }
 
-/// Writes what the plan says, beside `output` what belongs beside it; the file itself last, so that it never names what
-/// is not there.
+/// Writes what the plan says.
 fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, Failure> {
-    let mut written = Vec::new();
-    let Some((main, beside)) = plan.files.split_last() else { return Ok(written) };
-    let beside_stdout = output == Path::new("-");
-    if beside_stdout && !(beside.is_empty() && editable.needs().is_empty()) {
+    if output == Path::new("-") && editable.needs_others(plan) {
         return Err(Failure::input("-", "the model needs files beside it; give it a name"));
     }
-    let folder = output.parent().unwrap_or(Path::new(""));
-    let mut put = |path: &Path, bytes: &[u8]| {
+    let mut written = Vec::new();
+    let files = editable.files(plan, output).map_err(Failure::Input)?;
+    for (at, (path, bytes)) in files.iter().enumerate() {
+        // The folder of the file itself is the person's to choose; those of what it needs are made.
+        if at + 1 < files.len() {
+            make_folder(path).map_err(Failure::Input)?;
+        }
         write_file(path, bytes)?;
         written.push(Written { path: path.display().to_string(), bytes: bytes.len() });
-        Ok::<(), Failure>(())
-    };
-    for file in beside {
-        put(&folder.join(&file.name), &file.bytes)?;
     }
-    for (path, bytes) in taken_along(editable, folder)? {
-        put(&path, &bytes)?;
-    }
-    put(output, &main.bytes)?;
     Ok(written)
-}
-
-/// Files that the model needs and that are not where it goes.
-fn taken_along(editable: &Editable, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
-    let Some(from) = editable.folder() else { return Ok(Vec::new()) };
-    let here = |path: &Path| std::fs::canonicalize(if path == Path::new("") { Path::new(".") } else { path });
-    if here(from).ok() == here(folder).ok() {
-        return Ok(Vec::new());
-    }
-    let door = crate::document::Folder::new(if from == Path::new("") { Path::new(".") } else { from })
-        .map_err(|error| Failure::input(from.display(), error))?;
-    let mut found = Vec::new();
-    for name in editable.needs() {
-        let target = folder.join(&name);
-        // What could not be read when the model was opened was a warning then.
-        let Ok(bytes) = door.read(&name, dragonfly_anim::limits::FILE_BYTES) else { continue };
-        match std::fs::read(&target) {
-            Ok(there) if there == bytes => {}
-            Ok(_) => {
-                return Err(Failure::input(target.display(), "is another file than the one the model needs"));
-            }
-            Err(_) => {
-                if let Some(folder) = target.parent() {
-                    std::fs::create_dir_all(folder).map_err(|error| {
-                        Failure::input(folder.display(), format_args!("cannot be made: {error}"))
-                    })?;
-                }
-                found.push((target, bytes));
-            }
-        }
-    }
-    Ok(found)
 }

@@ -16,6 +16,7 @@ mod pose;
 mod progress;
 mod quiet;
 mod render;
+mod stdio;
 mod table;
 
 pub use failure::{Failure, tell};

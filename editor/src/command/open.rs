@@ -13,6 +13,9 @@ pub(super) struct Arguments {
     /// Models to open (.glb, .gltf, .dfm); without any, the built-in dragonfly
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Talks instead of opening a window: one JSON edit or query a line in, one JSON answer a line out
+    #[arg(long)]
+    stdio: bool,
     /// Loses the graphics device after every so many drawn frames, to show that nothing is lost with it
     #[arg(long, value_name = "FRAMES", hide = true)]
     lose_device: Option<u32>,
@@ -26,6 +29,9 @@ pub(super) struct Arguments {
 
 impl Command for Arguments {
     fn run(self) -> Result<(), Failure> {
+        if self.stdio {
+            return super::stdio::talk(self.files.first());
+        }
         if !has_display() {
             quiet::about_wayland();
             return self.draw("DISPLAY and WAYLAND_DISPLAY are not set");

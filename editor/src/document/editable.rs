@@ -1,6 +1,6 @@
 //! A file that is edited: its data, and what it takes to save it without touching the rest.
 
-use super::adapter::ModelAdapter;
+use super::adapter::{ModelAdapter, Slot, TakeId};
 use super::load::{LoadError, Source, file_name};
 use super::{Cancel, Folder, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
@@ -8,6 +8,8 @@ use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::{self, Changes, OutputFile, Plan, SourceFile, TakeNow};
 use dragonfly_anim::format::{AssetFs, NoFiles, ReadOptions, dfm};
 use dragonfly_anim::limits::FILE_BYTES;
+use crate::store::{Expected, FileStamp, RealFiles, SaveOptions, save as save_file};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
@@ -23,7 +25,16 @@ pub struct Editable {
     /// What is not shown or was mended, one sentence each.
     pub warnings: Vec<String>,
     kind: Kind,
+    /// What the file was when it was read or saved last.
+    stamp: Option<FileStamp>,
+    /// Its takes as they are in the file now.
+    on_disk: Arc<ModelData>,
+    /// Once it was saved: which animation of the file each take is.
+    places: Option<HashMap<TakeId, usize>>,
 }
+
+/// A file that is written: where, and what.
+pub type Written = (PathBuf, Vec<u8>);
 
 /// How its format is saved.
 enum Kind {
@@ -67,6 +78,8 @@ impl Editable {
             Some(path) => Some(Folder::of(path).map_err(|error| wrong(error.to_string()))?),
             None => None,
         };
+        // Before it is looked at: what changes from now on is somebody else's doing.
+        let stamp = path.as_deref().and_then(|path| FileStamp::take(&RealFiles, path).ok());
         let door: &dyn AssetFs = door.as_ref().map_or(&NoFiles, |folder| folder);
         let imported = import::read(&name, &bytes, door, &|_| {}, cancel)?;
         let kind = if imported.format == "dfm" {
@@ -76,7 +89,9 @@ impl Editable {
             Kind::Gltf(Box::new(source.map_err(|error| wrong(error.to_string()))?))
         };
         let (model, warnings) = (Arc::new(imported.model), imported.warnings);
-        Ok(Self { title: source.title(), path, model, warnings, kind })
+        let stamp = stamp.filter(|stamp| stamp.is_of(&bytes));
+        let on_disk = Arc::clone(&model);
+        Ok(Self { title: source.title(), path, model, warnings, kind, stamp, on_disk, places: None })
     }
 
     /// What saving the takes of `adapter` will write.
@@ -86,9 +101,9 @@ impl Editable {
                 let now: Vec<TakeNow> = adapter
                     .slots()
                     .iter()
-                    .map(|slot| TakeNow { origin: slot.origin, take: Arc::clone(&slot.result) })
+                    .map(|slot| TakeNow { origin: self.place(slot), take: Arc::clone(&slot.result) })
                     .collect();
-                Ok(SavePlan::of(&save::plan(source, &self.model, &now)?))
+                Ok(SavePlan::of(&save::plan(source, &self.on_disk, &now)?))
             }
             Kind::Dfm => {
                 let skeleton = Arc::clone(&self.model.animation.skeleton);
@@ -108,18 +123,124 @@ impl Editable {
         }
     }
 
-    /// Files beside the one that was opened that it needs, as it names them; they go along when it is saved elsewhere.
-    pub fn needs(&self) -> Vec<String> {
+    /// Which animation of the file a take is.
+    fn place(&self, slot: &Slot) -> Option<usize> {
+        match &self.places {
+            None => slot.origin,
+            Some(places) => places.get(&slot.id).copied(),
+        }
+    }
+
+    /// Everything that a save as `output` writes, in the order in which to write it: what is beside the file first, the
+    /// file itself last, so that it never names what is not there. Files that the model needs go along to another folder.
+    ///
+    /// # Errors
+    ///
+    /// What stands in the way, with its place.
+    pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, String> {
+        let Some((main, beside)) = plan.files.split_last() else { return Ok(Vec::new()) };
+        let folder = folder_of(output);
+        let mut files: Vec<Written> =
+            beside.iter().map(|file| (folder.join(&file.name), file.bytes.clone())).collect();
+        files.extend(self.taken_along(folder)?);
+        files.push((output.to_path_buf(), main.bytes.clone()));
+        Ok(files)
+    }
+
+    /// Does it need files beside it, once `plan` is done?
+    pub fn needs_others(&self, plan: &SavePlan) -> bool {
+        plan.files.len() > 1 || !self.needs().is_empty()
+    }
+
+    /// Files beside the one that was opened that it needs, as it names them.
+    fn needs(&self) -> Vec<String> {
         match &self.kind {
             Kind::Gltf(source) => source.files_beside(),
             Kind::Dfm => Vec::new(),
         }
     }
 
-    /// The folder that names are relative to.
-    pub fn folder(&self) -> Option<&Path> {
-        self.path.as_deref().and_then(Path::parent)
+    /// Files that the model needs and that are not in `folder`.
+    fn taken_along(&self, folder: &Path) -> Result<Vec<Written>, String> {
+        let Some(from) = self.path.as_deref().map(folder_of) else { return Ok(Vec::new()) };
+        if std::fs::canonicalize(from).ok() == std::fs::canonicalize(folder).ok() {
+            return Ok(Vec::new());
+        }
+        let door = Folder::new(from).map_err(|error| format!("{}: {error}", from.display()))?;
+        let mut found = Vec::new();
+        for name in self.needs() {
+            let target = folder.join(&name);
+            // What could not be read when the model was opened was a warning then.
+            let Ok(bytes) = door.read(&name, FILE_BYTES) else { continue };
+            match read_file(&target, FILE_BYTES) {
+                Ok(there) if there == bytes => {}
+                _ if target.exists() => {
+                    return Err(format!("{}: is another file than the one the model needs", target.display()));
+                }
+                _ => found.push((target, bytes)),
+            }
+        }
+        Ok(found)
     }
+
+    /// Saves as `output`; the file that was opened is only overwritten while nobody else has changed it. What it is on
+    /// the disk from now on is what later saves begin with.
+    ///
+    /// # Errors
+    ///
+    /// What went wrong, with its place; the old file is whole then.
+    pub fn save(&mut self, adapter: &ModelAdapter, plan: &SavePlan, output: &Path) -> Result<Vec<PathBuf>, String> {
+        let own = self.path.as_deref().is_some_and(|path| same_file(path, output));
+        let files = self.files(plan, output)?;
+        let mut written = Vec::new();
+        for (at, (path, bytes)) in files.iter().enumerate() {
+            make_folder(path)?;
+            let expected = match &self.stamp {
+                Some(stamp) if own && at + 1 == files.len() => Expected::Stamp(stamp),
+                _ => Expected::Anything,
+            };
+            let options = SaveOptions { expected, ..SaveOptions::default() };
+            let saved = save_file(&RealFiles, path, bytes, &options).map_err(|error| error.to_string())?;
+            if own && at + 1 == files.len() {
+                self.stamp = Some(saved.stamp);
+            }
+            written.push(path.clone());
+        }
+        if own && let Some((_, bytes)) = files.last() {
+            self.begin_again(adapter, bytes)?;
+        }
+        Ok(written)
+    }
+
+    /// The file is `bytes` now, with the takes of `adapter`.
+    fn begin_again(&mut self, adapter: &ModelAdapter, bytes: &[u8]) -> Result<(), String> {
+        let Kind::Gltf(source) = &self.kind else { return Ok(()) };
+        let door = self.path.as_deref().and_then(|path| Folder::of(path).ok());
+        let door: &dyn AssetFs = door.as_ref().map_or(&NoFiles, |folder| folder);
+        let source = SourceFile::open(source.name(), bytes, door, &ReadOptions::default());
+        self.kind = Kind::Gltf(Box::new(source.map_err(|error| error.to_string())?));
+        let skeleton = Arc::clone(&self.model.animation.skeleton);
+        let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
+        self.on_disk = Arc::new(ModelData { animation, ..ModelData::clone(&self.model) });
+        let places = adapter.slots().iter().enumerate().map(|(place, slot)| (slot.id, place));
+        self.places = Some(places.collect());
+        Ok(())
+    }
+}
+
+/// The folder that a file lies in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    matches!((std::fs::canonicalize(a), std::fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// Makes the folder that `path` lies in, where the model wants one that is not there.
+pub fn make_folder(path: &Path) -> Result<(), String> {
+    let folder = folder_of(path);
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))
 }
 
 impl SavePlan {

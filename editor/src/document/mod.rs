@@ -15,7 +15,7 @@ mod owner;
 mod view;
 
 pub use cancel::{Cancel, Progress, Stage};
-pub use editable::{Editable, SaveError, SavePlan};
+pub use editable::{Editable, SaveError, SavePlan, Written, make_folder};
 pub use folder::{DoorError, Folder, read_file};
 pub use load::{LoadError, Loader, Source, load_model};
 pub use open::Change;

@@ -31,7 +31,7 @@ pub use error::EditError;
 pub use kind::Numbers;
 pub use slot::{Changes, Slot, TakeId};
 
-use super::edit::Edit;
+use super::edit::{BoneRef, Edit, TakeRef};
 use dragonfly_anim::data::{AnimationData, Skeleton, Take};
 use op::Op;
 use plan::Work;
@@ -91,6 +91,32 @@ impl ModelAdapter {
     /// The results in their order: what is shown and saved.
     pub fn results(&self) -> impl Iterator<Item = &Arc<Take>> {
         self.slots.iter().map(|slot| &slot.result)
+    }
+
+    /// The take that is meant; a name wins over a number.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::NoTake`].
+    pub fn take(&self, take: &TakeRef) -> Result<&Arc<Slot>, EditError> {
+        let found = match take {
+            TakeRef::Index(index) => self.slots.get(*index),
+            TakeRef::Name(name) => self.slots.iter().find(|slot| slot.original.name == *name),
+        };
+        found.ok_or_else(|| EditError::NoTake(take.clone()))
+    }
+
+    /// The bone that is meant.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::NoBone`].
+    pub fn bone(&self, bone: &BoneRef) -> Result<u32, EditError> {
+        let found = match bone {
+            BoneRef::Index(index) => Some(*index).filter(|&index| (index as usize) < self.skeleton.len()),
+            BoneRef::Name(name) => self.skeleton.find(name),
+        };
+        found.ok_or_else(|| EditError::NoBone(bone.clone()))
     }
 
     /// Does an edit; what undoes it.

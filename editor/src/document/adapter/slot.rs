@@ -3,7 +3,7 @@
 use super::change::{KeyChange, Triple, put, triple};
 use super::kind::{AnyChannel, Held, Kind, Numbers, with_kind};
 use super::times::Shared;
-use crate::document::edit::Property;
+use crate::document::edit::{Property, SAME_TIME};
 use dragonfly_anim::data::{Channel, MorphTrack, Take};
 use dragonfly_anim::sample::Value;
 use std::collections::BTreeMap;
@@ -64,6 +64,13 @@ impl Slot {
     /// What was changed of the value of one key; the change that changes nothing where nothing was.
     pub fn change(&self, bone: u32, property: Property, key: usize) -> Numbers {
         self.key_change(bone, property, key).map_or(property.identity(), |change| change.value)
+    }
+
+    /// The key of a channel at `time` seconds, if there is one.
+    pub fn key_at(&self, bone: u32, property: Property, time: f32) -> Option<usize> {
+        ((bone as usize) < self.original.tracks.len())
+            .then(|| key_at(self.times(bone, property), time).ok())
+            .flatten()
     }
 
     pub(super) fn key_change(&self, bone: u32, property: Property, key: usize) -> Option<KeyChange> {
@@ -170,6 +177,15 @@ impl Slot {
         if self.changes.is_empty() {
             self.result = Arc::clone(&self.original);
         }
+    }
+}
+
+/// Where the key at `time` is; else where one would come.
+pub(super) fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
+    let after = times.partition_point(|&key| key < time - SAME_TIME);
+    match times.get(after) {
+        Some(&key) if (key - time).abs() <= SAME_TIME => Ok(after),
+        _ => Err(times.partition_point(|&key| key < time)),
     }
 }
 

@@ -12,10 +12,10 @@ mod timing;
 
 use super::kind::{Held, Kind};
 use super::op::{Op, Place};
-use super::slot::{Content, Slot, TakeId};
+use super::slot::{Content, Slot, TakeId, key_at};
 use super::times::Shared;
 use super::{EditError, ModelAdapter};
-use crate::document::edit::{BoneRef, Edit, KeySet, Property, SAME_TIME, TakeRef};
+use crate::document::edit::{BoneRef, Edit, KeySet, Property, TakeRef};
 use dragonfly_anim::data::{Bone, Channel};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -90,13 +90,7 @@ impl Work {
     }
 
     fn take(&self, take: &TakeRef) -> Result<TakeId, EditError> {
-        let slots = &self.adapter.slots;
-        let found = match take {
-            TakeRef::Index(index) => slots.get(*index),
-            // A name wins over a number.
-            TakeRef::Name(name) => slots.iter().find(|slot| slot.original.name == *name),
-        };
-        found.map(|slot| slot.id).ok_or_else(|| EditError::NoTake(take.clone()))
+        self.adapter.take(take).map(|slot| slot.id)
     }
 
     fn index(&self, take: TakeId) -> usize {
@@ -109,12 +103,7 @@ impl Work {
     }
 
     fn bone(&self, bone: &BoneRef) -> Result<u32, EditError> {
-        let bones = &self.adapter.skeleton.bones;
-        let found = match bone {
-            BoneRef::Index(index) => Some(*index).filter(|&index| (index as usize) < bones.len()),
-            BoneRef::Name(name) => self.adapter.skeleton.find(name),
-        };
-        found.ok_or_else(|| EditError::NoBone(bone.clone()))
+        self.adapter.bone(bone)
     }
 
     fn skeleton_bone(&self, bone: u32) -> &Bone {
@@ -166,15 +155,6 @@ impl Work {
             }
         }
         if found.is_empty() { Err(EditError::Nothing("no key is meant")) } else { Ok(found) }
-    }
-}
-
-/// Where the key at `time` is; else where one would come.
-fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
-    let after = times.partition_point(|&key| key < time - SAME_TIME);
-    match times.get(after) {
-        Some(&key) if (key - time).abs() <= SAME_TIME => Ok(after),
-        _ => Err(times.partition_point(|&key| key < time)),
     }
 }
 

@@ -1,0 +1,58 @@
+//! `dragonfly --stdio FILE`: the editor as a conversation on standard input and output.
+
+use super::choice::{BUILT_IN, source};
+use super::{Failure, tell};
+use crate::document::edit::LONGEST_LINE;
+use crate::document::{Cancel, Editable};
+use crate::protocol::Session;
+use std::io::{self, BufRead, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// Answers each line of standard input with a line on standard output, until the input ends.
+pub(super) fn talk(file: Option<&PathBuf>) -> Result<(), Failure> {
+    let editable = Editable::open(&source(file.map_or(Path::new(BUILT_IN), PathBuf::as_path)), &Cancel::default())?;
+    for warning in &editable.warnings {
+        tell(warning);
+    }
+    let mut session = Session::new(editable);
+    let (mut input, mut output) = (io::stdin().lock(), io::stdout().lock());
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        let read = (&mut input).take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut line);
+        if read.map_err(|error| Failure::input("standard input", error))? == 0 {
+            return Ok(());
+        }
+        let answer = if line.len() > LONGEST_LINE {
+            skip_line(&mut input).map_err(|error| Failure::input("standard input", error))?;
+            Some(format!("{{\"error\":\"a line is longer than {LONGEST_LINE} bytes\"}}"))
+        } else {
+            match std::str::from_utf8(&line) {
+                Ok(text) => session.answer(text),
+                Err(_) => Some("{\"error\":\"the line is no text\"}".to_owned()),
+            }
+        };
+        // Whoever asks waits for the answer, so it goes out at once.
+        let said = answer.map_or(Ok(()), |answer| writeln!(output, "{answer}").and_then(|()| output.flush()));
+        match said {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Err(Failure::NobodyListens),
+            Err(error) => return Err(Failure::Machine(format!("standard output: {error}"))),
+            Ok(()) => {}
+        }
+    }
+}
+
+/// Reads on to the end of a line without keeping it.
+fn skip_line(input: &mut impl BufRead) -> io::Result<()> {
+    loop {
+        let buffer = input.fill_buf()?;
+        let (end, length) = match buffer.iter().position(|&byte| byte == b'\n') {
+            Some(at) => (true, at + 1),
+            None => (buffer.is_empty(), buffer.len()),
+        };
+        input.consume(length);
+        if end {
+            return Ok(());
+        }
+    }
+}
