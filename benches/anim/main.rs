@@ -1,7 +1,7 @@
 //! What a pose costs: `cargo bench -p dragonfly-anim`, or `cargo bench -p dragonfly-anim -- part/of/a/name` for the cases
 //! whose names hold one of the parts, with those that they stand beside. `-- --list` prints all names.
 //!
-//! A name is *way/deed/model/case*. The same work is done in several ways, which take turns while they are measured, so
+//! A name is *way/task/model/case*. The same task is done in several ways, which take turns while they are measured, so
 //! that their ratios mean something on any machine, however busy it is:
 //!
 //! | way | what |

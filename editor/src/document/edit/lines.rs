@@ -52,7 +52,7 @@ mod tests {
             ("{\"edit\":\"fly\"}", "line 1: "),
             ("\n{\"edit\":\"delete_take\"}", "line 2: "),
             ("{\"edit\":\"delete_take\",\"take\":1,\"takes\":2}", "unknown field `takes`"),
-            ("{\"edit\":\"delete_take\",", "column 23"),
+            ("{\"edit\":\"delete_take\",", "column 22"),
             ("[]", "line 1: "),
         ] {
             let error = parse_lines(text).unwrap_err().to_string();
