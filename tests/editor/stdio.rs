@@ -81,7 +81,10 @@ fn a_conversation_edits_reads_undoes_and_saves() {
     let turned = talk.ask(&head());
     assert_eq!(turned["original"], as_read["original"], "the original stays");
     assert!((turned["result"]["rotation"][1].as_f64().unwrap() - 0.258_819).abs() < 1e-6, "{turned}");
-    assert_eq!(talk.ask(&json!({"query": "history"})), json!({"steps": ["Rotate"], "done": 1, "saved": false}));
+    assert_eq!(
+        talk.ask(&json!({"query": "history"})),
+        json!({"steps": ["Rotate"], "done": 1, "saved": false})
+    );
     // One gesture is one step, and cancelled it has never been.
     for angle in [1.0, 2.0, 3.0] {
         talk.ask(&json!({"do": "edit", "gesture": 5, "edit": turn(angle)}));
@@ -97,7 +100,17 @@ fn a_conversation_edits_reads_undoes_and_saves() {
     talk.ask(&json!({"do": "save"}));
     assert_eq!(talk.ask(&json!({"query": "history"}))["saved"], true);
     talk.end();
-    let read = run(["explain", &file.display().to_string(), "--take", "Run", "--time", "0.25", "--bone", "b_Head_05", "--json"]);
+    let read = run([
+        "explain",
+        &file.display().to_string(),
+        "--take",
+        "Run",
+        "--time",
+        "0.25",
+        "--bone",
+        "b_Head_05",
+        "--json",
+    ]);
     let read = read.expect(0).json();
     let bones = read["bones"].as_array().unwrap();
     assert!((bones.last().unwrap()["rotation"]["value"][1].as_f64().unwrap() - 0.258_819).abs() < 1e-6);
@@ -148,7 +161,8 @@ fn saving_again_and_again_keeps_the_file_small_and_right() {
     talk.end();
     let mut talk = Talk::about(&file);
     let takes = talk.ask(&json!({"query": "takes"}));
-    let names: Vec<&str> = takes.as_array().unwrap().iter().filter_map(|take| take["name"].as_str()).collect();
+    let names: Vec<&str> =
+        takes.as_array().unwrap().iter().filter_map(|take| take["name"].as_str()).collect();
     assert_eq!(names, ["Run", "Survey", "Walk"]);
     let half = 25_f64.to_radians();
     assert!((talk.ask(&head())["result"]["rotation"][1].as_f64().unwrap() - half.sin()).abs() < 1e-6);

@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 
 /// Answers each line of standard input with a line on standard output, until the input ends.
 pub(super) fn talk(file: Option<&PathBuf>) -> Result<(), Failure> {
-    let editable = Editable::open(&source(file.map_or(Path::new(BUILT_IN), PathBuf::as_path)), &Cancel::default())?;
+    let editable =
+        Editable::open(&source(file.map_or(Path::new(BUILT_IN), PathBuf::as_path)), &Cancel::default())?;
     for warning in &editable.warnings {
         tell(warning);
     }

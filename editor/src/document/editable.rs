@@ -4,11 +4,11 @@ use super::adapter::{ModelAdapter, Slot, TakeId};
 use super::load::{LoadError, Source, file_name};
 use super::{Cancel, Folder, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
+use crate::store::{Expected, FileStamp, RealFiles, SaveOptions, save as save_file};
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::{self, Changes, OutputFile, Plan, SourceFile, TakeNow};
 use dragonfly_anim::format::{AssetFs, NoFiles, ReadOptions, dfm};
 use dragonfly_anim::limits::FILE_BYTES;
-use crate::store::{Expected, FileStamp, RealFiles, SaveOptions, save as save_file};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -82,6 +82,9 @@ impl Editable {
         let stamp = path.as_deref().and_then(|path| FileStamp::take(&RealFiles, path).ok());
         let door: &dyn AssetFs = door.as_ref().map_or(&NoFiles, |folder| folder);
         let imported = import::read(&name, &bytes, door, &|_| {}, cancel)?;
+        if stamp.as_ref().is_some_and(|stamp| !stamp.is_of(&bytes)) {
+            return Err(wrong("file: it changed while it was read".to_owned()));
+        }
         let kind = if imported.format == "dfm" {
             Kind::Dfm
         } else {
@@ -89,7 +92,6 @@ impl Editable {
             Kind::Gltf(Box::new(source.map_err(|error| wrong(error.to_string()))?))
         };
         let (model, warnings) = (Arc::new(imported.model), imported.warnings);
-        let stamp = stamp.filter(|stamp| stamp.is_of(&bytes));
         let on_disk = Arc::clone(&model);
         Ok(Self { title: source.title(), path, model, warnings, kind, stamp, on_disk, places: None })
     }
@@ -175,7 +177,10 @@ impl Editable {
             match read_file(&target, FILE_BYTES) {
                 Ok(there) if there == bytes => {}
                 _ if target.exists() => {
-                    return Err(format!("{}: is another file than the one the model needs", target.display()));
+                    return Err(format!(
+                        "{}: is another file than the one the model needs",
+                        target.display()
+                    ));
                 }
                 _ => found.push((target, bytes)),
             }
@@ -189,7 +194,12 @@ impl Editable {
     /// # Errors
     ///
     /// What went wrong, with its place; the old file is whole then.
-    pub fn save(&mut self, adapter: &ModelAdapter, plan: &SavePlan, output: &Path) -> Result<Vec<PathBuf>, String> {
+    pub fn save(
+        &mut self,
+        adapter: &ModelAdapter,
+        plan: &SavePlan,
+        output: &Path,
+    ) -> Result<Vec<PathBuf>, String> {
         let own = self.path.as_deref().is_some_and(|path| same_file(path, output));
         let files = self.files(plan, output)?;
         let mut written = Vec::new();

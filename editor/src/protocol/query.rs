@@ -67,7 +67,10 @@ impl Query {
                     (Some(track), Property::Rotation) => track.rotation.times.to_vec(),
                     (Some(track), Property::Scale) => track.scale.times.to_vec(),
                 };
-                Ok(Property::ALL.into_iter().map(|property| (property.name().to_owned(), json!(times(property)))).collect())
+                Ok(Property::ALL
+                    .into_iter()
+                    .map(|property| (property.name().to_owned(), json!(times(property))))
+                    .collect())
             }
         }
     }
@@ -93,7 +96,8 @@ fn bones(adapter: &ModelAdapter) -> Value {
 fn pose(adapter: &ModelAdapter, slot: &Slot, time: f32, bone: u32) -> Value {
     let rules = &adapter.skeleton().bones[bone as usize];
     let [original, result] = [&slot.original, &slot.result].map(|take| {
-        let pose = take.tracks.get(bone as usize).map_or(rules.rest, |track| sample_track(track, rules, time));
+        let pose =
+            take.tracks.get(bone as usize).map_or(rules.rest, |track| sample_track(track, rules, time));
         json!({"translation": pose.translation.to_array(), "rotation": pose.rotation.to_array(),
                "scale": pose.scale.to_array()})
     });

@@ -75,7 +75,8 @@ impl Session {
 
     fn save(&mut self, to: Option<&Path>) -> Result<Value, String> {
         let own = self.editable.path.clone();
-        let target = to.map(Path::to_path_buf).or(own).ok_or("the built-in model has no file; say where \"to\"")?;
+        let target =
+            to.map(Path::to_path_buf).or(own).ok_or("the built-in model has no file; say where \"to\"")?;
         let plan = self.plan()?;
         let written = self.editable.save(self.edited.adapter(), &plan, &target)?;
         // A copy elsewhere leaves the file that is open as it was.
@@ -88,5 +89,8 @@ impl Session {
 
 /// What a save changes; null where the whole file is written.
 fn changes(plan: &SavePlan) -> Value {
-    plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.to_json()).ok()).unwrap_or(Value::Null)
+    plan.changes
+        .as_ref()
+        .and_then(|changes| serde_json::from_str(&changes.to_json()).ok())
+        .unwrap_or(Value::Null)
 }
