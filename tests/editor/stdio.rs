@@ -157,6 +157,12 @@ fn saving_again_and_again_keeps_the_file_small_and_right() {
     talk.ask(&json!({"edit": "move_take", "take": "Run", "to": 0}));
     talk.ask(&json!({"do": "save"}));
     talk.ask(&turn(50.0));
+    let changes = talk.ask(&json!({"do": "plan"}));
+    assert_eq!(
+        (&changes["bytesAppended"], changes["channels"].as_array().map(Vec::len)),
+        (&json!(0), Some(1)),
+        "{changes}"
+    );
     talk.ask(&json!({"do": "save"}));
     talk.end();
     let mut talk = Talk::about(&file);
