@@ -1,6 +1,6 @@
 //! The file system of this machine.
 
-use super::vfs::{Attribute, FileData, Vfs, VfsFile};
+use super::vfs::{Attribute, FileData, Kind, Vfs, VfsFile};
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
@@ -124,9 +124,20 @@ impl VfsFile for File {
     }
 }
 
+/// A file, a folder, a link, or something that is none of these.
+fn kind_of(metadata: &std::fs::Metadata) -> Kind {
+    let kind = metadata.file_type();
+    match () {
+        () if kind.is_file() => Kind::File,
+        () if kind.is_dir() => Kind::Folder,
+        () if kind.is_symlink() => Kind::Link,
+        () => Kind::Other,
+    }
+}
+
 #[cfg(unix)]
 mod system {
-    use crate::store::vfs::{FileData, Kind};
+    use crate::store::vfs::FileData;
     use rustix::fs::OFlags;
     use rustix::io::Errno;
     use std::fs::{DirBuilder, File, Metadata, OpenOptions, Permissions};
@@ -145,14 +156,8 @@ mod system {
     }
 
     pub(super) fn data(metadata: &Metadata) -> FileData {
-        let kind = metadata.file_type();
         FileData {
-            kind: match () {
-                () if kind.is_file() => Kind::File,
-                () if kind.is_dir() => Kind::Folder,
-                () if kind.is_symlink() => Kind::Link,
-                () => Kind::Other,
-            },
+            kind: super::kind_of(metadata),
             size: metadata.len(),
             modified: nanoseconds(metadata.mtime(), metadata.mtime_nsec()),
             changed: nanoseconds(metadata.ctime(), metadata.ctime_nsec()),
@@ -206,7 +211,7 @@ mod system {
 
 #[cfg(not(unix))]
 mod system {
-    use crate::store::vfs::{FileData, Kind};
+    use crate::store::vfs::FileData;
     use std::fs::{File, Metadata, OpenOptions};
     use std::io::{self, Read, Seek, SeekFrom, Write};
     use std::path::Path;
@@ -219,14 +224,8 @@ mod system {
     /// Numbers of files, owners and links are not to be had here; two files then look like one, and their sizes,
     /// times and contents tell them apart.
     pub(super) fn data(metadata: &Metadata) -> FileData {
-        let kind = metadata.file_type();
         FileData {
-            kind: match () {
-                () if kind.is_file() => Kind::File,
-                () if kind.is_dir() => Kind::Folder,
-                () if kind.is_symlink() => Kind::Link,
-                () => Kind::Other,
-            },
+            kind: super::kind_of(metadata),
             size: metadata.len(),
             modified: metadata.modified().map_or(0, nanoseconds),
             changed: 0,
