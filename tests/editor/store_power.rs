@@ -139,6 +139,20 @@ fn cut(
     Some(all)
 }
 
+/// What depends on the time that a program gets is asked up to three times: a machine that has much else to do may keep
+/// it waiting. What must hold always was asserted at each cut.
+fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, holds: impl Fn(&Cuts) -> bool) {
+    let mut seen = Vec::new();
+    for _ in 0..3 {
+        let Some(all) = cuts() else { return };
+        if holds(&all) {
+            return;
+        }
+        seen.push(all);
+    }
+    panic!("{otherwise}: {seen:?}");
+}
+
 /// How many cuts: `few`, or very many when asked to take long.
 fn times(few: usize) -> usize {
     if std::env::var_os("DRAGONFLY_LONG").is_some() { 500 } else { few }
@@ -150,16 +164,15 @@ fn a_power_cut_tears_no_file_and_costs_nothing_that_was_saved() {
         let saved = document_at(&folder.join("fox.glb")).unwrap_or_default();
         Found { edits: 0, saved }
     };
-    let Some(all) = cut("power-saves", times(20), Writer::start_saving, only_saves) else { return };
-    assert!(all.with_saves * 2 > all.cuts, "it hardly came to save anything: {all:?}");
+    let cuts = || cut("power-saves", times(20), Writer::start_saving, only_saves);
+    once_in_three(cuts, "it hardly came to save anything", |all| all.with_saves * 2 > all.cuts);
 }
 
 #[test]
 fn a_power_cut_costs_at_most_a_second_of_edits() {
-    let Some(all) = cut("power-edits", times(20), Writer::start, check_at) else { return };
-    assert!(all.oldest <= 1_000_000_000, "edits of more than a second were lost: {all:?}");
-    assert!(
-        all.with_saves * 10 > all.cuts && all.edits as usize > all.cuts,
-        "it hardly did anything: {all:?}"
-    );
+    let cuts = || cut("power-edits", times(20), Writer::start, check_at);
+    once_in_three(cuts, "edits of more than a second were lost, or there were hardly any", |all| {
+        let worked = all.with_saves * 10 > all.cuts && all.edits as usize > all.cuts;
+        worked && all.oldest <= 1_000_000_000
+    });
 }
