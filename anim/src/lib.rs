@@ -25,6 +25,7 @@ mod axes;
 pub mod blend;
 pub mod bounds;
 pub mod check;
+mod checksum;
 pub mod compressed;
 pub mod data;
 pub mod evaluator;

@@ -1,4 +1,4 @@
-//! Numbers of any width in a row of bits, the lowest bit first, and the sum that finds altered bytes.
+//! Numbers of any width in a row of bits, the lowest bit first.
 
 use super::FormatError;
 
@@ -108,26 +108,6 @@ impl<'a> BitReader<'a> {
     }
 }
 
-/// CRC-32 (IEEE 802.3, reflected, polynomial 0xEDB88320): finds every change of up to 32 neighbouring bits.
-pub(super) fn crc32(bytes: &[u8]) -> u32 {
-    !bytes.iter().fold(!0, |sum: u32, &byte| (sum >> 8) ^ TABLE[usize::from(sum as u8 ^ byte)])
-}
-
-const TABLE: [u32; 256] = {
-    let mut table = [0; 256];
-    let mut byte = 0;
-    while byte < 256 {
-        let (mut sum, mut bit) = (byte as u32, 0);
-        while bit < 8 {
-            sum = if sum & 1 == 1 { (sum >> 1) ^ 0xedb8_8320 } else { sum >> 1 };
-            bit += 1;
-        }
-        table[byte] = sum;
-        byte += 1;
-    }
-    table
-};
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -142,10 +122,5 @@ mod tests {
         let mut reader = BitReader::new(&bytes, 0);
         (0..=32).for_each(|width| assert_eq!(reader.take(width), Ok(numbers(width)), "{width}"));
         assert!(reader.take(8).is_err());
-    }
-
-    #[test]
-    fn the_sum_is_the_one_of_the_standard() {
-        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
     }
 }

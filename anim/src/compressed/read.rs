@@ -1,6 +1,6 @@
 //! From bytes to the tables that decoding needs; every number is checked before it is used.
 
-use super::bits::{BitReader, crc32};
+use super::bits::BitReader;
 use super::encode::TURN_UNIT;
 use super::frames::Clock;
 use super::grid::{FLOATS, MOST_BITS, rotation_from};
@@ -9,6 +9,7 @@ use super::table::{SegmentPlace, Tables};
 use super::whole::WholeTrack;
 use super::write::{AHEAD, PREFACE, SUMMED};
 use super::{FormatError, MAGIC, MAX_BONES, MAX_BYTES, MAX_FRAMES, MAX_VALUES, VERSION};
+use crate::checksum::Checksum;
 use crate::data::Transform;
 use glam::{Quat, Vec3};
 
@@ -77,7 +78,7 @@ fn check_preface(bytes: &[u8]) -> Result<usize> {
     if word(8) as usize != bytes.len() || bytes.len() > MAX_BYTES {
         return Err(FormatError::new(8, format!("{} bytes were written, {} are here", word(8), bytes.len())));
     }
-    if word(12) != crc32(&bytes[SUMMED..]) {
+    if word(12) != Checksum::START.with(&bytes[SUMMED..]).value() {
         return Err(FormatError::new(12, "the bytes were altered: their sum is another"));
     }
     let end_of_keys = word(16) as usize;

@@ -1,12 +1,13 @@
 //! From what is stored to bytes; the layout is written down in [`super`].
 
 use super::arrange::{Place, groups, places};
-use super::bits::{BitWriter, crc32};
+use super::bits::BitWriter;
 use super::encode::TURN_UNIT;
 use super::frames::limit;
 use super::grid::{FLOATS, WHOLE_BITS, rotation_numbers};
 use super::stored::{PARTS, Packed, Part, Stored};
 use super::{Bytes, CompressError, MAGIC, MAX_BYTES, VERSION};
+use crate::checksum::Checksum;
 use glam::Quat;
 
 /// Bytes before the keys begin: what they are, the version, the length, the sum, and where the keys end.
@@ -51,7 +52,7 @@ pub(super) fn write(stored: &Stored) -> Result<(Vec<u8>, Bytes), CompressError> 
 
 /// Fills in the first bytes, when all others are there.
 fn preface(bytes: &mut [u8]) {
-    let (length, sum) = (bytes.len() as u32, crc32(&bytes[SUMMED..]));
+    let (length, sum) = (bytes.len() as u32, Checksum::START.with(&bytes[SUMMED..]).value());
     bytes[..4].copy_from_slice(&MAGIC);
     bytes[4..6].copy_from_slice(&VERSION.to_le_bytes());
     bytes[6..8].copy_from_slice(&[0; 2]);

@@ -85,6 +85,16 @@ impl Take {
         self.start + self.length
     }
 
+    /// Seconds: the first and the last key of any channel, morph weights included; `None` without keys.
+    pub fn range_of_keys(&self) -> Option<(f32, f32)> {
+        let of_bones = self.tracks.iter().flat_map(|track| {
+            [track.translation.range(), track.rotation.range(), track.scale.range()].into_iter().flatten()
+        });
+        let of_morphs =
+            self.morphs.iter().filter_map(|morph| Some((*morph.times.first()?, *morph.times.last()?)));
+        of_bones.chain(of_morphs).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+
     /// Key times summed over all channels.
     pub fn keys(&self) -> usize {
         self.tracks.iter().map(Track::keys).sum::<usize>()

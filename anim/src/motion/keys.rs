@@ -1,6 +1,7 @@
 //! More keys without another curve.
 
 use crate::data::{Channel, Interpolation};
+use crate::sample::mix::hermite_slope;
 use crate::sample::{Value, find_keys, sample_channel};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
@@ -129,10 +130,7 @@ pub(super) fn slopes(channel: &Channel<Vec3>, rest: Vec3, time: f32) -> [Vec3; 2
     let span = channel.times[keys.after] - channel.times[keys.before];
     let leave = tangent(keys.before * 3 + 2).unwrap_or(Vec3::ZERO);
     let arrive = tangent(keys.after * 3).unwrap_or(Vec3::ZERO);
-    let m = keys.mix;
-    let slope = (value(keys.after) - value(keys.before)) * (6.0 * m * (1.0 - m) / span)
-        + leave * (3.0 * m * m - 4.0 * m + 1.0)
-        + arrive * (3.0 * m * m - 2.0 * m);
+    let slope = hermite_slope(value(keys.before), leave, arrive, value(keys.after), span, keys.mix);
     [slope; 2]
 }
 

@@ -3,7 +3,7 @@
 //! `mix` is always 0..1: 0 the first key, 1 the second.
 
 use glam::Quat;
-use std::ops::{Add, Mul};
+use std::ops::{Add, Mul, Sub};
 
 /// Linear: `(1 - mix) * a + mix * b`, for translations, scales and single numbers.
 pub fn lerp<T: Copy + Add<Output = T> + Mul<f32, Output = T>>(a: T, b: T, mix: f32) -> T {
@@ -63,6 +63,22 @@ where
         + out_tangent * (span * (mix3 - 2.0 * mix2 + mix))
         + b * (-2.0 * mix3 + 3.0 * mix2)
         + in_tangent * (span * (mix3 - mix2))
+}
+
+/// How fast [`hermite`] changes there, units a second: its derivative.
+///
+/// ```text
+/// (b - a) * 6 m (1 - m) / span  +  (3 m² - 4 m + 1) * out_tangent  +  (3 m² - 2 m) * in_tangent
+/// ```
+///
+/// A key put there with this as both tangents leaves the curve as it is.
+pub fn hermite_slope<T>(a: T, out_tangent: T, in_tangent: T, b: T, span: f32, mix: f32) -> T
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,
+{
+    (b - a) * (6.0 * mix * (1.0 - mix) / span)
+        + out_tangent * (3.0 * mix * mix - 4.0 * mix + 1.0)
+        + in_tangent * (3.0 * mix * mix - 2.0 * mix)
 }
 
 #[cfg(test)]

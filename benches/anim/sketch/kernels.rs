@@ -4,10 +4,14 @@ use dragonfly_anim::fast::PoseBlock;
 use dragonfly_anim::fast::matrix::{IDENTITY, Matrix34};
 use dragonfly_anim::fast::simd::{Float4, Float8, Simd};
 
+/// Why the first eight and the last four numbers of one can be had.
+pub(super) const TWELVE: &str = "a matrix has twelve numbers";
+
 /// `a * b`, two rows in a register.
 #[inline(always)]
 fn product<S: Simd>(a: &Matrix34, b: &Matrix34) -> Matrix34 {
-    let (two, one) = (S::F8::load(a.first_chunk().unwrap()), S::F4::load(a.last_chunk().unwrap()));
+    let (two, one) =
+        (S::F8::load(a.first_chunk().expect(TWELVE)), S::F4::load(a.last_chunk().expect(TWELVE)));
     let rows = b.as_chunks::<4>().0;
     let (x, y, z) = (S::F8::twice(&rows[0]), S::F8::twice(&rows[1]), S::F8::twice(&rows[2]));
     let upper = two.spread::<0>().mul_add(x, two.keep_last());
@@ -15,8 +19,8 @@ fn product<S: Simd>(a: &Matrix34, b: &Matrix34) -> Matrix34 {
     let upper = two.spread::<1>().mul_add(y, upper);
     let lower = one.spread::<1>().mul_add(y.low(), lower);
     let mut out = IDENTITY;
-    two.spread::<2>().mul_add(z, upper).store(out.first_chunk_mut().unwrap());
-    one.spread::<2>().mul_add(z.low(), lower).store(out.last_chunk_mut().unwrap());
+    two.spread::<2>().mul_add(z, upper).store(out.first_chunk_mut().expect(TWELVE));
+    one.spread::<2>().mul_add(z.low(), lower).store(out.last_chunk_mut().expect(TWELVE));
     out
 }
 

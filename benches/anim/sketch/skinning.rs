@@ -9,6 +9,7 @@
 //! differ by axis, and keep the length that comes out; nothing is looked at for not being finite; every vertex has the same
 //! number of influences. The prototype knew four of them; here it is told how many.
 
+use super::kernels::TWELVE;
 use crate::case::Case;
 use crate::inputs::{INFLUENCES, finals, primitive};
 use crate::model::Subject;
@@ -68,15 +69,15 @@ impl<const N: usize> Kernel for Skin<'_, N> {
 fn weigh<S: Simd, const N: usize>(influences: &[Influence; N], finals: &[Matrix34], sum: &mut Matrix34) {
     let matrix = &finals[usize::from(influences[0].joint)];
     let weight = S::F8::splat(influences[0].weight);
-    let mut two = S::F8::load(matrix.first_chunk().unwrap()) * weight;
-    let mut one = S::F4::load(matrix.last_chunk().unwrap()) * weight.low();
+    let mut two = S::F8::load(matrix.first_chunk().expect(TWELVE)) * weight;
+    let mut one = S::F4::load(matrix.last_chunk().expect(TWELVE)) * weight.low();
     for influence in &influences[1..] {
         let (matrix, weight) = (&finals[usize::from(influence.joint)], S::F8::splat(influence.weight));
-        two = S::F8::load(matrix.first_chunk().unwrap()).mul_add(weight, two);
-        one = S::F4::load(matrix.last_chunk().unwrap()).mul_add(weight.low(), one);
+        two = S::F8::load(matrix.first_chunk().expect(TWELVE)).mul_add(weight, two);
+        one = S::F4::load(matrix.last_chunk().expect(TWELVE)).mul_add(weight.low(), one);
     }
-    two.store(sum.first_chunk_mut().unwrap());
-    one.store(sum.last_chunk_mut().unwrap());
+    two.store(sum.first_chunk_mut().expect(TWELVE));
+    one.store(sum.last_chunk_mut().expect(TWELVE));
 }
 
 /// The columns of a matrix, in both halves alike; the fourth number of each says nothing.

@@ -4,7 +4,7 @@ use super::adapter::{ModelAdapter, Slot, TakeId};
 use super::load::{LoadError, Source, file_name};
 use super::{Cancel, Folder, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
-use crate::store::{Expected, FileStamp, RealFiles, SaveOptions, save as save_file};
+use crate::store::{Expected, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file};
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::{self, Changes, OutputFile, Plan, SourceFile, TakeNow};
 use dragonfly_anim::format::{AssetFs, NoFiles, ReadOptions, dfm};
@@ -236,11 +236,6 @@ impl Editable {
         self.places = Some(places.collect());
         Ok(())
     }
-}
-
-/// The folder that a file lies in.
-fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
 }
 
 fn same_file(a: &Path, b: &Path) -> bool {

@@ -36,4 +36,5 @@ pub use save::{Expected, SaveOptions, Saved, replace, save};
 pub use shelf::Bounds;
 pub use stamp::{FileStamp, FileState};
 pub use versions::{Version, VersionLimits, Versions};
+pub(crate) use vfs::folder_of;
 pub use vfs::{Attribute, FileData, Kind, Vfs, VfsFile};

@@ -161,8 +161,8 @@ pub(super) fn look(files: &dyn Vfs, path: &Path) -> io::Result<Option<FileData>>
     }
 }
 
-/// The folder of a file named with nothing before its name is the present one.
-pub(super) fn folder_of(path: &Path) -> &Path {
+/// The folder of `path`; of a file named with nothing before its name, the present one.
+pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),

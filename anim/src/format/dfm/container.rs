@@ -1,11 +1,11 @@
 //! From the bytes of a file to its parts: length, ending, checksums, headers. Nothing inside a part is looked at here.
 
-use super::checksum::Checksum;
 use super::code::{DFM_CHECKSUM, DFM_ENDING, DFM_LENGTH, DFM_NEWER, DFM_PARTS, DFM_SIZE};
 use super::part::{PARTS, Part};
 use super::record::{Fields, Record};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, invalid};
+use crate::checksum::Checksum;
 use crate::format::guard::Guard;
 use crate::format::{ImportError, Place};
 use crate::limits::CANCEL_EVERY;

@@ -1,7 +1,6 @@
 #![doc = include_str!("layout.md")]
 
 mod bone;
-mod checksum;
 pub mod code;
 mod container;
 mod image;

@@ -1,10 +1,10 @@
 //! Collects the parts of a file and puts them one behind the other, the total and the checksums last.
 
-use super::checksum::Checksum;
 use super::part::{PARTS, Part};
 use super::record::{Put, Record};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, WriteError};
+use crate::checksum::Checksum;
 
 /// A file under way.
 pub(super) struct Writer {

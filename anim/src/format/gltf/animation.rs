@@ -86,13 +86,7 @@ impl TakeReader<'_> {
             let path = format!("{path}/channels/{number}");
             self.channel(animation, channel, &path, index, &mut moved, &mut take)?;
         }
-        let ranges = take.tracks.iter().flat_map(|track| {
-            [track.translation.range(), track.rotation.range(), track.scale.range()].into_iter().flatten()
-        });
-        let morphs =
-            take.morphs.iter().filter_map(|morph| Some((*morph.times.first()?, *morph.times.last()?)));
-        let range = ranges.chain(morphs).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let (start, end) = range.unwrap_or((0.0, 0.0));
+        let (start, end) = take.range_of_keys().unwrap_or((0.0, 0.0));
         (take.start, take.length) = (start, end - start);
         Ok(take)
     }

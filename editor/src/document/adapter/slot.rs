@@ -191,13 +191,7 @@ pub(super) fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
 
 /// Seconds: the first key of any channel, and from it to the last one.
 pub(super) fn extent(take: &Take) -> (f32, f32) {
-    let of_bones = take.tracks.iter().flat_map(|track| {
-        [track.translation.range(), track.rotation.range(), track.scale.range()].into_iter().flatten()
-    });
-    let of_morphs =
-        take.morphs.iter().filter_map(|morph| Some((*morph.times.first()?, *morph.times.last()?)));
-    let range = of_bones.chain(of_morphs).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-    range.map_or((0.0, 0.0), |(start, end)| (start, end - start))
+    take.range_of_keys().map_or((0.0, 0.0), |(start, end)| (start, end - start))
 }
 
 /// Puts one change into a list; the one that was there.

@@ -7,6 +7,7 @@ use super::super::slot::{Key, Slot};
 use super::{EditError, Named, Work, key_at, key_time, rest};
 use crate::document::edit::{KeySet, NewKey, TakeRef};
 use dragonfly_anim::data::{Channel, Interpolation};
+use dragonfly_anim::sample::mix::hermite_slope;
 use dragonfly_anim::sample::{find_keys, sample_channel};
 
 pub(super) fn add(
@@ -93,11 +94,8 @@ fn slopes<K: Kind>(channel: &Channel<K::Value>, time: f32) -> [super::super::kin
     let span = channel.times[keys.after] - channel.times[keys.before];
     let (from, leave) = (at(keys.before * 3 + 1), at(keys.before * 3 + 2));
     let (arrive, to) = (at(keys.after * 3), at(keys.after * 3 + 1));
-    let u = keys.mix;
     let slope = std::array::from_fn(|axis| {
-        6.0 * (u * u - u) / span * (from[axis] - to[axis])
-            + (3.0 * u * u - 4.0 * u + 1.0) * leave[axis]
-            + (3.0 * u * u - 2.0 * u) * arrive[axis]
+        hermite_slope(from[axis], leave[axis], arrive[axis], to[axis], span, keys.mix)
     });
     [slope, slope]
 }

@@ -2,6 +2,7 @@
 
 use crate::document::edit::SAME_TIME;
 use dragonfly_anim::data::{Interpolation, MorphTrack, Take};
+use dragonfly_anim::sample::mix::hermite_slope;
 use dragonfly_anim::sample::{find_keys, sample_morph_weights};
 
 /// Floats that belong to one key.
@@ -87,8 +88,7 @@ fn slope(track: &MorphTrack, target: usize, time: f32) -> f32 {
     let width = track.targets as usize;
     let at =
         |key: usize, row: usize| track.weights.get((key * 3 + row) * width + target).copied().unwrap_or(0.0);
-    let (u, span) = (keys.mix, track.times[keys.after] - track.times[keys.before]);
-    6.0 * (u * u - u) / span * (at(keys.before, 1) - at(keys.after, 1))
-        + (3.0 * u * u - 4.0 * u + 1.0) * at(keys.before, 2)
-        + (3.0 * u * u - 2.0 * u) * at(keys.after, 0)
+    let span = track.times[keys.after] - track.times[keys.before];
+    let (before, after) = (keys.before, keys.after);
+    hermite_slope(at(before, 1), at(before, 2), at(after, 0), at(after, 1), span, keys.mix)
 }

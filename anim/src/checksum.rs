@@ -30,20 +30,20 @@ const fn table() -> [u32; 256] {
 
 /// A checksum under way.
 #[derive(Clone, Copy)]
-pub(super) struct Checksum(u32);
+pub(crate) struct Checksum(u32);
 
 impl Checksum {
     /// Of nothing yet.
-    pub(super) const START: Self = Self(u32::MAX);
+    pub(crate) const START: Self = Self(u32::MAX);
 
     /// With `bytes` behind what came before.
-    pub(super) fn with(self, bytes: &[u8]) -> Self {
+    pub(crate) fn with(self, bytes: &[u8]) -> Self {
         let step = |remainder: u32, &byte: &u8| remainder >> 8 ^ TABLE[(remainder as u8 ^ byte) as usize];
         Self(bytes.iter().fold(self.0, step))
     }
 
     /// The number that is written.
-    pub(super) fn value(self) -> u32 {
+    pub(crate) fn value(self) -> u32 {
         !self.0
     }
 }
