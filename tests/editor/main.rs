@@ -63,6 +63,7 @@ mod store_power;
 mod store_save;
 mod studio;
 mod surfaces;
+mod undo;
 mod viewport_control;
 mod window;
 mod window_dialog;
