@@ -81,11 +81,11 @@ fn pictures_of_the_panels() {
     shoot("full_dark", full(), egui::Theme::Dark, 1.0);
     shoot("full_light", full(), egui::Theme::Light, 1.0);
     let mut bench = full();
-    bench.state.selected = Some(3);
+    bench.state.select(Some(3));
     bench.state.execute(Request::Seek(1.3));
     shoot("bone_dark", bench, egui::Theme::Dark, 1.0);
     let mut bench = full();
-    bench.state.selected = Some(0);
+    bench.state.select(Some(0));
     bench.state.execute(Request::Seek(1.3));
     shoot("bone_light_2x", bench, egui::Theme::Light, 2.0);
     for overlay in [Overlay::Palette, Overlay::Shortcuts, Overlay::About, Overlay::OpenPath] {
@@ -142,7 +142,7 @@ fn a_click_on_a_row_selects_the_bone_and_shows_its_numbers() {
     harness.run_steps(4);
     harness.get_by_label("spine_00").click();
     harness.run_steps(4);
-    assert_eq!(harness.state().state.selected, Some(1));
+    assert_eq!(harness.state().state.selected(), Some(1));
     assert!(harness.query_by_label_contains("Translation: X 0.000, Y 0.100, Z 0.000").is_some());
 }
 
@@ -284,7 +284,7 @@ fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
     let opened = fixture::full();
     let mut state = Bench::new(Some(opened.clone())).state;
     let (selected, camera) = (Some(3), state.camera);
-    state.selected = selected;
+    state.select(selected);
     state.playback = state.playback.seek(1.5, state.now);
     let with = |generation, length: f32| {
         let mut takes = opened.takes.to_vec();
@@ -295,7 +295,7 @@ fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
     assert_eq!((state.playback.take, state.playback.length, state.time()), (Some(0), 2.0, 1.5));
     state.show(with(3, 1.0));
     assert_eq!((state.playback.length, state.time()), (1.0, 1.0), "the end is where it ends now");
-    assert_eq!((state.selected, state.camera), (selected, camera), "all else is as the person left it");
+    assert_eq!((state.selected(), state.camera), (selected, camera), "all else is as the person left it");
     state.begin(state.now);
     assert_eq!((state.digest.takes.len(), state.digest.takes[0].length), (3, 1.0));
     state.show(View { generation: 4, takes: [].into(), ..opened });

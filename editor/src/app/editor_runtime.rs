@@ -99,6 +99,11 @@ impl EditorRuntime {
                     document.cancel_loading();
                 }
             }
+            Effect::Change(change) => {
+                if let Some(document) = &running.document {
+                    document.change(change);
+                }
+            }
             Effect::Pick(position) => {
                 running.tickets += 1;
                 running.click = running.tickets;
@@ -166,7 +171,7 @@ impl BaseRuntime for EditorRuntime {
                     interface.state.pointed = bone;
                 // An answer to an older question is not what the person points at now.
                 } else if ticket == running.click {
-                    interface.state.selected = bone;
+                    interface.state.select(bone);
                 }
             }
             GraphicsReply::Statistics { frames, milliseconds } => {
@@ -289,7 +294,7 @@ fn look(state: &State, pixels_per_point: f32, dark: bool) -> Look {
         skeleton: state.shows_skeleton(),
         bone_look: settings.bone_look,
         bones_in_front: settings.bones_in_front,
-        selected: state.selected.into_iter().collect(),
+        selected: state.selection.bones().to_vec(),
         hovered: state.bright(),
         shading: settings.shading,
         surface: settings.surface,

@@ -249,8 +249,12 @@ impl Interface {
         }
         self.egui.handle_platform_output(&self.window, output.platform_output);
 
-        let before =
-            (self.state.playback, self.state.selected, self.state.bright(), self.state.settings.clone());
+        let before = (
+            self.state.playback,
+            self.state.selection.clone(),
+            self.state.bright(),
+            self.state.settings.clone(),
+        );
         let (overlay, viewport) = (self.state.overlay, self.state.viewport);
         self.state.hovered = None;
         self.state.find = false;
@@ -264,8 +268,12 @@ impl Interface {
             self.effects.extend(effect);
         }
         // What was asked for is seen in the next drawing.
-        let after =
-            (self.state.playback, self.state.selected, self.state.bright(), self.state.settings.clone());
+        let after = (
+            self.state.playback,
+            self.state.selection.clone(),
+            self.state.bright(),
+            self.state.settings.clone(),
+        );
         let changed = before != after || overlay != self.state.overlay || viewport != self.state.viewport;
 
         self.drawn = now;

@@ -1,11 +1,12 @@
 //! What requests and commands do to the state; what reaches beyond the panels comes back as effects.
 
-use super::commands::Id;
+use super::commands::{self, Id};
 use super::ruler;
 use super::settings::{SCALES, SPEEDS, ThemeChoice};
 use super::state::{Effect, Overlay, Request, State};
+use super::status::Level;
 use crate::camera::Side;
-use crate::document::Source;
+use crate::document::{Change, Source};
 use crate::graphics::{BoneLook, Shading};
 use crate::playback::Repeat;
 
@@ -14,7 +15,9 @@ impl State {
     pub fn execute(&mut self, request: Request) -> Option<Effect> {
         match request {
             Request::Command(id) => return self.command(id),
-            Request::Select(bone) => self.selected = bone,
+            Request::Select(bone) => self.select(bone),
+            Request::SelectBones(bones, choice) => self.selection.choose(&bones, choice),
+            Request::Change(change) => return Some(Effect::Change(change)),
             Request::Hover(bone) => self.hovered = Some(bone),
             Request::ShowTake(take) => self.show_take(take),
             Request::Seek(time) => self.seek(time),
@@ -41,7 +44,13 @@ impl State {
         }
     }
 
+    /// Does a command, or says why it has nothing to do.
     fn command(&mut self, id: Id) -> Option<Effect> {
+        let when = commands::get(id).when;
+        if !when.holds(self) {
+            self.status.say(Level::Info, when.reason());
+            return None;
+        }
         let look = &mut self.settings.look;
         match id {
             Id::Open => return Some(Effect::OpenDialog),
@@ -49,6 +58,9 @@ impl State {
             Id::OpenBuiltIn => return Some(Effect::Open(Source::BuiltIn)),
             Id::CancelLoading => return Some(Effect::CancelLoading),
             Id::Quit => return Some(Effect::Quit),
+
+            Id::Undo => return Some(Effect::Change(Change::Undo)),
+            Id::Redo => return Some(Effect::Change(Change::Redo)),
 
             Id::PlayPause => self.play(1.0),
             Id::PlayBackwards => self.play(-1.0),
@@ -71,7 +83,7 @@ impl State {
 
             Id::ClearSelection => {
                 if self.overlay.take().is_none() {
-                    self.selected = None;
+                    self.selection.clear();
                 }
             }
             Id::SelectParent => self.select_parent(),
@@ -198,19 +210,22 @@ impl State {
     fn select_parent(&mut self) {
         let Some(loaded) = self.loaded() else { return };
         let bones = &loaded.model.animation.skeleton.bones;
-        match self.selected {
+        match self.selected() {
             Some(bone) => {
                 if let Some(parent) = bones.get(bone as usize).and_then(|bone| bone.parent) {
-                    self.selected = Some(parent);
+                    self.select(Some(parent));
                 }
             }
-            None => self.selected = (!bones.is_empty()).then_some(0),
+            None => {
+                let first = (!bones.is_empty()).then_some(0);
+                self.select(first);
+            }
         }
     }
 
     fn select_child(&mut self) {
         let Some(loaded) = self.loaded() else { return };
-        let child = loaded.model.animation.skeleton.children(self.selected).next();
-        self.selected = child.or(self.selected);
+        let child = loaded.model.animation.skeleton.children(self.selected()).next();
+        self.select(child.or(self.selected()));
     }
 }

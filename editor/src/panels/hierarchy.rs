@@ -97,8 +97,8 @@ impl Hierarchy {
             return matching(rows, |bone| state.bone_name(bone).to_lowercase().contains(&query));
         }
         // A selection made elsewhere is brought to light.
-        if state.selected != self.followed
-            && let (Some(selected), Some(loaded)) = (state.selected, state.loaded())
+        if state.selected() != self.followed
+            && let (Some(selected), Some(loaded)) = (state.selected(), state.loaded())
         {
             let bones = &loaded.model.animation.skeleton.bones;
             let mut above = bones.get(selected as usize).and_then(|bone| bone.parent);
@@ -122,9 +122,9 @@ impl Hierarchy {
     fn tree(&mut self, ui: &mut Ui, state: &State, rows: &[(Row, bool)], requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing.y = 0.0;
         let mut area = ScrollArea::vertical().auto_shrink(false);
-        if state.selected != self.followed {
-            self.followed = state.selected;
-            let place = rows.iter().position(|(row, _)| Some(row.bone) == state.selected);
+        if state.selected() != self.followed {
+            self.followed = state.selected();
+            let place = rows.iter().position(|(row, _)| Some(row.bone) == state.selected());
             if let Some(place) = place {
                 let middle = place as f32 * ROW - ui.available_height() / 2.0 + ROW / 2.0;
                 let tall = rows.len() as f32 * ROW - ui.available_height();
@@ -141,7 +141,7 @@ impl Hierarchy {
     fn row(&mut self, ui: &mut Ui, state: &State, row: Row, hit: bool, requests: &mut Vec<Request>) {
         let theme = Theme::of(ui);
         let name = state.bone_name(row.bone);
-        let selected = state.selected == Some(row.bone);
+        let selected = state.selection.contains(row.bone);
         let (rect, response) = widgets::row(ui, &name, selected, state.bright() == Some(row.bone));
         // Very deep skeletons stay readable: the indentation ends, the order goes on.
         let indent = 10.0 + (row.depth as f32 * 12.0).min(rect.width() * 0.5);

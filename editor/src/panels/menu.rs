@@ -19,16 +19,16 @@ pub fn show(
     MenuBar::new().ui(ui, |ui| {
         ui.add_space(GRID);
         ui.menu_button("File", |ui| file(ui, state, requests));
-        ui.menu_button("Edit", |ui| list(ui, &[Category::Selection], requests));
-        ui.menu_button("Play", |ui| list(ui, &[Category::Playback], requests));
+        ui.menu_button("Edit", |ui| list(ui, state, &[Category::Edit, Category::Selection], requests));
+        ui.menu_button("Play", |ui| list(ui, state, &[Category::Playback], requests));
         ui.menu_button("View", |ui| view(ui, state, panels, requests));
-        ui.menu_button("Help", |ui| list(ui, &[Category::Help], requests));
+        ui.menu_button("Help", |ui| list(ui, state, &[Category::Help], requests));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(2.0 * GRID);
-            let hint = format!("Find a command  {}", commands::shortcut_text(Id::Palette));
+            let hint = format!("Find a command  {}", commands::shortcut_text(ui.ctx(), Id::Palette));
             let button =
                 Button::new(RichText::new(hint).size(style::SMALL).color(Theme::of(ui).faint)).frame(false);
-            if ui.add(button).on_hover_text(commands::tooltip(Id::Palette)).clicked() {
+            if ui.add(button).on_hover_text(commands::tooltip(ui.ctx(), Id::Palette)).clicked() {
                 requests.push(Request::Command(Id::Palette));
             }
         });
@@ -36,27 +36,29 @@ pub fn show(
 }
 
 /// One line: title, shortcut, a mark when `on`.
-pub(super) fn item(ui: &mut Ui, id: Id, on: bool, requests: &mut Vec<Request>) {
+pub(super) fn item(ui: &mut Ui, state: &State, id: Id, on: bool, requests: &mut Vec<Request>) {
     let command = commands::get(id);
-    let shortcut = RichText::new(commands::shortcut_text(id)).size(style::SMALL).color(Theme::of(ui).faint);
+    let shortcut =
+        RichText::new(commands::shortcut_text(ui.ctx(), id)).size(style::SMALL).color(Theme::of(ui).faint);
     let title =
         RichText::new(command.title).color(if on { Theme::of(ui).accent } else { Theme::of(ui).text });
     let button = Button::new(title).shortcut_text(shortcut).frame_when_inactive(false);
-    if ui.add(button).on_hover_text(command.help).clicked() {
+    let response = ui.add_enabled(command.when.holds(state), button);
+    if response.on_hover_text(command.help).on_disabled_hover_text(command.when.reason()).clicked() {
         requests.push(Request::Command(id));
         ui.close();
     }
 }
 
-fn list(ui: &mut Ui, categories: &[Category], requests: &mut Vec<Request>) {
-    for command in commands::ALL.iter().filter(|command| categories.contains(&command.category)) {
-        item(ui, command.id, false, requests);
+fn list(ui: &mut Ui, state: &State, categories: &[Category], requests: &mut Vec<Request>) {
+    for command in categories.iter().flat_map(|category| commands::of(*category)) {
+        item(ui, state, command.id, false, requests);
     }
 }
 
 fn file(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-    item(ui, Id::Open, false, requests);
-    item(ui, Id::OpenPath, false, requests);
+    item(ui, state, Id::Open, false, requests);
+    item(ui, state, Id::OpenPath, false, requests);
     ui.menu_button("Open recent", |ui| {
         if state.settings.recent.is_empty() {
             ui.add_enabled(false, Button::new("Nothing yet").frame(false));
@@ -70,12 +72,12 @@ fn file(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
             }
         }
     });
-    item(ui, Id::OpenBuiltIn, false, requests);
+    item(ui, state, Id::OpenBuiltIn, false, requests);
     if state.loading.is_some() {
-        item(ui, Id::CancelLoading, false, requests);
+        item(ui, state, Id::CancelLoading, false, requests);
     }
     ui.separator();
-    item(ui, Id::Quit, false, requests);
+    item(ui, state, Id::Quit, false, requests);
 }
 
 fn view(
@@ -93,36 +95,36 @@ fn view(
             }
         }
         ui.separator();
-        item(ui, Id::ResetLayout, false, requests);
+        item(ui, state, Id::ResetLayout, false, requests);
     });
-    ui.menu_button("Camera", |ui| list(ui, &[Category::Camera], requests));
+    ui.menu_button("Camera", |ui| list(ui, state, &[Category::Camera], requests));
     ui.separator();
     let look = &state.settings.look;
-    item(ui, Id::ToggleGrid, look.grid, requests);
-    item(ui, Id::ToggleSurface, look.surface, requests);
-    item(ui, Id::ToggleSkeleton, state.shows_skeleton(), requests);
-    item(ui, Id::ToggleXRay, look.bones_in_front, requests);
+    item(ui, state, Id::ToggleGrid, look.grid, requests);
+    item(ui, state, Id::ToggleSurface, look.surface, requests);
+    item(ui, state, Id::ToggleSkeleton, state.shows_skeleton(), requests);
+    item(ui, state, Id::ToggleXRay, look.bones_in_front, requests);
     ui.menu_button("Bones", |ui| {
-        item(ui, Id::BonesOctahedra, look.bone_look == BoneLook::Octahedra, requests);
-        item(ui, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
-        item(ui, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
+        item(ui, state, Id::BonesOctahedra, look.bone_look == BoneLook::Octahedra, requests);
+        item(ui, state, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
+        item(ui, state, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
     });
     ui.menu_button("Shading", |ui| {
-        item(ui, Id::ShadeMaterial, look.shading == Shading::Material, requests);
-        item(ui, Id::ShadeClay, look.shading == Shading::Clay, requests);
-        item(ui, Id::ShadeUnlit, look.shading == Shading::Unlit, requests);
+        item(ui, state, Id::ShadeMaterial, look.shading == Shading::Material, requests);
+        item(ui, state, Id::ShadeClay, look.shading == Shading::Clay, requests);
+        item(ui, state, Id::ShadeUnlit, look.shading == Shading::Unlit, requests);
     });
     ui.separator();
     ui.menu_button("Theme", |ui| {
         let theme = state.settings.theme;
-        item(ui, Id::ThemeSystem, theme == ThemeChoice::System, requests);
-        item(ui, Id::ThemeDark, theme == ThemeChoice::Dark, requests);
-        item(ui, Id::ThemeLight, theme == ThemeChoice::Light, requests);
+        item(ui, state, Id::ThemeSystem, theme == ThemeChoice::System, requests);
+        item(ui, state, Id::ThemeDark, theme == ThemeChoice::Dark, requests);
+        item(ui, state, Id::ThemeLight, theme == ThemeChoice::Light, requests);
     });
     ui.menu_button("Size of everything", |ui| {
-        item(ui, Id::ScaleUp, false, requests);
-        item(ui, Id::ScaleDown, false, requests);
-        item(ui, Id::ScaleReset, false, requests);
+        item(ui, state, Id::ScaleUp, false, requests);
+        item(ui, state, Id::ScaleDown, false, requests);
+        item(ui, state, Id::ScaleReset, false, requests);
         let mut scale = state.settings.scale;
         let slider = Slider::new(&mut scale, SCALES).step_by(0.05).update_while_editing(false);
         let response = ui.add(slider).accessible_name("Scale");
@@ -131,8 +133,8 @@ fn view(
             requests.push(Request::Scale(scale));
         }
     });
-    item(ui, Id::FullScreen, state.full_screen, requests);
+    item(ui, state, Id::FullScreen, state.full_screen, requests);
     if matches!(state.device, super::state::Device::Paused { .. }) {
-        item(ui, Id::RetryDevice, false, requests);
+        item(ui, state, Id::RetryDevice, false, requests);
     }
 }

@@ -127,10 +127,11 @@ fn search(query: &str) -> Vec<&'static Command> {
         let text = text.to_lowercase();
         words.iter().all(|word| text.contains(word))
     };
-    let (mut first, second): (Vec<_>, Vec<_>) = commands::ALL
-        .iter()
+    let (mut first, second): (Vec<_>, Vec<_>) = commands::all()
         .filter(|command| command.id != Id::Palette)
-        .filter(|command| has(&format!("{} {} {}", command.category.title(), command.title, command.help)))
+        .filter(|command| {
+            has(&format!("{} {} {}", commands::category_of(command.id).title(), command.title, command.help))
+        })
         .partition(|command| has(command.title));
     first.extend(second);
     first
@@ -142,13 +143,19 @@ fn palette_row(ui: &mut Ui, command: &Command, chosen: bool) -> egui::Response {
     let color = if chosen { theme.accent } else { theme.text };
     let inside = egui::Rect::from_min_max(pos2(rect.left() + 12.0, rect.top()), rect.max);
     let right = widgets::text_in(ui, inside, command.title, &TextStyle::Body, color);
-    let shortcut = commands::shortcut_text(command.id);
+    let shortcut = commands::shortcut_text(ui.ctx(), command.id);
     let at = pos2(rect.right() - 12.0, rect.center().y);
     let font = egui::FontId::proportional(style::SMALL);
     let keys = ui.painter().text(at, Align2::RIGHT_CENTER, shortcut, font.clone(), theme.weak);
     let category = pos2(right + 10.0, rect.center().y);
     if right + 80.0 < keys.left() {
-        ui.painter().text(category, Align2::LEFT_CENTER, command.category.title(), font, theme.faint);
+        ui.painter().text(
+            category,
+            Align2::LEFT_CENTER,
+            commands::category_of(command.id).title(),
+            font,
+            theme.faint,
+        );
     }
     response
 }
@@ -180,7 +187,7 @@ fn shortcuts(ui: &mut Ui, requests: &mut Vec<Request>) {
 
 fn sheet(ui: &mut Ui, category: Category) {
     heading(ui, category.title());
-    let commands = commands::ALL.iter().filter(|command| command.category == category);
+    let commands = commands::of(category).iter();
     for command in commands.filter(|command| !command.shortcuts.is_empty()) {
         line(ui, command.title, |ui| {
             // Right to left, so that the first stands first.

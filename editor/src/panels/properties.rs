@@ -32,7 +32,7 @@ impl Panel for Properties {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::NONE.inner_margin(egui::Margin::symmetric(12, 8)).show(ui, |ui| {
                 ui.set_width(ui.available_width());
-                match state.selected {
+                match state.selected() {
                     Some(bone) => show_bone(ui, state, bone, requests),
                     None => show_model(ui, state),
                 }
@@ -58,7 +58,7 @@ fn show_bone(ui: &mut Ui, state: &State, index: BoneIndex, requests: &mut Vec<Re
                 ui.label(RichText::new("Child of").color(Theme::of(ui).weak));
                 let link = ui
                     .link(state.bone_name(parent))
-                    .on_hover_text(super::commands::tooltip(super::commands::Id::SelectParent));
+                    .on_hover_text(super::commands::tooltip(ui.ctx(), super::commands::Id::SelectParent));
                 if link.hovered() {
                     requests.push(Request::Hover(parent));
                 }

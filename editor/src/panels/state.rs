@@ -4,11 +4,14 @@ use super::digest::Digest;
 use super::settings::Settings;
 use super::status::Status;
 use crate::camera::Camera;
-use crate::document::{LoadedModel, Progress, Source, View};
+use crate::control::bones::{BoneSelection, Choice, HiddenBones};
+use crate::document::history::Gesture;
+use crate::document::{Change, LoadedModel, Progress, Source, View};
 use crate::playback::Playback;
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{BoneIndex, Take};
 use glam::Vec3;
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 use super::commands::Id;
@@ -60,6 +63,10 @@ pub enum Request {
     Command(Id),
     /// Selects a bone, or none.
     Select(Option<BoneIndex>),
+    /// Selects bones, in this way.
+    SelectBones(Vec<BoneIndex>, Choice),
+    /// Edits, undoes, does again.
+    Change(Change),
     /// The pointer is over this bone's row.
     Hover(BoneIndex),
     /// Shows a take, or the rest pose.
@@ -99,6 +106,8 @@ pub enum Effect {
     Open(Source),
     /// Stops the job that loads.
     CancelLoading,
+    /// Tells the document.
+    Change(Change),
     /// Asks the graphics thread which bone lies there, in points.
     Pick(egui::Pos2),
     /// Uses the whole screen, or a window again.
@@ -150,8 +159,10 @@ pub struct State {
     pub digest: Digest,
     /// Poses at the time shown.
     pub posed: Posed,
-    /// The selected bone.
-    pub selected: Option<BoneIndex>,
+    /// The selected bones; the active one is [`Self::selected`].
+    pub selection: BoneSelection,
+    /// Bones put out of sight.
+    pub hidden: HiddenBones,
     /// The bone under the pointer.
     pub hovered: Option<BoneIndex>,
     /// Where the pointer is over the picture, in points.
@@ -182,6 +193,8 @@ pub struct State {
     pub find: bool,
     /// Where the picture is, in points.
     pub viewport: egui::Rect,
+    /// Names of gestures given so far.
+    gestures: Cell<u64>,
     /// Does the window fill the screen?
     pub full_screen: bool,
     /// The moment this frame shows.
@@ -196,7 +209,8 @@ impl State {
             view: None,
             digest: Digest::default(),
             posed: Posed::default(),
-            selected: None,
+            selection: BoneSelection::default(),
+            hidden: HiddenBones::default(),
             hovered: None,
             pointer: None,
             pointed: None,
@@ -212,6 +226,7 @@ impl State {
             overlay: None,
             find: false,
             viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
+            gestures: Cell::new(0),
             full_screen: false,
             now,
         }
@@ -230,9 +245,9 @@ impl State {
             self.playback.playing = false;
             self.playback = self.playback.seek(time, now);
         }
-        self.digest.update(self.view.as_ref(), self.playback.take, self.selected);
+        self.digest.update(self.view.as_ref(), self.playback.take, self.selection.active());
         if let Some(view) = &self.view
-            && self.selected.is_some()
+            && self.selection.active().is_some()
         {
             self.posed.update(view, self.playback.take, self.playback.time_at(now));
         }
@@ -245,7 +260,9 @@ impl State {
         if !fresh {
             return self.keep_take();
         }
-        self.selected = None;
+        let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());
+        self.selection = BoneSelection::new(bones);
+        self.hidden = HiddenBones::default();
         self.hovered = None;
         self.pointed = None;
         self.framed = false;
@@ -287,7 +304,7 @@ impl State {
 
     /// Puts the selected bone and its children into the middle, or everything when none is selected.
     pub fn frame_selected(&mut self) {
-        let (Some(view), Some(selected)) = (self.view.clone(), self.selected) else {
+        let (Some(view), Some(selected)) = (self.view.clone(), self.selected()) else {
             return self.frame_all();
         };
         let skeleton = &view.loaded.model.animation.skeleton;
@@ -337,7 +354,23 @@ impl State {
     /// Are bones drawn? Also when one is selected, and where there is nothing else to see.
     pub fn shows_skeleton(&self) -> bool {
         let bare = self.loaded().is_some_and(|loaded| loaded.model.instances.is_empty());
-        self.settings.look.skeleton || self.selected.is_some() || bare
+        self.settings.look.skeleton || self.selected().is_some() || bare
+    }
+
+    /// The active bone: of those that are selected, the one that was selected last.
+    pub fn selected(&self) -> Option<BoneIndex> {
+        self.selection.active()
+    }
+
+    /// Selects this bone alone, or none.
+    pub fn select(&mut self, bone: Option<BoneIndex>) {
+        self.selection.click(bone, Choice::Replace);
+    }
+
+    /// Names a new gesture: a drag, a slider held, whose many edits are one step.
+    pub fn new_gesture(&self) -> Gesture {
+        self.gestures.set(self.gestures.get() + 1);
+        Gesture(self.gestures.get())
     }
 
     /// The bone that is drawn brighter: under the pointer, in the tree or in the picture.

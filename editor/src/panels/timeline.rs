@@ -148,7 +148,7 @@ fn lanes(ui: &Ui, painter: &Painter, rect: Rect, head: Rect, ruler: &Ruler, stat
         ("Rotation", &channels[1], theme.key),
         ("Scale", &channels[2], theme.key),
     ];
-    let shown: &[(&str, &[f32], Color32)] = if state.selected.is_some() { &of_bone } else { &all };
+    let shown: &[(&str, &[f32], Color32)] = if state.selected().is_some() { &of_bone } else { &all };
     let now = state.time();
     let pixel = 1.0 / ui.pixels_per_point();
     for (index, (name, times, color)) in shown.iter().enumerate() {

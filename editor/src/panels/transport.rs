@@ -49,7 +49,7 @@ fn buttons(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
 }
 
 fn repeat(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-    let shortcut = commands::shortcut_text(Id::CycleRepeat);
+    let shortcut = commands::shortcut_text(ui.ctx(), Id::CycleRepeat);
     for (icon, repeat, name) in [
         (Icon::Loop, Repeat::Loop, "Loop"),
         (Icon::PingPong, Repeat::PingPong, "Back and forth"),

@@ -158,15 +158,15 @@ fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) 
     }
 }
 
-fn views(ui: &mut Ui, _state: &State, requests: &mut Vec<Request>) {
+fn views(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     let response = super::widgets::icon_button(ui, Icon::View, "Views", false).on_hover_text("Views");
     egui::Popup::menu(&response).show(|ui| {
         ui.set_width(160.0);
         for id in [Id::ViewFront, Id::ViewBack, Id::ViewRight, Id::ViewLeft, Id::ViewTop, Id::ViewBottom] {
-            super::menu::item(ui, id, false, requests);
+            super::menu::item(ui, state, id, false, requests);
         }
         ui.separator();
-        super::menu::item(ui, Id::FrameSelected, false, requests);
+        super::menu::item(ui, state, Id::FrameSelected, false, requests);
     });
 }
 
@@ -224,7 +224,7 @@ fn axes(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
         if response.clicked() {
             requests.push(Request::Command(id));
         }
-        response.on_hover_text(commands::tooltip(id));
+        response.on_hover_text(commands::tooltip(ui.ctx(), id));
     }
 }
 
@@ -253,7 +253,7 @@ fn welcome(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) 
         ui.label(RichText::new("Drop a glTF file here, or").color(Theme::of(ui).weak));
         ui.add_space(GRID);
         let open = ui.add_sized(vec2(260.0, 28.0), egui::Button::new("Open a model…"));
-        if open.on_hover_text(commands::tooltip(Id::Open)).clicked() {
+        if open.on_hover_text(commands::tooltip(ui.ctx(), Id::Open)).clicked() {
             requests.push(Request::Command(Id::Open));
         }
         if ui.add_sized(vec2(260.0, 28.0), egui::Button::new("Built-in dragonfly")).clicked() {

@@ -19,7 +19,8 @@ pub(super) fn command_button(
     on: bool,
     requests: &mut Vec<Request>,
 ) -> Response {
-    let response = icon_button(ui, icon, commands::get(id).title, on).on_hover_text(commands::tooltip(id));
+    let response =
+        icon_button(ui, icon, commands::get(id).title, on).on_hover_text(commands::tooltip(ui.ctx(), id));
     if response.clicked() {
         requests.push(Request::Command(id));
     }

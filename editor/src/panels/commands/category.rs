@@ -1,0 +1,43 @@
+//! Where commands stand.
+
+/// Where a command stands in menus and sheets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)] // The titles say it.
+pub enum Category {
+    File,
+    Edit,
+    Playback,
+    Selection,
+    Camera,
+    Look,
+    Window,
+    Help,
+}
+
+impl Category {
+    /// In the order in which they are shown.
+    pub const ALL: &[Self] = &[
+        Self::File,
+        Self::Edit,
+        Self::Playback,
+        Self::Selection,
+        Self::Camera,
+        Self::Look,
+        Self::Window,
+        Self::Help,
+    ];
+
+    /// For sheets.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::File => "File",
+            Self::Edit => "Edit",
+            Self::Playback => "Playback",
+            Self::Selection => "Selection",
+            Self::Camera => "Camera",
+            Self::Look => "Look",
+            Self::Window => "Window",
+            Self::Help => "Help",
+        }
+    }
+}

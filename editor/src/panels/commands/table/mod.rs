@@ -1,0 +1,45 @@
+//! The table of all commands, a file a category. Adding one: a line in a file, its name in [`Id`], its deed in
+//! [`super::super::execute`].
+
+mod camera;
+mod edit;
+mod file;
+mod help;
+mod look;
+mod playback;
+mod selection;
+mod window;
+
+use super::{Category, Command, Id, When};
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+const ALT: Modifiers = Modifiers::ALT;
+
+const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(modifiers, key)
+}
+
+const fn command(
+    id: Id,
+    when: When,
+    title: &'static str,
+    shortcuts: &'static [KeyboardShortcut],
+    help: &'static str,
+) -> Command {
+    Command { id, title, shortcuts, help, when }
+}
+
+/// The commands of each category, in the order in which they are shown.
+pub const TABLE: &[(Category, &[Command])] = &[
+    (Category::File, file::COMMANDS),
+    (Category::Edit, edit::COMMANDS),
+    (Category::Playback, playback::COMMANDS),
+    (Category::Selection, selection::COMMANDS),
+    (Category::Camera, camera::COMMANDS),
+    (Category::Look, look::COMMANDS),
+    (Category::Window, window::COMMANDS),
+    (Category::Help, help::COMMANDS),
+];
