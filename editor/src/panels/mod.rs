@@ -10,6 +10,7 @@ pub mod icons;
 pub mod layout;
 pub mod menu;
 pub mod overlays;
+mod posing;
 pub mod properties;
 pub mod ruler;
 pub mod settings;
