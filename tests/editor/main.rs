@@ -37,6 +37,7 @@ mod journal_faults;
 mod journal_kill;
 mod journal_scenarios;
 mod journal_writer;
+mod keymap;
 mod life;
 mod made;
 mod made_take;

@@ -25,6 +25,7 @@ impl State {
             Request::Repeat(repeat) => self.set_repeat(repeat),
             Request::FrameRate(rate) => self.settings.frame_rate = rate,
             Request::Scale(scale) => self.set_scale(scale),
+            Request::Keys(keys) => self.settings.keys = keys,
             Request::Camera(camera) => self.camera = camera,
             Request::Viewport(rect) => self.set_viewport(rect),
             Request::Pick(position) => return Some(Effect::Pick(position)),

@@ -14,6 +14,7 @@ mod posing;
 pub mod properties;
 pub mod ruler;
 pub mod settings;
+mod shortcuts;
 pub mod state;
 pub mod status;
 pub mod status_line;
@@ -107,6 +108,7 @@ impl Desk {
 
     /// Draws everything once.
     pub fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        commands::Keymap::install(&state.settings.keys, ui.ctx());
         let theme = theme::Theme::of(ui);
         let bar = egui::Frame::NONE.fill(theme.bar);
         egui::Panel::top("menu").exact_size(style::BAR).frame(bar).show_separator_line(false).show(

@@ -14,7 +14,7 @@ use glam::Vec3;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-use super::commands::Id;
+use super::commands::{Id, KeySettings};
 
 /// A model on its way.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,6 +81,8 @@ pub enum Request {
     FrameRate(u32),
     /// Scale of the window's content.
     Scale(f32),
+    /// Other keys for commands.
+    Keys(KeySettings),
     /// From where.
     Camera(Camera),
     /// Where the picture is, in points.
