@@ -53,6 +53,7 @@ mod playback;
 mod portal;
 mod program;
 mod ruler;
+mod save_and_open;
 mod screen;
 mod settings;
 mod shaders;

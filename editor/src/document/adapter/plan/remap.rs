@@ -20,7 +20,9 @@ pub(super) struct Clock {
 
 impl Clock {
     fn at(&self, time: f32) -> f32 {
-        self.about + (time - self.from) * self.stretch
+        let new = self.about + (time - self.from) * self.stretch;
+        // Rounding, and a key that counts as lying on a cut, must not lead before the begin of time.
+        if time >= 0.0 && new < 0.0 && new >= -SAME_TIME { 0.0 } else { new }
     }
 }
 

@@ -106,6 +106,10 @@ fn ripple_morphs(work: &mut Work, take: TakeId, from: f32, by: f32) -> Result<bo
     if !slot.original.morphs.iter().any(|morph| late(&morph.times)) {
         return Ok(false);
     }
+    let times = slot.original.morphs.iter().flat_map(|morph| morph.times.iter());
+    for &time in times.filter(|&&time| time >= from - SAME_TIME) {
+        key_time(time + by, slot)?;
+    }
     let to = |time: f32| match time {
         _ if time >= from - SAME_TIME => Some(time + by),
         _ if time >= from + by - SAME_TIME => None,
