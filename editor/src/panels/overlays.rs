@@ -39,6 +39,7 @@ impl Overlays {
             Overlay::Palette => self.palette(ui, fresh, requests),
             Overlay::Shortcuts => shortcuts(ui, requests),
             Overlay::About => about(ui, state, requests),
+            Overlay::MirrorPairs => super::mirror_pairs::show(ui, state, requests),
             Overlay::OpenPath => self.open_path(ui, fresh, requests),
         });
         if response.should_close() {

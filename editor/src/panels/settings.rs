@@ -74,6 +74,8 @@ pub struct Settings {
     pub speed: f32,
     /// Frames a second, for display and stepping.
     pub frame_rate: u32,
+    /// Does a changed pose become a key at once?
+    pub auto_key: bool,
     /// Newest first.
     pub recent: Vec<PathBuf>,
 }
@@ -87,6 +89,7 @@ impl Default for Settings {
             repeat: Repeat::default(),
             speed: 1.0,
             frame_rate: 30,
+            auto_key: true,
             recent: Vec::new(),
         }
     }

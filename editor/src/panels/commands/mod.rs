@@ -121,7 +121,8 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     let mut found = Vec::new();
     context.input_mut(|input| {
         input.events.retain(|event| {
-            let egui::Event::Key { key, pressed: true, repeat, modifiers, .. } = event else { return true };
+            let Some((key, repeat, modifiers)) = key_of(event) else { return true };
+            let (key, repeat, modifiers) = (&key, &repeat, &modifiers);
             // Keys that move or type inside a field, or press the button that has the focus, are not ours.
             let plain = !modifiers.command && !modifiers.alt;
             let function = matches!(key, Key::F1 | Key::F3 | Key::F11);
@@ -151,6 +152,18 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
         });
     });
     found
+}
+
+/// The key of an event. Copy, cut and paste come from the window system as such, not as keys; the text that is pasted is
+/// asked for by who wants it.
+fn key_of(event: &egui::Event) -> Option<(Key, bool, egui::Modifiers)> {
+    match event {
+        egui::Event::Key { key, pressed: true, repeat, modifiers, .. } => Some((*key, *repeat, *modifiers)),
+        egui::Event::Copy => Some((Key::C, false, egui::Modifiers::COMMAND)),
+        egui::Event::Cut => Some((Key::X, false, egui::Modifiers::COMMAND)),
+        egui::Event::Paste(_) => Some((Key::V, false, egui::Modifiers::COMMAND)),
+        _ => None,
+    }
 }
 
 fn repeats(id: Id) -> bool {
