@@ -9,6 +9,7 @@ use dragonfly::document::history::Edited;
 use dragonfly::document::{Change, View};
 use dragonfly::graphics::scene::Scene;
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::state::Overlay;
 use dragonfly::panels::{Effect, Request, State};
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::sample::sample_take;
@@ -254,4 +255,30 @@ fn how_many_poses_wait_is_said_and_a_click_goes_there() {
     auto.click();
     harness.run_steps(2);
     assert!(!harness.state().state.settings.auto_key);
+}
+
+/// Writes pictures to `$DRAGONFLY_SHOTS`, to be looked at; does nothing without it.
+#[test]
+fn pictures_of_what_waits() {
+    let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(std::path::PathBuf::from) else { return };
+    std::fs::create_dir_all(&folder).unwrap();
+    for (name, theme) in [("dark", egui::Theme::Dark), ("light", egui::Theme::Light)] {
+        for overlay in [None, Some(Overlay::MirrorPairs)] {
+            let (view, _) = pending_view([0.0, 1.0, 0.0]);
+            let mut bench = Bench::new(Some(view));
+            bench.state.settings.auto_key = overlay.is_some();
+            bench.state.overlay = overlay;
+            bench.state.execute(Request::Seek(0.4));
+            let mut harness = egui_kittest::Harness::builder()
+                .with_size(egui::vec2(1280.0, 720.0))
+                .with_theme(theme)
+                .with_max_steps(20)
+                .with_context_setup(dragonfly::panels::style::install)
+                .wgpu()
+                .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench);
+            harness.run_steps(6);
+            let what = if overlay.is_some() { "mirror_pairs" } else { "pending" };
+            harness.render().unwrap().save(folder.join(format!("{what}_{name}.png"))).unwrap();
+        }
+    }
 }

@@ -107,8 +107,8 @@ fn paint(ui: &Ui, rect: Rect, ruler: &Ruler, state: &State) {
     painter.hline(rect.x_range(), head.bottom(), Stroke::new(1.0, theme.line));
     ticks(&painter, rect, head, ruler, state, theme);
     lanes(ui, &painter, rect, head, ruler, state, theme);
-    pending(&painter, head, ruler, state, theme);
     playhead(&painter, rect, head, ruler, state, theme);
+    pending(&painter, head, ruler, state, theme);
     painter.vline(rect.left() + GUTTER - 10.0, rect.y_range(), Stroke::new(1.0, theme.line));
     let unit = Rect::from_min_max(
         pos2(rect.left() + 12.0, head.top()),

@@ -78,5 +78,6 @@ fn news<K: Kind>(
         pairs.into_iter().all(|(shown, value)| (shown - sign * value).abs() <= 1e-5 * (1.0 + shown.abs()))
     };
     let turn = K::IDENTITY == Rotation::IDENTITY;
-    (!near(1.0) && !(turn && near(-1.0))).then_some(value)
+    let same = near(1.0) || (turn && near(-1.0));
+    (!same).then_some(value)
 }
