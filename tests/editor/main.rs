@@ -45,6 +45,8 @@ mod manager;
 mod mounted;
 mod no_allocation;
 mod panels;
+mod paste;
+mod pending;
 mod picking;
 mod picking_many;
 mod picking_skin;

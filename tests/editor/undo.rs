@@ -32,7 +32,13 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
         scale: (random.below(3) == 0).then(|| three(random)),
     }];
     let name = format!("take {}", random.below(100));
-    match random.below(22) {
+    match random.below(26) {
+        22 | 23 => Edit::Pend { take, time, poses },
+        24 => Edit::KeyPending { take, time: (random.below(2) == 0).then_some(time), bones },
+        25 if random.below(2) == 0 => Edit::DropPending { take, time: None, bones },
+        25 => {
+            Edit::Paste { take, time, poses, mirrored: random.below(2) == 0, pending: random.below(2) == 0 }
+        }
         0..=2 => Edit::Set { take, time, poses },
         3 => Edit::Offset { take, time, poses },
         4 => Edit::Reset {
@@ -100,6 +106,7 @@ fn same_slot(a: &Slot, b: &Slot) -> bool {
         && same_take(&a.original, &b.original)
         && same_take(&a.result, &b.result)
         && changes(a) == changes(b)
+        && a.pending() == b.pending()
 }
 
 pub(crate) fn same_take(a: &Take, b: &Take) -> bool {

@@ -12,7 +12,7 @@ use crate::graphics::{GraphicsHandle, GraphicsReply, Look};
 use crate::panels::state::Device;
 use crate::panels::status::Level;
 use crate::panels::theme::{Theme, linear};
-use crate::panels::{Effect, State};
+use crate::panels::{Effect, Request, State};
 use crate::playback::Playback;
 use dragonfly_runtime::{Address, Context, Receiver, Thread};
 use std::cell::{Cell, RefCell};
@@ -103,6 +103,12 @@ impl EditorRuntime {
                 if let Some(document) = &running.document {
                     document.change(change);
                 }
+            }
+            Effect::Copy(text) => interface.copy(text),
+            Effect::PastePose { mirrored } => {
+                let text = interface.clipboard();
+                let effect = interface.state.execute(Request::PastePose { text, mirrored });
+                interface.effects.extend(effect);
             }
             Effect::Pick(position) => {
                 running.tickets += 1;

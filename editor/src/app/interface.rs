@@ -130,6 +130,16 @@ impl Interface {
         self.window.set_fullscreen(full);
     }
 
+    /// Puts a text into the clipboard.
+    pub fn copy(&mut self, text: String) {
+        self.egui.set_clipboard_text(text);
+    }
+
+    /// The text in the clipboard; empty where there is none.
+    pub fn clipboard(&mut self) -> String {
+        self.egui.clipboard_text().unwrap_or_default()
+    }
+
     /// Shows or hides a panel.
     pub fn toggle_panel(&mut self, id: &str) {
         self.desk.toggle_panel(id);

@@ -71,6 +71,12 @@ impl Command for Arguments {
             Some(output) if !self.dry_run => save(&editable, &plan, output)?,
             _ => Vec::new(),
         };
+        let pending = adapter.pending_poses();
+        if pending > 0 {
+            tell(format_args!(
+                "{pending} pending poses are in no key, and not in the file; \"key_pending\" keys them"
+            ));
+        }
         self.report(&editable.title, edits.len(), &plan, written)
     }
 }

@@ -1,6 +1,6 @@
 //! What the document publishes: immutable, shared, never locked.
 
-use super::adapter::{ModelAdapter, Slot};
+use super::adapter::{ModelAdapter, PendingAt, Slot};
 use super::history::Edited;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, ModelData, Take};
@@ -82,6 +82,11 @@ impl View {
     ) -> Self {
         let takes = adapter.results().cloned().collect();
         Self { generation, loaded, takes, slots: adapter.slots().into(), history }
+    }
+
+    /// The poses that are pending at a time of a take and seen there instead of what its keys say.
+    pub fn pending(&self, take: Option<usize>, time: f32) -> Option<&PendingAt> {
+        self.slots.get(take?)?.pending_at(time).map(|at| &**at)
     }
 
     /// The skeleton and the takes as they are now.

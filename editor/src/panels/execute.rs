@@ -6,6 +6,7 @@ use super::settings::{SCALES, SPEEDS, ThemeChoice};
 use super::state::{Effect, Overlay, Request, State};
 use super::status::Level;
 use crate::camera::Side;
+use crate::document::edit::{Property, ResetTo};
 use crate::document::{Change, Source};
 use crate::graphics::{BoneLook, Shading};
 use crate::playback::Repeat;
@@ -18,6 +19,7 @@ impl State {
             Request::Select(bone) => self.select(bone),
             Request::SelectBones(bones, choice) => self.selection.choose(&bones, choice),
             Request::Change(change) => return Some(Effect::Change(change)),
+            Request::PastePose { text, mirrored } => return self.paste_pose(&text, mirrored),
             Request::Hover(bone) => self.hovered = Some(bone),
             Request::ShowTake(take) => self.show_take(take),
             Request::Seek(time) => self.seek(time),
@@ -62,6 +64,20 @@ impl State {
 
             Id::Undo => return Some(Effect::Change(Change::Undo)),
             Id::Redo => return Some(Effect::Change(Change::Redo)),
+
+            Id::AutoKey => self.toggle_auto_key(),
+            Id::Key => return self.key_here(),
+            Id::KeyAllPending => return self.key_pending(),
+            Id::DropPending => return self.drop_pending(),
+            Id::CopyPose => return self.copy_pose(),
+            Id::PastePose => return Some(Effect::PastePose { mirrored: false }),
+            Id::PasteMirrored => return Some(Effect::PastePose { mirrored: true }),
+            Id::ResetPose => return self.reset_pose(&Property::ALL, ResetTo::Original),
+            Id::RestTranslation => return self.reset_pose(&[Property::Translation], ResetTo::Rest),
+            Id::RestRotation => return self.reset_pose(&[Property::Rotation], ResetTo::Rest),
+            Id::RestScale => return self.reset_pose(&[Property::Scale], ResetTo::Rest),
+            Id::ResetToRest => return self.reset_pose(&Property::ALL, ResetTo::Rest),
+            Id::MirrorPairs => self.toggle(Overlay::MirrorPairs),
 
             Id::PlayPause => self.play(1.0),
             Id::PlayBackwards => self.play(-1.0),

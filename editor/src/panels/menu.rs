@@ -20,6 +20,7 @@ pub fn show(
         ui.add_space(GRID);
         ui.menu_button("File", |ui| file(ui, state, requests));
         ui.menu_button("Edit", |ui| list(ui, state, &[Category::Edit, Category::Selection], requests));
+        ui.menu_button("Pose", |ui| pose(ui, state, requests));
         ui.menu_button("Play", |ui| list(ui, state, &[Category::Playback], requests));
         ui.menu_button("View", |ui| view(ui, state, panels, requests));
         ui.menu_button("Help", |ui| list(ui, state, &[Category::Help], requests));
@@ -53,6 +54,16 @@ pub(super) fn item(ui: &mut Ui, state: &State, id: Id, on: bool, requests: &mut 
 fn list(ui: &mut Ui, state: &State, categories: &[Category], requests: &mut Vec<Request>) {
     for command in categories.iter().flat_map(|category| commands::of(*category)) {
         item(ui, state, command.id, false, requests);
+    }
+}
+
+fn pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    for command in commands::of(Category::Pose) {
+        let on = command.id == Id::AutoKey && state.settings.auto_key;
+        item(ui, state, command.id, on, requests);
+        if matches!(command.id, Id::AutoKey | Id::DropPending | Id::PasteMirrored | Id::ResetToRest) {
+            ui.separator();
+        }
     }
 }
 

@@ -42,6 +42,7 @@ impl Overlays {
             Overlay::Palette => self.palette(ui, fresh, state, requests),
             Overlay::Shortcuts => self.shortcuts.show(ui, state, requests),
             Overlay::About => about(ui, state, requests),
+            Overlay::MirrorPairs => super::mirror_pairs::show(ui, state, requests),
             Overlay::OpenPath => self.open_path(ui, fresh, requests),
         });
         if response.should_close() {

@@ -77,6 +77,8 @@ pub struct Settings {
     pub frame_rate: u32,
     /// Which keys give which command.
     pub keys: KeySettings,
+    /// Does a changed pose become a key at once?
+    pub auto_key: bool,
     /// Newest first.
     pub recent: Vec<PathBuf>,
 }
@@ -91,6 +93,7 @@ impl Default for Settings {
             speed: 1.0,
             frame_rate: 30,
             keys: KeySettings::default(),
+            auto_key: true,
             recent: Vec::new(),
         }
     }

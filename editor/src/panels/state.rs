@@ -12,6 +12,7 @@ use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{BoneIndex, Take};
 use glam::Vec3;
 use std::cell::Cell;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::commands::{Id, KeySettings};
@@ -54,6 +55,8 @@ pub enum Overlay {
     About,
     /// A field for a path.
     OpenPath,
+    /// Which bone is the other side of which.
+    MirrorPairs,
 }
 
 /// What a panel asks for.
@@ -67,6 +70,13 @@ pub enum Request {
     SelectBones(Vec<BoneIndex>, Choice),
     /// Edits, undoes, does again.
     Change(Change),
+    /// Puts on the poses in a text from the clipboard.
+    PastePose {
+        /// As it was there.
+        text: String,
+        /// On the other side?
+        mirrored: bool,
+    },
     /// The pointer is over this bone's row.
     Hover(BoneIndex),
     /// Shows a take, or the rest pose.
@@ -110,6 +120,13 @@ pub enum Effect {
     CancelLoading,
     /// Tells the document.
     Change(Change),
+    /// Puts a text into the clipboard.
+    Copy(String),
+    /// Asks for [`Request::PastePose`] with what is in the clipboard.
+    PastePose {
+        /// On the other side?
+        mirrored: bool,
+    },
     /// Asks the graphics thread which bone lies there, in points.
     Pick(egui::Pos2),
     /// Uses the whole screen, or a window again.
@@ -127,29 +144,48 @@ pub enum Effect {
 /// Poses at the time shown, computed when somebody reads them.
 #[derive(Debug, Default)]
 pub struct Posed {
-    animation: Option<(u64, Animation)>,
-    at: Option<(Option<usize>, f32)>,
+    animation: Option<(Arc<LoadedModel>, u64, Animation)>,
+    at: Option<(Option<usize>, f32, bool)>,
+    /// Does time run? Then the keys are seen, and not what is pending.
+    running: bool,
 }
 
 impl Posed {
-    /// The poses of `view` in `take` at `time`.
+    /// The poses of `view` in `take` at `time`, with what is pending there. Of the model that was posed last only the takes
+    /// are exchanged.
     pub fn update(&mut self, view: &View, take: Option<usize>, time: f32) -> &Animation {
-        if self.animation.as_ref().is_none_or(|(generation, _)| *generation != view.generation) {
+        let is_same = |(loaded, ..): &(Arc<LoadedModel>, u64, Animation)| Arc::ptr_eq(loaded, &view.loaded);
+        if !self.animation.as_ref().is_some_and(is_same) {
             self.animation = None;
             self.at = None;
         }
-        let (_, animation) =
-            self.animation.get_or_insert_with(|| (view.generation, Animation::new(view.animation())));
-        if self.at != Some((take, time)) {
+        let (_, generation, animation) = self.animation.get_or_insert_with(|| {
+            (Arc::clone(&view.loaded), view.generation, Animation::new(view.animation()))
+        });
+        if *generation != view.generation {
+            *generation = view.generation;
+            self.at = None;
+            if animation.data().takes.len() == view.takes.len() {
+                for (index, take) in view.takes.iter().enumerate() {
+                    animation.replace_take(index, Arc::clone(take));
+                }
+            } else {
+                *animation = Animation::new(view.animation());
+            }
+        }
+        if self.at != Some((take, time, self.running)) {
             animation.to_root_bone_poses(take, time);
-            self.at = Some((take, time));
+            if let Some(pending) = view.pending(take, time).filter(|_| !self.running) {
+                animation.to_root_bone_poses_with(|poses| pending.put_on(poses));
+            }
+            self.at = Some((take, time, self.running));
         }
         animation
     }
 
     /// The poses computed last, if there is a model.
     pub fn animation(&self) -> Option<&Animation> {
-        self.animation.as_ref().map(|(_, animation)| animation)
+        self.animation.as_ref().map(|(_, _, animation)| animation)
     }
 }
 
@@ -247,6 +283,7 @@ impl State {
             self.playback.playing = false;
             self.playback = self.playback.seek(time, now);
         }
+        self.posed.running = self.playback.moves(now);
         self.digest.update(self.view.as_ref(), self.playback.take, self.selection.active());
         if let Some(view) = &self.view
             && self.selection.active().is_some()

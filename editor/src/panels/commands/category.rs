@@ -6,6 +6,7 @@
 pub enum Category {
     File,
     Edit,
+    Pose,
     Playback,
     Selection,
     Camera,
@@ -19,6 +20,7 @@ impl Category {
     pub const ALL: &[Self] = &[
         Self::File,
         Self::Edit,
+        Self::Pose,
         Self::Playback,
         Self::Selection,
         Self::Camera,
@@ -32,6 +34,7 @@ impl Category {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
+            Self::Pose => "Pose",
             Self::Playback => "Playback",
             Self::Selection => "Selection",
             Self::Camera => "Camera",

@@ -98,13 +98,7 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     let mut found = Vec::new();
     context.input_mut(|input| {
         input.events.retain(|event| {
-            let (key, repeat, modifiers) = match event {
-                egui::Event::Key { key, pressed: true, repeat, modifiers, .. } => (*key, *repeat, *modifiers),
-                // The window's side turns these keys into their meaning for text fields.
-                egui::Event::Copy if !typing => (Key::C, false, Modifiers::COMMAND),
-                egui::Event::Cut if !typing => (Key::X, false, Modifiers::COMMAND),
-                _ => return true,
-            };
+            let Some((key, repeat, modifiers)) = key_of(event) else { return true };
             // Keys that move or type inside a field, or press the button that has the focus, are not ours.
             let plain = !modifiers.command && !modifiers.alt;
             if (typing && belongs_to_text(key, modifiers))
@@ -152,6 +146,18 @@ fn belongs_to_text(key: Key, modifiers: Modifiers) -> bool {
             | ArrowDown
     );
     !function && (!modifiers.command || edits)
+}
+
+/// The key of an event. Copy, cut and paste come from the window system as such, not as keys; the text that is pasted is
+/// asked for by who wants it.
+fn key_of(event: &egui::Event) -> Option<(Key, bool, Modifiers)> {
+    match event {
+        egui::Event::Key { key, pressed: true, repeat, modifiers, .. } => Some((*key, *repeat, *modifiers)),
+        egui::Event::Copy => Some((Key::C, false, Modifiers::COMMAND)),
+        egui::Event::Cut => Some((Key::X, false, Modifiers::COMMAND)),
+        egui::Event::Paste(_) => Some((Key::V, false, Modifiers::COMMAND)),
+        _ => None,
+    }
 }
 
 fn repeats(id: Id) -> bool {
