@@ -16,6 +16,10 @@ pub struct Options {
     pub never_pause: bool,
     /// Where settings are kept; the system's usual place when it is not given.
     pub settings_folder: Option<PathBuf>,
+    /// Where unsaved work is recorded; beside settings that have a folder of their own, else in the system's usual place.
+    pub autosave_folder: Option<PathBuf>,
+    /// Lets the document fail at this change, to show that nothing is lost with it.
+    pub fail_at: Option<u32>,
 }
 
 impl Default for Options {
@@ -27,6 +31,8 @@ impl Default for Options {
             lose_device_every: None,
             never_pause: false,
             settings_folder: None,
+            autosave_folder: None,
+            fail_at: None,
         }
     }
 }

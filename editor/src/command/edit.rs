@@ -98,10 +98,7 @@ impl Arguments {
             return print_json(&Report { file: title.to_owned(), edits, changes, written });
         }
         if self.dry_run {
-            return print(|out| match &plan.changes {
-                Some(changes) => write!(out, "{changes}"),
-                None => writeln!(out, "the whole file is written anew: {} bytes", plan.files[0].bytes.len()),
-            });
+            return print(|out| write!(out, "{plan}"));
         }
         for file in written {
             tell(format_args!("wrote {} ({} bytes)", file.path, file.bytes));

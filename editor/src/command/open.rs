@@ -25,6 +25,12 @@ pub(super) struct Arguments {
     /// Where settings are kept, instead of the usual place
     #[arg(long, value_name = "FOLDER", hide = true)]
     settings: Option<PathBuf>,
+    /// Where unsaved work is recorded, instead of the usual place
+    #[arg(long, value_name = "FOLDER", hide = true)]
+    autosave: Option<PathBuf>,
+    /// Lets the document fail at this change
+    #[arg(long, value_name = "CHANGES", hide = true)]
+    fail_at: Option<u32>,
 }
 
 impl Command for Arguments {
@@ -61,6 +67,8 @@ impl Arguments {
             lose_device_every: self.lose_device,
             never_pause: self.never_pause,
             settings_folder: self.settings.clone(),
+            autosave_folder: self.autosave.clone(),
+            fail_at: self.fail_at,
         }
     }
 

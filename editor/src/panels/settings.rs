@@ -74,6 +74,8 @@ pub struct Settings {
     pub speed: f32,
     /// Frames a second, for display and stepping.
     pub frame_rate: u32,
+    /// Is it shown before each save what it will change?
+    pub show_changes: bool,
     /// Newest first.
     pub recent: Vec<PathBuf>,
 }
@@ -87,6 +89,7 @@ impl Default for Settings {
             repeat: Repeat::default(),
             speed: 1.0,
             frame_rate: 30,
+            show_changes: false,
             recent: Vec::new(),
         }
     }

@@ -20,6 +20,8 @@ pub enum When {
     Undo,
     /// Something was undone.
     Redo,
+    /// Something is not saved.
+    Unsaved,
     /// A model is on its way.
     Loading,
     /// The picture stands still because the device failed.
@@ -38,6 +40,7 @@ impl When {
             Self::BoneInTake => state.selected().is_some() && state.take().is_some(),
             Self::Undo => history.is_some_and(|history| history.done > 0),
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
+            Self::Unsaved => history.is_some_and(|history| !history.saved),
             Self::Loading => state.loading.is_some(),
             Self::Paused => matches!(state.device, Device::Paused { .. }),
         }
@@ -53,6 +56,7 @@ impl When {
             Self::BoneInTake => "It takes a selected bone and a take",
             Self::Undo => "Nothing was done yet",
             Self::Redo => "Nothing was undone",
+            Self::Unsaved => "Everything is saved",
             Self::Loading => "No model is being opened",
             Self::Paused => "The viewport is not paused",
         }
