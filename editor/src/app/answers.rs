@@ -3,7 +3,8 @@
 use super::file_dialog::Answer;
 use super::interface::Interface;
 use super::saving;
-use crate::document::{DocumentReply, Source};
+use crate::document::{Change, DocumentReply, Source};
+use crate::panels::Effect;
 use crate::panels::state::Loading;
 use crate::panels::status::{Level, Status};
 use dragonfly_runtime::{Context, Receiver};
@@ -59,6 +60,9 @@ impl Receiver for Replies {
                 }
                 state.status.say(Level::Info, format!("Opened {}", loaded.title));
                 say_passed_over(&mut state.status, passed_over);
+                let edits = std::mem::take(&mut interface.edits).into_iter();
+                let changes = edits.map(|edit| Effect::Change(Change::Edit(edit, None)));
+                interface.effects.extend(changes);
             }
             // What remains was heard above.
             _ => {}

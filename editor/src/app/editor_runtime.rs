@@ -144,7 +144,11 @@ impl EditorRuntime {
 
 impl BaseRuntime for EditorRuntime {
     fn initialize(&mut self, parts: Parts, main: &mut Context) {
-        parts.interface.borrow_mut().state.passed_over = self.options.passed_over;
+        {
+            let mut interface = parts.interface.borrow_mut();
+            interface.state.passed_over = self.options.passed_over;
+            interface.edits = std::mem::take(&mut self.options.edits);
+        }
         let replies = main.register_receiver(Replies { interface: Rc::clone(&parts.interface) });
         let answers = main.register_receiver(Answers(Rc::clone(&parts.interface)));
         let setup = self.setup();

@@ -3,6 +3,7 @@
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
 use super::store::{self, Store};
+use crate::document::edit::Edit;
 use crate::graphics::{GraphicsHandle, PanelsFrame};
 use crate::panels::commands;
 use crate::panels::saving::Deed;
@@ -31,6 +32,8 @@ pub struct Interface {
     pub(super) asking: bool,
     /// The window's title.
     title: String,
+    /// Done once the first model is there.
+    pub(super) edits: Vec<Edit>,
     graphics: Option<GraphicsHandle>,
     store: Store,
     saved: Settings,
@@ -61,6 +64,7 @@ impl Interface {
             effects: Vec::new(),
             asking: false,
             title: String::new(),
+            edits: Vec::new(),
             graphics: None,
             store,
             saved,

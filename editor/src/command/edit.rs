@@ -144,7 +144,7 @@ fn list(json: bool) -> Result<(), Failure> {
     print_json(&List { version: VERSION, edits })
 }
 
-fn read_edits(path: &Path) -> Result<Vec<(usize, Edit)>, Failure> {
+pub(super) fn read_edits(path: &Path) -> Result<Vec<(usize, Edit)>, Failure> {
     let name = if path == Path::new("-") { "edits".to_owned() } else { path.display().to_string() };
     let bytes = if path == Path::new("-") {
         let mut bytes = Vec::new();

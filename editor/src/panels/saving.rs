@@ -34,6 +34,20 @@ pub enum Question {
     },
 }
 
+impl Question {
+    /// For the log.
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Unsaved(_) => "asked what becomes of unsaved work",
+            Self::Changed(..) => "asked what becomes of a changed file",
+            Self::Exists(..) => "asked whether a file is to be replaced",
+            Self::Plan(..) => "showed what will be saved",
+            Self::Recover { .. } => "offered unsaved work",
+            Self::Where { .. } => "asked where to save",
+        }
+    }
+}
+
 /// What only the document, or who opens dialogs, can do.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Deed {
@@ -74,6 +88,7 @@ impl State {
 
     /// Asks, behind what is asked already; the same thing is not asked twice.
     pub fn ask(&mut self, question: Question) {
+        tracing::info!(target: "dragonfly::question", "{}", question.name());
         let same = std::mem::discriminant(&question);
         // The newer one knows better.
         self.questions.retain(|other| std::mem::discriminant(other) != same);
