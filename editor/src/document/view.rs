@@ -49,6 +49,15 @@ pub struct HistoryView {
     pub saved: bool,
 }
 
+/// Which file the document is saved as.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FileView {
+    /// Its name without folder; a stand-in where there is no file yet.
+    pub title: String,
+    /// Where it is; `None` for what was never saved: the first save asks where.
+    pub path: Option<PathBuf>,
+}
+
 /// The newest state of the document. Panels read it; nobody changes it.
 #[derive(Clone, Debug)]
 pub struct View {
@@ -63,6 +72,8 @@ pub struct View {
     pub slots: Arc<[Arc<Slot>]>,
     /// What was done.
     pub history: Arc<HistoryView>,
+    /// Where it is saved.
+    pub file: Arc<FileView>,
 }
 
 impl View {
@@ -70,7 +81,8 @@ impl View {
     pub fn opened(generation: u64, loaded: Arc<LoadedModel>) -> Self {
         let edited = Edited::new(ModelAdapter::new(&loaded.model.animation));
         let history = Arc::new(HistoryView { saved: true, ..HistoryView::default() });
-        Self::of(generation, loaded, edited.adapter(), history)
+        let file = Arc::new(FileView { title: loaded.title.clone(), path: loaded.path.clone() });
+        Self::of(generation, loaded, edited.adapter(), history, file)
     }
 
     /// `loaded` with its takes as they are in `adapter`.
@@ -79,9 +91,10 @@ impl View {
         loaded: Arc<LoadedModel>,
         adapter: &ModelAdapter,
         history: Arc<HistoryView>,
+        file: Arc<FileView>,
     ) -> Self {
         let takes = adapter.results().cloned().collect();
-        Self { generation, loaded, takes, slots: adapter.slots().into(), history }
+        Self { generation, loaded, takes, slots: adapter.slots().into(), history, file }
     }
 
     /// The poses that are pending at a time of a take and seen there instead of what its keys say.

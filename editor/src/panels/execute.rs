@@ -2,6 +2,7 @@
 
 use super::commands::{self, Id};
 use super::ruler;
+use super::saving::Deed;
 use super::settings::{SCALES, SPEEDS, ThemeChoice};
 use super::state::{Effect, Overlay, Request, State};
 use super::status::Level;
@@ -35,6 +36,8 @@ impl State {
             Request::Open(source) => return Some(Effect::Open(source)),
             Request::Overlay(overlay) => self.overlay = overlay,
             Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
+            Request::Deed(deed) => return self.answered(deed),
+            Request::Dismiss => return self.dismiss(),
         }
         None
     }
@@ -60,6 +63,13 @@ impl State {
             Id::OpenPath => self.overlay = Some(Overlay::OpenPath),
             Id::OpenBuiltIn => return Some(Effect::Open(Source::BuiltIn)),
             Id::CancelLoading => return Some(Effect::CancelLoading),
+            Id::Save => return self.save_command(),
+            Id::SaveAs => return Some(Effect::Deed(Deed::Where { copy: false, then: None })),
+            Id::SaveCopy => return Some(Effect::Deed(Deed::Where { copy: true, then: None })),
+            Id::Revert => return Some(Effect::Deed(Deed::Revert)),
+            Id::WhatWillBeSaved => return Some(Effect::Deed(Deed::Plan(None))),
+            Id::ToggleShowChanges => self.settings.show_changes = !self.settings.show_changes,
+            Id::UnsavedWork => return Some(Effect::Deed(Deed::Search)),
             Id::Quit => return Some(Effect::Quit),
 
             Id::Undo => return Some(Effect::Change(Change::Undo)),

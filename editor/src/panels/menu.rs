@@ -88,6 +88,15 @@ fn file(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         item(ui, state, Id::CancelLoading, false, requests);
     }
     ui.separator();
+    item(ui, state, Id::Save, false, requests);
+    item(ui, state, Id::SaveAs, false, requests);
+    item(ui, state, Id::SaveCopy, false, requests);
+    item(ui, state, Id::Revert, false, requests);
+    item(ui, state, Id::WhatWillBeSaved, false, requests);
+    item(ui, state, Id::ToggleShowChanges, state.settings.show_changes, requests);
+    ui.separator();
+    item(ui, state, Id::UnsavedWork, false, requests);
+    ui.separator();
     item(ui, state, Id::Quit, false, requests);
 }
 

@@ -3,6 +3,7 @@
 //! A new panel is a file here and a line in [`all`].
 
 pub mod commands;
+mod dialogs;
 pub mod digest;
 mod execute;
 pub mod hierarchy;
@@ -15,6 +16,7 @@ mod pose_commands;
 mod posing;
 pub mod properties;
 pub mod ruler;
+pub mod saving;
 pub mod settings;
 mod shortcuts;
 pub mod state;
@@ -83,6 +85,7 @@ pub struct Desk {
     panels: Vec<Box<dyn Panel>>,
     layout: Layout,
     overlays: overlays::Overlays,
+    dialogs: dialogs::Dialogs,
 }
 
 impl Desk {
@@ -90,7 +93,7 @@ impl Desk {
     pub fn new(layout: &str) -> Self {
         let panels = all();
         let layout = Layout::parse(layout, &panels);
-        Self { panels, layout, overlays: overlays::Overlays::default() }
+        Self { panels, layout, overlays: overlays::Overlays::default(), dialogs: dialogs::Dialogs::default() }
     }
 
     /// The places, as the text of a layout file, when they changed since the last call.
@@ -132,6 +135,7 @@ impl Desk {
         });
         drop_hint(ui);
         self.overlays.show(ui, state, requests);
+        self.dialogs.show(ui, state, requests);
     }
 }
 

@@ -79,6 +79,8 @@ pub struct Settings {
     pub keys: KeySettings,
     /// Does a changed pose become a key at once?
     pub auto_key: bool,
+    /// Is it shown before each save what it will change?
+    pub show_changes: bool,
     /// Newest first.
     pub recent: Vec<PathBuf>,
 }
@@ -94,6 +96,7 @@ impl Default for Settings {
             frame_rate: 30,
             keys: KeySettings::default(),
             auto_key: true,
+            show_changes: false,
             recent: Vec::new(),
         }
     }

@@ -1,6 +1,7 @@
 //! What is shown and chosen right now. Panels read it and ask for changes; only [`super::execute`] makes them.
 
 use super::digest::Digest;
+use super::saving::{Deed, Question};
 use super::settings::Settings;
 use super::status::Status;
 use crate::camera::Camera;
@@ -12,6 +13,7 @@ use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{BoneIndex, Take};
 use glam::Vec3;
 use std::cell::Cell;
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -107,6 +109,10 @@ pub enum Request {
     Overlay(Option<Overlay>),
     /// Shows or hides the panel of this name.
     TogglePanel(&'static str),
+    /// Answers a question.
+    Deed(Deed),
+    /// Leaves a question without an answer.
+    Dismiss,
 }
 
 /// What only the surroundings of the panels can do.
@@ -139,6 +145,10 @@ pub enum Effect {
     RetryDevice,
     /// Ends the program.
     Quit,
+    /// Saves, leaves, brings back.
+    Deed(Deed),
+    /// The program does not end, since something is not saved.
+    Stays,
 }
 
 /// Poses at the time shown, computed when somebody reads them.
@@ -227,6 +237,10 @@ pub struct State {
     pub frame_time: Option<f32>,
     /// What lies over the panels.
     pub overlay: Option<Overlay>,
+    /// What the person is asked, the first one first.
+    pub questions: VecDeque<Question>,
+    /// Was the document lost by a mistake in the program, and its work not offered yet?
+    pub lost: bool,
     /// Is the cursor to be put into the search field?
     pub find: bool,
     /// Where the picture is, in points.
@@ -262,6 +276,8 @@ impl State {
             device: Device::default(),
             frame_time: None,
             overlay: None,
+            questions: VecDeque::new(),
+            lost: false,
             find: false,
             viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
             gestures: Cell::new(0),

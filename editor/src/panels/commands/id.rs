@@ -8,6 +8,13 @@ pub enum Id {
     OpenPath,
     OpenBuiltIn,
     CancelLoading,
+    Save,
+    SaveAs,
+    SaveCopy,
+    Revert,
+    WhatWillBeSaved,
+    ToggleShowChanges,
+    UnsavedWork,
     Quit,
 
     Undo,

@@ -22,6 +22,8 @@ pub enum When {
     Undo,
     /// Something was undone.
     Redo,
+    /// Something is not saved.
+    Unsaved,
     /// A model is on its way.
     Loading,
     /// The picture stands still because the device failed.
@@ -41,6 +43,7 @@ impl When {
             Self::Pending => state.pending_times().next().is_some(),
             Self::Undo => history.is_some_and(|history| history.done > 0),
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
+            Self::Unsaved => history.is_some_and(|history| !history.saved),
             Self::Loading => state.loading.is_some(),
             Self::Paused => matches!(state.device, Device::Paused { .. }),
         }
@@ -57,6 +60,7 @@ impl When {
             Self::Pending => "No pose is pending in this take",
             Self::Undo => "Nothing was done yet",
             Self::Redo => "Nothing was undone",
+            Self::Unsaved => "Everything is saved",
             Self::Loading => "No model is being opened",
             Self::Paused => "The viewport is not paused",
         }
