@@ -51,6 +51,7 @@ mod picture;
 mod playback;
 mod portal;
 mod program;
+mod properties;
 mod ruler;
 mod screen;
 mod settings;
@@ -71,6 +72,7 @@ mod window_drop;
 mod window_full_screen;
 mod window_scale;
 mod wire;
+mod workbench;
 
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

@@ -32,6 +32,7 @@ impl State {
             Request::Open(source) => return Some(Effect::Open(source)),
             Request::Overlay(overlay) => self.overlay = overlay,
             Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
+            Request::PropertiesLook(look) => self.settings.properties = look,
         }
         None
     }

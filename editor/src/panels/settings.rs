@@ -1,5 +1,6 @@
 //! What the program remembers between runs.
 
+use super::properties::PropertiesLook;
 use crate::graphics::{BoneLook, Shading};
 use crate::playback::Repeat;
 use serde::{Deserialize, Serialize};
@@ -76,6 +77,8 @@ pub struct Settings {
     pub frame_rate: u32,
     /// Newest first.
     pub recent: Vec<PathBuf>,
+    /// How the numbers of a bone are shown.
+    pub properties: PropertiesLook,
 }
 
 impl Default for Settings {
@@ -88,6 +91,7 @@ impl Default for Settings {
             speed: 1.0,
             frame_rate: 30,
             recent: Vec::new(),
+            properties: PropertiesLook::default(),
         }
     }
 }

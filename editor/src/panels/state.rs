@@ -95,6 +95,8 @@ pub enum Request {
     Overlay(Option<Overlay>),
     /// Shows or hides the panel of this name.
     TogglePanel(&'static str),
+    /// How the numbers of a bone are shown.
+    PropertiesLook(super::properties::PropertiesLook),
 }
 
 /// What only the surroundings of the panels can do.
