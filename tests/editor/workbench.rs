@@ -145,7 +145,7 @@ pub(crate) fn press(window: &mut Window, at: egui::Pos2) {
 pub(crate) fn move_to(window: &mut Window, at: egui::Pos2, modifiers: egui::Modifiers) {
     window.event(egui::Event::ModifiersChanged(modifiers));
     window.event(egui::Event::PointerMoved(at));
-    window.run_steps(1);
+    window.run_steps(2);
 }
 
 pub(crate) fn release(window: &mut Window, at: egui::Pos2) {

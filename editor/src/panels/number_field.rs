@@ -80,6 +80,8 @@ struct Drag {
     start: f64,
     /// What the hand has added, before it is snapped.
     raw: f64,
+    /// What was told last.
+    told: f64,
     cancelled: bool,
 }
 
@@ -251,9 +253,12 @@ impl NumberField<'_> {
     fn drag(&self, ui: &Ui, response: &Response) -> Option<Heard> {
         let id = self.id;
         if response.drag_started_by(PointerButton::Primary) {
-            let drag = Drag { start: self.value.unwrap_or(0.0), raw: 0.0, cancelled: false };
+            let start = self.value.unwrap_or(0.0);
+            let mut drag = Drag { start, raw: 0.0, told: 0.0, cancelled: false };
+            self.pull(ui, response, &mut drag);
             ui.data_mut(|data| data.insert_temp(id, drag));
             ui.data_mut(|data| data.remove::<Refused>(id));
+            ui.ctx().request_repaint();
             return Some(Heard::Touched);
         }
         let mut drag = ui.data(|data| data.get_temp::<Drag>(id))?;
@@ -265,24 +270,29 @@ impl NumberField<'_> {
         if drag.cancelled {
             return None;
         }
-        let (escape, modifiers) =
-            ui.input_mut(|input| (input.consume_key(Modifiers::NONE, Key::Escape), input.modifiers));
+        drag.cancelled = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+        let by = self.pull(ui, response, &mut drag);
+        let news = by != drag.told;
+        drag.told = by;
+        ui.data_mut(|data| data.insert_temp(id, drag));
+        Some(match () {
+            () if drag.cancelled => Heard::Cancelled,
+            () if news => Heard::Dragged(by),
+            () => Heard::Nothing,
+        })
+    }
+
+    /// Moves the drag on by what the hand did in this frame; how far it is from its start.
+    fn pull(&self, ui: &Ui, response: &Response, drag: &mut Drag) -> f64 {
+        let modifiers = ui.input(|input| input.modifiers);
         let by = response.drag_delta();
         let fine = if modifiers.shift { 0.1 } else { 1.0 };
         drag.raw += f64::from(by.x - by.y) * self.speed * fine;
-        drag.cancelled = escape;
-        ui.data_mut(|data| data.insert_temp(id, drag));
-        if escape {
-            return Some(Heard::Cancelled);
-        }
-        if by == egui::Vec2::ZERO && !ui.input(|input| input.modifiers != modifiers) {
-            return Some(Heard::Nothing);
-        }
         let mut to = drag.start + drag.raw;
         if modifiers.command && self.snap > 0.0 {
             to = (to / self.snap).round() * self.snap;
         }
-        Some(Heard::Dragged(self.clamp(to) - drag.start))
+        self.clamp(to) - drag.start
     }
 
     /// What a screen reader asks for.

@@ -151,14 +151,15 @@ impl NumberSlider<'_> {
     /// Arrows, and what a screen reader asks for.
     fn keys(&self, ui: &Ui, response: &egui::Response) -> Option<Heard> {
         let value = self.value?;
-        if response.has_focus() {
+        let has_focus = response.has_focus();
+        if has_focus {
             let filter = egui::EventFilter { horizontal_arrows: true, ..Default::default() };
             ui.memory_mut(|memory| memory.set_focus_lock_filter(self.id, filter));
         }
         let (steps, wanted) = ui.input_mut(|input| {
             let mut steps = input.num_accesskit_action_requests(self.id, Action::Increment) as f64
                 - input.num_accesskit_action_requests(self.id, Action::Decrement) as f64;
-            if response.has_focus() {
+            if has_focus {
                 steps += input.count_and_consume_key(Modifiers::NONE, Key::ArrowRight) as f64
                     - input.count_and_consume_key(Modifiers::NONE, Key::ArrowLeft) as f64;
             }
