@@ -56,6 +56,7 @@ mod picture;
 mod playback;
 mod portal;
 mod program;
+mod properties;
 mod questions;
 mod ruler;
 mod save_and_open;
@@ -79,6 +80,7 @@ mod window_full_screen;
 mod window_save;
 mod window_scale;
 mod wire;
+mod workbench;
 
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

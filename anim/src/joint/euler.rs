@@ -41,7 +41,8 @@ impl EulerOrder {
         }
     }
 
-    fn of_glam(self) -> EulerRot {
+    /// The same order as `glam` calls it.
+    pub fn of_glam(self) -> EulerRot {
         match self {
             Self::Xyz => EulerRot::XYZ,
             Self::Xzy => EulerRot::XZY,

@@ -1,8 +1,10 @@
 //! Undo and redo of everything, as a list in which one can go to any place.
 
+use super::about::about;
 use super::adapter::{EditError, Inverse, ModelAdapter};
 use super::edit::Edit;
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// Tells one gesture (a drag, a slider held) from all others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
@@ -20,6 +22,8 @@ pub struct Step {
     pub edit: Edit,
     /// Which gesture made it.
     pub gesture: Option<Gesture>,
+    /// What it was done to, as people call it: bone, take. Known when it was done; names may change later.
+    pub about: Arc<str>,
     /// Leads back where the step is done, forth where it is undone.
     inverse: Inverse,
     /// Of the inverse, about; as it was made.
@@ -73,6 +77,11 @@ impl Edited {
         if goes_on && let Some(step) = self.steps.back() {
             adapter.revert(step.inverse.clone());
         }
+        let about = match self.steps.back().filter(|_| goes_on) {
+            // A gesture is about one thing, and while it lasts nothing is named anew.
+            Some(step) => Arc::clone(&step.about),
+            None => about(&adapter, &edit),
+        };
         let inverse = adapter.apply(&edit)?;
         self.adapter = adapter;
         self.forget_after(if goes_on { self.done - 1 } else { self.done });
@@ -81,7 +90,7 @@ impl Edited {
         }
         let bytes = inverse.bytes();
         self.bytes += bytes;
-        self.steps.push_back(Step { edit, gesture, inverse, bytes });
+        self.steps.push_back(Step { edit, gesture, about, inverse, bytes });
         self.done = self.steps.len();
         self.forget_oldest();
         Ok(())

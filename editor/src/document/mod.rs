@@ -1,5 +1,6 @@
 //! The document: what is open, and what everybody may read of it.
 
+mod about;
 pub mod adapter;
 mod base;
 mod cancel;

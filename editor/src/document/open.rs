@@ -209,12 +209,14 @@ impl Open {
     /// While a gesture lasts its step stays the same for who reads the list, and nothing is made.
     pub(super) fn look(&mut self) {
         let (steps, done) = self.edited.steps();
-        let saved = self.edited.is_saved();
-        let now = (steps.len(), done, saved, steps.back().map(|step| step.edit.label()));
+        let last = steps.back().map(|step| (step.edit.label(), &step.about));
+        let now = (steps.len(), done, self.edited.saved(), last);
         let shown = &self.history;
-        if now != (shown.steps.len(), shown.done, shown.saved, shown.steps.last().copied()) {
-            let steps = steps.iter().map(|step| step.edit.label()).collect();
-            self.history = Arc::new(HistoryView { steps, done, saved });
+        let last = shown.steps.last().copied().zip(shown.about.last());
+        if now != (shown.steps.len(), shown.done, shown.saved_at, last)
+            || self.edited.is_saved() != shown.saved
+        {
+            self.history = Arc::new(HistoryView::of(&self.edited));
         }
     }
 }

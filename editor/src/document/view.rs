@@ -43,10 +43,29 @@ pub struct LoadedModel {
 pub struct HistoryView {
     /// A few words for each step, the first one first.
     pub steps: Vec<&'static str>,
+    /// For each step, what it was done to: bone, take. Empty where that is not known.
+    pub about: Vec<Arc<str>>,
     /// How many of them are done; the others can be done again.
     pub done: usize,
     /// Is everything as it was opened or saved?
     pub saved: bool,
+    /// How many steps were done when it was opened or saved; `None` where no undo and no redo leads there.
+    pub saved_at: Option<usize>,
+}
+
+impl HistoryView {
+    /// The history of `edited`.
+    pub fn of(edited: &Edited) -> Self {
+        let (steps, done) = edited.steps();
+        let labels: Vec<_> = steps.iter().map(|step| step.edit.label()).collect();
+        let about = steps.iter().map(|step| Arc::clone(&step.about)).collect();
+        Self { steps: labels, about, done, saved: edited.is_saved(), saved_at: edited.saved() }
+    }
+
+    /// What undo would take back, and what redo would bring back.
+    pub fn labels(&self) -> [Option<&'static str>; 2] {
+        [self.done.checked_sub(1), Some(self.done)].map(|at| self.steps.get(at?).copied())
+    }
 }
 
 /// Which file the document is saved as.
@@ -80,7 +99,7 @@ impl View {
     /// `loaded`, unchanged.
     pub fn opened(generation: u64, loaded: Arc<LoadedModel>) -> Self {
         let edited = Edited::new(ModelAdapter::new(&loaded.model.animation));
-        let history = Arc::new(HistoryView { saved: true, ..HistoryView::default() });
+        let history = Arc::new(HistoryView { saved: true, saved_at: Some(0), ..HistoryView::default() });
         let file = Arc::new(FileView { title: loaded.title.clone(), path: loaded.path.clone() });
         Self::of(generation, loaded, edited.adapter(), history, file)
     }

@@ -38,6 +38,7 @@ impl State {
             Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
             Request::Deed(deed) => return self.answered(deed),
             Request::Dismiss => return self.dismiss(),
+            Request::PropertiesLook(look) => self.settings.properties = look,
         }
         None
     }

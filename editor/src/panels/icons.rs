@@ -41,6 +41,21 @@ pub enum Icon {
     Lines,
     AutoKey,
     Key,
+    KeyHere,
+    KeyElsewhere,
+    KeyNever,
+    Revert,
+    RestPose,
+    Sliders,
+    Add,
+    Duplicate,
+    Split,
+    Trash,
+    Rename,
+    Clock,
+    Dot,
+    Down,
+    Right,
 }
 
 impl Icon {
@@ -81,6 +96,21 @@ impl Icon {
         Self::Lines,
         Self::AutoKey,
         Self::Key,
+        Self::KeyHere,
+        Self::KeyElsewhere,
+        Self::KeyNever,
+        Self::Revert,
+        Self::RestPose,
+        Self::Sliders,
+        Self::Add,
+        Self::Duplicate,
+        Self::Split,
+        Self::Trash,
+        Self::Rename,
+        Self::Clock,
+        Self::Dot,
+        Self::Down,
+        Self::Right,
     ];
 
     /// Draws it into the middle of `rect`, 16 points large.
@@ -228,6 +258,61 @@ impl Icon {
                 pen.dot(8.0, 5.2, 0.8);
                 pen.line(&[(8.0, 7.4), (8.0, 11.0)]);
             }
+            Self::KeyHere => pen.diamond(8.0, 8.0, 5.0),
+            Self::KeyElsewhere => pen.outline(&[(8.0, 3.5), (12.5, 8.0), (8.0, 12.5), (3.5, 8.0)]),
+            Self::KeyNever => pen.dot(8.0, 8.0, 1.6),
+            Self::Revert => {
+                pen.line(&[(6.0, 2.5), (3.0, 5.5), (6.0, 8.5)]);
+                pen.line(&[
+                    (3.0, 5.5),
+                    (9.5, 5.5),
+                    (11.8, 6.3),
+                    (13.0, 8.5),
+                    (12.6, 11.0),
+                    (10.6, 12.7),
+                    (6.0, 13.0),
+                ]);
+            }
+            Self::RestPose => {
+                pen.ring(8.0, 3.6, 1.7);
+                pen.line(&[(2.5, 6.8), (13.5, 6.8)]);
+                pen.line(&[(8.0, 5.3), (8.0, 9.8)]);
+                pen.line(&[(6.0, 14.0), (6.0, 9.8), (10.0, 9.8), (10.0, 14.0)]);
+            }
+            Self::Sliders => {
+                pen.line(&[(2.5, 5.0), (13.5, 5.0)]);
+                pen.line(&[(2.5, 11.0), (13.5, 11.0)]);
+                pen.dot(10.0, 5.0, 2.2);
+                pen.dot(5.5, 11.0, 2.2);
+            }
+            Self::Add => {
+                pen.line(&[(8.0, 3.0), (8.0, 13.0)]);
+                pen.line(&[(3.0, 8.0), (13.0, 8.0)]);
+            }
+            Self::Duplicate => {
+                pen.outline(&[(5.5, 5.5), (13.5, 5.5), (13.5, 13.5), (5.5, 13.5)]);
+                pen.line(&[(10.5, 2.5), (2.5, 2.5), (2.5, 10.5)]);
+            }
+            Self::Split => {
+                pen.line(&[(8.0, 2.0), (8.0, 14.0)]);
+                pen.line(&[(5.5, 4.5), (2.0, 4.5), (2.0, 11.5), (5.5, 11.5)]);
+                pen.line(&[(10.5, 4.5), (14.0, 4.5), (14.0, 11.5), (10.5, 11.5)]);
+            }
+            Self::Trash => {
+                pen.line(&[(2.5, 4.5), (13.5, 4.5)]);
+                pen.line(&[(6.0, 4.5), (6.0, 2.5), (10.0, 2.5), (10.0, 4.5)]);
+                pen.line(&[(4.0, 4.5), (4.8, 13.5), (11.2, 13.5), (12.0, 4.5)]);
+            }
+            Self::Rename => {
+                pen.outline(&[(3.0, 13.0), (3.8, 10.0), (10.5, 3.2), (12.8, 5.5), (6.0, 12.2)]);
+            }
+            Self::Clock => {
+                pen.ring(8.0, 8.0, 5.5);
+                pen.line(&[(8.0, 4.8), (8.0, 8.0), (10.4, 9.6)]);
+            }
+            Self::Dot => pen.dot(8.0, 8.0, 2.6),
+            Self::Down => pen.solid(&[(4.5, 6.0), (11.5, 6.0), (8.0, 10.5)]),
+            Self::Right => pen.solid(&[(6.0, 4.5), (10.5, 8.0), (6.0, 11.5)]),
         }
     }
 }

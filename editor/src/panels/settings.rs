@@ -1,6 +1,7 @@
 //! What the program remembers between runs.
 
 use super::commands::KeySettings;
+use super::properties::PropertiesLook;
 use crate::graphics::{BoneLook, Shading};
 use crate::playback::Repeat;
 use serde::{Deserialize, Serialize};
@@ -83,6 +84,8 @@ pub struct Settings {
     pub show_changes: bool,
     /// Newest first.
     pub recent: Vec<PathBuf>,
+    /// How the numbers of a bone are shown.
+    pub properties: PropertiesLook,
 }
 
 impl Default for Settings {
@@ -98,6 +101,7 @@ impl Default for Settings {
             auto_key: true,
             show_changes: false,
             recent: Vec::new(),
+            properties: PropertiesLook::default(),
         }
     }
 }

@@ -113,6 +113,8 @@ pub enum Request {
     Deed(Deed),
     /// Leaves a question without an answer.
     Dismiss,
+    /// How the numbers of a bone are shown.
+    PropertiesLook(super::properties::PropertiesLook),
 }
 
 /// What only the surroundings of the panels can do.

@@ -90,8 +90,8 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     if Keymap::is_asking(context) {
         return Vec::new();
     }
-    // Escape closes what is open first.
-    let open = context.any_popup_open();
+    // Escape closes what is open first, and takes back what is dragged.
+    let open = context.any_popup_open() || context.dragged_id().is_some();
     let typing = context.text_edit_focused();
     let focused = context.memory(|memory| memory.focused().is_some());
     let keymap = Keymap::of(context);

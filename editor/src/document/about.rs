@@ -1,0 +1,86 @@
+//! What an edit was done to, in the words of the model: for the list of the history.
+
+use super::adapter::ModelAdapter;
+use super::edit::{BoneRef, Edit};
+use std::sync::Arc;
+
+/// Longest name in a list, letters; a name may have any length.
+const LONGEST: usize = 60;
+
+/// Bone or number of bones, then the take: `head · Walk`. Empty where the edit names neither.
+pub(super) fn about(adapter: &ModelAdapter, edit: &Edit) -> Arc<str> {
+    let take = match edit {
+        Edit::CreateTake { name, .. } => Some(name.clone()),
+        Edit::RenameTake { take, name } => {
+            // Both names, since one alone says little.
+            let before = adapter.take(take).map(|slot| slot.original.name.clone());
+            return before
+                .map_or_else(|_| "".into(), |before| format!("{} → {}", short(&before), short(name)).into());
+        }
+        _ => edit.take().and_then(|take| adapter.take(take).ok()).map(|slot| slot.original.name.clone()),
+    };
+    let parts = [bones(adapter, edit), take.map(|take| short(&take))];
+    parts.into_iter().flatten().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  ·  ").into()
+}
+
+fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
+    let named: Vec<&BoneRef> = match edit {
+        Edit::Set { poses, .. } | Edit::Offset { poses, .. } => poses.iter().map(|pose| &pose.bone).collect(),
+        Edit::Reset { bones, .. } | Edit::AddKeys { bones, .. } | Edit::SetInterpolation { bones, .. } => {
+            bones.iter().collect()
+        }
+        Edit::SetTangents { bone, .. } => vec![bone],
+        Edit::DeleteKeys { keys, .. }
+        | Edit::MoveKeys { keys, .. }
+        | Edit::ScaleKeys { keys, .. }
+        | Edit::DuplicateKeys { keys, .. }
+        | Edit::SnapKeys { keys, .. } => keys.iter().flat_map(|set| &set.bones).collect(),
+        _ => Vec::new(),
+    };
+    match named.as_slice() {
+        [] => None,
+        [one] => {
+            let bone = adapter.bone(one).ok()?;
+            let name = adapter.skeleton().bones.get(bone as usize).map_or("", |bone| bone.name.as_str());
+            Some(if name.is_empty() { format!("Bone {bone}") } else { short(name) })
+        }
+        several => Some(format!("{} bones", several.len())),
+    }
+}
+
+/// The begin of a name.
+fn short(name: &str) -> String {
+    match name.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &name[..end]),
+        None => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::edit::EXAMPLES;
+    use dragonfly_anim::data::{AnimationData, Bone, Skeleton, Take, Transform};
+    use glam::Mat4;
+
+    #[test]
+    fn every_edit_says_what_it_was_done_to() {
+        let long = "é".repeat(10_000);
+        let bone = |name: &str| Bone {
+            name: name.to_owned(),
+            parent: None,
+            rest: Transform::IDENTITY,
+            rest_matrix: None,
+            offset: Mat4::IDENTITY,
+            node: None,
+        };
+        let skeleton = Skeleton { bones: vec![bone("b_Head_05"), bone(&long)] };
+        let take = |name: &str| Arc::new(Take { name: name.to_owned(), ..Take::default() });
+        let takes = vec![take("Survey"), take(&long)];
+        let adapter = ModelAdapter::new(&AnimationData { skeleton: Arc::new(skeleton), takes });
+        for example in EXAMPLES {
+            let text = about(&adapter, &serde_json::from_str(example.json).expect("an edit"));
+            assert!(text.chars().count() <= 2 * LONGEST + 8, "{text}");
+        }
+    }
+}

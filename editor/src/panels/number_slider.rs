@@ -1,0 +1,201 @@
+//! A slider beside a number field: the same number as a place on a line, from its middle outwards.
+
+use super::number_field::Heard;
+use super::number_text::exact;
+use super::theme::Theme;
+use egui::accesskit::{Action, ActionData, Role};
+use egui::{
+    Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Sense, Stroke, Ui, WidgetInfo, pos2,
+};
+
+/// What a slider is and shows.
+#[derive(Clone, Debug)]
+pub struct NumberSlider<'a> {
+    /// Stays the same as long as the slider is about the same thing.
+    pub id: Id,
+    /// What a screen reader says.
+    pub name: &'a str,
+    /// `None` where there are several, or none.
+    pub value: Option<f64>,
+    /// Which line it is on.
+    pub scale: Scale,
+    /// With Ctrl, it stops at whole multiples of this.
+    pub snap: f64,
+    /// Of the line from the middle to the value.
+    pub color: Color32,
+    /// Can it be moved?
+    pub enabled: bool,
+}
+
+/// How numbers lie on the line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// From minus this to this, 0 in the middle.
+    Linear(f64),
+    /// From 1 over this to this, 1 in the middle: each step a factor.
+    Factor(f64),
+}
+
+impl Scale {
+    /// −1 to 1.
+    fn place(self, value: f64) -> f64 {
+        let place = match self {
+            Self::Linear(end) => value / end,
+            Self::Factor(end) => value.max(f64::MIN_POSITIVE).ln() / end.ln(),
+        };
+        if place.is_finite() { place.clamp(-1.0, 1.0) } else { 0.0 }
+    }
+
+    fn value(self, place: f64) -> f64 {
+        let place = place.clamp(-1.0, 1.0);
+        match self {
+            Self::Linear(end) => place * end,
+            Self::Factor(end) => end.powf(place),
+        }
+    }
+
+    fn ends(self) -> [f64; 2] {
+        [self.value(-1.0), self.value(1.0)]
+    }
+}
+
+/// A hand on a slider.
+#[derive(Clone, Copy, Debug)]
+struct Grip {
+    start: f64,
+    /// −1 to 1, where the hand is.
+    place: f64,
+    /// How far beside the knob it was taken.
+    beside: f64,
+    cancelled: bool,
+}
+
+impl NumberSlider<'_> {
+    /// Draws the slider into `rect`; the line is as long as it is wide.
+    pub fn show(self, ui: &mut Ui, rect: Rect) -> Heard {
+        let enabled = self.enabled && ui.is_enabled();
+        let sense = if enabled { Sense::click_and_drag() } else { Sense::hover() };
+        let response = ui.interact(rect, self.id, sense);
+        let heard = if enabled { self.listen(ui, rect, &response) } else { Heard::Nothing };
+        self.paint(ui, rect, &response, enabled);
+        response.widget_info(|| WidgetInfo::slider(enabled, self.value.unwrap_or(0.0), self.name));
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            let [first, last] = self.scale.ends();
+            node.set_role(Role::Slider);
+            node.set_min_numeric_value(first);
+            node.set_max_numeric_value(last);
+            node.set_numeric_value_step(self.snap);
+            if enabled {
+                node.add_action(Action::SetValue);
+                node.add_action(Action::Increment);
+                node.add_action(Action::Decrement);
+            }
+        });
+        if enabled {
+            response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_ui(|ui| {
+                let value = self.value.map_or("different values".to_owned(), |value| exact(value, 1e-3));
+                ui.label(format!("{}: {value}", self.name));
+                ui.colored_label(
+                    Theme::of(ui).faint,
+                    "Drag. Shift is finer, Ctrl snaps. Double click for none.",
+                );
+            });
+        }
+        heard
+    }
+
+    fn listen(&self, ui: &Ui, rect: Rect, response: &egui::Response) -> Heard {
+        if let Some(heard) = self.keys(ui, response) {
+            return heard;
+        }
+        if response.double_clicked() {
+            return Heard::Typed(self.scale.value(0.0));
+        }
+        let id = self.id;
+        let pointer = response.interact_pointer_pos();
+        let at = |x: f32| f64::from(((x - rect.center().x) / (rect.width() / 2.0).max(1.0)).clamp(-1.5, 1.5));
+        if response.drag_started_by(PointerButton::Primary)
+            && let Some(pointer) = pointer
+        {
+            let start = self.value.unwrap_or(self.scale.value(0.0));
+            let place = self.scale.place(start);
+            let grip = Grip { start, place, beside: at(pointer.x) - place, cancelled: false };
+            ui.data_mut(|data| data.insert_temp(id, grip));
+            return Heard::Touched;
+        }
+        let Some(mut grip) = ui.data(|data| data.get_temp::<Grip>(id)) else { return Heard::Nothing };
+        if !response.dragged_by(PointerButton::Primary) {
+            ui.data_mut(|data| data.remove::<Grip>(id));
+            return if grip.cancelled { Heard::Nothing } else { Heard::Released };
+        }
+        if grip.cancelled {
+            return Heard::Nothing;
+        }
+        let (escape, modifiers) =
+            ui.input_mut(|input| (input.consume_key(Modifiers::NONE, Key::Escape), input.modifiers));
+        let by = f64::from(response.drag_delta().x / (rect.width() / 2.0).max(1.0));
+        grip.place = match pointer {
+            // The knob jumps to the hand where it was taken far from it, and stays under it where it was near.
+            Some(pointer) if !modifiers.shift => {
+                at(pointer.x) - if grip.beside.abs() < 0.1 { grip.beside } else { 0.0 }
+            }
+            _ => grip.place + by * 0.1,
+        };
+        grip.cancelled = escape;
+        ui.data_mut(|data| data.insert_temp(id, grip));
+        if escape {
+            return Heard::Cancelled;
+        }
+        let mut to = self.scale.value(grip.place);
+        if modifiers.command && self.snap > 0.0 {
+            to = (to / self.snap).round() * self.snap;
+        }
+        Heard::Dragged(to - grip.start)
+    }
+
+    /// Arrows, and what a screen reader asks for.
+    fn keys(&self, ui: &Ui, response: &egui::Response) -> Option<Heard> {
+        let value = self.value?;
+        let has_focus = response.has_focus();
+        if has_focus {
+            let filter = egui::EventFilter { horizontal_arrows: true, ..Default::default() };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(self.id, filter));
+        }
+        let (steps, wanted) = ui.input_mut(|input| {
+            let mut steps = input.num_accesskit_action_requests(self.id, Action::Increment) as f64
+                - input.num_accesskit_action_requests(self.id, Action::Decrement) as f64;
+            if has_focus {
+                steps += input.count_and_consume_key(Modifiers::NONE, Key::ArrowRight) as f64
+                    - input.count_and_consume_key(Modifiers::NONE, Key::ArrowLeft) as f64;
+            }
+            let wanted = input.accesskit_action_requests(self.id, Action::SetValue).last();
+            (steps, wanted.and_then(|request| request.data.clone()))
+        });
+        let [first, last] = self.scale.ends();
+        match wanted {
+            Some(ActionData::NumericValue(value)) if value.is_finite() => {
+                Some(Heard::Typed(value.clamp(first, last)))
+            }
+            _ => (steps != 0.0).then(|| Heard::Typed((value + steps * self.snap).clamp(first, last))),
+        }
+    }
+
+    fn paint(&self, ui: &Ui, rect: Rect, response: &egui::Response, enabled: bool) {
+        let theme = Theme::of(ui);
+        let painter = ui.painter();
+        let y = painter.round_to_pixel_center(rect.center().y);
+        let middle = rect.center().x;
+        painter.hline(rect.x_range(), y, Stroke::new(2.0, theme.line));
+        painter.vline(middle, y - 3.0..=y + 3.0, Stroke::new(1.0, theme.faint));
+        let Some(value) = self.value else { return };
+        let x = middle + self.scale.place(value) as f32 * rect.width() / 2.0;
+        let color = if enabled { self.color } else { theme.faint };
+        painter.hline(middle.min(x)..=middle.max(x), y, Stroke::new(2.0, color));
+        let held = response.hovered() || response.dragged() || response.has_focus();
+        painter.circle_filled(
+            pos2(x, y),
+            if held { 5.0 } else { 4.0 },
+            if held { theme.text } else { color },
+        );
+    }
+}

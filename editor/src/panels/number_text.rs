@@ -1,0 +1,78 @@
+//! Numbers as people read them, and as they are put into a field to be changed.
+
+/// Digits behind the point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Digits {
+    /// As many as make about seven characters: small things keep their digits, large ones lose them.
+    Fitting,
+    /// Always so many, so that a column stands still.
+    Fixed(usize),
+}
+
+impl Digits {
+    /// The number as it is shown.
+    pub fn text(self, value: f64) -> String {
+        let size = value.abs();
+        tidy(match self {
+            _ if !value.is_finite() => "–".to_owned(),
+            _ if size >= 1e5 || (self == Self::Fitting && size > 0.0 && size < 1e-4) => {
+                format!("{value:.1e}")
+            }
+            Self::Fixed(digits) => format!("{value:.digits$}"),
+            Self::Fitting if size >= 1000.0 => format!("{value:.0}"),
+            Self::Fitting if size >= 100.0 => format!("{value:.1}"),
+            Self::Fitting if size >= 10.0 => format!("{value:.2}"),
+            Self::Fitting => format!("{value:.3}"),
+        })
+    }
+}
+
+/// The shortest text of `value` that is no further from it than `grain`: what arithmetic left over is not shown.
+pub fn exact(value: f64, grain: f64) -> String {
+    if !value.is_finite() {
+        return String::new();
+    }
+    let large = value.abs() >= 1e15;
+    let near = |text: &String| text.parse::<f64>().is_ok_and(|read| (read - value).abs() <= grain);
+    let shortest = (0..=12).map(|digits| format!("{value:.digits$}")).find(near).filter(|_| !large);
+    plus_zero(shortest.unwrap_or_else(|| format!("{value:e}")))
+}
+
+/// No minus before nothing, and a real minus sign before something.
+pub(super) fn tidy(text: String) -> String {
+    plus_zero(text).replacen('-', "\u{2212}", 1)
+}
+
+fn plus_zero(text: String) -> String {
+    let nothing = text.chars().all(|letter| matches!(letter, '-' | '0' | '.'));
+    if nothing { text.replacen('-', "", 1) } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leftovers_of_arithmetic_are_not_shown() {
+        assert_eq!(exact(29.999_999_6, 1e-5), "30");
+        assert_eq!(exact(-0.000_000_1, 1e-6), "0");
+        assert_eq!(exact(0.1_f32.into(), 1e-7), "0.1");
+        assert_eq!(exact(1e-9, 0.0), "0.000000001");
+        assert_eq!(exact(1e-20, 0.0), "1e-20");
+        assert_eq!(exact(f64::NAN, 0.0), "");
+        assert_eq!(exact(f64::from(f32::MAX), 0.0).parse::<f64>(), Ok(f64::from(f32::MAX)));
+    }
+
+    #[test]
+    fn a_shown_number_stays_short() {
+        for value in
+            [0.0, -0.0, 1e-7, 0.5, -12.345_678, 123.456, 1234.5, 98_765.4, -1e9, 3.4e38, f64::INFINITY]
+        {
+            for digits in [Digits::Fitting, Digits::Fixed(2)] {
+                assert!(digits.text(value).chars().count() <= 9, "{value}: {}", digits.text(value));
+            }
+        }
+        assert_eq!(Digits::Fixed(2).text(-0.001), "0.00");
+        assert_eq!(Digits::Fixed(1).text(-30.0), "\u{2212}30.0");
+    }
+}

@@ -1,0 +1,131 @@
+//! Whether the channels of the selected bones have a key at the time shown, and what a button does about it.
+
+use super::super::icons::Icon;
+use super::super::state::{Request, State};
+use super::super::theme::Theme;
+use super::super::widgets;
+use super::hand::Hand;
+use super::parts::Part;
+use crate::document::Change;
+use crate::document::edit::{BoneRef, Edit, KeySet, NewKey, Property, ResetTo};
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::sample::rest_pose;
+use egui::Ui;
+
+/// What a channel has at the time shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Keyed {
+    /// A key.
+    Here,
+    /// Keys before or after.
+    Elsewhere,
+    /// No key at all: the rest value.
+    Never,
+}
+
+/// Of all selected bones: a key only where all of them have one.
+pub(super) fn at_time(state: &State, property: Property) -> Keyed {
+    let bones = state.selection.bones();
+    let (mut here, mut any) = (true, false);
+    for &bone in bones {
+        match of(state, bone, property) {
+            Keyed::Here => any = true,
+            Keyed::Elsewhere => (here, any) = (false, true),
+            Keyed::Never => here = false,
+        }
+        if !here && any {
+            return Keyed::Elsewhere;
+        }
+    }
+    if any { Keyed::Here } else { Keyed::Never }
+}
+
+fn of(state: &State, bone: BoneIndex, property: Property) -> Keyed {
+    let slot = state.view.as_ref().zip(state.playback.take).and_then(|(view, take)| view.slots.get(take));
+    let Some(slot) = slot else { return Keyed::Never };
+    let Some(track) = slot.original.tracks.get(bone as usize) else { return Keyed::Never };
+    let keys = match property {
+        Property::Translation => track.translation.times.len(),
+        Property::Rotation => track.rotation.times.len(),
+        Property::Scale => track.scale.times.len(),
+    };
+    match slot.key_at(bone, property, state.time()) {
+        Some(_) => Keyed::Here,
+        None if keys > 0 => Keyed::Elsewhere,
+        None => Keyed::Never,
+    }
+}
+
+/// Shows whether there is a key; adds or deletes it.
+pub(super) fn button(
+    ui: &mut Ui,
+    state: &State,
+    property: Property,
+    locked: Option<&str>,
+    requests: &mut Vec<Request>,
+) {
+    let keyed = at_time(state, property);
+    let (icon, now, deed) = match keyed {
+        Keyed::Here => (Icon::KeyHere, "a key at this time", "Delete it"),
+        Keyed::Elsewhere => (Icon::KeyElsewhere, "no key at this time", "Add one"),
+        Keyed::Never => (Icon::KeyNever, "no keys", "Add one"),
+    };
+    let name = property.name();
+    let label = match keyed {
+        Keyed::Here => format!("Delete the {name} key"),
+        _ => format!("Add a {name} key"),
+    };
+    let response = ui
+        .add_enabled_ui(locked.is_none(), |ui| widgets::icon_button(ui, icon, &label, keyed == Keyed::Here))
+        .inner
+        .on_hover_ui(|ui| {
+            ui.label(format!("The {name} has {now}"));
+            ui.colored_label(Theme::of(ui).weak, deed);
+        });
+    if response.clicked()
+        && let Some(edit) = toggled(state, property, keyed)
+    {
+        requests.push(Request::Change(Change::Edit(edit, None)));
+    }
+}
+
+fn bones(state: &State) -> Vec<BoneRef> {
+    state.selection.bones().iter().map(|&bone| BoneRef::Index(bone)).collect()
+}
+
+fn toggled(state: &State, property: Property, keyed: Keyed) -> Option<Edit> {
+    let (take, time, bones, properties) = (state.take_ref()?, state.time(), bones(state), vec![property]);
+    Some(match keyed {
+        Keyed::Here => {
+            let keys = vec![KeySet { bones, properties, at: Some(vec![time]), ..KeySet::default() }];
+            Edit::DeleteKeys { take, keys }
+        }
+        _ => Edit::AddKeys { take, time, bones, properties, value: NewKey::Current },
+    })
+}
+
+/// Takes a channel of all selected bones back to the original or to the rest pose.
+pub(super) fn reset(
+    state: &State,
+    hand: &mut Hand,
+    property: Property,
+    to: ResetTo,
+    has_key: bool,
+    requests: &mut Vec<Request>,
+) {
+    let Some(take) = state.take_ref() else { return };
+    if has_key {
+        let (time, bones, properties) = (state.time(), bones(state), vec![property]);
+        let edit = Edit::Reset { take, time, bones, properties, to };
+        requests.push(Request::Change(Change::Edit(edit, None)));
+        return;
+    }
+    // Between keys there is no change to take away, but a pose to be had.
+    let Some(loaded) = state.loaded() else { return };
+    let bones = &loaded.model.animation.skeleton.bones;
+    let part = |pair: &super::parts::Pair, bone: BoneIndex| match to {
+        ResetTo::Original => Some(Part::of(&pair.original, property)),
+        ResetTo::Rest => Some(Part::of(&rest_pose(bones.get(bone as usize)?), property)),
+    };
+    hand.set(state, property, part, requests);
+}

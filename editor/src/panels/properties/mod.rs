@@ -1,0 +1,261 @@
+//! Numbers of the selected bones at the time shown, to be changed; without selection, what the model consists of.
+
+mod channel;
+mod hand;
+mod keys;
+mod model;
+pub mod parts;
+pub mod turn;
+
+use super::commands::{self, Id};
+use super::icons::Icon;
+use super::number_text::Digits;
+use super::state::{Request, State};
+use super::style::GRID;
+use super::theme::Theme;
+use super::{Panel, Place, widgets};
+use crate::document::edit::{Property, ResetTo};
+use channel::Table;
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::joint::EulerOrder;
+use egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
+use hand::Hand;
+use keys::Keyed;
+use model::fact;
+use parts::Form;
+use serde::{Deserialize, Serialize};
+
+/// How the numbers of a bone are shown; remembered between runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PropertiesLook {
+    /// In which order three turns follow each other.
+    #[serde(with = "turn::by_name")]
+    pub euler: EulerOrder,
+    /// Is the quaternion shown as well?
+    pub quaternion: bool,
+    /// Are there sliders for translation, rotation, scale?
+    pub sliders: [bool; 3],
+}
+
+impl Default for PropertiesLook {
+    fn default() -> Self {
+        Self { euler: EulerOrder::default(), quaternion: false, sliders: [false, true, false] }
+    }
+}
+
+/// Numbers of the selection.
+#[derive(Debug, Default)]
+pub struct Properties {
+    hand: Hand,
+    /// Had a field the focus when it was drawn last, or was it dragged?
+    in_use: bool,
+}
+
+impl Panel for Properties {
+    fn id(&self) -> &'static str {
+        "properties"
+    }
+
+    fn title(&self) -> &'static str {
+        "Properties"
+    }
+
+    fn place(&self) -> Place {
+        Place::Right
+    }
+
+    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        if state.view.is_none() {
+            return widgets::empty(ui, "", "Numbers appear here");
+        }
+        self.hand.begin(state, self.in_use);
+        self.in_use = false;
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            egui::Frame::NONE.inner_margin(egui::Margin::symmetric(12, 8)).show(ui, |ui| {
+                ui.set_width(ui.available_width());
+                match state.selected() {
+                    Some(bone) => self.bone(ui, state, bone, requests),
+                    None => model::show(ui, state),
+                }
+            });
+        });
+    }
+}
+
+impl Properties {
+    fn bone(&mut self, ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
+        let (Some(loaded), Some(pair)) = (state.loaded(), self.hand.pair(state, bone)) else { return };
+        head(ui, state, bone, requests);
+        let locked = state.take_ref().is_none().then_some("The rest pose is not edited; a take is");
+        if let Some(why) = locked {
+            ui.add_space(GRID);
+            ui.label(RichText::new(why).small().color(Theme::of(ui).warning));
+        }
+        let size = f64::from(loaded.bounds.sphere.radius);
+        let size = if size.is_finite() && size > 1e-9 { size } else { 1.0 };
+        let table = Table { state, bone, pair, locked, size };
+        ui.add_space(GRID);
+        channel::heads(ui);
+        let look = state.settings.properties;
+        ui.spacing_mut().item_spacing.y = 2.0;
+        for (at, property) in Property::ALL.into_iter().enumerate() {
+            self.channel_head(ui, &table, property, requests);
+            let form = if property == Property::Rotation { Form::Euler(look.euler) } else { Form::Vector };
+            self.in_use |= table.show(ui, &mut self.hand, property, form, look.sliders[at], requests);
+            if property == Property::Rotation {
+                quaternion_head(ui, look, requests);
+                if look.quaternion {
+                    self.in_use |=
+                        table.show(ui, &mut self.hand, property, Form::Quaternion, false, requests);
+                }
+            }
+            ui.add_space(GRID);
+        }
+        ui.spacing_mut().item_spacing.y = GRID;
+        place(ui, state, bone, size);
+    }
+
+    /// Title and unit at the left, what can be done with the channel at the right.
+    fn channel_head(
+        &mut self,
+        ui: &mut Ui,
+        table: &Table<'_>,
+        property: Property,
+        requests: &mut Vec<Request>,
+    ) {
+        let (title, unit, at) = match property {
+            Property::Translation => ("Translation", "m", 0),
+            Property::Rotation => ("Rotation", "°", 1),
+            Property::Scale => ("Scale", "×", 2),
+        };
+        let state = table.state;
+        let theme = Theme::of(ui);
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            ui.set_min_height(24.0);
+            let room = ui.available_width();
+            ui.label(title);
+            if room > 180.0 {
+                ui.label(RichText::new(format!("  {unit}")).small().color(theme.faint));
+            }
+            if property == Property::Rotation {
+                ui.add_space(GRID);
+                order(ui, state.settings.properties, requests);
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                keys::button(ui, state, property, table.locked, requests);
+                if room < 130.0 {
+                    return;
+                }
+                let keyed = keys::at_time(state, property);
+                for (icon, to, name) in [
+                    (Icon::Revert, ResetTo::Original, "original"),
+                    (Icon::RestPose, ResetTo::Rest, "rest pose"),
+                ] {
+                    let label = format!("Reset {} to the {name}", title.to_lowercase());
+                    let response = ui.add_enabled_ui(table.locked.is_none(), |ui| {
+                        widgets::icon_button(ui, icon, &label, false)
+                    });
+                    if response.inner.on_hover_text(&label).clicked() {
+                        keys::reset(state, &mut self.hand, property, to, keyed == Keyed::Here, requests);
+                    }
+                }
+                let mut look = state.settings.properties;
+                let label = format!("Sliders for {}", title.to_lowercase());
+                if widgets::icon_button(ui, Icon::Sliders, &label, look.sliders[at])
+                    .on_hover_text(&label)
+                    .clicked()
+                {
+                    look.sliders[at] = !look.sliders[at];
+                    requests.push(Request::PropertiesLook(look));
+                }
+            });
+        });
+    }
+}
+
+/// Name, how many are selected, and whose child it is.
+fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
+    let name = state.bone_name(bone);
+    ui.add(Label::new(RichText::new(&name).heading()).truncate()).on_hover_text(widgets::shortened(&name));
+    let theme = Theme::of(ui);
+    let parent = state.loaded().and_then(|loaded| {
+        loaded.model.animation.skeleton.bones.get(bone as usize).and_then(|bone| bone.parent)
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = GRID;
+        let more = state.selection.bones().len().saturating_sub(1);
+        if more > 0 {
+            let text = format!("and {}, changed together", widgets::count(more, "other", "others"));
+            ui.add(Label::new(RichText::new(text).color(theme.accent)).truncate());
+            return;
+        }
+        let Some(parent) = parent else {
+            ui.label(RichText::new("A root").color(theme.weak));
+            return;
+        };
+        ui.label(RichText::new("Child of").color(theme.weak));
+        let link = egui::Label::new(RichText::new(state.bone_name(parent)).color(theme.accent)).truncate();
+        let link = ui
+            .add(link.sense(egui::Sense::click()))
+            .on_hover_cursor(egui::CursorIcon::PointingHand)
+            .on_hover_text(commands::tooltip(ui.ctx(), Id::SelectParent));
+        if link.hovered() {
+            requests.push(Request::Hover(parent));
+        }
+        if link.clicked() {
+            requests.push(Request::Select(Some(parent)));
+        }
+    });
+}
+
+/// The order of the three turns.
+fn order(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
+    let name = turn::name(look.euler);
+    let button = widgets::quiet_button(ui, Icon::Down, name, &format!("Order of rotation: {name}"));
+    let help = "The order of the three turns, each about an axis that the turns before it have moved.\n\
+                Blender and Maya write the same order from its end: their XYZ is ZYX here.";
+    let button = button.on_hover_text(help);
+    egui::Popup::menu(&button).width(96.0).show(|ui| {
+        ui.set_min_width(96.0);
+        for order in EulerOrder::ALL {
+            if ui.selectable_label(order == look.euler, turn::name(order)).clicked() {
+                requests.push(Request::PropertiesLook(PropertiesLook { euler: order, ..look }));
+                ui.close();
+            }
+        }
+    });
+}
+
+/// Shows or hides the quaternion.
+fn quaternion_head(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
+    let mark = if look.quaternion { Icon::Down } else { Icon::Right };
+    let name = if look.quaternion { "Hide the quaternion" } else { "Show the quaternion" };
+    let button = widgets::quiet_button(ui, mark, "Quaternion", name).on_hover_text(name);
+    if button.clicked() {
+        requests.push(Request::PropertiesLook(PropertiesLook { quaternion: !look.quaternion, ..look }));
+    }
+}
+
+/// Where the bone is in the scene, and what it is in the skeleton.
+fn place(ui: &mut Ui, state: &State, bone: BoneIndex, size: f64) {
+    let to_root = state.posed.animation().and_then(|animation| animation.to_root().get(bone as usize));
+    if let Some(to_root) = to_root {
+        widgets::caption(ui, "In the scene");
+        for (axis, value) in ["X", "Y", "Z"].into_iter().zip(to_root.w_axis.truncate().to_array()) {
+            // Less than a millionth of the model is what arithmetic leaves over, not a place.
+            let value = if f64::from(value.abs()) < size * 1e-6 { 0.0 } else { f64::from(value) };
+            fact(ui, axis, &format!("{} m", Digits::Fitting.text(value)));
+        }
+    }
+    widgets::caption(ui, "Keys in this take");
+    let keys = state.digest.lanes.channels.each_ref().map(|times| times.len());
+    for (title, keys) in ["Translation", "Rotation", "Scale"].into_iter().zip(keys) {
+        fact(ui, title, &if keys == 0 { "–".to_owned() } else { widgets::grouped(keys) });
+    }
+    widgets::caption(ui, "Skeleton");
+    fact(ui, "Index", &bone.to_string());
+    let children = state.loaded().map(|loaded| loaded.model.animation.skeleton.children(Some(bone)).count());
+    fact(ui, "Children", &widgets::grouped(children.unwrap_or(0)));
+}

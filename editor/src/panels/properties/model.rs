@@ -1,0 +1,61 @@
+//! What a model consists of.
+
+use super::super::number_text::Digits;
+use super::super::state::State;
+use super::super::theme::Theme;
+use super::super::widgets;
+use egui::{RichText, Sense, TextStyle, Ui, vec2};
+
+pub(super) fn show(ui: &mut Ui, state: &State) {
+    let Some(loaded) = state.loaded() else { return };
+    let theme = Theme::of(ui);
+    let model = &loaded.model;
+    ui.add(egui::Label::new(RichText::new(&loaded.title).heading()).truncate());
+    let kind = match (&loaded.path, loaded.format.as_str()) {
+        (None, _) => "Part of the program".to_owned(),
+        (Some(_), "glb") => "glTF 2.0, binary".to_owned(),
+        (Some(_), "gltf") => "glTF 2.0, text".to_owned(),
+        (Some(_), "dfm") => "Dragonfly model".to_owned(),
+        (Some(_), other) => other.to_uppercase(),
+    };
+    let kind = ui.label(RichText::new(kind).color(theme.weak));
+    if let Some(path) = &loaded.path {
+        kind.on_hover_text(path.display().to_string());
+    }
+    widgets::caption(ui, "Animation");
+    fact(ui, "Bones", &widgets::grouped(model.animation.skeleton.len()));
+    fact(ui, "Takes", &widgets::grouped(state.digest.takes.len()));
+    fact(ui, "Keys", &widgets::grouped(state.digest.takes.iter().map(|take| take.keys).sum()));
+    // A skeleton alone needs no six lines that say so.
+    if !(model.meshes.is_empty() && model.materials.is_empty() && model.images.is_empty()) {
+        widgets::caption(ui, "Surface");
+        fact(ui, "Meshes", &widgets::grouped(model.meshes.len()));
+        fact(ui, "Vertices", &widgets::grouped(state.digest.totals.vertices));
+        fact(ui, "Triangles", &widgets::grouped(state.digest.totals.triangles));
+        fact(ui, "Morph targets", &widgets::grouped(state.digest.totals.morph_targets));
+        fact(ui, "Materials", &widgets::grouped(model.materials.len()));
+        fact(ui, "Images", &widgets::grouped(model.images.len()));
+    }
+    let size = loaded.bounds.max - loaded.bounds.min;
+    widgets::caption(ui, "Size");
+    for (axis, size) in ["X", "Y", "Z"].into_iter().zip(size.to_array()) {
+        fact(ui, axis, &format!("{} m", Digits::Fitting.text(f64::from(size))));
+    }
+    if !loaded.warnings.is_empty() {
+        widgets::caption(ui, &widgets::count(loaded.warnings.len(), "warning", "warnings"));
+        for warning in &loaded.warnings {
+            ui.label(RichText::new(warning).small().color(theme.warning));
+        }
+    }
+}
+
+/// A name and a number on one line.
+pub(super) fn fact(ui: &mut Ui, name: &str, value: &str) {
+    let theme = Theme::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, format!("{name}: {value}"))
+    });
+    widgets::text_in(ui, rect, name, &TextStyle::Body, theme.weak);
+    widgets::number_at(ui, rect.right(), rect.center().y, value, theme.text);
+}

@@ -1,0 +1,136 @@
+//! Rotations as numbers: three angles in an order of choice, or a quaternion.
+
+use dragonfly_anim::joint::EulerOrder;
+use glam::DQuat;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Nearer to 90° than this the first and the third turn are about the same line, radians. A thousand times what
+/// numbers of 32 bits leave over.
+const LOCKED: f64 = 1e-6;
+
+/// As people write it: `XYZ`.
+pub fn name(order: EulerOrder) -> &'static str {
+    match order {
+        EulerOrder::Xyz => "XYZ",
+        EulerOrder::Xzy => "XZY",
+        EulerOrder::Yxz => "YXZ",
+        EulerOrder::Yzx => "YZX",
+        EulerOrder::Zxy => "ZXY",
+        EulerOrder::Zyx => "ZYX",
+    }
+}
+
+/// The order of that name.
+pub fn order(text: &str) -> Option<EulerOrder> {
+    EulerOrder::ALL.into_iter().find(|order| name(*order) == text)
+}
+
+/// The rotation of three angles in degrees: those about x, y, z, whatever the order.
+pub fn rotation(order: EulerOrder, degrees: [f64; 3]) -> DQuat {
+    let [a, b, c] = order.axes().map(|axis| (degrees[axis] % 360.0).to_radians());
+    DQuat::from_euler(order.of_glam(), a, b, c)
+}
+
+/// Three angles in degrees, those about x, y, z: between −180 and 180, the second one of the order between −90 and 90.
+/// Where that one is 90 or −90, the last one of the order is 0.
+///
+/// After Bernardes and Viollet (PLOS ONE 17(11), 2022), because it is as exact near 90° as elsewhere; a way by the
+/// matrix loses half of the digits there.
+pub fn degrees(order: EulerOrder, rotation: DQuat) -> [f64; 3] {
+    let [first, middle, last] = order.axes();
+    // The method names the axes of an extrinsic rotation, which turns in the opposite order.
+    let (i, j, k) = (last, middle, first);
+    let sign = if (i + 1) % 3 == j { 1.0 } else { -1.0 };
+    let q = rotation.normalize().to_array();
+    let (a, b) = (q[3] - q[j], q[i] + q[k] * sign);
+    let (c, d) = (q[j] + q[3], q[k] * sign - q[i]);
+    let second = 2.0 * c.hypot(d).atan2(a.hypot(b));
+    let (sum, difference) = (b.atan2(a), d.atan2(c));
+    let (of_first, of_last) = if second <= LOCKED {
+        (2.0 * sum * sign, 0.0)
+    } else if second >= PI - LOCKED {
+        (2.0 * difference * sign, 0.0)
+    } else {
+        ((sum + difference) * sign, sum - difference)
+    };
+    let mut out = [0.0; 3];
+    for (axis, angle) in [(first, of_first), (middle, second - FRAC_PI_2), (last, of_last)] {
+        out[axis] = wrapped(angle).to_degrees();
+    }
+    out
+}
+
+fn wrapped(angle: f64) -> f64 {
+    if (-PI..=PI).contains(&angle) { angle } else { angle - (angle / TAU).round() * TAU }
+}
+
+/// Settings hold the order by its name.
+pub mod by_name {
+    use super::EulerOrder;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    /// Writes the name.
+    pub fn serialize<S: Serializer>(order: &EulerOrder, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(super::name(*order))
+    }
+
+    /// Reads a name; the usual order where there is none of that name.
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<EulerOrder, D::Error> {
+        Ok(super::order(&String::deserialize(from)?).unwrap_or_default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dragonfly_kit::random::Random;
+
+    fn angle_between(a: DQuat, b: DQuat) -> f64 {
+        2.0 * (a - b).length().min((a + b).length())
+    }
+
+    #[test]
+    fn angles_give_the_rotation_back_everywhere() {
+        let seed = dragonfly_kit::random::seed(0x7u64);
+        println!("seed {seed}");
+        let mut random = Random::new(seed);
+        for round in 0..20_000 {
+            let mut angle = || f64::from(random.unit()) * 360.0 - 180.0;
+            let mut turn = [angle(), angle(), angle()];
+            for order in EulerOrder::ALL {
+                // Every fourth is at the place where two axes fall together, or next to it.
+                if round % 4 == 0 {
+                    let near = [0.0, 1e-9, 1e-5, 1e-3][round / 4 % 4];
+                    turn[order.axes()[1]] = if round % 8 == 0 { 90.0 - near } else { -90.0 + near };
+                }
+                let wanted = rotation(order, turn);
+                // As a model holds it.
+                let kept = wanted.as_quat().as_dquat().normalize();
+                let read = degrees(order, kept);
+                let back = rotation(order, read);
+                assert!(angle_between(kept, back) < 4e-6, "{order:?} {turn:?} {read:?}");
+                assert!(read[order.axes()[1]].abs() <= 90.0 + 1e-9);
+                assert!(read.iter().all(|angle| angle.abs() <= 180.0 + 1e-9));
+            }
+        }
+    }
+
+    #[test]
+    fn plain_angles_are_read_as_they_were_written() {
+        for order in EulerOrder::ALL {
+            for turn in [[30.0, 0.0, 0.0], [0.0, -45.0, 0.0], [10.0, 20.0, -30.0], [0.0, 0.0, 179.0]] {
+                let read = degrees(order, rotation(order, turn).as_quat().as_dquat());
+                let near = (0..3).all(|axis| (read[axis] - turn[axis]).abs() < 2e-5);
+                assert!(near, "{order:?} {turn:?} {read:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn orders_have_names() {
+        for order in EulerOrder::ALL {
+            assert_eq!(super::order(name(order)), Some(order));
+        }
+        assert_eq!(super::order("xyz"), None);
+    }
+}

@@ -1,0 +1,167 @@
+//! The whole window without a window, with a document behind it: what panels ask for is done, and seen in the next frame.
+
+use crate::fixture;
+use dragonfly::document::adapter::ModelAdapter;
+use dragonfly::document::history::Edited;
+use dragonfly::document::{Change, HistoryView, View};
+use dragonfly::panels::state::Device;
+use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
+use dragonfly_anim::data::Transform;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// See the module.
+pub(crate) struct Workbench {
+    pub(crate) desk: Desk,
+    pub(crate) state: State,
+    pub(crate) edited: Option<Edited>,
+    /// Everything that was asked of the document.
+    pub(crate) changes: Vec<Change>,
+    /// Why edits were refused.
+    pub(crate) refused: Vec<String>,
+}
+
+pub(crate) type Window = Harness<'static, Workbench>;
+
+impl Workbench {
+    pub(crate) fn new(view: Option<View>) -> Self {
+        let mut state = State::new(Settings::default(), Instant::now());
+        state.device = Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() };
+        let edited = view.as_ref().map(|view| Edited::new(ModelAdapter::new(&view.loaded.model.animation)));
+        if let Some(view) = view {
+            state.show(view);
+            state.playback.playing = false;
+        }
+        Self { desk: Desk::new(""), state, edited, changes: Vec::new(), refused: Vec::new() }
+    }
+
+    /// The usual model with the panels around it.
+    pub(crate) fn full() -> Self {
+        Self::new(Some(fixture::full()))
+    }
+
+    pub(crate) fn window(self) -> Window {
+        self.window_of(egui::vec2(1280.0, 720.0), egui::Theme::Dark)
+    }
+
+    pub(crate) fn window_of(self, size: egui::Vec2, theme: egui::Theme) -> Window {
+        let builder = Harness::builder()
+            .with_size(size)
+            .with_theme(theme)
+            .with_max_steps(20)
+            .with_context_setup(style::install);
+        let mut window = builder.build_ui_state(|ui, bench: &mut Self| bench.frame(ui), self);
+        window.run_steps(4);
+        window
+    }
+
+    pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
+        let mut requests = Vec::new();
+        self.state.begin(self.state.now);
+        for id in panels::commands::pressed(ui.ctx()) {
+            requests.push(Request::Command(id));
+        }
+        self.desk.show(ui, &self.state, &mut requests);
+        self.state.hovered = None;
+        self.state.find = false;
+        for request in requests {
+            match self.state.execute(request) {
+                Some(Effect::Change(change)) => self.change(change),
+                Some(Effect::TogglePanel(id)) => self.desk.toggle_panel(id),
+                _ => {}
+            }
+        }
+    }
+
+    /// As the document's thread does it.
+    pub(crate) fn change(&mut self, change: Change) {
+        self.changes.push(change.clone());
+        let (Some(edited), Some(view)) = (&mut self.edited, self.state.view.clone()) else { return };
+        let done = match change {
+            Change::Edit(edit, gesture) => edited.apply(edit, gesture),
+            Change::Cancel(gesture) => Ok(drop(edited.cancel(gesture))),
+            Change::Undo => Ok(drop(edited.undo())),
+            Change::Redo => Ok(drop(edited.redo())),
+            Change::GoTo(done) => Ok(drop(edited.go_to(done))),
+            Change::Release(_) => Ok(edited.end_gesture()),
+        };
+        if let Err(error) = done {
+            self.refused.push(error.to_string());
+        }
+        assert_eq!(edited.adapter().check(), Ok(()));
+        let history = Arc::new(HistoryView::of(edited));
+        let adapter = edited.adapter();
+        let takes = adapter.results().cloned().collect();
+        let generation = view.generation + 1;
+        self.state.show(View { generation, takes, slots: adapter.slots().into(), history, ..view });
+    }
+
+    /// The pose of a bone in the take and at the time shown, as the document has it.
+    pub(crate) fn pose(&self, bone: u32) -> Transform {
+        let view = self.state.view.as_ref().unwrap();
+        let take = &view.takes[self.state.playback.take.unwrap()];
+        let bones = &view.loaded.model.animation.skeleton.bones;
+        dragonfly_anim::sample::sample_track(
+            &take.tracks[bone as usize],
+            &bones[bone as usize],
+            self.state.time(),
+        )
+    }
+
+    /// How many steps are done, and how many there are.
+    pub(crate) fn steps(&self) -> (usize, usize) {
+        let (steps, done) = self.edited.as_ref().unwrap().steps();
+        (done, steps.len())
+    }
+}
+
+/// Puts the cursor into a field, takes out what is there, types, and says how to go on.
+pub(crate) fn type_into(window: &mut Window, field: &str, text: &str, then: egui::Key) {
+    window.get_by_label(field).click();
+    window.run_steps(2);
+    window.event(egui::Event::Text(text.to_owned()));
+    window.run_steps(2);
+    window.key_press(then);
+    window.run_steps(3);
+}
+
+/// Drags from the middle of a field by so many points, in steps.
+pub(crate) fn drag(window: &mut Window, field: &str, by: egui::Vec2, modifiers: egui::Modifiers) {
+    let from = window.get_by_label(field).rect().center();
+    press(window, from);
+    for step in 1..=4 {
+        move_to(window, from + by * (step as f32 / 4.0), modifiers);
+    }
+    release(window, from + by);
+}
+
+pub(crate) fn press(window: &mut Window, at: egui::Pos2) {
+    window.event(egui::Event::PointerMoved(at));
+    window.run_steps(1);
+    button(window, at, true);
+}
+
+pub(crate) fn move_to(window: &mut Window, at: egui::Pos2, modifiers: egui::Modifiers) {
+    window.event(egui::Event::ModifiersChanged(modifiers));
+    window.event(egui::Event::PointerMoved(at));
+    window.run_steps(2);
+}
+
+pub(crate) fn release(window: &mut Window, at: egui::Pos2) {
+    button(window, at, false);
+    window.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
+    window.run_steps(2);
+}
+
+fn button(window: &mut Window, pos: egui::Pos2, pressed: bool) {
+    let modifiers = egui::Modifiers::NONE;
+    window.event(egui::Event::PointerButton {
+        pos,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers,
+    });
+    window.run_steps(1);
+}
