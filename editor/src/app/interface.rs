@@ -5,6 +5,7 @@
 use super::store::{self, Store};
 use crate::graphics::{GraphicsHandle, PanelsFrame};
 use crate::panels::commands;
+use crate::panels::hands;
 use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;
 use crate::panels::{Desk, Effect, Request, Settings, State, style};
@@ -140,11 +141,12 @@ impl Interface {
         self.desk.reset_layout();
     }
 
-    /// Takes an event of the window.
-    pub(super) fn window_event(&mut self, event: &WindowEvent) {
+    /// Takes an event of the window. Tells whether the scene heard it: then what follows is not to wait for the panels.
+    pub(super) fn window_event(&mut self, event: &WindowEvent) -> bool {
         if !self.accepts_input {
-            return;
+            return false;
         }
+        let before = self.egui.egui_input().events.len();
         let response = self.egui.on_window_event(&self.window, event);
         if let WindowEvent::ScaleFactorChanged { scale_factor, inner_size_writer } = event {
             self.set_desktop_scale(*scale_factor, inner_size_writer);
@@ -167,6 +169,13 @@ impl Interface {
             _ if response.repaint => self.redraw(),
             _ => {}
         }
+        let context = self.egui.egui_ctx().clone();
+        let input = self.egui.egui_input_mut();
+        let heard = hands::feed(&context, &mut self.state, input, before, &mut self.effects);
+        if heard {
+            self.redraw();
+        }
+        heard
     }
 
     /// Takes an event of the accessibility bridge.

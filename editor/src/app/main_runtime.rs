@@ -99,7 +99,10 @@ impl MainRuntime {
 
     /// Takes an event of the window.
     pub(super) fn window_event(&mut self, event: &WindowEvent) {
-        self.interface.borrow_mut().window_event(event);
+        let heard = self.interface.borrow_mut().window_event(event);
+        if heard {
+            self.init.borrow_mut().hasten();
+        }
     }
 
     /// Takes an event of the accessibility bridge.

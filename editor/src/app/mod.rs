@@ -17,6 +17,7 @@ mod interface;
 mod main_runtime;
 mod open_dialog;
 mod options;
+mod sent;
 pub mod store;
 pub mod timeline;
 

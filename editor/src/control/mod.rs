@@ -5,8 +5,10 @@ pub mod bones;
 pub mod expression;
 mod framework;
 pub mod gizmo;
+pub mod hands;
 mod input;
 mod key;
+pub mod path;
 mod places;
 mod viewport;
 
@@ -14,5 +16,6 @@ pub use base::{Area, BaseControl, ControlId, Controls, Mouse, Pass, PassFlags};
 pub use framework::ControlFramework;
 pub use input::{InputEvent, PlaceError};
 pub use key::{Key, Modifiers};
+pub use hands::Hands;
 pub(crate) use viewport::orbit;
-pub use viewport::{Button, Input, Outcome, ViewportControl};
+pub use viewport::{Button, Catch, Outcome, ViewportControl};

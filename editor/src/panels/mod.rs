@@ -5,6 +5,7 @@
 pub mod commands;
 pub mod digest;
 mod execute;
+pub mod hands;
 pub mod hierarchy;
 pub mod icons;
 pub mod layout;
@@ -13,6 +14,7 @@ pub mod overlays;
 mod posing;
 pub mod properties;
 pub mod ruler;
+mod selecting;
 pub mod settings;
 pub mod state;
 pub mod status;

@@ -1,10 +1,12 @@
 //! What is shown and chosen right now. Panels read it and ask for changes; only [`super::execute`] makes them.
 
 use super::digest::Digest;
+use super::hands::{Hold, Trail};
 use super::settings::Settings;
 use super::status::Status;
 use crate::camera::Camera;
-use crate::control::bones::{BoneSelection, Choice, HiddenBones};
+use crate::control::Hands;
+use crate::control::bones::{BoneSelection, Choice, ClickCycle, HiddenBones, OwnedRegion};
 use crate::document::history::Gesture;
 use crate::document::{Change, LoadedModel, Progress, Source, View};
 use crate::playback::Playback;
@@ -12,6 +14,7 @@ use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{BoneIndex, Take};
 use glam::Vec3;
 use std::cell::Cell;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::commands::Id;
@@ -85,8 +88,10 @@ pub enum Request {
     Camera(Camera),
     /// Where the picture is, in points.
     Viewport(egui::Rect),
-    /// Which bone lies under this place, in points?
-    Pick(egui::Pos2),
+    /// Tools that lie over the picture, in points.
+    Shields(Vec<egui::Rect>),
+    /// The wheel was turned over the picture: points, positive is nearer.
+    Wheel(f32),
     /// The pointer is here over the picture, in points, and does nothing else; or it is not.
     Point(Option<egui::Pos2>),
     /// Opens a model.
@@ -108,8 +113,10 @@ pub enum Effect {
     CancelLoading,
     /// Tells the document.
     Change(Change),
-    /// Asks the graphics thread which bone lies there, in points.
-    Pick(egui::Pos2),
+    /// Asks the graphics thread which bone lies there, in points from the window's top left, and selects it in this way.
+    Pick(egui::Pos2, Choice),
+    /// Asks which bones lie in there, in points from the picture's top left.
+    Catch(OwnedRegion, Choice),
     /// Uses the whole screen, or a window again.
     FullScreen,
     /// Shows or hides a panel.
@@ -132,12 +139,22 @@ pub struct Posed {
 impl Posed {
     /// The poses of `view` in `take` at `time`.
     pub fn update(&mut self, view: &View, take: Option<usize>, time: f32) -> &Animation {
-        if self.animation.as_ref().is_none_or(|(generation, _)| *generation != view.generation) {
-            self.animation = None;
+        let skeleton = &view.loaded.model.animation.skeleton;
+        let fits = |animation: &Animation| {
+            let data = animation.data();
+            Arc::ptr_eq(&data.skeleton, skeleton) && data.takes.len() == view.takes.len()
+        };
+        self.animation = self.animation.take().filter(|(_, animation)| fits(animation));
+        let (generation, animation) =
+            self.animation.get_or_insert_with(|| (view.generation, Animation::new(view.animation())));
+        if *generation != view.generation {
+            // What was edited, and nothing else: a drag brings a view with every move of the mouse.
+            for (index, take) in view.takes.iter().enumerate() {
+                animation.replace_take(index, Arc::clone(take));
+            }
+            *generation = view.generation;
             self.at = None;
         }
-        let (_, animation) =
-            self.animation.get_or_insert_with(|| (view.generation, Animation::new(view.animation())));
         if self.at != Some((take, time)) {
             animation.to_root_bone_poses(take, time);
             self.at = Some((take, time));
@@ -193,6 +210,16 @@ pub struct State {
     pub find: bool,
     /// Where the picture is, in points.
     pub viewport: egui::Rect,
+    /// What lies over the picture, in points.
+    pub shields: Vec<egui::Rect>,
+    /// What a person acts on the picture with.
+    pub hands: Hands,
+    /// What the hands hold on to.
+    pub hold: Hold,
+    /// Where the selected bone moves along.
+    pub trail: Trail,
+    /// Repeated clicks go through what lies behind.
+    pub cycle: ClickCycle,
     /// Names of gestures given so far.
     gestures: Cell<u64>,
     /// Does the window fill the screen?
@@ -226,6 +253,11 @@ impl State {
             overlay: None,
             find: false,
             viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
+            shields: Vec::new(),
+            hands: Hands::default(),
+            hold: Hold::default(),
+            trail: Trail::default(),
+            cycle: ClickCycle::default(),
             gestures: Cell::new(0),
             full_screen: false,
             now,
@@ -251,16 +283,19 @@ impl State {
         {
             self.posed.update(view, self.playback.take, self.playback.time_at(now));
         }
+        self.grasp();
     }
 
     /// Shows another document: its first take, playing from the start.
     pub fn show(&mut self, view: View) {
-        let fresh = self.view.as_ref().is_none_or(|old| !std::sync::Arc::ptr_eq(&old.loaded, &view.loaded));
+        let fresh = self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.loaded, &view.loaded));
         self.view = Some(view);
         if !fresh {
             return self.keep_take();
         }
         let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());
+        self.drop_hold();
+        self.cycle.forget();
         self.selection = BoneSelection::new(bones);
         self.hidden = HiddenBones::default();
         self.hovered = None;

@@ -8,6 +8,7 @@ mod help;
 mod look;
 mod playback;
 mod selection;
+mod tools;
 mod window;
 
 use super::{Category, Command, Id, When};
@@ -38,6 +39,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::Edit, edit::COMMANDS),
     (Category::Playback, playback::COMMANDS),
     (Category::Selection, selection::COMMANDS),
+    (Category::Tools, tools::COMMANDS),
     (Category::Camera, camera::COMMANDS),
     (Category::Look, look::COMMANDS),
     (Category::Window, window::COMMANDS),
