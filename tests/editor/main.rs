@@ -29,6 +29,8 @@ mod gizmo_keys;
 mod gizmo_rig;
 mod gizmo_several;
 mod graphics_thread;
+mod hands;
+mod hands_rig;
 mod hover;
 mod images;
 mod journal;
@@ -69,6 +71,7 @@ mod window;
 mod window_dialog;
 mod window_drop;
 mod window_full_screen;
+mod window_hands;
 mod window_scale;
 mod wire;
 

@@ -2,6 +2,7 @@
 //!
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
+use super::shown::Shown;
 use super::store::{self, Store};
 use crate::graphics::{GraphicsHandle, PanelsFrame};
 use crate::panels::commands;
@@ -40,6 +41,7 @@ pub struct Interface {
     drawn: Instant,
     accepts_input: bool,
     occluded: bool,
+    shown: Shown,
 }
 
 impl Interface {
@@ -65,6 +67,7 @@ impl Interface {
             drawn: now - FASTEST,
             accepts_input: true,
             occluded: false,
+            shown: Shown::default(),
         }
     }
 
@@ -285,6 +288,7 @@ impl Interface {
         );
         let changed = before != after || overlay != self.state.overlay || viewport != self.state.viewport;
 
+        self.shown.tell(&self.state);
         self.drawn = now;
         self.due = None;
         let egui_wants =

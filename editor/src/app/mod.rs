@@ -18,6 +18,7 @@ mod main_runtime;
 mod open_dialog;
 mod options;
 mod sent;
+mod shown;
 pub mod store;
 pub mod timeline;
 

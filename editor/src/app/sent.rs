@@ -120,4 +120,3 @@ fn look(
         handles: theme.handles().map(linear),
     }
 }
-

@@ -14,8 +14,8 @@ mod viewport;
 
 pub use base::{Area, BaseControl, ControlId, Controls, Mouse, Pass, PassFlags};
 pub use framework::ControlFramework;
+pub use hands::Hands;
 pub use input::{InputEvent, PlaceError};
 pub use key::{Key, Modifiers};
-pub use hands::Hands;
 pub(crate) use viewport::orbit;
 pub use viewport::{Button, Catch, Outcome, ViewportControl};

@@ -35,6 +35,8 @@ mod worker;
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState, GraphicsError};
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};
-pub use message::{Appearance, BoneLook, GizmoLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading};
+pub use message::{
+    Appearance, BoneLook, GizmoLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading,
+};
 pub use surface::SurfaceSource;
 pub use worker::{Drawer, Graphics, Present};

@@ -5,8 +5,8 @@
 use super::control::Controls;
 use super::message::{BoneLook, Look, Shading};
 use super::pick::{pick_all, pick_met};
-use super::skin::SkinPicker;
 use super::posed::PosedModel;
+use super::skin::SkinPicker;
 use super::uniform::FrameUniform;
 use crate::camera::{Camera, Projection, Ray};
 use crate::document::{LoadedModel, View};

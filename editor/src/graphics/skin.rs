@@ -18,12 +18,20 @@ pub(super) struct SkinPicker {
 impl SkinPicker {
     pub(super) fn new(model: &PosedModel) -> Self {
         let data = &model.loaded().model;
-        let tree = HitTree::of(data).ok().map(|tree| (Evaluator::new(Arc::clone(data)), HitPose::new(Arc::new(tree))));
+        let tree = HitTree::of(data)
+            .ok()
+            .map(|tree| (Evaluator::new(Arc::clone(data)), HitPose::new(Arc::new(tree))));
         Self { tree, hits: Vec::new() }
     }
 
     /// The bones that move the skin under a ray most, the nearest first, in the pose that `model` has.
-    pub(super) fn pick(&mut self, model: &PosedModel, ray: &Ray, hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
+    pub(super) fn pick(
+        &mut self,
+        model: &PosedModel,
+        ray: &Ray,
+        hidden: &HiddenBones,
+        out: &mut Vec<BoneIndex>,
+    ) {
         let Some((evaluator, pose)) = &mut self.tree else { return };
         let (take, time) = model.at();
         if evaluator.animation_mut().data().takes.len() == model.takes().len() {

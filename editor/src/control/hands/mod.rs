@@ -71,7 +71,13 @@ impl Default for Hands {
         let picture = (framework.register_control(nowhere), ViewportControl::default());
         let path = (framework.register_control(nowhere), PathControl::default());
         let gizmo = (framework.register_control(nowhere), GizmoControl::default());
-        Self { framework, owner: Owner { picture, path, gizmo, shields: Vec::new() }, pointer: None, modifiers: Modifiers::default(), revision: 0 }
+        Self {
+            framework,
+            owner: Owner { picture, path, gizmo, shields: Vec::new() },
+            pointer: None,
+            modifiers: Modifiers::default(),
+            revision: 0,
+        }
     }
 }
 

@@ -95,7 +95,9 @@ fn hear(
             if types && !drags {
                 return Heard::Nothing;
             }
-            let Some(key) = key_of(*key, written) else { return if drags { Heard::Alone } else { Heard::Nothing } };
+            let Some(key) = key_of(*key, written) else {
+                return if drags { Heard::Alone } else { Heard::Nothing };
+            };
             // A letter held down would bind and free an axis in turn.
             let counts = !*repeat || key == Key::Backspace;
             let taken = counts && press(state, key, effects);
@@ -187,4 +189,3 @@ fn key_of(key: egui::Key, written: Option<char>) -> Option<Key> {
     };
     named.or_else(|| written.or_else(|| symbol(key)).map(Key::letter))
 }
-

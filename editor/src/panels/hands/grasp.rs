@@ -45,6 +45,7 @@ impl Hold {
 impl State {
     /// Puts the gizmo where the selected bones are now. Does nothing where nothing changed; a drag keeps its place.
     pub(in crate::panels) fn grasp(&mut self) {
+        self.hands.look(&self.camera);
         let Some(view) = &self.view else { return };
         let hand = &self.settings.hand;
         let settings = GizmoSettings {

@@ -15,8 +15,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Re
             ui.label(RichText::new(format!("Opening {}", loading.title)).heading());
             ui.label(RichText::new(loading.progress.stage.title()).color(Theme::of(ui).weak));
             ui.add_space(GRID);
-            let bar =
-                egui::ProgressBar::new(loading.progress.done).desired_width(260.0).desired_height(6.0);
+            let bar = egui::ProgressBar::new(loading.progress.done).desired_width(260.0).desired_height(6.0);
             ui.add(bar.fill(Theme::of(ui).accent));
             ui.add_space(GRID);
             if ui.button("Stop").clicked() {
@@ -82,4 +81,3 @@ fn card(ui: &mut Ui, rect: Rect, add: impl FnOnce(&mut Ui)) {
                 });
         });
 }
-

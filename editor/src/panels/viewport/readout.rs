@@ -78,7 +78,9 @@ fn amount(readout: &GizmoReadout<'_>) -> String {
         (GizmoDelta::Move(by), Handle::Axis(axis)) => format!("{:.4}", zero(by[axis as usize])),
         (GizmoDelta::Move(by), _) => format!("{:.3}  {:.3}  {:.3}", zero(by.x), zero(by.y), zero(by.z)),
         (GizmoDelta::Scale(by), Handle::Axis(axis)) => format!("\u{d7} {:.3}", by[axis as usize]),
-        (GizmoDelta::Scale(by), Handle::Plane(normal)) => format!("\u{d7} {:.3}", by[normal.others()[0] as usize]),
+        (GizmoDelta::Scale(by), Handle::Plane(normal)) => {
+            format!("\u{d7} {:.3}", by[normal.others()[0] as usize])
+        }
         (GizmoDelta::Scale(by), _) => format!("\u{d7} {:.3}", by.x),
     }
 }

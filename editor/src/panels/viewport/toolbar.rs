@@ -64,4 +64,3 @@ fn views(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         menu::item(ui, state, Id::FrameSelected, false, requests);
     });
 }
-
