@@ -29,6 +29,9 @@ impl Bench {
 
     pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
         let mut requests = Vec::new();
+        let mut input = ui.input(|input| input.raw.clone());
+        panels::hands::feed(ui.ctx(), &mut self.state, &mut input, 0, &mut self.effects);
+        ui.input_mut(|state| state.events = input.events);
         self.state.begin(self.state.now);
         for id in panels::commands::pressed(ui.ctx()) {
             requests.push(Request::Command(id));

@@ -16,16 +16,21 @@ const HAND: Duration = Duration::from_millis(60);
 
 /// Keys by their position on a keyboard, as Xvfb numbers them.
 pub(crate) mod key {
+    pub(crate) const DIGIT_0: u8 = 19;
+    pub(crate) const DIGIT_3: u8 = 12;
+    pub(crate) const ENTER: u8 = 36;
+    pub(crate) const ESCAPE: u8 = 9;
+    pub(crate) const F3: u8 = 69;
+    pub(crate) const X: u8 = 53;
+    pub(crate) const Y: u8 = 29;
+    pub(crate) const Z: u8 = 52;
     pub(crate) const CONTROL: u8 = 37;
     pub(crate) const O: u8 = 32;
     pub(crate) const SPACE: u8 = 65;
-    pub(crate) const ESCAPE: u8 = 9;
     pub(crate) const TAB: u8 = 23;
-    pub(crate) const ENTER: u8 = 36;
     pub(crate) const Q: u8 = 24;
     pub(crate) const S: u8 = 39;
     pub(crate) const SHIFT: u8 = 50;
-    pub(crate) const Z: u8 = 52;
     pub(crate) const F11: u8 = 95;
     pub(crate) const HOME: u8 = 110;
 }
@@ -115,6 +120,18 @@ impl Screen {
         pass(HAND);
         self.fake(4, 1, 0, 0);
         pass(HAND);
+        self.fake(5, 1, 0, 0);
+        pass(HAND);
+    }
+
+    /// Presses the left button and holds it.
+    pub(crate) fn hold(&mut self) {
+        self.fake(4, 1, 0, 0);
+        pass(HAND);
+    }
+
+    /// Lets the left button go.
+    pub(crate) fn let_go(&mut self) {
         self.fake(5, 1, 0, 0);
         pass(HAND);
     }

@@ -1,52 +1,123 @@
 //! The mouse over the picture.
 
 use dragonfly::camera::Camera;
-use dragonfly::control::{Button, Input, Outcome, ViewportControl};
+use dragonfly::control::bones::{Choice, OwnedRegion};
+use dragonfly::control::{
+    Area, BaseControl, Button, Catch, ControlFramework, ControlId, Controls, InputEvent, Key, Modifiers,
+    Outcome, ViewportControl,
+};
 use dragonfly_kit::random::{Random, seed};
 use glam::Vec2;
 
+const CORNER: Vec2 = Vec2::new(100.0, 50.0);
 const SIZE: Vec2 = Vec2::new(800.0, 600.0);
+const ALT: Modifiers = Modifiers { shift: false, ctrl: false, alt: true };
+const SHIFT: Modifiers = Modifiers { shift: true, ctrl: false, alt: false };
+const CTRL: Modifiers = Modifiers { shift: false, ctrl: true, alt: false };
+const NONE: Modifiers = Modifiers { shift: false, ctrl: false, alt: false };
 
-fn input(x: f32, y: f32) -> Input {
-    Input { size: SIZE, pointer: Some(Vec2::new(x, y)), focused: true, ..Input::default() }
+/// The picture in a window.
+struct Picture {
+    framework: ControlFramework,
+    owner: Owner,
 }
 
-fn press(button: Button, x: f32, y: f32) -> Input {
-    let mut down = [false; 3];
-    down[button as usize] = true;
-    Input { pressed: Some(button), down, ..input(x, y) }
+struct Owner(ControlId, ViewportControl);
+
+impl Controls for Owner {
+    fn control(&mut self, id: ControlId) -> Option<&mut dyn BaseControl> {
+        (id == self.0).then_some(&mut self.1 as _)
+    }
 }
 
-fn held(button: Button, x: f32, y: f32) -> Input {
-    Input { pressed: None, ..press(button, x, y) }
+impl Picture {
+    fn new() -> Self {
+        let mut framework = ControlFramework::new(Vec2::new(1200.0, 700.0));
+        let id = framework.register_control(Area::new(CORNER, CORNER + SIZE));
+        let mut control = ViewportControl::default();
+        (control.corner, control.size) = (CORNER, SIZE);
+        Self { framework, owner: Owner(id, control) }
+    }
+
+    fn send(&mut self, event: InputEvent) {
+        self.framework.resolve_input(event, &mut self.owner);
+    }
+
+    fn control(&mut self) -> &mut ViewportControl {
+        &mut self.owner.1
+    }
+
+    fn camera(&self) -> Camera {
+        self.owner.1.camera
+    }
+
+    fn to(&mut self, x: f32, y: f32) {
+        self.send(InputEvent::MouseMove(CORNER + Vec2::new(x, y)));
+    }
+
+    /// From one place to another with a button held; what was asked for.
+    fn drag(&mut self, button: Button, held: Modifiers, ways: &[[f32; 2]]) -> Option<Outcome> {
+        self.send(InputEvent::Modifiers(held));
+        self.to(ways[0][0], ways[0][1]);
+        self.send(InputEvent::MouseDown(button));
+        ways.iter().for_each(|[x, y]| self.to(*x, *y));
+        self.send(InputEvent::MouseUp(button));
+        self.control().take_outcome()
+    }
 }
 
 #[test]
-fn a_click_picks_and_a_drag_does_not() {
-    let (mut control, mut camera) = (ViewportControl::default(), Camera::default());
-    assert_eq!(control.step(&press(Button::Left, 10.0, 20.0), &mut camera), None);
-    assert_eq!(control.step(&input(11.0, 20.0), &mut camera), Some(Outcome::Pick(Vec2::new(11.0, 20.0))));
-    control.step(&press(Button::Left, 10.0, 20.0), &mut camera);
-    control.step(&held(Button::Left, 60.0, 20.0), &mut camera);
-    assert_eq!(control.step(&input(60.0, 20.0), &mut camera), None);
-    assert_eq!(camera, Camera::default(), "neither moves the eye");
+fn a_click_picks_a_drag_draws_a_box_and_neither_moves_the_eye() {
+    let mut picture = Picture::new();
+    let click = picture.drag(Button::Left, NONE, &[[10.0, 20.0], [11.0, 20.0]]);
+    assert_eq!(click, Some(Outcome::Pick(Vec2::new(10.0, 20.0), Choice::Replace)));
+    let boxed = picture.drag(Button::Left, NONE, &[[10.0, 20.0], [60.0, 90.0]]);
+    let region = OwnedRegion::Box(Vec2::new(10.0, 20.0), Vec2::new(60.0, 90.0));
+    assert_eq!(boxed, Some(Outcome::Catch(region, Choice::Replace)));
+    assert_eq!(picture.camera(), Camera::default());
+}
+
+#[test]
+fn shift_adds_ctrl_toggles_and_both_with_alt_draw_a_line() {
+    let mut picture = Picture::new();
+    let choice = |outcome| match outcome {
+        Some(Outcome::Pick(_, choice) | Outcome::Catch(_, choice)) => choice,
+        None => panic!("nothing was asked for"),
+    };
+    for (held, wanted) in [(SHIFT, Choice::Add), (CTRL, Choice::Toggle)] {
+        assert_eq!(choice(picture.drag(Button::Left, held, &[[10.0, 20.0]])), wanted);
+        assert_eq!(choice(picture.drag(Button::Left, held, &[[10.0, 20.0], [90.0, 90.0]])), wanted);
+    }
+    let ways = [[10.0, 20.0], [60.0, 90.0], [200.0, 30.0]];
+    let Some(Outcome::Catch(OwnedRegion::Lasso(line), Choice::Replace)) =
+        picture.drag(Button::Left, Modifiers { ctrl: true, ..ALT }, &ways)
+    else {
+        panic!("no lasso")
+    };
+    assert_eq!(line, ways.map(Vec2::from));
+    // Armed by a command, the next drag draws one too, and only that one.
+    picture.control().arm(Catch::Lasso);
+    let outcome = picture.drag(Button::Left, SHIFT, &ways);
+    assert!(matches!(outcome, Some(Outcome::Catch(OwnedRegion::Lasso(_), Choice::Add))), "{outcome:?}");
+    let outcome = picture.drag(Button::Left, NONE, &ways);
+    assert!(matches!(outcome, Some(Outcome::Catch(OwnedRegion::Box(..), _))), "{outcome:?}");
 }
 
 #[test]
 fn each_gesture_does_what_hands_expect() {
     let gestures = [
-        (Button::Middle, false, false, "orbit"),
-        (Button::Left, true, false, "orbit"),
-        (Button::Middle, false, true, "pan"),
-        (Button::Middle, true, false, "pan"),
-        (Button::Right, true, false, "zoom"),
-        (Button::Right, false, false, "nothing"),
+        (Button::Middle, NONE, "orbit"),
+        (Button::Left, ALT, "orbit"),
+        (Button::Middle, SHIFT, "pan"),
+        (Button::Middle, ALT, "pan"),
+        (Button::Right, ALT, "zoom"),
+        (Button::Right, NONE, "nothing"),
     ];
-    for (button, alt, shift, deed) in gestures {
-        let (mut control, mut camera) = (ViewportControl::default(), Camera::default());
-        let before = camera;
-        control.step(&Input { alt, shift, ..press(button, 100.0, 100.0) }, &mut camera);
-        control.step(&Input { alt, shift, ..held(button, 130.0, 160.0) }, &mut camera);
+    for (button, held, deed) in gestures {
+        let mut picture = Picture::new();
+        let before = picture.camera();
+        let asked = picture.drag(button, held, &[[100.0, 100.0], [130.0, 160.0]]);
+        let camera = picture.camera();
         let found = if camera.yaw != before.yaw && camera.target == before.target {
             "orbit"
         } else if camera.target != before.target && camera.distance == before.distance {
@@ -56,43 +127,61 @@ fn each_gesture_does_what_hands_expect() {
         } else {
             "nothing"
         };
-        assert_eq!(found, deed, "{button:?} alt {alt} shift {shift}");
+        assert_eq!(found, deed, "{button:?} {held:?}");
+        assert_eq!(asked, None);
     }
 }
 
 #[test]
 fn losing_the_focus_ends_a_drag() {
-    let (mut control, mut camera) = (ViewportControl::default(), Camera::default());
-    control.step(&press(Button::Middle, 100.0, 100.0), &mut camera);
-    control.step(&held(Button::Middle, 120.0, 100.0), &mut camera);
-    assert!(control.is_dragging());
-    control.step(&Input { focused: false, ..held(Button::Middle, 120.0, 100.0) }, &mut camera);
-    let stands = camera;
-    // The release was never heard of: the button still counts as held.
-    control.step(&held(Button::Middle, 400.0, 300.0), &mut camera);
-    assert_eq!(camera, stands);
-    assert!(!control.is_dragging());
+    let mut picture = Picture::new();
+    picture.to(100.0, 100.0);
+    picture.send(InputEvent::MouseDown(Button::Middle));
+    picture.to(120.0, 100.0);
+    assert!(picture.control().is_dragging());
+    picture.send(InputEvent::Lost);
+    let stands = picture.camera();
+    assert_ne!(stands, Camera::default());
+    picture.to(400.0, 300.0);
+    assert_eq!(picture.camera(), stands);
+    assert!(!picture.control().is_dragging());
 }
 
 #[test]
-fn escape_takes_a_drag_back() {
-    let (mut control, mut camera) = (ViewportControl::default(), Camera::default());
-    control.step(&press(Button::Middle, 100.0, 100.0), &mut camera);
-    control.step(&held(Button::Middle, 300.0, 250.0), &mut camera);
-    assert_ne!(camera, Camera::default());
-    control.step(&Input { escape: true, ..held(Button::Middle, 300.0, 250.0) }, &mut camera);
-    assert_eq!(camera, Camera::default());
+fn escape_and_another_button_take_a_drag_back() {
+    let mut picture = Picture::new();
+    picture.to(100.0, 100.0);
+    picture.send(InputEvent::MouseDown(Button::Middle));
+    picture.to(300.0, 250.0);
+    assert_ne!(picture.camera(), Camera::default());
+    picture.send(InputEvent::KeyDown(Key::Escape));
+    assert_eq!(picture.camera(), Camera::default());
+    picture.send(InputEvent::MouseUp(Button::Middle));
+    picture.send(InputEvent::MouseDown(Button::Left));
+    picture.to(400.0, 250.0);
+    assert!(picture.control().catching().is_some());
+    picture.send(InputEvent::MouseDown(Button::Right));
+    assert!(picture.control().catching().is_none());
+    picture.send(InputEvent::MouseUp(Button::Right));
+    picture.send(InputEvent::MouseUp(Button::Left));
+    assert_eq!(picture.control().take_outcome(), None);
 }
 
 #[test]
 fn the_wheel_zooms_to_what_is_under_the_pointer() {
-    let (mut control, mut camera) = (ViewportControl::default(), Camera::default());
-    let before = camera;
-    control.step(&Input { wheel: 50.0, ..input(400.0, 300.0) }, &mut camera);
-    assert!(camera.distance < before.distance);
-    assert!((camera.target - before.target).length() < 1e-5, "in the middle the target stays");
-    control.step(&Input { wheel: 50.0, ..input(700.0, 300.0) }, &mut camera);
-    assert!((camera.target - before.target).dot(before.right()) > 0.0);
+    let mut picture = Picture::new();
+    let before = picture.camera();
+    picture.to(400.0, 300.0);
+    picture.send(InputEvent::Wheel(Vec2::new(0.0, 50.0)));
+    assert!(picture.camera().distance < before.distance);
+    assert!((picture.camera().target - before.target).length() < 1e-5, "in the middle the target stays");
+    picture.to(700.0, 300.0);
+    picture.send(InputEvent::Wheel(Vec2::new(0.0, 50.0)));
+    assert!((picture.camera().target - before.target).dot(before.right()) > 0.0);
+    let spread = ViewportControl::wheel_of_pinch(2.0);
+    let before = picture.camera();
+    picture.send(InputEvent::Wheel(Vec2::new(0.0, spread)));
+    assert!((picture.camera().distance * 2.0 - before.distance).abs() < 1e-4, "two fingers spread to twice");
 }
 
 #[test]
@@ -101,34 +190,31 @@ fn a_thousand_random_sequences_leave_nothing_stuck() {
     println!("seed {seed}");
     let mut random = Random::new(seed);
     let odd = [f32::NAN, f32::INFINITY, -1e30, 0.0, 1e30];
+    let buttons = [Button::Left, Button::Middle, Button::Right];
     for _ in 0..1_000 {
-        let (mut control, mut camera) = (ViewportControl::default(), Camera::default());
+        let mut picture = Picture::new();
         for _ in 0..30 {
-            let buttons = [Button::Left, Button::Middle, Button::Right];
             let mut place =
                 || if random.below(20) == 0 { random.choice(&odd) } else { random.unit() * 800.0 };
-            let pointer = Vec2::new(place(), place());
-            control.step(
-                &Input {
-                    size: SIZE,
-                    pointer: (random.below(8) > 0).then_some(pointer),
-                    pressed: (random.below(4) == 0).then(|| buttons[random.below(3)]),
-                    down: [random.below(2) == 0, random.below(2) == 0, random.below(2) == 0],
-                    wheel: if random.below(4) == 0 { (random.unit() - 0.5) * 400.0 } else { 0.0 },
-                    pinch: if random.below(8) == 0 { odd[random.below(5)] } else { 1.0 },
-                    alt: random.below(2) == 0,
-                    shift: random.below(2) == 0,
-                    escape: random.below(10) == 0,
-                    focused: random.below(10) > 0,
-                },
-                &mut camera,
-            );
+            let at = Vec2::new(place(), place());
+            picture.send(match random.below(9) {
+                0..3 => InputEvent::MouseMove(at),
+                3 => InputEvent::MouseDown(buttons[random.below(3)]),
+                4 => InputEvent::MouseUp(buttons[random.below(3)]),
+                5 => InputEvent::Wheel(at),
+                6 => InputEvent::KeyDown(Key::Escape),
+                7 => {
+                    let [shift, ctrl, alt] = [(); 3].map(|()| random.below(2) == 0);
+                    InputEvent::Modifiers(Modifiers { shift, ctrl, alt })
+                }
+                _ => InputEvent::Lost,
+            });
+            let camera = picture.camera();
             let finite = camera.target.is_finite() && camera.distance.is_finite() && camera.yaw.is_finite();
             assert!(finite && camera.distance > 0.0, "{camera:?}");
         }
         // Everything let go: nothing drags.
-        control.step(&input(1.0, 1.0), &mut camera);
-        control.step(&input(2.0, 2.0), &mut camera);
-        assert!(!control.is_dragging());
+        buttons.into_iter().for_each(|button| picture.send(InputEvent::MouseUp(button)));
+        assert!(!picture.control().is_dragging());
     }
 }

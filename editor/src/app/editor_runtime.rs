@@ -6,15 +6,14 @@ use super::file_dialog::{self, Answer, Purpose};
 use super::hover::{Hover, Place};
 use super::interface::Interface;
 use super::options::Options;
-use crate::camera::Camera;
+use super::sent::Sent;
+use crate::control::bones::Choice;
 use crate::document::{Document, DocumentHandle, DocumentReply, Setup, Source, Then};
-use crate::graphics::{GraphicsHandle, GraphicsReply, Look};
+use crate::graphics::GraphicsReply;
 use crate::panels::saving::Deed;
 use crate::panels::state::Device;
 use crate::panels::status::Level;
-use crate::panels::theme::{Theme, linear};
-use crate::panels::{Effect, Request, State};
-use crate::playback::Playback;
+use crate::panels::{Effect, Request};
 use crate::store::{Autosave, RealFiles};
 use dragonfly_runtime::{Address, Context, Receiver, Thread};
 use std::cell::{Cell, RefCell};
@@ -43,19 +42,18 @@ pub(super) struct Running {
     sent: Sent,
     /// Questions asked so far.
     tickets: u64,
-    /// The newest question of a click.
-    click: u64,
+    /// The newest question of a click or a box.
+    asked: Option<(u64, Asked)>,
     hover: Hover,
     /// Frames drawn when the device was last lost on purpose.
     lost_at: u64,
 }
 
-/// What the graphics thread knows already.
-#[derive(Default)]
-struct Sent {
-    playback: Option<Playback>,
-    camera: Option<Camera>,
-    look: Option<Look>,
+/// What a click or a box asked about.
+#[derive(Clone, Copy, Debug)]
+enum Asked {
+    Click(egui::Pos2, Choice),
+    Region(Choice),
 }
 
 impl EditorRuntime {
@@ -82,6 +80,20 @@ impl EditorRuntime {
         let folder = self.options.autosave_folder.clone().or(beside);
         let autosave = Autosave::new(Arc::new(RealFiles), folder);
         Setup { autosave, fail_at: self.options.fail_at, ..Setup::default() }
+    }
+
+    /// Sends out what the person asked for, and what the graphics thread is to know of it.
+    fn carry_out(&mut self) {
+        let effects = match &self.running {
+            Some(running) => std::mem::take(&mut running.parts.interface.borrow_mut().effects),
+            None => return,
+        };
+        for effect in effects {
+            self.effect(effect);
+        }
+        if let Some(running) = &mut self.running {
+            running.sent.update(&running.parts.graphics, &running.parts.interface.borrow());
+        }
     }
 
     fn effect(&mut self, effect: Effect) {
@@ -132,12 +144,16 @@ impl EditorRuntime {
                 let effect = interface.state.execute(Request::PastePose { text, mirrored });
                 interface.effects.extend(effect);
             }
-            Effect::Pick(position) => {
+            Effect::Pick(at, choice) => {
                 running.tickets += 1;
-                running.click = running.tickets;
+                running.asked = Some((running.tickets, Asked::Click(at, choice)));
                 let scale = interface.pixels_per_point();
-                let position = [position.x * scale, position.y * scale];
-                graphics.pick(position, running.tickets);
+                graphics.pick_all([at.x * scale, at.y * scale], running.tickets);
+            }
+            Effect::Catch(region, choice) => {
+                running.tickets += 1;
+                running.asked = Some((running.tickets, Asked::Region(choice)));
+                graphics.catch(region, running.tickets);
             }
             Effect::FullScreen => interface.toggle_full_screen(),
             Effect::TogglePanel(id) => interface.toggle_panel(id),
@@ -180,7 +196,7 @@ impl BaseRuntime for EditorRuntime {
             leaving: false,
             sent: Sent::default(),
             tickets: 0,
-            click: 0,
+            asked: None,
             hover: Hover::default(),
             lost_at: 0,
         });
@@ -202,9 +218,14 @@ impl BaseRuntime for EditorRuntime {
                         return;
                     }
                     interface.state.pointed = bone;
+                }
+            }
+            GraphicsReply::PickedAll { bones, ticket } => {
                 // An answer to an older question is not what the person points at now.
-                } else if ticket == running.click {
-                    interface.state.select(bone);
+                match running.asked.take_if(|asked| asked.0 == ticket) {
+                    Some((_, Asked::Click(at, choice))) => interface.state.picked(at, &bones, choice),
+                    Some((_, Asked::Region(choice))) => interface.state.caught(&bones, choice),
+                    None => return,
                 }
             }
             GraphicsReply::Statistics { frames, milliseconds } => {
@@ -240,16 +261,13 @@ impl BaseRuntime for EditorRuntime {
         interface.redraw();
     }
 
+    fn hasten(&mut self) {
+        self.carry_out();
+    }
+
     fn update(&mut self, _main: &mut Context) {
-        let effects = match &self.running {
-            Some(running) => std::mem::take(&mut running.parts.interface.borrow_mut().effects),
-            None => return,
-        };
-        for effect in effects {
-            self.effect(effect);
-        }
+        self.carry_out();
         if let Some(running) = &mut self.running {
-            running.sent.update(&running.parts.graphics, &running.parts.interface.borrow());
             running.ask_under_pointer();
         }
     }
@@ -282,57 +300,6 @@ impl Running {
             self.tickets += 1;
             self.parts.graphics.pick(asked.position, self.tickets);
         }
-    }
-}
-
-impl Sent {
-    /// Sends what differs from what was sent last. What these times and bones are about comes from the document itself,
-    /// and was sent before the view that they were chosen for.
-    fn update(&mut self, graphics: &GraphicsHandle, interface: &Interface) {
-        let state = &interface.state;
-        if self.playback != Some(state.playback) {
-            self.playback = Some(state.playback);
-            graphics.play(state.playback);
-        }
-        if self.camera != Some(state.camera) {
-            self.camera = Some(state.camera);
-            graphics.set_camera(state.camera);
-        }
-        let look = look(state, interface.pixels_per_point(), interface.is_dark());
-        if self.look.as_ref() != Some(&look) {
-            graphics.set_look(look.clone());
-            self.look = Some(look);
-        }
-    }
-}
-
-/// How the graphics thread is to draw what the state says.
-fn look(state: &State, pixels_per_point: f32, dark: bool) -> Look {
-    let theme = Theme::get(dark);
-    let settings = &state.settings.look;
-    let pixels = |points: f32| (points * pixels_per_point).round().max(0.0) as u32;
-    let rect = state.viewport;
-    let (left, top) = (pixels(rect.left()), pixels(rect.top()));
-    Look {
-        viewport: [
-            left,
-            top,
-            pixels(rect.right()).saturating_sub(left),
-            pixels(rect.bottom()).saturating_sub(top),
-        ],
-        pixels_per_point,
-        background: theme.sky.map(linear),
-        grid: settings.grid,
-        grid_color: linear(theme.grid),
-        skeleton: state.shows_skeleton(),
-        bone_look: settings.bone_look,
-        bones_in_front: settings.bones_in_front,
-        selected: state.selection.bones().to_vec(),
-        hovered: state.bright(),
-        shading: settings.shading,
-        surface: settings.surface,
-        bone_color: linear(theme.bone),
-        accent: linear(theme.accent),
     }
 }
 

@@ -53,6 +53,13 @@ impl InitManager {
         reach(Step::RunTime);
     }
 
+    /// The window had input.
+    pub(super) fn hasten(&mut self) {
+        if let Some(runtime) = &mut self.runtime {
+            runtime.hasten();
+        }
+    }
+
     /// Lets the run-time end, if it ever began.
     pub(super) fn destroy(&mut self, main: &mut Context) {
         self.prepared = None;

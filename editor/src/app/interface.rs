@@ -2,10 +2,12 @@
 //!
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
+use super::shown::Shown;
 use super::store::{self, Store};
 use crate::document::edit::Edit;
 use crate::graphics::{GraphicsHandle, PanelsFrame};
 use crate::panels::commands;
+use crate::panels::hands;
 use crate::panels::saving::Deed;
 use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;
@@ -45,6 +47,7 @@ pub struct Interface {
     drawn: Instant,
     accepts_input: bool,
     occluded: bool,
+    shown: Shown,
 }
 
 impl Interface {
@@ -72,6 +75,7 @@ impl Interface {
             drawn: now - FASTEST,
             accepts_input: true,
             occluded: false,
+            shown: Shown::default(),
         }
     }
 
@@ -162,11 +166,12 @@ impl Interface {
         self.desk.reset_layout();
     }
 
-    /// Takes an event of the window.
-    pub(super) fn window_event(&mut self, event: &WindowEvent) {
+    /// Takes an event of the window. Tells whether the scene heard it: then what follows is not to wait for the panels.
+    pub(super) fn window_event(&mut self, event: &WindowEvent) -> bool {
         if !self.accepts_input {
-            return;
+            return false;
         }
+        let before = self.egui.egui_input().events.len();
         let response = self.egui.on_window_event(&self.window, event);
         if let WindowEvent::ScaleFactorChanged { scale_factor, inner_size_writer } = event {
             self.set_desktop_scale(*scale_factor, inner_size_writer);
@@ -193,6 +198,13 @@ impl Interface {
             _ if response.repaint => self.redraw(),
             _ => {}
         }
+        let context = self.egui.egui_ctx().clone();
+        let input = self.egui.egui_input_mut();
+        let heard = hands::feed(&context, &mut self.state, input, before, &mut self.effects);
+        if heard {
+            self.redraw();
+        }
+        heard
     }
 
     /// Takes an event of the accessibility bridge.
@@ -309,6 +321,7 @@ impl Interface {
             || questions != self.state.questions
             || viewport != self.state.viewport;
 
+        self.shown.tell(&self.state);
         self.drawn = now;
         self.due = None;
         let egui_wants =

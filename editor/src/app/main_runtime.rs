@@ -99,7 +99,10 @@ impl MainRuntime {
 
     /// Takes an event of the window.
     pub(super) fn window_event(&mut self, event: &WindowEvent) {
-        self.interface.borrow_mut().window_event(event);
+        let heard = self.interface.borrow_mut().window_event(event);
+        if heard {
+            self.init.borrow_mut().hasten();
+        }
     }
 
     /// The person wants to close the window: is there somebody to ask whether everything is saved? Then that one decides.

@@ -18,6 +18,8 @@ mod interface;
 mod main_runtime;
 mod options;
 mod saving;
+mod sent;
+mod shown;
 pub mod store;
 pub mod timeline;
 

@@ -1,12 +1,17 @@
-//! The mouse over the picture: orbit, pan, zoom, pick (keys and buttons as hands know them from other programs).
+//! The mouse over the picture: orbit, pan, zoom, click, box and lasso (keys and buttons as hands know them from other
+//! programs).
 
+use super::base::{BaseControl, Mouse, Pass};
+use super::bones::{Choice, Lasso, OwnedRegion, Region};
+use super::framework::ControlFramework;
+use super::key::{Key, Modifiers};
 use crate::camera::Camera;
 use glam::Vec2;
 
 /// A button of the mouse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Button {
-    /// Picks; with Alt it orbits.
+    /// Picks and boxes; with Alt it orbits, with Ctrl and Alt it draws a lasso.
     Left,
     /// Orbits; with Shift or Alt it pans.
     Middle,
@@ -14,36 +19,22 @@ pub enum Button {
     Right,
 }
 
-/// What happened in one frame. Lengths are points from the top left of the picture, y down.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Input {
-    /// Size of the picture.
-    pub size: Vec2,
-    /// Where the pointer is; `None` outside the window.
-    pub pointer: Option<Vec2>,
-    /// The button that went down over the picture in this frame.
-    pub pressed: Option<Button>,
-    /// Buttons held: left, middle, right.
-    pub down: [bool; 3],
-    /// Turned over the picture: positive is away from the person.
-    pub wheel: f32,
-    /// Two fingers spread: a factor, 0 or 1 for none.
-    pub pinch: f32,
-    /// Held keys.
-    pub alt: bool,
-    /// Held keys.
-    pub shift: bool,
-    /// Was Escape pressed?
-    pub escape: bool,
-    /// Has the window the keyboard?
-    pub focused: bool,
-}
-
-/// What the machine asks for besides moving the camera.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What the picture asks for besides moving the camera. Places are points from its top left.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// Which bone lies here?
-    Pick(Vec2),
+    Pick(Vec2, Choice),
+    /// Which bones lie in there?
+    Catch(OwnedRegion, Choice),
+}
+
+/// A form in which bones are caught.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Catch {
+    /// From corner to corner.
+    Box,
+    /// Within a line.
+    Lasso,
 }
 
 /// What the mouse is doing.
@@ -51,9 +42,15 @@ pub enum Outcome {
 enum Mode {
     #[default]
     Idle,
-    /// Down, but not moved yet: may become a click.
+    /// Down, but not moved yet: may become a click, or `catch`.
     Pressed {
         at: Vec2,
+        catch: Catch,
+    },
+    Catching {
+        from: Vec2,
+        to: Vec2,
+        catch: Catch,
     },
     Drag {
         kind: Drag,
@@ -70,10 +67,21 @@ enum Drag {
     Zoom,
 }
 
-/// Moves a camera as the mouse says.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Moves a camera as the mouse says. Its owner gives it the camera and the place of the picture before an input, and takes
+/// the camera and the outcome after it.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ViewportControl {
+    /// From where the picture is seen.
+    pub camera: Camera,
+    /// Top left of the picture, points from that of the window.
+    pub corner: Vec2,
+    /// Size of the picture, points.
+    pub size: Vec2,
     mode: Mode,
+    lasso: Lasso,
+    /// The next press catches bones, whatever it meets.
+    armed: Option<Catch>,
+    outcome: Option<Outcome>,
 }
 
 /// Radians a point.
@@ -81,96 +89,187 @@ const ORBIT: f32 = 0.008;
 /// Change of the logarithm of the distance a point of wheel or drag.
 const ZOOM_WHEEL: f32 = 0.002;
 const ZOOM_DRAG: f32 = 0.008;
-/// A press that moves further than this is no click.
-const CLICK: f32 = 4.0;
-/// No screen is so large: a pointer reported there is a mistake of the driver.
-const FARTHEST: f32 = 1e5;
+/// A press that moves further than this is no click, points.
+pub(super) const CLICK: f32 = 4.0;
 
 impl ViewportControl {
     /// Is a drag going on?
     pub fn is_dragging(&self) -> bool {
+        matches!(self.mode, Mode::Drag { .. } | Mode::Catching { .. })
+    }
+
+    /// Does the mouse move the camera?
+    pub fn moves_camera(&self) -> bool {
         matches!(self.mode, Mode::Drag { .. })
     }
 
-    /// Takes one frame's input; moves `camera`.
-    ///
-    /// A drag ends where it is when its button comes up or the window loses the keyboard (the release would never be
-    /// heard of), and is taken back by Escape.
-    pub fn step(&mut self, input: &Input, camera: &mut Camera) -> Option<Outcome> {
-        let sound = |point: &Vec2| point.is_finite() && point.abs().max_element() < FARTHEST;
-        let pointer = input.pointer.filter(sound);
-        if let Some(pointer) = pointer {
-            zoom(input, pointer, camera);
-        }
-        if !input.focused {
-            self.mode = Mode::Idle;
-            return None;
-        }
-        let pointer = pointer?;
+    /// The next press of the left button catches bones, also where it meets a handle.
+    pub fn arm(&mut self, catch: Catch) {
+        self.armed = Some(catch);
+    }
+
+    /// What the next press catches with.
+    pub fn armed(&self) -> Option<Catch> {
+        self.armed
+    }
+
+    /// The box or lasso that is being drawn.
+    pub fn catching(&self) -> Option<Region<'_>> {
         match self.mode {
-            Mode::Idle => {
-                if let Some(button) = input.pressed {
-                    self.mode = match kind(button, input) {
-                        Some(kind) => Mode::Drag { kind, button, last: pointer, before: *camera },
-                        None if button == Button::Left => Mode::Pressed { at: pointer },
-                        None => Mode::Idle,
-                    };
+            Mode::Catching { from, to, catch: Catch::Box } => Some(Region::Box(from, to)),
+            Mode::Catching { catch: Catch::Lasso, .. } => Some(self.lasso.region()),
+            _ => None,
+        }
+    }
+
+    /// What was asked for since this was called last.
+    pub fn take_outcome(&mut self) -> Option<Outcome> {
+        self.outcome.take()
+    }
+
+    /// Zooms so that what is under a point of the picture stays there; `by` is turned points of a wheel, positive is nearer.
+    pub fn zoom(&mut self, at: Vec2, by: f32) {
+        let factor = (-by * ZOOM_WHEEL).clamp(-2.0, 2.0).exp();
+        if factor.is_finite() && at.is_finite() && factor != 1.0 {
+            self.camera.zoom_to(at, self.size, factor);
+        }
+    }
+
+    /// Turns of a wheel that zoom as two fingers do which spread by `factor`.
+    pub fn wheel_of_pinch(factor: f32) -> f32 {
+        let sound = factor.is_finite() && factor > 0.0;
+        if sound { factor.clamp(0.1, 10.0).ln() / ZOOM_WHEEL } else { 0.0 }
+    }
+
+    fn moved(&mut self, at: Vec2) {
+        match &mut self.mode {
+            Mode::Idle => {}
+            Mode::Pressed { at: from, catch } => {
+                if from.distance(at) > CLICK {
+                    let (from, catch) = (*from, *catch);
+                    self.lasso.begin(from);
+                    self.lasso.push(at);
+                    self.mode = Mode::Catching { from, to: at, catch };
                 }
-                None
             }
-            Mode::Pressed { at } => {
-                if at.distance(pointer) > CLICK || input.escape {
-                    self.mode = Mode::Idle;
-                } else if !input.down[0] {
-                    self.mode = Mode::Idle;
-                    return Some(Outcome::Pick(pointer));
-                }
-                None
+            Mode::Catching { to, .. } => {
+                *to = at;
+                self.lasso.push(at);
             }
-            Mode::Drag { kind, button, last, before } => {
-                if input.escape {
-                    *camera = before;
-                    self.mode = Mode::Idle;
-                    return None;
+            Mode::Drag { kind, last, .. } => {
+                let by = at - *last;
+                *last = at;
+                match *kind {
+                    Drag::Orbit => orbit(by, &mut self.camera),
+                    Drag::Pan => self.camera.pan(by, self.size.y),
+                    Drag::Zoom => {
+                        self.camera.dolly(((by.y - by.x) * ZOOM_DRAG).clamp(-2.0, 2.0).exp());
+                    }
                 }
-                drag(kind, pointer - last, input.size, camera);
-                self.mode = if input.down[button as usize] {
-                    Mode::Drag { kind, button, last: pointer, before }
-                } else {
-                    Mode::Idle
-                };
-                None
             }
         }
+    }
+
+    fn caught(&mut self, from: Vec2, to: Vec2, catch: Catch, modifiers: Modifiers) {
+        let region = match catch {
+            Catch::Box => OwnedRegion::Box(from, to),
+            Catch::Lasso => self.lasso.region().to_owned(),
+        };
+        // Ctrl and Alt together belong to the lasso itself.
+        let ctrl = modifiers.ctrl && !modifiers.alt;
+        self.outcome = Some(Outcome::Catch(region, Choice::of(Modifiers { ctrl, ..modifiers })));
     }
 }
 
-fn zoom(input: &Input, pointer: Vec2, camera: &mut Camera) {
-    let pinch = if input.pinch.is_finite() && input.pinch > 0.0 { 1.0 / input.pinch } else { 1.0 };
-    let wheel = if input.wheel.is_finite() { -input.wheel * ZOOM_WHEEL } else { 0.0 };
-    let factor = pinch.clamp(0.1, 10.0) * wheel.clamp(-2.0, 2.0).exp();
-    if factor != 1.0 {
-        camera.zoom_to(pointer, input.size, factor);
+impl BaseControl for ViewportControl {
+    fn mouse_move(&mut self, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+        self.moved(mouse.at - self.corner);
+        Pass::Stop
     }
+
+    fn mouse_wheel(&mut self, by: Vec2, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+        self.zoom(mouse.at - self.corner, by.y);
+        Pass::Stop
+    }
+
+    fn mouse_down(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+        let at = mouse.at - self.corner;
+        match self.mode {
+            Mode::Idle => {
+                let armed = self.armed.take().filter(|_| button == Button::Left);
+                self.mode = match begins(button, mouse.modifiers) {
+                    _ if armed.is_some() => Mode::Pressed { at, catch: armed.unwrap_or(Catch::Box) },
+                    Begins::Catch(catch) => Mode::Pressed { at, catch },
+                    Begins::Drag(kind) => Mode::Drag { kind, button, last: at, before: self.camera },
+                    Begins::Nothing => Mode::Idle,
+                };
+            }
+            // Another button takes a box back.
+            Mode::Pressed { .. } | Mode::Catching { .. } => self.mode = Mode::Idle,
+            Mode::Drag { .. } => {}
+        }
+        Pass::Stop
+    }
+
+    fn mouse_up(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+        match self.mode {
+            Mode::Pressed { at, .. } if button == Button::Left => {
+                self.mode = Mode::Idle;
+                self.outcome = Some(Outcome::Pick(at, Choice::of(mouse.modifiers)));
+            }
+            Mode::Catching { from, to, catch } if button == Button::Left => {
+                self.mode = Mode::Idle;
+                self.caught(from, to, catch, mouse.modifiers);
+            }
+            Mode::Drag { button: held, .. } if button == held => self.mode = Mode::Idle,
+            _ => {}
+        }
+        Pass::Stop
+    }
+
+    /// Escape takes back what the mouse is doing.
+    fn key_down(
+        &mut self,
+        key: Key,
+        _modifiers: Modifiers,
+        _repeat: bool,
+        _framework: &mut ControlFramework,
+    ) -> Pass {
+        let busy = self.mode != Mode::Idle || self.armed.is_some();
+        if key != Key::Escape || !busy {
+            return Pass::ToParent;
+        }
+        if let Mode::Drag { before, .. } = self.mode {
+            self.camera = before;
+        }
+        self.mode = Mode::Idle;
+        self.armed = None;
+        Pass::Stop
+    }
+
+    /// The release would never be heard of: the eye stays where it is, a box is forgotten.
+    fn input_lost(&mut self, _framework: &mut ControlFramework) {
+        self.mode = Mode::Idle;
+        self.armed = None;
+    }
+}
+
+enum Begins {
+    Nothing,
+    Drag(Drag),
+    Catch(Catch),
 }
 
 /// What a press of `button` begins.
-fn kind(button: Button, input: &Input) -> Option<Drag> {
-    match (button, input.alt, input.shift) {
-        (Button::Left, true, _) => Some(Drag::Orbit),
-        (Button::Left, false, _) => None,
-        (Button::Middle, false, false) => Some(Drag::Orbit),
-        (Button::Middle, ..) => Some(Drag::Pan),
-        (Button::Right, true, _) => Some(Drag::Zoom),
-        (Button::Right, false, _) => None,
-    }
-}
-
-fn drag(kind: Drag, by: Vec2, size: Vec2, camera: &mut Camera) {
-    match kind {
-        Drag::Orbit => orbit(by, camera),
-        Drag::Pan => camera.pan(by, size.y),
-        Drag::Zoom => camera.dolly(((by.y - by.x) * ZOOM_DRAG).clamp(-2.0, 2.0).exp()),
+fn begins(button: Button, Modifiers { shift, ctrl, alt }: Modifiers) -> Begins {
+    match (button, alt, shift) {
+        (Button::Left, true, _) if ctrl => Begins::Catch(Catch::Lasso),
+        (Button::Left, true, _) => Begins::Drag(Drag::Orbit),
+        (Button::Left, false, _) => Begins::Catch(Catch::Box),
+        (Button::Middle, false, false) => Begins::Drag(Drag::Orbit),
+        (Button::Middle, ..) => Begins::Drag(Drag::Pan),
+        (Button::Right, true, _) => Begins::Drag(Drag::Zoom),
+        (Button::Right, false, _) => Begins::Nothing,
     }
 }
 

@@ -1,7 +1,8 @@
 //! The graphics thread as other threads see it: the methods of [`Graphics`](super::Graphics), each of which sends a message.
 
-use super::message::{GraphicsMessage, Look, PanelsFrame};
+use super::message::{Appearance, GraphicsMessage, Look, PanelsFrame};
 use crate::camera::Camera;
+use crate::control::bones::OwnedRegion;
 use crate::document::View;
 use crate::playback::Playback;
 use dragonfly_runtime::{Address, Thread, ThreadHandle};
@@ -96,6 +97,21 @@ impl GraphicsHandle {
     /// Asks which bone is at a pixel of the window.
     pub fn pick(&self, position: [f32; 2], ticket: u64) {
         self.send(GraphicsMessage::Pick { position, ticket });
+    }
+
+    /// Asks which bones are at a pixel of the window.
+    pub fn pick_all(&self, position: [f32; 2], ticket: u64) {
+        self.send(GraphicsMessage::PickAll { position, ticket });
+    }
+
+    /// Asks which bones are in a part of the viewport, points from its top left.
+    pub fn catch(&self, region: OwnedRegion, ticket: u64) {
+        self.send(GraphicsMessage::Catch { region, ticket });
+    }
+
+    /// Lets a control of the scene look like this.
+    pub fn show_control(&self, appearance: Appearance) {
+        self.send(GraphicsMessage::Control(Box::new(appearance)));
     }
 
     /// Loses the device on purpose.

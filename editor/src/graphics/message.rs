@@ -1,10 +1,13 @@
 //! What other threads may tell the graphics thread, and what it answers.
 
 use crate::camera::Camera;
+use crate::control::bones::{HiddenBones, OwnedRegion};
+use crate::control::gizmo::{GizmoSettings, GizmoShape, Handle, Tool};
 use crate::document::View;
 use crate::playback::Playback;
 use dragonfly_anim::data::BoneIndex;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// How bones are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -16,6 +19,26 @@ pub enum BoneLook {
     Sticks,
     /// One-pixel lines.
     Lines,
+}
+
+/// What the controls of the scene look like: the appearance of one [`GraphicComponent`](super::control::GraphicComponent).
+#[derive(Clone, Debug)]
+pub enum Appearance {
+    /// The gizmo at the selected bones, wherever they are; none: it is not shown.
+    Gizmo(Option<GizmoLook>),
+    /// The gizmo while it is dragged; none: it waits again.
+    Drag(Option<GizmoShape>),
+}
+
+/// A gizmo that waits to be taken hold of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GizmoLook {
+    /// What it does.
+    pub tool: Tool,
+    /// How it works: whose axes it has, where it stands.
+    pub settings: GizmoSettings,
+    /// The handle under the pointer.
+    pub hovered: Option<Handle>,
 }
 
 /// How surfaces are drawn.
@@ -61,6 +84,10 @@ pub struct Look {
     pub bone_color: [f32; 3],
     /// Linear RGB of selected bones: the program's accent.
     pub accent: [f32; 3],
+    /// Not drawn and not picked.
+    pub hidden: Arc<HiddenBones>,
+    /// Linear RGB of handles: along x, y, z; in the plane of the picture; under the pointer; being dragged.
+    pub handles: [[f32; 3]; 6],
 }
 
 impl Default for Look {
@@ -81,6 +108,15 @@ impl Default for Look {
             surface: true,
             bone_color: [0.62, 0.66, 0.72],
             accent: [0.95, 0.38, 0.06],
+            hidden: Arc::default(),
+            handles: [
+                [0.81, 0.16, 0.15],
+                [0.26, 0.56, 0.12],
+                [0.12, 0.35, 0.84],
+                [0.70, 0.72, 0.74],
+                [1.0, 0.86, 0.35],
+                [1.0, 0.86, 0.35],
+            ],
         }
     }
 }
@@ -126,6 +162,23 @@ pub enum GraphicsMessage {
         /// Comes back in the answer, so that the asker knows which question it belongs to.
         ticket: u64,
     },
+    /// Which bones lie under this physical pixel of the window, the nearest first? Where no bone is hit, or none is shown:
+    /// those with most influence on the skin there.
+    PickAll {
+        /// Physical pixels from the window's top left.
+        position: [f32; 2],
+        /// Comes back in the answer.
+        ticket: u64,
+    },
+    /// Which bones lie in there?
+    Catch {
+        /// Points from the top left of the viewport.
+        region: OwnedRegion,
+        /// Comes back in the answer.
+        ticket: u64,
+    },
+    /// A control of the scene looks like this from now on.
+    Control(Box<Appearance>),
     /// Loses the device on purpose, to show that nothing is lost with it.
     LoseDevice,
     /// Starts drawing the scene again after [`GraphicsReply::Paused`].
@@ -148,6 +201,13 @@ pub enum GraphicsReply {
     Picked {
         /// The bone, or nothing.
         bone: Option<BoneIndex>,
+        /// As asked.
+        ticket: u64,
+    },
+    /// Answer to [`GraphicsMessage::PickAll`] and [`GraphicsMessage::Catch`].
+    PickedAll {
+        /// The nearest first, or in the order of the skeleton.
+        bones: Vec<BoneIndex>,
         /// As asked.
         ticket: u64,
     },

@@ -9,6 +9,7 @@
 //! ```
 
 pub mod body;
+pub mod control;
 pub mod device;
 pub mod fault;
 pub mod gpu;
@@ -24,6 +25,7 @@ pub mod readback;
 pub mod scene;
 pub mod shaders;
 pub mod shape;
+mod skin;
 pub mod stage;
 pub mod surface;
 pub mod target;
@@ -33,6 +35,8 @@ mod worker;
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState, GraphicsError};
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};
-pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading};
+pub use message::{
+    Appearance, BoneLook, GizmoLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading,
+};
 pub use surface::SurfaceSource;
 pub use worker::{Drawer, Graphics, Present};

@@ -34,6 +34,21 @@ pub fn pick_all(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &m
         for_each_near(scene, model.shape(), pixel, |distance, bone| hits.push((distance, bone)));
         hits.retain(|hit| !hidden.is_hidden(hit.1));
     }
+    in_order(hits, out);
+}
+
+/// Those of [`pick_all`] that the line of sight meets.
+pub fn pick_met(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
+    out.clear();
+    let Some(((ray, _), model)) = scene.ray(position).zip(scene.model()) else { return };
+    let mut hits: Vec<(f32, BoneIndex)> = Vec::new();
+    for_each_hit(model.shape(), &ray, |distance, bone| hits.push((distance, bone)));
+    hits.retain(|hit| !hidden.is_hidden(hit.1));
+    in_order(hits, out);
+}
+
+/// Each bone once, the nearest first.
+fn in_order(mut hits: Vec<(f32, BoneIndex)>, out: &mut Vec<BoneIndex>) {
     // Stable: of two as near the one found first, as in `pick`.
     hits.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, bone) in hits {

@@ -7,7 +7,7 @@ use crate::document::adapter::Slot;
 use crate::document::{LoadedModel, View};
 use dragonfly_anim::animation::{Animation, final_poses};
 use dragonfly_anim::bounds::Bounds;
-use dragonfly_anim::data::{AlphaMode, ModelData, Primitive};
+use dragonfly_anim::data::{AlphaMode, ModelData, Primitive, Take, Transform};
 use dragonfly_anim::sample::sample_morph_weights;
 use dragonfly_anim::skin::rigid;
 use glam::{Mat4, Vec3};
@@ -53,6 +53,7 @@ pub struct PosedModel {
     /// Blended items by falling distance.
     back_to_front: Vec<(f32, u32)>,
     shape: SkeletonShape,
+    at: (Option<usize>, f32),
 }
 
 impl PosedModel {
@@ -88,6 +89,7 @@ impl PosedModel {
             items: Vec::new(),
             back_to_front: Vec::new(),
             shape: SkeletonShape::new(model),
+            at: (None, 0.0),
             loaded: Arc::clone(&loaded),
         };
         posed.items = posed.draw_items();
@@ -144,6 +146,21 @@ impl PosedModel {
         self.animation.to_root()
     }
 
+    /// Bone space → parent space of every bone in this pose.
+    pub fn poses(&self) -> &[Transform] {
+        self.animation.poses()
+    }
+
+    /// Which take and time this pose is of.
+    pub fn at(&self) -> (Option<usize>, f32) {
+        self.at
+    }
+
+    /// The takes as they are shown.
+    pub fn takes(&self) -> &[Arc<Take>] {
+        &self.animation.data().takes
+    }
+
     /// The skeleton's bodies in this pose.
     pub fn shape(&self) -> &SkeletonShape {
         &self.shape
@@ -158,6 +175,7 @@ impl PosedModel {
     /// Puts the model into the pose of `take` at `time`, with what is pending there where `standing`: while time runs the
     /// keys are seen. Allocates nothing.
     pub fn pose(&mut self, take: Option<usize>, time: f32, standing: bool) {
+        self.at = (take, time);
         let model = &self.loaded.model;
         self.animation.to_root_bone_poses(take, time);
         let slot = take.filter(|_| standing).and_then(|take| self.slots.get(take));

@@ -2,13 +2,17 @@
 //!
 //! Everything that a frame needs is computed into memory that was made when the model came, so playing allocates nothing.
 
-use super::message::{Look, Shading};
+use super::control::Controls;
+use super::message::{BoneLook, Look, Shading};
+use super::pick::{pick_all, pick_met};
 use super::posed::PosedModel;
+use super::skin::SkinPicker;
 use super::uniform::FrameUniform;
 use crate::camera::{Camera, Projection, Ray};
 use crate::document::{LoadedModel, View};
 use crate::playback::Playback;
 use dragonfly_anim::bounds::{Bounds, Sphere};
+use dragonfly_anim::data::BoneIndex;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use std::sync::Arc;
 use std::time::Instant;
@@ -23,7 +27,10 @@ pub struct Scene {
     pub playback: Playback,
     /// Alpha of the background; less than one only in pictures for other programs.
     pub background_alpha: f32,
+    /// What the controls of the scene look like.
+    pub controls: Controls,
     model: Option<PosedModel>,
+    skin: Option<SkinPicker>,
     uniform: FrameUniform,
 }
 
@@ -35,7 +42,9 @@ impl Scene {
             look: Look::default(),
             playback: Playback::rest(now),
             background_alpha: 1.0,
+            controls: Controls::default(),
             model: None,
+            skin: None,
             uniform: bytemuck::Zeroable::zeroed(),
         }
     }
@@ -47,6 +56,7 @@ impl Scene {
             _ => {
                 let mut model = PosedModel::new(Arc::clone(&view.loaded));
                 model.show_takes(view);
+                self.skin = None;
                 self.model = Some(model);
             }
         }
@@ -82,6 +92,7 @@ impl Scene {
             model.pose(self.playback.take, time, !self.playback.moves(now));
             model.sort(eye, self.camera.back());
             model.place_bones(&self.look);
+            self.controls.present(model, &self.camera, &self.look);
         }
         self.uniform = self.frame_uniform(&bounds);
     }
@@ -99,6 +110,31 @@ impl Scene {
         let pixel = Vec2::from(position) - Vec2::new(x as f32, y as f32);
         let inside = pixel.cmpge(Vec2::ZERO).all() && pixel.cmplt(size).all();
         inside.then(|| (self.camera.ray(pixel, size), pixel))
+    }
+
+    /// The bones at a pixel of the window in the pose prepared last, the nearest first: those that are drawn there; where
+    /// none is, or bones are not shown, those that move the skin there most; and then those that it just misses.
+    pub fn pick_all(&mut self, position: [f32; 2]) -> Vec<BoneIndex> {
+        let mut bones = Vec::new();
+        let hidden = Arc::clone(&self.look.hidden);
+        // Lines are met by coming near.
+        match (self.look.skeleton, self.look.bone_look) {
+            (true, BoneLook::Lines) => pick_all(self, position, &hidden, &mut bones),
+            (true, _) => pick_met(self, position, &hidden, &mut bones),
+            (false, _) => {}
+        }
+        if bones.is_empty()
+            && self.look.surface
+            && let Some((ray, _)) = self.ray(position)
+            && let Some(model) = &self.model
+        {
+            let skin = self.skin.get_or_insert_with(|| SkinPicker::new(model));
+            skin.pick(model, &ray, &hidden, &mut bones);
+        }
+        if bones.is_empty() {
+            pick_all(self, position, &hidden, &mut bones);
+        }
+        bones
     }
 
     fn frame_uniform(&self, bounds: &Sphere) -> FrameUniform {

@@ -31,13 +31,15 @@ pub const MODEL: Shader = Shader { name: "model", parts: &[FRAME, COLOR, STUDIO,
 pub const GRID: Shader = Shader { name: "grid", parts: &[FRAME, part!("grid.wgsl")] };
 /// Bones.
 pub const SKELETON: Shader = Shader { name: "skeleton", parts: &[FRAME, STUDIO, part!("skeleton.wgsl")] };
+/// Controls of the scene.
+pub const CONTROLS: Shader = Shader { name: "controls", parts: &[FRAME, part!("controls.wgsl")] };
 /// The scene into the window.
 pub const COMPOSITE: Shader = Shader { name: "composite", parts: &[COLOR, part!("composite.wgsl")] };
 /// Mip levels.
 pub const MIP: Shader = Shader { name: "mip", parts: &[part!("mip.wgsl")] };
 
 /// Every shader of the program.
-pub const ALL: &[Shader] = &[BACKGROUND, MODEL, GRID, SKELETON, COMPOSITE, MIP];
+pub const ALL: &[Shader] = &[BACKGROUND, MODEL, GRID, SKELETON, CONTROLS, COMPOSITE, MIP];
 
 impl Shader {
     /// The whole text.

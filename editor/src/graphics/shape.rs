@@ -78,6 +78,8 @@ pub struct SkeletonShape {
     size: f32,
     /// Of the thickest link of each bone, in this pose.
     thickness: Vec<f32>,
+    /// Which bones are selected: asked once a link, so not searched for in a list.
+    selected: Vec<bool>,
     /// Instances per body, in the order of [`Body::ALL`].
     instances: [Vec<BoneInstance>; 4],
     /// Which bone each instance belongs to.
@@ -106,19 +108,30 @@ impl SkeletonShape {
         }
         let room = links.len() + skeleton.len();
         let thickness = vec![0.0; skeleton.len()];
-        let mut shape = Self { links, joints, size, thickness, ..Self::default() };
+        let selected = vec![false; skeleton.len()];
+        let mut shape = Self { links, joints, size, thickness, selected, ..Self::default() };
         shape.instances.iter_mut().for_each(|list| list.reserve(room));
         shape.owners.iter_mut().for_each(|list| list.reserve(room));
         shape
     }
 
-    /// Places the bodies for a pose, shown or not: hidden bones can be picked too. Allocates nothing.
+    /// Places the bodies for a pose, whether the skeleton is shown or not: bones that are not drawn can be picked too. Those
+    /// that the person hid have none. Allocates nothing.
     pub fn place(&mut self, to_root: &[Mat4], look: &Look) {
         self.instances.iter_mut().for_each(Vec::clear);
         self.owners.iter_mut().for_each(Vec::clear);
         self.thickness.fill(0.0);
+        self.selected.fill(false);
+        for &bone in &look.selected {
+            if let Some(selected) = self.selected.get_mut(bone as usize) {
+                *selected = true;
+            }
+        }
         for index in 0..self.links.len() {
             let link = self.links[index];
+            if look.hidden.is_hidden(link.bone) {
+                continue;
+            }
             let Some(matrix) = to_root.get(link.bone as usize) else { continue };
             let head = matrix.w_axis.truncate();
             let tail = match link.tail {
@@ -142,7 +155,7 @@ impl SkeletonShape {
             *thickest = thickest.max(thickness);
             let strength = if link.is_joint { 1.0 } else { 0.32 };
             let side = across(matrix, (tail - head) / length);
-            let state = state(look, link.bone);
+            let state = self.state(look, link.bone);
             self.add(body, link.bone, BoneInstance { head, radius, tail, state, side, strength });
         }
         self.place_balls(to_root, look);
@@ -155,14 +168,14 @@ impl SkeletonShape {
         }
         // As thick as the thickest link of the bone that begins here; links of a bone need not lie side by side.
         for (index, matrix) in to_root.iter().enumerate().take(self.joints.len()) {
-            if !self.joints[index] {
+            if !self.joints[index] || look.hidden.is_hidden(index as BoneIndex) {
                 continue;
             }
             let bone = index as BoneIndex;
             let thickest = self.thickness[index].max(self.size * THICKNESS[0] * 1.5);
             let radius = thickest * if look.bone_look == BoneLook::Sticks { 0.72 } else { 0.62 };
             let head = matrix.w_axis.truncate();
-            let state = state(look, bone);
+            let state = self.state(look, bone);
             let tail = head + Vec3::Y * radius;
             let ball = BoneInstance { head, radius, tail, state, side: Vec3::X, strength: 1.0 };
             self.add(Body::Ball, bone, ball);
@@ -184,6 +197,11 @@ impl SkeletonShape {
         self.links.len() + self.joints.len()
     }
 
+    fn state(&self, look: &Look, bone: BoneIndex) -> u32 {
+        let selected = self.selected.get(bone as usize) == Some(&true);
+        u32::from(selected) + 2 * u32::from(look.hovered == Some(bone))
+    }
+
     fn radius(&self, length: f32) -> f32 {
         (length * SLIMNESS).clamp(self.size * THICKNESS[0], self.size * THICKNESS[1]).min(length * 0.3)
     }
@@ -196,10 +214,6 @@ impl SkeletonShape {
 
 fn position(body: Body) -> usize {
     Body::ALL.iter().position(|&other| other == body).unwrap_or(0)
-}
-
-fn state(look: &Look, bone: BoneIndex) -> u32 {
-    u32::from(look.selected.contains(&bone)) + 2 * u32::from(look.hovered == Some(bone))
 }
 
 /// Which bones move a surface: some vertex has weight for them, or they carry a mesh. What only steers others does not.

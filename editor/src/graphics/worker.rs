@@ -5,7 +5,7 @@ use super::device::{DeviceParameters, GraphicsError};
 use super::guard::caught;
 use super::message::{GraphicsMessage, GraphicsReply};
 use super::pass::SharedPass;
-use super::pick::pick;
+use super::pick::{pick, pick_region};
 use super::stage::{Event, Opened, Stage};
 use super::surface::SurfaceSource;
 use super::{GraphicsHandle, Look};
@@ -16,6 +16,7 @@ use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Frames a second where nothing else sets the pace.
@@ -211,6 +212,22 @@ impl Receiver for Graphics {
                 stage.scene.prepare(thread.now());
                 let bone = pick(&stage.scene, position);
                 self.reply(GraphicsReply::Picked { bone, ticket });
+            }
+            GraphicsMessage::PickAll { position, ticket } => {
+                stage.scene.prepare(thread.now());
+                let bones = stage.scene.pick_all(position);
+                self.reply(GraphicsReply::PickedAll { bones, ticket });
+            }
+            GraphicsMessage::Catch { region, ticket } => {
+                stage.scene.prepare(thread.now());
+                let hidden = Arc::clone(&stage.scene.look.hidden);
+                let mut bones = Vec::new();
+                pick_region(&stage.scene, &region.region(), &hidden, &mut bones);
+                self.reply(GraphicsReply::PickedAll { bones, ticket });
+            }
+            GraphicsMessage::Control(appearance) => {
+                stage.scene.controls.receive(*appearance);
+                stage.touch_scene();
             }
             GraphicsMessage::LoseDevice => {
                 stage.device().lose();

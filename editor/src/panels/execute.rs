@@ -31,7 +31,8 @@ impl State {
             Request::Keys(keys) => self.settings.keys = keys,
             Request::Camera(camera) => self.camera = camera,
             Request::Viewport(rect) => self.set_viewport(rect),
-            Request::Pick(position) => return Some(Effect::Pick(position)),
+            Request::Shields(shields) => self.set_shields(shields),
+            Request::Wheel(by) => self.wheel(by),
             Request::Point(pointer) => self.point(pointer),
             Request::Open(source) => return Some(Effect::Open(source)),
             Request::Overlay(overlay) => self.overlay = overlay,
@@ -117,6 +118,37 @@ impl State {
             Id::SelectParent => self.select_parent(),
             Id::SelectChild => self.select_child(),
             Id::Find => self.find = true,
+            Id::SelectAll
+            | Id::InvertSelection
+            | Id::ExtendParent
+            | Id::ExtendChild
+            | Id::SelectBranch
+            | Id::GrowSelection
+            | Id::ShrinkSelection
+            | Id::SelectMirror
+            | Id::ExtendMirror
+            | Id::HideSelected
+            | Id::HideOthers
+            | Id::ShowAll => self.selection_command(id),
+
+            Id::ToolSelect
+            | Id::ToolMove
+            | Id::ToolRotate
+            | Id::ToolScale
+            | Id::MoveNow
+            | Id::RotateNow
+            | Id::ScaleNow
+            | Id::NextSpace
+            | Id::SpaceLocal
+            | Id::SpaceParent
+            | Id::SpaceWorld
+            | Id::SpaceView
+            | Id::PivotIndividual
+            | Id::PivotMedian
+            | Id::PivotActive
+            | Id::ToggleCurl
+            | Id::BoxSelect
+            | Id::LassoSelect => return self.tool_command(id),
 
             Id::FrameSelected => self.frame_selected(),
             Id::FrameAll => self.frame_all(),
@@ -181,7 +213,7 @@ impl State {
     }
 
     /// Goes to `time` and stays there: who steps wants to look.
-    fn stop_at(&mut self, time: f32) {
+    pub(super) fn stop_at(&mut self, time: f32) {
         let (speed, repeat) = (self.playback.speed, self.playback.repeat);
         self.playback = self.playback.with(false, speed, repeat, self.now).seek(time, self.now);
     }
@@ -227,11 +259,21 @@ impl State {
     }
 
     fn set_viewport(&mut self, rect: egui::Rect) {
-        self.viewport = rect;
+        if self.viewport != rect {
+            self.viewport = rect;
+            self.place_hands();
+        }
         // The first model may arrive before the first layout; it is placed when its place is known.
         if !self.framed && self.view.is_some() {
             self.frame_all();
             self.framed = true;
+        }
+    }
+
+    fn set_shields(&mut self, shields: Vec<egui::Rect>) {
+        if self.shields != shields {
+            self.shields = shields;
+            self.place_hands();
         }
     }
 

@@ -56,6 +56,17 @@ pub enum Icon {
     Dot,
     Down,
     Right,
+    Select,
+    Move,
+    Rotate,
+    Scale,
+    AxesLocal,
+    AxesParent,
+    AxesWorld,
+    AxesView,
+    PivotIndividual,
+    PivotMedian,
+    PivotActive,
 }
 
 impl Icon {
@@ -111,6 +122,17 @@ impl Icon {
         Self::Dot,
         Self::Down,
         Self::Right,
+        Self::Select,
+        Self::Move,
+        Self::Rotate,
+        Self::Scale,
+        Self::AxesLocal,
+        Self::AxesParent,
+        Self::AxesWorld,
+        Self::AxesView,
+        Self::PivotIndividual,
+        Self::PivotMedian,
+        Self::PivotActive,
     ];
 
     /// Draws it into the middle of `rect`, 16 points large.
@@ -239,6 +261,73 @@ impl Icon {
                 pen.dot(8.0, 2.8, 1.5);
                 pen.dot(3.0, 12.0, 1.5);
                 pen.dot(13.0, 12.0, 1.5);
+            }
+            Self::Select => {
+                pen.outline(&[(4.0, 2.5), (12.5, 8.5), (8.6, 9.2), (6.6, 13.0)]);
+            }
+            Self::Move => {
+                pen.line(&[(8.0, 2.5), (8.0, 13.5)]);
+                pen.line(&[(2.5, 8.0), (13.5, 8.0)]);
+                pen.line(&[(6.2, 4.3), (8.0, 2.5), (9.8, 4.3)]);
+                pen.line(&[(6.2, 11.7), (8.0, 13.5), (9.8, 11.7)]);
+                pen.line(&[(4.3, 6.2), (2.5, 8.0), (4.3, 9.8)]);
+                pen.line(&[(11.7, 6.2), (13.5, 8.0), (11.7, 9.8)]);
+            }
+            Self::Rotate => {
+                pen.line(&[
+                    (12.2, 5.2),
+                    (10.4, 3.6),
+                    (8.0, 3.0),
+                    (5.4, 3.7),
+                    (3.6, 5.6),
+                    (3.0, 8.0),
+                    (3.6, 10.4),
+                ]);
+                pen.line(&[(3.6, 10.4), (5.4, 12.3), (8.0, 13.0), (10.5, 12.4), (12.3, 10.6), (13.0, 8.4)]);
+                pen.line(&[(12.6, 2.4), (12.4, 5.4), (9.4, 5.4)]);
+            }
+            Self::Scale => {
+                pen.outline(&[(2.5, 8.5), (7.5, 8.5), (7.5, 13.5), (2.5, 13.5)]);
+                pen.line(&[(9.0, 7.0), (13.5, 2.5)]);
+                pen.line(&[(10.0, 2.5), (13.5, 2.5), (13.5, 6.0)]);
+            }
+            Self::AxesLocal => {
+                pen.line(&[(5.0, 11.5), (2.8, 3.6)]);
+                pen.line(&[(5.0, 11.5), (13.0, 9.4)]);
+                pen.line(&[(8.8, 3.0), (12.4, 6.0)]);
+                pen.dot(5.0, 11.5, 1.8);
+            }
+            Self::AxesParent => {
+                pen.ring(4.4, 4.4, 2.0);
+                pen.line(&[(6.0, 6.0), (8.2, 8.2)]);
+                pen.line(&[(8.2, 8.2), (8.2, 13.5)]);
+                pen.line(&[(8.2, 8.2), (13.5, 8.2)]);
+                pen.dot(8.2, 8.2, 1.6);
+            }
+            Self::AxesWorld => {
+                pen.ring(8.0, 8.0, 5.5);
+                pen.line(&[(2.5, 8.0), (13.5, 8.0)]);
+                pen.line(&[(8.0, 2.5), (6.0, 5.2), (5.6, 8.0), (6.0, 10.8), (8.0, 13.5)]);
+                pen.line(&[(8.0, 2.5), (10.0, 5.2), (10.4, 8.0), (10.0, 10.8), (8.0, 13.5)]);
+            }
+            Self::AxesView => {
+                pen.outline(&[(2.5, 3.5), (13.5, 3.5), (13.5, 12.5), (2.5, 12.5)]);
+                pen.line(&[(5.5, 5.8), (5.5, 10.2), (10.5, 10.2)]);
+            }
+            Self::PivotIndividual => {
+                pen.ring(4.6, 10.8, 2.6);
+                pen.ring(11.0, 5.2, 2.6);
+                pen.dot(4.6, 10.8, 0.9);
+                pen.dot(11.0, 5.2, 0.9);
+            }
+            Self::PivotMedian => {
+                pen.ring(4.0, 11.6, 2.0);
+                pen.ring(12.0, 4.4, 2.0);
+                pen.dot(8.0, 8.0, 1.7);
+            }
+            Self::PivotActive => {
+                pen.ring(4.2, 11.4, 2.0);
+                pen.dot(11.2, 5.0, 3.0);
             }
             Self::Open => {
                 pen.outline(&[(2.0, 12.5), (2.0, 3.5), (6.0, 3.5), (7.5, 5.5), (14.0, 5.5), (14.0, 12.5)]);

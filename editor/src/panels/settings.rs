@@ -2,6 +2,7 @@
 
 use super::commands::KeySettings;
 use super::properties::PropertiesLook;
+use crate::control::gizmo::{Pivot, Space, Tool};
 use crate::graphics::{BoneLook, Shading};
 use crate::playback::Repeat;
 use serde::{Deserialize, Serialize};
@@ -51,6 +52,26 @@ impl Default for LookSettings {
     }
 }
 
+/// How the hands work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct HandSettings {
+    /// What the gizmo does; none: the mouse only selects.
+    pub tool: Option<Tool>,
+    /// Whose axes.
+    pub space: Space,
+    /// What several bones turn and grow about.
+    pub pivot: Pivot,
+    /// Does every bone of a selected chain turn by the whole amount?
+    pub curl: bool,
+}
+
+impl Default for HandSettings {
+    fn default() -> Self {
+        Self { tool: Some(Tool::Rotate), space: Space::default(), pivot: Pivot::default(), curl: false }
+    }
+}
+
 /// Frame rates that can be chosen for the display of time.
 pub const FRAME_RATES: &[u32] = &[24, 25, 30, 60];
 /// Smallest and largest scale of the window's content.
@@ -70,6 +91,8 @@ pub struct Settings {
     pub scale: f32,
     /// How the picture is drawn.
     pub look: LookSettings,
+    /// How the hands work.
+    pub hand: HandSettings,
     /// At the end of a take.
     pub repeat: Repeat,
     /// Take seconds a second.
@@ -94,6 +117,7 @@ impl Default for Settings {
             theme: ThemeChoice::default(),
             scale: 1.0,
             look: LookSettings::default(),
+            hand: HandSettings::default(),
             repeat: Repeat::default(),
             speed: 1.0,
             frame_rate: 30,

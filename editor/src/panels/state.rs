@@ -1,11 +1,13 @@
 //! What is shown and chosen right now. Panels read it and ask for changes; only [`super::execute`] makes them.
 
 use super::digest::Digest;
+use super::hands::{Hold, Trail};
 use super::saving::{Deed, Question};
 use super::settings::Settings;
 use super::status::Status;
 use crate::camera::Camera;
-use crate::control::bones::{BoneSelection, Choice, HiddenBones};
+use crate::control::Hands;
+use crate::control::bones::{BoneSelection, Choice, ClickCycle, HiddenBones, OwnedRegion};
 use crate::document::history::Gesture;
 use crate::document::{Change, LoadedModel, Progress, Source, View};
 use crate::playback::Playback;
@@ -99,8 +101,10 @@ pub enum Request {
     Camera(Camera),
     /// Where the picture is, in points.
     Viewport(egui::Rect),
-    /// Which bone lies under this place, in points?
-    Pick(egui::Pos2),
+    /// Tools that lie over the picture, in points.
+    Shields(Vec<egui::Rect>),
+    /// The wheel was turned over the picture: points, positive is nearer.
+    Wheel(f32),
     /// The pointer is here over the picture, in points, and does nothing else; or it is not.
     Point(Option<egui::Pos2>),
     /// Opens a model.
@@ -135,8 +139,10 @@ pub enum Effect {
         /// On the other side?
         mirrored: bool,
     },
-    /// Asks the graphics thread which bone lies there, in points.
-    Pick(egui::Pos2),
+    /// Asks the graphics thread which bone lies there, in points from the window's top left, and selects it in this way.
+    Pick(egui::Pos2, Choice),
+    /// Asks which bones lie in there, in points from the picture's top left.
+    Catch(OwnedRegion, Choice),
     /// Uses the whole screen, or a window again.
     FullScreen,
     /// Shows or hides a panel.
@@ -247,6 +253,16 @@ pub struct State {
     pub find: bool,
     /// Where the picture is, in points.
     pub viewport: egui::Rect,
+    /// What lies over the picture, in points.
+    pub shields: Vec<egui::Rect>,
+    /// What a person acts on the picture with.
+    pub hands: Hands,
+    /// What the hands hold on to.
+    pub hold: Hold,
+    /// Where the selected bone moves along.
+    pub trail: Trail,
+    /// Repeated clicks go through what lies behind.
+    pub cycle: ClickCycle,
     /// Names of gestures given so far.
     gestures: Cell<u64>,
     /// Does the window fill the screen?
@@ -282,6 +298,11 @@ impl State {
             lost: false,
             find: false,
             viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
+            shields: Vec::new(),
+            hands: Hands::default(),
+            hold: Hold::default(),
+            trail: Trail::default(),
+            cycle: ClickCycle::default(),
             gestures: Cell::new(0),
             full_screen: false,
             now,
@@ -308,16 +329,19 @@ impl State {
         {
             self.posed.update(view, self.playback.take, self.playback.time_at(now));
         }
+        self.grasp();
     }
 
     /// Shows another document: its first take, playing from the start.
     pub fn show(&mut self, view: View) {
-        let fresh = self.view.as_ref().is_none_or(|old| !std::sync::Arc::ptr_eq(&old.loaded, &view.loaded));
+        let fresh = self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.loaded, &view.loaded));
         self.view = Some(view);
         if !fresh {
             return self.keep_take();
         }
         let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());
+        self.drop_hold();
+        self.cycle.forget();
         self.selection = BoneSelection::new(bones);
         self.hidden = HiddenBones::default();
         self.hovered = None;

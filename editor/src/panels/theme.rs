@@ -134,6 +134,13 @@ impl Theme {
         if self.dark { Color32::from_rgb(20, 24, 25) } else { Color32::from_rgb(255, 255, 255) }
     }
 
+    /// Handles of a gizmo: along x, y, z; in the plane of the picture; under the pointer; being dragged.
+    pub fn handles(&self) -> [Color32; 6] {
+        let [x, y, z] = self.axes;
+        let hot = if self.dark { Color32::from_rgb(255, 226, 138) } else { Color32::from_rgb(214, 132, 0) };
+        [x, y, z, self.key, hot, hot]
+    }
+
     /// The dark or the light one.
     pub fn get(dark: bool) -> &'static Self {
         if dark { &DARK } else { &LIGHT }

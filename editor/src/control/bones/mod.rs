@@ -13,6 +13,6 @@ pub use cycle::ClickCycle;
 pub use hidden::HiddenBones;
 pub use mirror::{MirrorGuess, MirrorPair, MirrorPairs, Side, Unpaired};
 pub use mirror_place::{MirrorPlane, Stance};
-pub use region::{Lasso, Region, bones_in_region};
+pub use region::{Lasso, OwnedRegion, Region, bones_in_region};
 pub use selection::{BoneSelection, Choice};
 pub use skin::{SkinHit, pick_skin};

@@ -22,7 +22,34 @@ pub enum Region<'a> {
     Lasso(&'a [Vec2]),
 }
 
+/// A [`Region`] that can be sent elsewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OwnedRegion {
+    /// Between two corners.
+    Box(Vec2, Vec2),
+    /// Within a line.
+    Lasso(Vec<Vec2>),
+}
+
+impl OwnedRegion {
+    /// What it holds.
+    pub fn region(&self) -> Region<'_> {
+        match self {
+            Self::Box(a, b) => Region::Box(*a, *b),
+            Self::Lasso(line) => Region::Lasso(line),
+        }
+    }
+}
+
 impl Region<'_> {
+    /// The same, to be sent elsewhere.
+    pub fn to_owned(&self) -> OwnedRegion {
+        match *self {
+            Self::Box(a, b) => OwnedRegion::Box(a, b),
+            Self::Lasso(line) => OwnedRegion::Lasso(line.to_vec()),
+        }
+    }
+
     /// Does it hold this point?
     pub fn holds(&self, point: Vec2) -> bool {
         match *self {

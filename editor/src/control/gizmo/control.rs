@@ -1,22 +1,44 @@
 //! The gizmo as a control of the scene: it is where its handles are, and everywhere while it drags.
 
-use super::{Gizmo, GizmoAnswer};
+use super::{Gizmo, GizmoAnswer, Handle, Tool};
 use crate::control::base::{BaseControl, ControlId, Mouse, Pass};
 use crate::control::framework::ControlFramework;
 use crate::control::key::{Key, Modifiers};
-use crate::control::viewport::Button;
+use crate::control::viewport::{Button, CLICK};
 use glam::Vec2;
 
 /// Registered over the whole picture, inside of its control, so that what misses a handle goes to the picture.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct GizmoControl {
     /// The gizmo itself.
     pub gizmo: Gizmo,
     /// Top left of the picture, points from that of the window.
     pub corner: Vec2,
+    /// May poses be changed? If not, a press on a handle is only noted, see [`Self::take_refused`].
+    pub editable: bool,
     /// Was the drag begun by a key, so that no button is held?
     by_key: bool,
     answer: Option<GizmoAnswer>,
+    /// Where the ball in the middle was pressed, and with which keys, as long as the pointer has not moved: such a press is
+    /// a click on what lies behind.
+    pressed: Option<Mouse>,
+    clicked: Option<Mouse>,
+    refused: bool,
+}
+
+impl Default for GizmoControl {
+    fn default() -> Self {
+        Self {
+            gizmo: Gizmo::default(),
+            corner: Vec2::ZERO,
+            editable: true,
+            by_key: false,
+            answer: None,
+            pressed: None,
+            clicked: None,
+            refused: false,
+        }
+    }
 }
 
 impl GizmoControl {
@@ -26,6 +48,7 @@ impl GizmoControl {
         let begins = self.gizmo.begin(None, at - self.corner);
         if begins {
             self.by_key = true;
+            self.pressed = None;
             framework.grab(own);
             self.answer = Some(GizmoAnswer::Changed);
         }
@@ -37,14 +60,38 @@ impl GizmoControl {
         self.answer.take()
     }
 
+    /// Was the drag that goes on begun by a key, so that no button is held?
+    pub fn is_modal(&self) -> bool {
+        self.by_key
+    }
+
+    /// A click on what lies behind the ball in the middle, since this was asked last.
+    pub fn take_click(&mut self) -> Option<Mouse> {
+        self.clicked.take()
+    }
+
+    /// Was a handle pressed while nothing may be changed, since this was asked last?
+    pub fn take_refused(&mut self) -> bool {
+        std::mem::take(&mut self.refused)
+    }
+
+    /// Ends a drag as Escape does, whoever has the mouse.
+    pub fn cancel(&mut self, framework: &mut ControlFramework) {
+        let answer = self.gizmo.cancel();
+        self.note(answer, framework);
+    }
+
     /// Notes an answer; tells whether the input was for the gizmo.
     fn note(&mut self, answer: GizmoAnswer, framework: &mut ControlFramework) -> Pass {
         if answer == GizmoAnswer::Ignored {
             return Pass::ToParent;
         }
         self.answer = Some(answer);
-        if answer != GizmoAnswer::Changed && std::mem::take(&mut self.by_key) {
-            framework.release();
+        if answer != GizmoAnswer::Changed {
+            self.pressed = None;
+            if std::mem::take(&mut self.by_key) {
+                framework.release();
+            }
         }
         Pass::Stop
     }
@@ -58,6 +105,10 @@ impl BaseControl for GizmoControl {
     fn mouse_move(&mut self, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
         let at = mouse.at - self.corner;
         if self.gizmo.is_dragging() {
+            if self.pressed.is_some_and(|pressed| pressed.at.distance(mouse.at) <= CLICK) {
+                return Pass::Stop;
+            }
+            self.pressed = None;
             let answer = self.gizmo.pointer(at, mouse.modifiers);
             return self.note(answer, framework);
         }
@@ -76,6 +127,13 @@ impl BaseControl for GizmoControl {
             // With Alt the mouse turns the camera, whatever is under it.
             Button::Left if !mouse.modifiers.alt => {
                 let handle = self.gizmo.handle_at(at);
+                if handle.is_some() && !self.editable {
+                    self.refused = true;
+                    return Pass::Stop;
+                }
+                // The ball is large, and bones lie behind it.
+                let covers = handle == Some(Handle::Centre) && self.gizmo.tool == Tool::Rotate;
+                self.pressed = covers.then_some(mouse);
                 let begins = handle.is_some() && self.gizmo.begin(handle, at);
                 if begins { GizmoAnswer::Changed } else { GizmoAnswer::Ignored }
             }
@@ -89,7 +147,8 @@ impl BaseControl for GizmoControl {
         if button != Button::Left || self.by_key {
             return Pass::ToParent;
         }
-        let answer = self.gizmo.confirm();
+        self.clicked = self.pressed.take();
+        let answer = if self.clicked.is_some() { self.gizmo.cancel() } else { self.gizmo.confirm() };
         self.note(answer, framework)
     }
 

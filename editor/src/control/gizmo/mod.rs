@@ -266,6 +266,16 @@ impl Gizmo {
         &self.made
     }
 
+    /// Bone by bone what [`Self::drag`] has, as it was before.
+    pub fn before(&self) -> &[GizmoTarget] {
+        &self.before
+    }
+
+    /// Does the drag that goes on, or did the last one, change nothing?
+    pub fn is_identity(&self) -> bool {
+        self.delta.is_none_or(|delta| delta.is_identity())
+    }
+
     /// What to write beside the pointer while dragging.
     pub fn readout(&self) -> Option<GizmoReadout<'_>> {
         let drag = self.going.as_ref()?;
@@ -286,6 +296,16 @@ impl Gizmo {
     /// grows.
     pub fn present(&self, shape: &mut GizmoShape) {
         shape.clear();
+        self.present_into(shape);
+    }
+
+    /// Says which handle is drawn as if the pointer were over it.
+    pub fn highlight(&mut self, handle: Option<Handle>) {
+        self.hovered = handle;
+    }
+
+    /// The same as [`Self::present`], behind what `shape` has already.
+    pub fn present_into(&self, shape: &mut GizmoShape) {
         match &self.going {
             Some(drag) => {
                 let Some(stand) = drag.stand() else { return };

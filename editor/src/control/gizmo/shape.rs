@@ -72,6 +72,12 @@ impl GizmoShape {
         self.triangles.clear();
     }
 
+    /// All of another one too.
+    pub fn extend(&mut self, other: &Self) {
+        self.lines.extend_from_slice(&other.lines);
+        self.triangles.extend_from_slice(&other.triangles);
+    }
+
     /// All handles.
     pub(super) fn waiting(&mut self, stand: &Stand, tool: Tool, hovered: Option<Handle>) {
         let role =

@@ -79,6 +79,12 @@ impl GizmoView {
         }
     }
 
+    /// How a place of the scene moves with the pointer, at its own distance from the eye: by so many points of the screen.
+    /// `None` behind the eye.
+    pub fn move_by(&self, place: DVec3, by: DVec2) -> Option<DVec3> {
+        Some((self.right * by.x - self.up * by.y) * self.units_per_point(place)?)
+    }
+
     /// Unit vector from a place to the viewer.
     pub(super) fn towards(&self, place: DVec3) -> DVec3 {
         if self.perspective { (self.eye - place).normalize_or(self.back) } else { self.back }

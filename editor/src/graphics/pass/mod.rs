@@ -2,6 +2,7 @@
 
 mod background;
 mod composite;
+mod controls;
 mod glass;
 mod grid;
 mod panels;
@@ -84,6 +85,7 @@ pub fn all() -> Passes {
         shared(grid::GridPass::default()),
         shared(glass::GlassPass::new(Rc::clone(&model))),
         shared(skeleton::SkeletonPass::default()),
+        shared(controls::ControlRender::default()),
         shared(composite::CompositePass::default()),
         Rc::clone(&panels) as SharedPass,
     ];

@@ -9,6 +9,7 @@ mod look;
 mod playback;
 mod pose;
 mod selection;
+mod tools;
 mod window;
 
 use super::{Category, Command, Id, When};
@@ -40,6 +41,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::Pose, pose::COMMANDS),
     (Category::Playback, playback::COMMANDS),
     (Category::Selection, selection::COMMANDS),
+    (Category::Tools, tools::COMMANDS),
     (Category::Camera, camera::COMMANDS),
     (Category::Look, look::COMMANDS),
     (Category::Window, window::COMMANDS),

@@ -1,0 +1,122 @@
+//! What the graphics thread knows already: it is told only what differs.
+
+use super::interface::Interface;
+use crate::camera::Camera;
+use crate::control::bones::HiddenBones;
+use crate::control::gizmo::GizmoShape;
+use crate::graphics::{Appearance, GizmoLook, GraphicsHandle, Look};
+use crate::panels::State;
+use crate::panels::theme::{Theme, linear};
+use crate::playback::Playback;
+use dragonfly_anim::data::BoneIndex;
+use std::sync::Arc;
+
+/// See the module.
+#[derive(Default)]
+pub(super) struct Sent {
+    playback: Option<Playback>,
+    camera: Option<Camera>,
+    look: Option<Look>,
+    hidden: Arc<HiddenBones>,
+    gizmo: Option<GizmoLook>,
+    /// Is a gizmo shown that is dragged?
+    drags: bool,
+    /// How often the hands changed something when it was told.
+    revision: u64,
+    /// Room for the list of selected bones.
+    spare: Vec<BoneIndex>,
+}
+
+impl Sent {
+    /// Sends what differs from what was sent last. What these times and bones are about comes from the document itself,
+    /// and was sent before the view that they were chosen for.
+    pub(super) fn update(&mut self, graphics: &GraphicsHandle, interface: &Interface) {
+        let state = &interface.state;
+        if self.playback != Some(state.playback) {
+            self.playback = Some(state.playback);
+            graphics.play(state.playback);
+        }
+        if self.camera != Some(state.camera) {
+            self.camera = Some(state.camera);
+            graphics.set_camera(state.camera);
+        }
+        let mut selected = std::mem::take(&mut self.spare);
+        selected.clear();
+        selected.extend_from_slice(state.selection.bones());
+        if *self.hidden != state.hidden {
+            self.hidden = Arc::new(state.hidden.clone());
+        }
+        let hidden = Arc::clone(&self.hidden);
+        let look = look(state, selected, hidden, interface.pixels_per_point(), interface.is_dark());
+        if self.look.as_ref() == Some(&look) {
+            self.spare = look.selected;
+        } else {
+            graphics.set_look(look.clone());
+            self.look = Some(look);
+        }
+        self.controls(graphics, state);
+    }
+
+    /// What the controls of the scene look like.
+    fn controls(&mut self, graphics: &GraphicsHandle, state: &State) {
+        let gizmo = &state.hands.gizmo().gizmo;
+        let look = state.settings.hand.tool.map(|tool| GizmoLook {
+            tool,
+            settings: gizmo.settings,
+            hovered: gizmo.hovered(),
+        });
+        if self.gizmo != look {
+            self.gizmo = look;
+            graphics.show_control(Appearance::Gizmo(look));
+        }
+        let revision = state.hands.revision();
+        if gizmo.is_dragging() {
+            if !self.drags || self.revision != revision {
+                let mut shape = GizmoShape::default();
+                gizmo.present(&mut shape);
+                graphics.show_control(Appearance::Drag(Some(shape)));
+            }
+        } else if self.drags {
+            graphics.show_control(Appearance::Drag(None));
+        }
+        (self.drags, self.revision) = (gizmo.is_dragging(), revision);
+    }
+}
+
+/// How the graphics thread is to draw what the state says.
+fn look(
+    state: &State,
+    selected: Vec<BoneIndex>,
+    hidden: Arc<HiddenBones>,
+    pixels_per_point: f32,
+    dark: bool,
+) -> Look {
+    let theme = Theme::get(dark);
+    let settings = &state.settings.look;
+    let pixels = |points: f32| (points * pixels_per_point).round().max(0.0) as u32;
+    let rect = state.viewport;
+    let (left, top) = (pixels(rect.left()), pixels(rect.top()));
+    Look {
+        viewport: [
+            left,
+            top,
+            pixels(rect.right()).saturating_sub(left),
+            pixels(rect.bottom()).saturating_sub(top),
+        ],
+        pixels_per_point,
+        background: theme.sky.map(linear),
+        grid: settings.grid,
+        grid_color: linear(theme.grid),
+        skeleton: state.shows_skeleton(),
+        bone_look: settings.bone_look,
+        bones_in_front: settings.bones_in_front,
+        selected,
+        hovered: state.bright(),
+        shading: settings.shading,
+        surface: settings.surface,
+        bone_color: linear(theme.bone),
+        accent: linear(theme.accent),
+        hidden,
+        handles: theme.handles().map(linear),
+    }
+}

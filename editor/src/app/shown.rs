@@ -1,0 +1,65 @@
+//! What the window shows, in the log: for who looks after the program from outside and cannot read pixels.
+
+use crate::panels::State;
+use dragonfly_anim::data::BoneIndex;
+use glam::{Quat, Vec3};
+use tracing::{debug, enabled};
+
+/// The target of the lines in the log.
+const TARGET: &str = "dragonfly::shown";
+
+/// What was told last: only what differs is told again.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Shown(Option<Told>);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Told {
+    viewport: egui::Rect,
+    bones: usize,
+    bone: Option<BoneIndex>,
+    time: f32,
+    playing: bool,
+    steps: [usize; 2],
+    pose: Option<(Vec3, Quat, Vec3)>,
+}
+
+impl Shown {
+    /// Tells what is shown, where it differs and somebody listens (`DRAGONFLY_LOG=dragonfly::shown=debug`).
+    pub(super) fn tell(&mut self, state: &State) {
+        if !enabled!(target: TARGET, tracing::Level::DEBUG) || state.playback.playing {
+            return;
+        }
+        let bone = state.selected();
+        let animation = bone.and(state.posed.animation());
+        let pose = animation.zip(bone).and_then(|(animation, bone)| animation.poses().get(bone as usize));
+        let history = state.view.as_ref().map(|view| [view.history.done, view.history.steps.len()]);
+        let told = Told {
+            viewport: state.viewport,
+            bones: state.selection.bones().len(),
+            bone,
+            time: state.time(),
+            playing: state.playback.playing,
+            steps: history.unwrap_or_default(),
+            pose: pose.map(|pose| (pose.translation, pose.rotation, pose.scale)),
+        };
+        if self.0.replace(told) == Some(told) {
+            return;
+        }
+        let name = bone.map_or(String::new(), |bone| state.bone_name(bone));
+        let rect = told.viewport;
+        let (translation, rotation, scale) = told.pose.unwrap_or_default();
+        debug!(
+            target: TARGET,
+            viewport = ?[rect.left(), rect.top(), rect.width(), rect.height()],
+            bones = told.bones,
+            bone = name,
+            time = told.time,
+            done = told.steps[0],
+            steps = told.steps[1],
+            translation = ?translation.to_array(),
+            rotation = ?rotation.to_array(),
+            scale = ?scale.to_array(),
+            "shown"
+        );
+    }
+}

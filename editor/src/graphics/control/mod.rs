@@ -1,0 +1,62 @@
+//! What controls of the scene look like (thesis §3.2.9.2, §3.2.9.4): each is a component that hears of its appearance and
+//! presents itself with every frame, in the pose of that frame; one pass draws them all.
+
+mod gizmo;
+
+use super::message::{Appearance, Look};
+use super::posed::PosedModel;
+use crate::camera::Camera;
+use crate::control::gizmo::GizmoShape;
+use gizmo::GizmoGraphic;
+
+/// What a component may look at when it presents itself.
+pub struct Frame<'a> {
+    /// In the pose of this frame.
+    pub model: &'a PosedModel,
+    /// From where it is seen.
+    pub camera: &'a Camera,
+    /// How, and what is selected.
+    pub look: &'a Look,
+}
+
+/// A control, as the graphics thread sees it.
+pub trait GraphicComponent {
+    /// It looks like this from now on. Tells whether that was for this component.
+    fn receive(&mut self, appearance: &Appearance) -> bool;
+
+    /// Adds what is to be drawn in this frame. Allocates only as it grows.
+    fn present(&mut self, frame: &Frame<'_>, shape: &mut GizmoShape);
+}
+
+/// All components, and what they want drawn.
+pub struct Controls {
+    list: Vec<Box<dyn GraphicComponent>>,
+    shape: GizmoShape,
+}
+
+impl Default for Controls {
+    fn default() -> Self {
+        Self { list: vec![Box::<GizmoGraphic>::default()], shape: GizmoShape::default() }
+    }
+}
+
+impl Controls {
+    /// Hands an appearance to whom it is for.
+    pub fn receive(&mut self, appearance: Appearance) {
+        let _ = self.list.iter_mut().any(|component| component.receive(&appearance));
+    }
+
+    /// Lets every component present itself.
+    pub(super) fn present(&mut self, model: &PosedModel, camera: &Camera, look: &Look) {
+        self.shape.clear();
+        let frame = Frame { model, camera, look };
+        for component in &mut self.list {
+            component.present(&frame, &mut self.shape);
+        }
+    }
+
+    /// What is to be drawn.
+    pub fn shape(&self) -> &GizmoShape {
+        &self.shape
+    }
+}

@@ -1,0 +1,62 @@
+//! Commands about which bones are selected and which are seen.
+
+use super::commands::Id;
+use super::state::State;
+use super::status::Level;
+use crate::control::bones::{Choice, MirrorPairs};
+use dragonfly_anim::data::BoneIndex;
+use egui::Pos2;
+use glam::Vec2;
+
+impl State {
+    /// A command of the selection; nothing for another.
+    pub(super) fn selection_command(&mut self, id: Id) {
+        let Some(view) = &self.view else { return };
+        let skeleton = &view.loaded.model.animation.skeleton;
+        let (selection, hidden) = (&mut self.selection, &mut self.hidden);
+        self.cycle.forget();
+        match id {
+            Id::SelectAll => selection.all(hidden),
+            Id::InvertSelection => selection.invert(hidden),
+            Id::ExtendParent => selection.parents(skeleton, hidden, true),
+            Id::ExtendChild => selection.children(skeleton, hidden, true),
+            Id::SelectBranch => selection.descendants(skeleton, hidden),
+            Id::GrowSelection => selection.grow(skeleton, hidden),
+            Id::ShrinkSelection => selection.shrink(skeleton, hidden),
+            Id::SelectMirror => self.select_mirror(false),
+            Id::ExtendMirror => self.select_mirror(true),
+            Id::HideSelected => hidden.hide(selection),
+            Id::HideOthers => hidden.hide_others(selection),
+            Id::ShowAll => hidden.show_all(selection),
+            _ => {}
+        }
+    }
+
+    fn select_mirror(&mut self, extend: bool) {
+        let Some(loaded) = self.view.as_ref().map(|view| &view.loaded) else { return };
+        let pairs = MirrorPairs::of(&loaded.model.animation.skeleton);
+        let before = self.selection.clone();
+        self.selection.mirror(&pairs, &self.hidden, extend);
+        if self.selection == before {
+            let text = "No bone with the name of the other side was found";
+            self.status.say(Level::Info, text);
+        }
+    }
+
+    /// The graphics thread told which bones lie under a click, the nearest first.
+    pub fn picked(&mut self, at: Pos2, bones: &[BoneIndex], choice: Choice) {
+        let bone = if choice == Choice::Replace {
+            self.cycle.click(Vec2::new(at.x, at.y), bones)
+        } else {
+            self.cycle.forget();
+            bones.first().copied()
+        };
+        self.selection.click(bone, choice);
+    }
+
+    /// It told which bones lie in a box or lasso.
+    pub fn caught(&mut self, bones: &[BoneIndex], choice: Choice) {
+        self.cycle.forget();
+        self.selection.choose(bones, choice);
+    }
+}

@@ -1,0 +1,83 @@
+//! Cards in the middle of the picture: nothing is open, something is on its way, the device failed.
+
+use crate::document::Source;
+use crate::panels::commands::{self, Id};
+use crate::panels::state::Device;
+use crate::panels::style::{CARD_RADIUS, GRID};
+use crate::panels::theme::Theme;
+use crate::panels::{Request, State};
+use egui::{Align2, CornerRadius, Frame, Margin, Rect, RichText, Stroke, Ui, vec2};
+
+/// What there is to say.
+pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
+    if let Some(loading) = &state.loading {
+        card(ui, rect, |ui| {
+            ui.label(RichText::new(format!("Opening {}", loading.title)).heading());
+            ui.label(RichText::new(loading.progress.stage.title()).color(Theme::of(ui).weak));
+            ui.add_space(GRID);
+            let bar = egui::ProgressBar::new(loading.progress.done).desired_width(260.0).desired_height(6.0);
+            ui.add(bar.fill(Theme::of(ui).accent));
+            ui.add_space(GRID);
+            if ui.button("Stop").clicked() {
+                requests.push(Request::Command(Id::CancelLoading));
+            }
+        });
+    } else if let Device::Paused { reason } = &state.device {
+        card(ui, rect, |ui| {
+            ui.label(RichText::new("The viewport is paused").heading());
+            let text = "The graphics device failed several times. Everything else works.";
+            ui.label(RichText::new(text).color(Theme::of(ui).weak));
+            ui.label(RichText::new(reason).small().color(Theme::of(ui).faint));
+            ui.add_space(GRID);
+            if ui.button("Try again").clicked() {
+                requests.push(Request::Command(Id::RetryDevice));
+            }
+        });
+    } else if state.view.is_none() {
+        welcome(ui, rect, state, requests);
+    }
+}
+
+/// Nothing is open: what one can do.
+fn welcome(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
+    card(ui, rect, |ui| {
+        ui.label(RichText::new("Nothing is open").heading());
+        ui.label(RichText::new("Drop a glTF file here, or").color(Theme::of(ui).weak));
+        ui.add_space(GRID);
+        let open = ui.add_sized(vec2(260.0, 28.0), egui::Button::new("Open a model…"));
+        if open.on_hover_text(commands::tooltip(ui.ctx(), Id::Open)).clicked() {
+            requests.push(Request::Command(Id::Open));
+        }
+        if ui.add_sized(vec2(260.0, 28.0), egui::Button::new("Built-in dragonfly")).clicked() {
+            requests.push(Request::Command(Id::OpenBuiltIn));
+        }
+        for path in state.settings.recent.iter().take(4) {
+            let name = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+            if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
+                requests.push(Request::Open(Source::File(path.clone())));
+            }
+        }
+    });
+}
+
+/// A card in the middle of the picture.
+fn card(ui: &mut Ui, rect: Rect, add: impl FnOnce(&mut Ui)) {
+    let theme = Theme::of(ui);
+    let id = ui.scope_id().with("card");
+    egui::Area::new(id)
+        .order(egui::Order::Middle)
+        .pivot(Align2::CENTER_CENTER)
+        .fixed_pos(rect.center())
+        .constrain_to(rect)
+        .show(ui.ctx(), |ui| {
+            Frame::NONE
+                .fill(theme.glass)
+                .stroke(Stroke::new(1.0, theme.glass_line))
+                .corner_radius(CornerRadius::same(CARD_RADIUS))
+                .inner_margin(Margin::symmetric(28, 22))
+                .show(ui, |ui| {
+                    ui.set_max_width((rect.width() - 80.0).clamp(120.0, 320.0));
+                    ui.vertical_centered(add);
+                });
+        });
+}

@@ -1,0 +1,114 @@
+//! The tools of the hand at the left of the picture: what the gizmo does, whose axes it has, what it turns about.
+
+use super::{divider_across, glass};
+use crate::control::gizmo::{Pivot, Space, Tool};
+use crate::panels::commands::Id;
+use crate::panels::icons::Icon;
+use crate::panels::style::GRID;
+use crate::panels::widgets::{command_button, icon_button};
+use crate::panels::{Request, State, menu};
+use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
+
+/// Draws them; tells where they are. Not in a picture that is too low for them: keys and menus have them all.
+pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
+    let hand = &state.settings.hand;
+    let height = 6.0 * 26.0 + 9.0 + 2.0 * GRID - 2.0;
+    let top = rect.top() + 52.0;
+    if rect.bottom() - top < height + 90.0 || rect.width() < 240.0 {
+        return None;
+    }
+    let at = Rect::from_min_size(pos2(rect.left() + 10.0, top), vec2(32.0, height));
+    glass(ui, at);
+    let mut ui = ui.new_child(
+        UiBuilder::new().max_rect(at.shrink(GRID)).layout(Layout::top_down(Align::Center)).id_salt("hand"),
+    );
+    let ui = &mut ui;
+    ui.spacing_mut().item_spacing.y = 2.0;
+    for (icon, id, tool) in [
+        (Icon::Select, Id::ToolSelect, None),
+        (Icon::Move, Id::ToolMove, Some(Tool::Move)),
+        (Icon::Rotate, Id::ToolRotate, Some(Tool::Rotate)),
+        (Icon::Scale, Id::ToolScale, Some(Tool::Scale)),
+    ] {
+        command_button(ui, icon, id, hand.tool == tool, requests);
+    }
+    divider_across(ui);
+    choice(ui, state, space_icon(hand.space), space_name(hand.space), &SPACES, requests);
+    choice(ui, state, pivot_icon(hand.pivot), pivot_name(hand.pivot), &PIVOTS, requests);
+    Some(at)
+}
+
+const SPACES: [(Id, Option<Space>, Option<Pivot>); 4] = [
+    (Id::SpaceLocal, Some(Space::Local), None),
+    (Id::SpaceParent, Some(Space::Parent), None),
+    (Id::SpaceWorld, Some(Space::World), None),
+    (Id::SpaceView, Some(Space::View), None),
+];
+
+const PIVOTS: [(Id, Option<Space>, Option<Pivot>); 3] = [
+    (Id::PivotIndividual, None, Some(Pivot::Individual)),
+    (Id::PivotMedian, None, Some(Pivot::Median)),
+    (Id::PivotActive, None, Some(Pivot::Active)),
+];
+
+/// A button that shows what is chosen and opens the list.
+fn choice(
+    ui: &mut Ui,
+    state: &State,
+    icon: Icon,
+    name: &str,
+    list: &[(Id, Option<Space>, Option<Pivot>)],
+    requests: &mut Vec<Request>,
+) {
+    let hand = &state.settings.hand;
+    let response = icon_button(ui, icon, name, false);
+    egui::Popup::menu(&response).align(egui::RectAlign::RIGHT_START).show(|ui| {
+        ui.set_width(190.0);
+        for &(id, space, pivot) in list {
+            let on = space == Some(hand.space) || pivot == Some(hand.pivot);
+            menu::item(ui, state, id, on, requests);
+        }
+        ui.separator();
+        let is_space = list.iter().any(|entry| entry.1.is_some());
+        if is_space {
+            menu::item(ui, state, Id::NextSpace, false, requests);
+        } else {
+            menu::item(ui, state, Id::ToggleCurl, hand.curl, requests);
+        }
+    });
+    response.on_hover_text(name);
+}
+
+fn space_icon(space: Space) -> Icon {
+    match space {
+        Space::Local => Icon::AxesLocal,
+        Space::Parent => Icon::AxesParent,
+        Space::World => Icon::AxesWorld,
+        Space::View => Icon::AxesView,
+    }
+}
+
+fn space_name(space: Space) -> &'static str {
+    match space {
+        Space::Local => "Axes: the bone's own",
+        Space::Parent => "Axes: the parent's",
+        Space::World => "Axes: the world's",
+        Space::View => "Axes: the picture's",
+    }
+}
+
+fn pivot_icon(pivot: Pivot) -> Icon {
+    match pivot {
+        Pivot::Individual => Icon::PivotIndividual,
+        Pivot::Median => Icon::PivotMedian,
+        Pivot::Active => Icon::PivotActive,
+    }
+}
+
+fn pivot_name(pivot: Pivot) -> &'static str {
+    match pivot {
+        Pivot::Individual => "Pivot: each joint",
+        Pivot::Median => "Pivot: the middle",
+        Pivot::Active => "Pivot: the active bone",
+    }
+}

@@ -1,0 +1,58 @@
+//! What the mouse is doing in the picture, as far as it is drawn by the panels: pointer, box, lasso.
+
+use crate::control::ViewportControl;
+use crate::control::bones::Region;
+use crate::panels::theme::Theme;
+use crate::panels::{Request, State};
+use egui::{CursorIcon, Pos2, Rect, Response, Shape, Stroke, StrokeKind, Ui, pos2};
+use glam::Vec2;
+
+/// Tells where the pointer rests and what its wheel does, and gives it its form.
+pub(super) fn pointer(ui: &Ui, response: &Response, state: &State, requests: &mut Vec<Request>) {
+    let (at, held, focused, wheel, pinch) = ui.input(|input| {
+        let pointer = &input.pointer;
+        let wheel = input.smooth_scroll_delta().y;
+        (pointer.latest_pos(), pointer.any_down(), input.focused, wheel, input.zoom_delta())
+    });
+    let hands = &state.hands;
+    let rests = response.hovered() && !held && focused && !hands.is_busy() && !hands.over_handle();
+    requests.push(Request::Point(at.filter(|_| rests)));
+    if response.hovered() {
+        let by = wheel + ViewportControl::wheel_of_pinch(pinch);
+        if by.is_finite() && by != 0.0 {
+            requests.push(Request::Wheel(by));
+        }
+    }
+    let picture = hands.picture();
+    let icon = if hands.edits() || picture.moves_camera() {
+        Some(CursorIcon::Grabbing)
+    } else if picture.armed().is_some() || picture.catching().is_some() {
+        Some(CursorIcon::Crosshair)
+    } else if response.hovered() && hands.over_handle() {
+        Some(CursorIcon::Grab)
+    } else {
+        None
+    };
+    if let Some(icon) = icon.filter(|_| response.hovered() || hands.is_busy()) {
+        ui.ctx().set_cursor_icon(icon);
+    }
+}
+
+/// The box or lasso that is being drawn.
+pub(super) fn drawn(ui: &Ui, rect: Rect, state: &State) {
+    let Some(region) = state.hands.picture().catching() else { return };
+    let theme = Theme::of(ui);
+    let painter = ui.painter().with_clip_rect(rect);
+    let (line, fill) = (Stroke::new(1.0, theme.accent), theme.accent.gamma_multiply(0.12));
+    let there = |at: Vec2| pos2(rect.left() + at.x, rect.top() + at.y);
+    match region {
+        Region::Box(a, b) => {
+            let frame = Rect::from_two_pos(there(a), there(b));
+            painter.rect(frame, 0.0, fill, line, StrokeKind::Inside);
+        }
+        Region::Lasso(points) => {
+            let points: Vec<Pos2> = points.iter().map(|&at| there(at)).collect();
+            painter.add(Shape::closed_line(points, line));
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What a drag has come to, beside the pointer.
+
+use super::super::style::{GRID, NUMBER};
+use super::glass;
+use crate::control::gizmo::{Axis, GizmoDelta, GizmoReadout, Handle, Space, Tool};
+use crate::panels::State;
+use crate::panels::theme::Theme;
+use egui::accesskit::Role;
+use egui::text::{LayoutJob, TextFormat};
+use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
+
+/// Draws it while something is dragged.
+pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State) {
+    let Some(readout) = state.hands.gizmo().gizmo.readout() else { return };
+    let theme = Theme::of(ui);
+    let (what, how, amount) = (what(&readout), how(&readout), amount(&readout));
+    let mut job = LayoutJob::default();
+    let words = |color| TextFormat::simple(FontId::proportional(NUMBER), color);
+    let digits = |color| TextFormat::simple(FontId::monospace(NUMBER), color);
+    job.append(what, 0.0, words(theme.text));
+    job.append(&how, 6.0, words(theme.weak));
+    job.append(&amount, 10.0, digits(theme.text));
+    if let Some(typed) = typed(&readout) {
+        let color = if readout.is_number { theme.accent } else { theme.warning };
+        job.append(&typed, 10.0, digits(color));
+    }
+    let text = job.text.clone();
+    let galley = ui.painter().layout_job(job);
+    let size = galley.size() + vec2(4.0 * GRID, 2.0 * GRID);
+    let pointer = state.hands.pointer().map_or(rect.center(), |at| pos2(at.x, at.y));
+    let wanted = pointer + vec2(18.0, 18.0);
+    let most = (rect.max - size - vec2(6.0, 6.0)).max(rect.min);
+    let at = Rect::from_min_size(wanted.clamp(rect.min + vec2(6.0, 6.0), most), size);
+    glass(ui, at);
+    ui.painter().galley(at.min + vec2(2.0 * GRID, GRID), galley, theme.text);
+    let response = ui.interact(at, ui.scope_id().with("readout"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text.as_str()));
+}
+
+fn what(readout: &GizmoReadout<'_>) -> &'static str {
+    match readout.tool {
+        Tool::Move => "Move",
+        Tool::Rotate => "Rotate",
+        Tool::Scale => "Scale",
+    }
+}
+
+fn how(readout: &GizmoReadout<'_>) -> String {
+    let axes = match readout.handle {
+        Handle::Axis(axis) => letter(axis).to_owned(),
+        Handle::Plane(normal) => {
+            let mut axes = normal.others();
+            axes.sort_by_key(|axis| *axis as usize);
+            format!("{}{}", letter(axes[0]), letter(axes[1]))
+        }
+        Handle::Centre if readout.tool == Tool::Rotate => return "freely".to_owned(),
+        Handle::Centre if readout.tool == Tool::Scale => return "evenly".to_owned(),
+        Handle::Centre => return "in the picture".to_owned(),
+        Handle::Ring if readout.tool == Tool::Scale => return "evenly".to_owned(),
+        Handle::Ring => return "in the picture".to_owned(),
+    };
+    let space = match readout.space {
+        Space::Local => "own",
+        Space::Parent => "parent",
+        Space::World => "world",
+        Space::View => "picture",
+    };
+    format!("{axes} {space}")
+}
+
+fn letter(axis: Axis) -> &'static str {
+    ["X", "Y", "Z"][axis as usize]
+}
+
+fn amount(readout: &GizmoReadout<'_>) -> String {
+    match (readout.delta, readout.handle) {
+        (GizmoDelta::Rotate { angle, .. }, _) => format!("{:.1}\u{b0}", zero(angle.to_degrees())),
+        (GizmoDelta::Move(by), Handle::Axis(axis)) => format!("{:.4}", zero(by[axis as usize])),
+        (GizmoDelta::Move(by), _) => format!("{:.3}  {:.3}  {:.3}", zero(by.x), zero(by.y), zero(by.z)),
+        (GizmoDelta::Scale(by), Handle::Axis(axis)) => format!("\u{d7} {:.3}", by[axis as usize]),
+        (GizmoDelta::Scale(by), Handle::Plane(normal)) => {
+            format!("\u{d7} {:.3}", by[normal.others()[0] as usize])
+        }
+        (GizmoDelta::Scale(by), _) => format!("\u{d7} {:.3}", by.x),
+    }
+}
+
+/// No minus before nothing.
+fn zero(number: f64) -> f64 {
+    if number.abs() < 5e-5 { 0.0 } else { number }
+}
+
+/// What is typed, with a cursor in the field that is typed into.
+fn typed(readout: &GizmoReadout<'_>) -> Option<String> {
+    let fields = readout.typed.iter().take(readout.fields);
+    if fields.clone().all(|text| text.is_empty()) {
+        return None;
+    }
+    let shown = fields.enumerate().map(|(index, text)| {
+        if index == readout.field && readout.fields > 1 { format!("[{text}|]") } else { format!("[{text}]") }
+    });
+    Some(shown.collect::<Vec<_>>().join(" "))
+}

@@ -1,0 +1,66 @@
+//! Buttons for how the picture is drawn and seen, at its right top.
+
+use super::{divider, glass};
+use crate::camera::Projection;
+use crate::graphics::{BoneLook, Shading};
+use crate::panels::commands::Id;
+use crate::panels::icons::Icon;
+use crate::panels::style::GRID;
+use crate::panels::widgets::{command_button, icon_button};
+use crate::panels::{Request, State, menu};
+use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
+
+/// Buttons for everything about the picture, so that nothing needs a numeric keypad or a middle button. Tells where it is.
+pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Rect {
+    let look = &state.settings.look;
+    // Narrow pictures keep what has no other button nearby; the menus have it all.
+    let wide = rect.width() > 430.0;
+    let groups = if wide { 12.0 } else { 6.0 };
+    let width = groups * 26.0 + 3.0 * 9.0 + 2.0 * GRID + if wide { 26.0 } else { 0.0 };
+    let at = Rect::from_min_size(pos2(rect.right() - width - 10.0, rect.top() + 10.0), vec2(width, 32.0));
+    glass(ui, at);
+    let mut ui = ui.new_child(
+        UiBuilder::new()
+            .max_rect(at.shrink(GRID))
+            .layout(Layout::right_to_left(Align::Center))
+            .id_salt("tools"),
+    );
+    let ui = &mut ui;
+    ui.spacing_mut().item_spacing.x = 2.0;
+    views(ui, state, requests);
+    let (icon, flat) = match state.camera.projection {
+        Projection::Perspective => (Icon::Perspective, false),
+        Projection::Orthographic => (Icon::Orthographic, true),
+    };
+    command_button(ui, icon, Id::ToggleProjection, flat, requests);
+    command_button(ui, Icon::Frame, Id::FrameAll, false, requests);
+    divider(ui);
+    command_button(ui, Icon::Grid, Id::ToggleGrid, look.grid, requests);
+    command_button(ui, Icon::XRay, Id::ToggleXRay, look.bones_in_front, requests);
+    command_button(ui, Icon::Bone, Id::ToggleSkeleton, state.shows_skeleton(), requests);
+    if wide {
+        divider(ui);
+        command_button(ui, Icon::Lines, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
+        command_button(ui, Icon::Sticks, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
+        let on = look.bone_look == BoneLook::Octahedra;
+        command_button(ui, Icon::Octahedra, Id::BonesOctahedra, on, requests);
+        divider(ui);
+        command_button(ui, Icon::Unlit, Id::ShadeUnlit, look.shading == Shading::Unlit, requests);
+        command_button(ui, Icon::Clay, Id::ShadeClay, look.shading == Shading::Clay, requests);
+        command_button(ui, Icon::Material, Id::ShadeMaterial, look.shading == Shading::Material, requests);
+        command_button(ui, Icon::Surface, Id::ToggleSurface, look.surface, requests);
+    }
+    at
+}
+
+fn views(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let response = icon_button(ui, Icon::View, "Views", false).on_hover_text("Views");
+    egui::Popup::menu(&response).show(|ui| {
+        ui.set_width(160.0);
+        for id in [Id::ViewFront, Id::ViewBack, Id::ViewRight, Id::ViewLeft, Id::ViewTop, Id::ViewBottom] {
+            menu::item(ui, state, id, false, requests);
+        }
+        ui.separator();
+        menu::item(ui, state, Id::FrameSelected, false, requests);
+    });
+}

@@ -1,0 +1,92 @@
+// Controls of the scene: lines that keep their width on the screen, and faces, over everything.
+
+// Rust twin: graphics::pass::controls::Style
+struct Style {
+    colors: array<vec4f, 6>,
+    // Pixels.
+    half_width: f32,
+}
+
+@group(1) @binding(0) var<uniform> style: Style;
+
+// Rust twin: control::gizmo::GizmoVertex
+struct Corner {
+    @location(0) position: vec3f,
+    @location(1) role: u32,
+    @location(2) opacity: f32,
+}
+
+struct Face {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) role: u32,
+    @location(1) opacity: f32,
+}
+
+fn color_of(role: u32) -> vec3f {
+    return style.colors[min(role, 5u)].rgb;
+}
+
+// Where a place appears; never cut off by the near and far plane, because handles may be nearer than all there is.
+fn seen(place: vec3f) -> vec4f {
+    let clip = frame.clip_from_world * vec4f(place, 1.0);
+    return vec4f(clip.xy, 0.5 * clip.w, clip.w);
+}
+
+@vertex
+fn vs_fill(corner: Corner) -> Face {
+    return Face(seen(corner.position), corner.role, corner.opacity);
+}
+
+@fragment
+fn fs_fill(in: Face) -> @location(0) vec4f {
+    return vec4f(color_of(in.role) * in.opacity, in.opacity);
+}
+
+struct Ends {
+    @location(0) from_position: vec3f,
+    @location(1) from_role: u32,
+    @location(2) from_opacity: f32,
+    @location(3) to_position: vec3f,
+    @location(4) to_role: u32,
+    @location(5) to_opacity: f32,
+}
+
+struct Line {
+    @builtin(position) position: vec4f,
+    // Pixels from the middle of the line.
+    @location(0) across: f32,
+    @location(1) opacity: f32,
+    @location(2) @interpolate(flat) role: u32,
+}
+
+@vertex
+fn vs_line(@builtin(vertex_index) index: u32, ends: Ends) -> Line {
+    let end = array(0.0, 1.0, 1.0, 0.0, 1.0, 0.0)[index];
+    let side = array(-1.0, -1.0, 1.0, -1.0, 1.0, 1.0)[index];
+    var a = frame.clip_from_world * vec4f(ends.from_position, 1.0);
+    var b = frame.clip_from_world * vec4f(ends.to_position, 1.0);
+    // What lies behind the eye is cut off in front of it.
+    let least = 1e-4;
+    if a.w < least && b.w < least {
+        return Line(vec4f(0.0, 0.0, 2.0, 1.0), 0.0, 0.0, ends.from_role);
+    }
+    if a.w < least { a = mix(a, b, clamp((least - a.w) / max(b.w - a.w, 1e-9), 0.0, 1.0)); }
+    if b.w < least { b = mix(b, a, clamp((least - b.w) / max(a.w - b.w, 1e-9), 0.0, 1.0)); }
+    let pixel_a = a.xy / max(a.w, least) * frame.size.xy * 0.5;
+    let pixel_b = b.xy / max(b.w, least) * frame.size.xy * 0.5;
+    let along = pixel_b - pixel_a;
+    let direction = along / max(length(along), 1e-6);
+    let reach = style.half_width + 1.0;
+    let shift = vec2f(-direction.y, direction.x) * side * reach * 2.0 * frame.size.zw;
+    var position = mix(a, b, end);
+    position = vec4f(position.xy + shift * position.w, 0.5 * position.w, position.w);
+    let opacity = mix(ends.from_opacity, ends.to_opacity, end);
+    return Line(position, side * reach, opacity, ends.from_role);
+}
+
+@fragment
+fn fs_line(in: Line) -> @location(0) vec4f {
+    let covered = clamp(style.half_width + 0.5 - abs(in.across), 0.0, 1.0);
+    let alpha = covered * in.opacity;
+    return vec4f(color_of(in.role) * alpha, alpha);
+}

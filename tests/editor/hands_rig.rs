@@ -1,0 +1,181 @@
+//! What the tests of hands stand on: the state of the window and a document beside it, turned by hand.
+
+use dragonfly::control::gizmo::{Gizmo, GizmoView, Handle};
+use dragonfly::control::{Button, InputEvent, Key, Modifiers};
+use dragonfly::document::{
+    Cancel, Document, DocumentHandle, DocumentReply, LoadError, Opened, Progress, Setup, Source, View,
+};
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::{Effect, Request, Settings, State};
+use dragonfly_kit::eventually;
+use dragonfly_runtime::{Captured, Context, Receiver, Thread};
+use glam::{Quat, Vec2};
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+/// Where the picture is in the window.
+pub(crate) const PICTURE: [f32; 4] = [200.0, 50.0, 800.0, 600.0];
+
+pub(crate) type Load = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
+
+#[derive(Clone, Default)]
+struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+
+impl Receiver for Heard {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
+        self.0.borrow_mut().push(reply);
+    }
+}
+
+struct Nobody;
+
+impl Receiver for Nobody {
+    type Message = View;
+
+    fn receive(&mut self, _: View, _: &mut Context) {}
+}
+
+/// State, document, and the hand between them.
+pub(crate) struct Hand {
+    pub(crate) state: State,
+    /// What reached further, but changes, which the document did.
+    pub(crate) effects: Vec<Effect>,
+    /// Edits that the document refused.
+    pub(crate) refused: Vec<String>,
+    main: Captured,
+    thread: Captured,
+    document: DocumentHandle,
+    heard: Heard,
+}
+
+impl Hand {
+    /// With what `load` gives, at the start of its first take, paused.
+    pub(crate) fn new(load: Load) -> Self {
+        let heard = Heard::default();
+        let mut main = Thread::capture("main", || {});
+        let thread = Thread::capture("document", || {});
+        let replies = main.context().register_receiver(heard.clone());
+        let picture = main.context().register_receiver(Nobody);
+        let document =
+            Document::start_in(thread.handle(), Setup { load, ..Setup::default() }, replies, picture);
+        let state = State::new(Settings::default(), Instant::now());
+        let (effects, refused) = (Vec::new(), Vec::new());
+        let mut hand = Self { state, effects, refused, main, thread, document, heard };
+        let [x, y, width, height] = PICTURE;
+        let rect = egui::Rect::from_min_size(egui::pos2(x, y), egui::vec2(width, height));
+        hand.state.execute(Request::Viewport(rect));
+        hand.document.open(Source::BuiltIn);
+        eventually(Duration::from_secs(30), || {
+            hand.turn();
+            hand.state.view.is_some()
+        });
+        hand.state.playback = hand.state.playback.with(false, 1.0, Default::default(), hand.state.now);
+        hand.state.execute(Request::Seek(0.0));
+        hand.state.begin(hand.state.now);
+        hand
+    }
+
+    /// Lets both threads do what waits.
+    pub(crate) fn turn(&mut self) {
+        self.thread.iterate();
+        self.main.iterate();
+        for reply in self.heard.0.take() {
+            match reply {
+                DocumentReply::View(view) => self.state.show(view),
+                DocumentReply::Refused(reason) => self.refused.push(reason),
+                _ => {}
+            }
+        }
+        self.state.begin(self.state.now);
+    }
+
+    pub(crate) fn send(&mut self, event: InputEvent) -> bool {
+        let mut effects = Vec::new();
+        let taken = self.state.input(event, &mut effects);
+        self.carry(effects);
+        taken
+    }
+
+    pub(crate) fn carry(&mut self, effects: Vec<Effect>) {
+        for effect in effects {
+            match effect {
+                Effect::Change(change) => self.document.change(change),
+                other => self.effects.push(other),
+            }
+        }
+        self.turn();
+    }
+
+    pub(crate) fn command(&mut self, id: Id) {
+        let effect = self.state.execute(Request::Command(id));
+        self.carry(effect.into_iter().collect());
+    }
+
+    pub(crate) fn to(&mut self, at: Vec2) {
+        self.send(InputEvent::MouseMove(at));
+    }
+
+    pub(crate) fn press(&mut self, at: Vec2) {
+        self.to(at);
+        self.send(InputEvent::MouseDown(Button::Left));
+    }
+
+    pub(crate) fn release(&mut self) {
+        self.send(InputEvent::MouseUp(Button::Left));
+    }
+
+    pub(crate) fn hold(&mut self, modifiers: Modifiers) {
+        self.send(InputEvent::Modifiers(modifiers));
+    }
+
+    pub(crate) fn keys(&mut self, text: &str) {
+        for letter in text.chars() {
+            self.key(Key::letter(letter));
+        }
+    }
+
+    pub(crate) fn key(&mut self, key: Key) {
+        self.send(InputEvent::KeyDown(key));
+        self.send(InputEvent::KeyUp(key));
+    }
+
+    /// A place in the window where this handle is.
+    pub(crate) fn handle(&self, wanted: Handle) -> Vec2 {
+        let corner = Vec2::new(PICTURE[0], PICTURE[1]);
+        let at = find(&self.state.hands.gizmo().gizmo, self.joint(), wanted);
+        at.unwrap_or_else(|| panic!("{wanted:?} is nowhere")) + corner
+    }
+
+    /// Where the active bone's joint appears, points from the corner of the picture.
+    pub(crate) fn joint(&self) -> Vec2 {
+        let bone = self.state.selected().expect("a bone is selected");
+        let joint = self.state.posed.animation().expect("posed").to_root()[bone as usize].w_axis;
+        let view = GizmoView::new(&self.state.camera, Vec2::new(PICTURE[2], PICTURE[3]));
+        view.to_screen(joint.truncate().as_dvec3()).expect("before the eye").as_vec2()
+    }
+
+    /// How the active bone is turned in what is shown.
+    pub(crate) fn rotation(&self) -> Quat {
+        let bone = self.state.selected().expect("a bone is selected");
+        self.state.posed.animation().expect("posed").poses()[bone as usize].rotation
+    }
+
+    /// Names of the steps that are done.
+    pub(crate) fn steps(&self) -> Vec<&'static str> {
+        let history = &self.state.view.as_ref().expect("open").history;
+        history.steps[..history.done].to_vec()
+    }
+}
+
+/// A place around `middle` where a handle is; not where another is near.
+pub(crate) fn find(gizmo: &Gizmo, middle: Vec2, wanted: Handle) -> Option<Vec2> {
+    let offsets = (-50..=50).flat_map(|y| (-50..=50).map(move |x| Vec2::new(x as f32, y as f32) * 2.0));
+    let is_there = |at: &Vec2| {
+        let near = [Vec2::ZERO, Vec2::X, -Vec2::X, Vec2::Y, -Vec2::Y];
+        near.iter().all(|by| gizmo.handle_at(*at + *by * 2.0) == Some(wanted))
+    };
+    offsets.map(|offset| middle + offset).find(is_there)
+}

@@ -1,0 +1,179 @@
+//! A bone is picked and turned in the real window, with mouse and keys, and the numbers that are shown are the ones asked for.
+
+use crate::hands_rig::find;
+use crate::program::data;
+use crate::screen::{Screen, key};
+use crate::window::{Editor, SOON, alone, eventually_shows_something};
+use dragonfly::control::gizmo::{Axis, Gizmo, GizmoView, Handle, Tool};
+use dragonfly::document::{Cancel, Source, View, load_model};
+use dragonfly::panels::{Request, Settings, State};
+use glam::{Quat, Vec2};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// The state of the window, as a test outside of it computes it.
+struct Inside {
+    state: State,
+    corner: Vec2,
+    size: Vec2,
+}
+
+impl Inside {
+    /// Fox at the start of its first take, in a picture that is there.
+    fn new([x, y, width, height]: [f32; 4]) -> Self {
+        let source = Source::File(data("gltf/Fox.glb"));
+        let loaded = load_model(&source, &mut |_| {}, &Cancel::default()).expect("Fox opens");
+        let mut state = State::new(Settings::default(), Instant::now());
+        let rect = egui::Rect::from_min_size(egui::pos2(x, y), egui::vec2(width, height));
+        state.execute(Request::Viewport(rect));
+        state.show(View::opened(1, Arc::new(loaded)));
+        state.playback.playing = false;
+        state.execute(Request::Seek(0.0));
+        Self { state, corner: Vec2::new(x, y), size: Vec2::new(width, height) }
+    }
+
+    fn bone(&self, name: &str) -> u32 {
+        let bones = &self.state.loaded().expect("open").model.animation.skeleton.bones;
+        bones.iter().position(|bone| bone.name == name).expect("a bone of Fox") as u32
+    }
+
+    fn view(&self) -> GizmoView {
+        GizmoView::new(&self.state.camera, self.size)
+    }
+
+    /// Where in the window the middle of a bone is, from its joint to that of another.
+    fn middle(&mut self, from: &str, to: &str) -> Vec2 {
+        let bones = [self.bone(from), self.bone(to)];
+        self.state.select(Some(bones[0]));
+        self.state.begin(self.state.now);
+        let to_root = self.state.posed.animation().expect("posed").to_root();
+        let place = bones.map(|bone| to_root[bone as usize].w_axis.truncate().as_dvec3());
+        let at = self.view().to_screen((place[0] + place[1]) / 2.0).expect("before the eye");
+        at.as_vec2() + self.corner
+    }
+
+    /// A place in the window where a handle of the gizmo at a bone is.
+    fn handle(&mut self, bone: &str, wanted: Handle) -> Vec2 {
+        let bone = self.bone(bone);
+        self.state.select(Some(bone));
+        self.state.begin(self.state.now);
+        let skeleton = &self.state.loaded().expect("open").model.animation.skeleton;
+        let animation = self.state.posed.animation().expect("posed");
+        let mut gizmo = Gizmo::new(Tool::Rotate);
+        gizmo.select(skeleton, animation.poses(), animation.to_root(), &[bone], None);
+        gizmo.look(self.view());
+        let joint = animation.to_root()[bone as usize].w_axis.truncate().as_dvec3();
+        let joint = self.view().to_screen(joint).expect("before the eye").as_vec2();
+        find(&gizmo, joint, wanted).expect("the handle is seen") + self.corner
+    }
+}
+
+/// What the log tells of the window: the newest value of a field.
+fn shown(editor: &mut Editor, field: &str) -> Option<String> {
+    editor.log();
+    let line = editor.lines.iter().rev().find(|line| line.contains("dragonfly::shown"))?;
+    let value = line.split(&format!("{field}=")).nth(1)?;
+    let end =
+        if value.starts_with('[') { value.find(']')? + 1 } else { value.find(' ').unwrap_or(value.len()) };
+    Some(value[..end].trim_matches('"').to_owned())
+}
+
+fn numbers<const N: usize>(text: &str) -> [f32; N] {
+    let numbers =
+        text.trim_matches(['[', ']']).split(',').map(|number| number.trim().parse().expect("a number"));
+    numbers.collect::<Vec<f32>>().try_into().expect("so many numbers")
+}
+
+/// Waits until a field is what it should be.
+#[track_caller]
+fn wait_for(editor: &mut Editor, screen: &Screen, what: &str, mut holds: impl FnMut(&mut Editor) -> bool) {
+    let deadline = Instant::now() + SOON;
+    while !holds(editor) {
+        if Instant::now() > deadline {
+            screen.keep("waiting");
+            panic!("never: {what}\n{}", editor.log());
+        }
+        std::thread::park_timeout(Duration::from_millis(20));
+    }
+}
+
+fn rotation(editor: &mut Editor) -> Quat {
+    Quat::from_array(numbers(&shown(editor, "rotation").expect("it is told")))
+}
+
+#[track_caller]
+fn wait_for_turn(editor: &mut Editor, screen: &Screen, wanted: Quat) {
+    let what = format!("a rotation of {wanted}");
+    wait_for(editor, screen, &what, |editor| {
+        let now = rotation(editor);
+        let apart = (now - wanted).length().min((now + wanted).length());
+        apart < 1e-4
+    });
+}
+
+#[test]
+fn a_bone_is_picked_and_turned_by_thirty_degrees_undone_and_done_again() {
+    let _one = alone();
+    let mut screen = Screen::new("hands", 1280, 800);
+    let log = [("DRAGONFLY_LOG", "error,dragonfly=info,dragonfly::shown=debug")];
+    let mut editor = Editor::open(&mut screen, &[], &log);
+    eventually_shows_something(&screen);
+    screen.press(key::SPACE);
+    screen.press(key::HOME);
+    wait_for(&mut editor, &screen, "the start", |editor| shown(editor, "time").as_deref() == Some("0.0"));
+    let mut inside = Inside::new(numbers(&shown(&mut editor, "viewport").expect("told")));
+
+    // A click on the head's bone; where nothing but skin is seen, the skin is met.
+    let head = inside.middle("b_Head_05", "b_Neck_04");
+    let head = inside.middle("b_Head_05", "b_Head_05").lerp(head, -0.6);
+    screen.click(head.x as i16, head.y as i16);
+    wait_for(&mut editor, &screen, "the head is selected", |editor| {
+        shown(editor, "bone").as_deref() == Some("b_Head_05")
+    });
+    let before = rotation(&mut editor);
+    let turned = before * Quat::from_rotation_x(30f32.to_radians());
+
+    // By the ring, with the number typed while it is held.
+    let ring = inside.handle("b_Head_05", Handle::Axis(Axis::X));
+    screen.point(ring.x as i16, ring.y as i16);
+    screen.hold();
+    screen.point(ring.x as i16 + 9, ring.y as i16 + 14);
+    screen.press(key::DIGIT_3);
+    screen.press(key::DIGIT_0);
+    screen.keep("hands-drag");
+    screen.press(key::ENTER);
+    screen.let_go();
+    wait_for_turn(&mut editor, &screen, turned);
+    assert_eq!(shown(&mut editor, "done").as_deref(), Some("1"), "one drag is one step");
+
+    screen.press_with(key::CONTROL, key::Z);
+    wait_for_turn(&mut editor, &screen, before);
+    screen.press_with(key::CONTROL, key::Y);
+    wait_for_turn(&mut editor, &screen, turned);
+
+    // By a command and keys alone: once more about the same axis.
+    screen.press(key::F3);
+    for letter in [27, 32, 28, 38, 28, 26, 65, 57, 32, 25] {
+        // "rotate now" on a keyboard of the United States.
+        screen.press(letter);
+    }
+    screen.press(key::ENTER);
+    screen.press(key::X);
+    screen.press(key::DIGIT_3);
+    screen.press(key::DIGIT_0);
+    screen.press(key::ENTER);
+    wait_for_turn(&mut editor, &screen, before * Quat::from_rotation_x(60f32.to_radians()));
+    assert_eq!(shown(&mut editor, "done").as_deref(), Some("2"));
+
+    // Escape in a drag leaves nothing behind.
+    let ring = inside.handle("b_Head_05", Handle::Ring);
+    screen.point(ring.x as i16, ring.y as i16);
+    screen.hold();
+    screen.point(ring.x as i16 + 40, ring.y as i16 + 40);
+    screen.press(key::ESCAPE);
+    screen.let_go();
+    wait_for_turn(&mut editor, &screen, before * Quat::from_rotation_x(60f32.to_radians()));
+    screen.keep("hands-end");
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+}
