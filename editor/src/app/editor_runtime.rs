@@ -104,6 +104,11 @@ impl EditorRuntime {
                     document.change(change);
                 }
             }
+            Effect::Changes(changes) => {
+                if let Some(document) = &running.document {
+                    changes.into_iter().for_each(|change| document.change(change));
+                }
+            }
             Effect::Pick(position) => {
                 running.tickets += 1;
                 running.click = running.tickets;

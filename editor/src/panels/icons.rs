@@ -39,6 +39,8 @@ pub enum Icon {
     Octahedra,
     Sticks,
     Lines,
+    Snap,
+    Fit,
 }
 
 impl Icon {
@@ -77,6 +79,8 @@ impl Icon {
         Self::Octahedra,
         Self::Sticks,
         Self::Lines,
+        Self::Snap,
+        Self::Fit,
     ];
 
     /// Draws it into the middle of `rect`, 16 points large.
@@ -122,6 +126,26 @@ impl Icon {
                 pen.line(&[(2.5, 8.0), (13.5, 8.0)]);
                 pen.line(&[(5.0, 5.0), (2.2, 8.0), (5.0, 11.0)]);
                 pen.line(&[(11.0, 5.0), (13.8, 8.0), (11.0, 11.0)]);
+            }
+            Self::Snap => {
+                pen.line(&[
+                    (4.0, 3.0),
+                    (4.0, 9.0),
+                    (5.5, 11.8),
+                    (8.0, 12.8),
+                    (10.5, 11.8),
+                    (12.0, 9.0),
+                    (12.0, 3.0),
+                ]);
+                pen.bar(2.8, 2.6, 2.6, 2.2);
+                pen.bar(10.7, 2.6, 2.6, 2.2);
+            }
+            Self::Fit => {
+                pen.line(&[(2.5, 4.0), (2.5, 12.0)]);
+                pen.line(&[(13.5, 4.0), (13.5, 12.0)]);
+                pen.line(&[(4.5, 8.0), (11.5, 8.0)]);
+                pen.line(&[(6.5, 6.0), (4.5, 8.0), (6.5, 10.0)]);
+                pen.line(&[(9.5, 6.0), (11.5, 8.0), (9.5, 10.0)]);
             }
             Self::Search => {
                 pen.ring(7.0, 7.0, 4.0);

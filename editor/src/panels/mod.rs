@@ -4,9 +4,11 @@
 
 pub mod commands;
 pub mod digest;
+mod dope;
 mod execute;
 pub mod hierarchy;
 pub mod icons;
+pub mod keys;
 pub mod layout;
 pub mod menu;
 pub mod overlays;

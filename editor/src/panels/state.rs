@@ -1,6 +1,7 @@
 //! What is shown and chosen right now. Panels read it and ask for changes; only [`super::execute`] makes them.
 
 use super::digest::Digest;
+use super::keys::{Keys, KeysRequest};
 use super::settings::Settings;
 use super::status::Status;
 use crate::camera::Camera;
@@ -67,6 +68,8 @@ pub enum Request {
     SelectBones(Vec<BoneIndex>, Choice),
     /// Edits, undoes, does again.
     Change(Change),
+    /// About keys: selects, drags, marks.
+    Keys(KeysRequest),
     /// The pointer is over this bone's row.
     Hover(BoneIndex),
     /// Shows a take, or the rest pose.
@@ -108,6 +111,8 @@ pub enum Effect {
     CancelLoading,
     /// Tells the document.
     Change(Change),
+    /// Tells the document several things, each a step.
+    Changes(Vec<Change>),
     /// Asks the graphics thread which bone lies there, in points.
     Pick(egui::Pos2),
     /// Uses the whole screen, or a window again.
@@ -171,6 +176,8 @@ pub struct State {
     pub pointed: Option<BoneIndex>,
     /// Which time of which take.
     pub playback: Playback,
+    /// What the timeline and the curves share.
+    pub keys: Keys,
     /// From where.
     pub camera: Camera,
     /// Has the camera been placed for the model that is open?
@@ -215,6 +222,7 @@ impl State {
             pointer: None,
             pointed: None,
             playback,
+            keys: Keys::default(),
             camera: Camera::default(),
             framed: false,
             settings,
@@ -245,6 +253,7 @@ impl State {
             self.playback.playing = false;
             self.playback = self.playback.seek(time, now);
         }
+        self.settle_keys();
         self.digest.update(self.view.as_ref(), self.playback.take, self.selection.active());
         if let Some(view) = &self.view
             && self.selection.active().is_some()
@@ -266,6 +275,7 @@ impl State {
         self.hovered = None;
         self.pointed = None;
         self.framed = false;
+        self.open_keys();
         let has_takes = self.view.as_ref().is_some_and(|view| !view.takes.is_empty());
         self.show_take(has_takes.then_some(0));
         self.playback = self.playback.with(has_takes, self.settings.speed, self.settings.repeat, self.now);
@@ -275,6 +285,7 @@ impl State {
 
     /// Shows a take from its start; keeps playing or standing.
     pub fn show_take(&mut self, index: Option<usize>) {
+        self.leave_take();
         let bounds = self.take_of(index).map(|take| (take.start, take.length));
         self.playback.take = bounds.and(index);
         (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
@@ -283,8 +294,10 @@ impl State {
 
     /// Goes on with the take that is shown, at the same time of it, where it begins or ends elsewhere now or is gone.
     fn keep_take(&mut self) {
+        self.settle_keys();
         let time = self.playback.time_at(self.now);
-        let bounds = self.take().map(|take| (take.start, take.length));
+        let bounds =
+            self.take().map(|_| if self.playback.playing { self.play_bounds() } else { self.take_bounds() });
         if bounds == Some((self.playback.start, self.playback.length)) {
             return;
         }

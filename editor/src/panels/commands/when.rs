@@ -16,6 +16,8 @@ pub enum When {
     Bone,
     /// A bone is selected and a take is shown.
     BoneInTake,
+    /// A key is selected.
+    Keys,
     /// Something was done.
     Undo,
     /// Something was undone.
@@ -36,6 +38,7 @@ impl When {
             Self::Take => state.take().is_some(),
             Self::Bone => state.selected().is_some(),
             Self::BoneInTake => state.selected().is_some() && state.take().is_some(),
+            Self::Keys => state.take().is_some() && !state.keys.selection.is_empty(),
             Self::Undo => history.is_some_and(|history| history.done > 0),
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
             Self::Loading => state.loading.is_some(),
@@ -51,6 +54,7 @@ impl When {
             Self::Take => "No take is shown",
             Self::Bone => "No bone is selected",
             Self::BoneInTake => "It takes a selected bone and a take",
+            Self::Keys => "No key is selected",
             Self::Undo => "Nothing was done yet",
             Self::Redo => "Nothing was undone",
             Self::Loading => "No model is being opened",

@@ -5,6 +5,7 @@ mod camera;
 mod edit;
 mod file;
 mod help;
+mod keys;
 mod look;
 mod playback;
 mod selection;
@@ -37,6 +38,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::File, file::COMMANDS),
     (Category::Edit, edit::COMMANDS),
     (Category::Playback, playback::COMMANDS),
+    (Category::Keys, keys::COMMANDS),
     (Category::Selection, selection::COMMANDS),
     (Category::Camera, camera::COMMANDS),
     (Category::Look, look::COMMANDS),
