@@ -41,6 +41,9 @@ pub enum Icon {
     Lines,
     Snap,
     Fit,
+    Step,
+    Linear,
+    Spline,
 }
 
 impl Icon {
@@ -81,6 +84,9 @@ impl Icon {
         Self::Lines,
         Self::Snap,
         Self::Fit,
+        Self::Step,
+        Self::Linear,
+        Self::Spline,
     ];
 
     /// Draws it into the middle of `rect`, 16 points large.
@@ -147,6 +153,17 @@ impl Icon {
                 pen.line(&[(6.5, 6.0), (4.5, 8.0), (6.5, 10.0)]);
                 pen.line(&[(9.5, 6.0), (11.5, 8.0), (9.5, 10.0)]);
             }
+            Self::Step => pen.line(&[(2.5, 12.0), (8.0, 12.0), (8.0, 4.0), (13.5, 4.0)]),
+            Self::Linear => pen.line(&[(2.5, 12.0), (13.5, 4.0)]),
+            Self::Spline => pen.line(&[
+                (2.5, 12.0),
+                (4.5, 11.7),
+                (6.4, 10.4),
+                (8.0, 8.0),
+                (9.6, 5.6),
+                (11.5, 4.3),
+                (13.5, 4.0),
+            ]),
             Self::Search => {
                 pen.ring(7.0, 7.0, 4.0);
                 pen.line(&[(10.0, 10.0), (13.5, 13.5)]);

@@ -3,6 +3,7 @@
 //! A new panel is a file here and a line in [`all`].
 
 pub mod commands;
+pub mod curves;
 pub mod digest;
 mod dope;
 mod execute;
@@ -47,8 +48,10 @@ pub enum Place {
     Middle,
     /// The right edge.
     Right,
-    /// Over the whole width.
+    /// Along the lower edge.
     Below,
+    /// Beside it, at the right.
+    BelowRight,
 }
 
 /// A part of the window.
@@ -74,6 +77,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
         Box::<timeline::Timeline>::default(),
+        Box::<curves::Curves>::default(),
     ]
 }
 

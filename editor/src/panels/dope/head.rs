@@ -10,11 +10,17 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
+/// A ruler on which time is dragged.
+#[derive(Debug, Default)]
+pub(in crate::panels) struct Scrub {
+    /// The command that lets time go on after scrubbing.
+    resume: Option<Id>,
+}
+
 /// What is held in the ruler.
 #[derive(Debug, Default)]
 pub(super) struct Head {
-    /// The command that lets time go on after scrubbing.
-    resume: Option<Id>,
+    scrub: Scrub,
     /// Scaling: what stays, and where the end was that is held.
     scaling: Option<Scaling>,
 }
@@ -63,31 +69,19 @@ pub(in crate::panels) fn ticks(
     }
 }
 
-impl Head {
-    pub(super) fn show(
-        &mut self,
-        ui: &mut Ui,
-        places: &Places,
-        scale: &TimeScale,
-        drawn: &Drawn,
-        state: &State,
-        requests: &mut Vec<Request>,
-    ) {
-        self.scrub(ui, places, scale, state, requests);
-        range_ends(ui, places, scale, state, requests);
-        self.bar(ui, places, scale, drawn, state, requests);
-    }
-
-    fn scrub(
+impl Scrub {
+    /// Takes what is done on `head`, which a screen reader calls `name`.
+    pub(in crate::panels) fn show(
         &mut self,
         ui: &Ui,
-        places: &Places,
+        head: Rect,
+        name: &'static str,
         scale: &TimeScale,
         state: &State,
         requests: &mut Vec<Request>,
     ) {
-        let response = ui.interact(places.head, ui.scope_id().with("track"), Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::slider(true, f64::from(state.time()), "Time track"));
+        let response = ui.interact(head, ui.scope_id().with(name), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::slider(true, f64::from(state.time()), name));
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
         // From the press on, as a hand expects: not only once a movement has made it a drag, and not only
         // once a quick release has made it a click, which it is not any more when a frame took long.
@@ -125,6 +119,22 @@ impl Head {
             }
         });
         super::scroll::wheel(ui, &response, scale, requests);
+    }
+}
+
+impl Head {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        places: &Places,
+        scale: &TimeScale,
+        drawn: &Drawn,
+        state: &State,
+        requests: &mut Vec<Request>,
+    ) {
+        self.scrub.show(ui, places.head, "Time track", scale, state, requests);
+        range_ends(ui, places, scale, state, requests);
+        self.bar(ui, places, scale, drawn, state, requests);
     }
 
     /// The bar over the selected keys: its ends scale them about the playhead.

@@ -21,6 +21,13 @@ use marks::KeysMesh;
 use place::Places;
 use rows::Rows;
 
+pub(super) use hand::{Input, readout};
+pub(super) use head::{Scrub, ticks, to_frame};
+pub(super) use marks::Pen;
+pub(super) use menu::show as key_menu;
+pub(super) use overlay::{line as playhead, shade};
+pub(super) use scroll::{pan, time_bar, wheel};
+
 /// See the module: what it remembers between frames, none of it about the document.
 #[derive(Debug, Default)]
 pub(super) struct Dope {

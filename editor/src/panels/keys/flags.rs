@@ -106,6 +106,7 @@ impl BoneFlags {
             Edit::Set { poses, .. } | Edit::Offset { poses, .. } => {
                 named(&mut poses.iter().map(|pose| &pose.bone))
             }
+            Edit::SetMany { at, .. } => named(&mut at.iter().flat_map(|at| &at.poses).map(|pose| &pose.bone)),
             Edit::Reset { bones, .. }
             | Edit::AddKeys { bones, .. }
             | Edit::SetInterpolation { bones, .. } => list(bones),

@@ -26,6 +26,13 @@ pub enum KeysRequest {
         /// How.
         choice: Choice,
     },
+    /// Selects single keys of channels: stretches of time for each.
+    SelectKeys {
+        /// Which.
+        parts: Vec<(ChannelId, Vec<[f32; 2]>)>,
+        /// How.
+        choice: Choice,
+    },
     /// Selects no key.
     Deselect,
     /// Shows this part of time, or the whole take.
@@ -55,6 +62,7 @@ impl State {
     pub(in crate::panels) fn keys_request(&mut self, request: KeysRequest) -> Option<Effect> {
         match request {
             KeysRequest::Select { channels, stretch, choice } => self.select_keys(&channels, stretch, choice),
+            KeysRequest::SelectKeys { parts, choice } => self.select_parts(&parts, choice),
             KeysRequest::Deselect => self.keys.selection = KeySelection::default(),
             KeysRequest::Window(window) => self.show_window(window),
             KeysRequest::Drag(deed) => return self.drag_keys(deed),
@@ -93,6 +101,17 @@ impl State {
             self.say_locked(bone);
         }
         self.keys.selection.choose(&take, &free, stretch, choice);
+    }
+
+    fn select_parts(&mut self, parts: &[(ChannelId, Vec<[f32; 2]>)], choice: Choice) {
+        if choice == Choice::Replace {
+            self.keys.selection = KeySelection::default();
+        }
+        let choice = if choice == Choice::Toggle { Choice::Toggle } else { Choice::Add };
+        let Some(take) = self.shared_take().cloned() else { return };
+        for (channel, stretches) in parts.iter().filter(|((bone, _), _)| !self.keys.flags.locked(*bone)) {
+            self.keys.selection.choose_parts(&take, *channel, stretches, choice);
+        }
     }
 
     /// Selects everything that is listed and not locked.

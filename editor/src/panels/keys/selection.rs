@@ -82,6 +82,21 @@ impl KeySelection {
         }
     }
 
+    /// Adds stretches of one channel to what is selected; a toggle takes each out that is selected already.
+    pub fn choose_parts(&mut self, take: &Take, channel: ChannelId, stretches: &[[f32; 2]], choice: Choice) {
+        let times = channel::times(take, channel);
+        let map = Arc::make_mut(&mut self.channels);
+        let intervals = map.entry(channel).or_default();
+        let (gone, new): (Vec<_>, Vec<_>) =
+            stretches.iter().partition(|[from, _]| choice == Choice::Toggle && intervals.holds(*from));
+        *intervals = Intervals::of(intervals.stretches().iter().copied().chain(new));
+        gone.into_iter().for_each(|stretch| intervals.remove(stretch, times));
+        intervals.tidy(times);
+        if intervals.is_empty() {
+            map.remove(&channel);
+        }
+    }
+
     /// Nothing of these bones any more.
     pub fn drop_bones(&mut self, gone: impl Fn(BoneIndex) -> bool) {
         if self.channels.keys().any(|&(bone, _)| gone(bone)) {

@@ -5,7 +5,7 @@ use super::*;
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const COMMANDS: &[Command] = &[
     command(Id::SelectAllKeys, When::Take, "Select all keys", &[key(CTRL.plus(SHIFT), Key::A)], "Every key that the timeline lists"),
-    command(Id::DeleteKeys, When::Keys, "Delete keys", &[key(NONE, Key::Delete), key(NONE, Key::X)], "Deletes the selected keys"),
+    command(Id::DeleteKeys, When::Keys, "Delete keys", &[key(NONE, Key::Delete), key(NONE, Key::Backspace)], "Deletes the selected keys"),
     command(Id::DuplicateKeys, When::Keys, "Duplicate keys", &[key(CTRL, Key::D), key(SHIFT, Key::D)], "Copies the selected keys to the playhead"),
     command(Id::KeysEarlier, When::Keys, "Keys a frame earlier", &[key(ALT, Key::ArrowLeft)], "Moves the selected keys one frame back"),
     command(Id::KeysLater, When::Keys, "Keys a frame later", &[key(ALT, Key::ArrowRight)], "Moves the selected keys one frame on"),
@@ -20,7 +20,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::RippleOpen, When::Take, "Insert a frame", &[key(NONE, Key::F5)], "Moves everything behind the playhead one frame on"),
     command(Id::RippleClose, When::Take, "Remove a frame", &[key(SHIFT, Key::F5)], "Takes the frame behind the playhead away, and its keys"),
     command(Id::FitKeys, When::Take, "Fit the timeline", &[key(SHIFT, Key::Home)], "Shows the selected keys, or the whole take"),
-    command(Id::AddMarker, When::Take, "Add a marker", &[key(NONE, Key::M)], "Marks the time shown; markers stay out of the model's file"),
+    command(Id::AddMarker, When::Take, "Add a marker", &[key(ALT, Key::M)], "Marks the time shown; markers stay out of the model's file"),
     command(Id::PreviousMarker, When::Take, "Previous marker", &[key(SHIFT, Key::PageUp)], "To the marker before"),
     command(Id::NextMarker, When::Take, "Next marker", &[key(SHIFT, Key::PageDown)], "To the marker after"),
     command(Id::RangeOfKeys, When::Take, "Play range of the selection", &[key(NONE, Key::P)], "Plays between the selected keys, or what is in sight"),
