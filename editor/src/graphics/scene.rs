@@ -9,6 +9,7 @@ use crate::camera::{Camera, Projection, Ray};
 use crate::document::{LoadedModel, View};
 use crate::playback::Playback;
 use dragonfly_anim::bounds::{Bounds, Sphere};
+use dragonfly_anim::data::BoneIndex;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use std::sync::Arc;
 use std::time::Instant;
@@ -24,6 +25,10 @@ pub struct Scene {
     /// Alpha of the background; less than one only in pictures for other programs.
     pub background_alpha: f32,
     model: Option<PosedModel>,
+    /// What is shown.
+    shown: Option<View>,
+    /// Bones that are seen at rest.
+    still: Vec<BoneIndex>,
     uniform: FrameUniform,
 }
 
@@ -36,6 +41,8 @@ impl Scene {
             playback: Playback::rest(now),
             background_alpha: 1.0,
             model: None,
+            shown: None,
+            still: Vec::new(),
             uniform: bytemuck::Zeroable::zeroed(),
         }
     }
@@ -43,12 +50,21 @@ impl Scene {
     /// Shows `view` instead of what is shown. Of the model that is shown already only the takes are exchanged.
     pub fn show(&mut self, view: &View) {
         match &mut self.model {
-            Some(model) if Arc::ptr_eq(model.loaded(), &view.loaded) => model.show_takes(view),
+            Some(model) if Arc::ptr_eq(model.loaded(), &view.loaded) => model.show_takes(view, &self.still),
             _ => {
                 let mut model = PosedModel::new(Arc::clone(&view.loaded));
-                model.show_takes(view);
+                model.show_takes(view, &self.still);
                 self.model = Some(model);
             }
+        }
+        self.shown = Some(view.clone());
+    }
+
+    /// Shows these bones at rest, and all others as they move.
+    pub fn set_still(&mut self, still: Vec<BoneIndex>) {
+        self.still = still;
+        if let Some(view) = self.shown.take() {
+            self.show(&view);
         }
     }
 
@@ -79,7 +95,7 @@ impl Scene {
         let eye = self.camera.eye();
         let bounds = self.model.as_ref().map_or(Sphere::default(), |model| model.bounds().sphere);
         if let Some(model) = &mut self.model {
-            model.pose(self.playback.take, time);
+            model.pose(self.playback.take, time, !self.playback.moves(now));
             model.sort(eye, self.camera.back());
             model.place_bones(&self.look);
         }

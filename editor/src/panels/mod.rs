@@ -4,6 +4,7 @@
 
 pub mod commands;
 pub mod curves;
+mod dialogs;
 pub mod digest;
 mod dope;
 mod execute;
@@ -12,11 +13,15 @@ pub mod icons;
 pub mod keys;
 pub mod layout;
 pub mod menu;
+mod mirror_pairs;
 pub mod overlays;
+mod pose_commands;
 mod posing;
 pub mod properties;
 pub mod ruler;
+pub mod saving;
 pub mod settings;
+mod shortcuts;
 pub mod state;
 pub mod status;
 pub mod status_line;
@@ -86,6 +91,7 @@ pub struct Desk {
     panels: Vec<Box<dyn Panel>>,
     layout: Layout,
     overlays: overlays::Overlays,
+    dialogs: dialogs::Dialogs,
 }
 
 impl Desk {
@@ -93,7 +99,7 @@ impl Desk {
     pub fn new(layout: &str) -> Self {
         let panels = all();
         let layout = Layout::parse(layout, &panels);
-        Self { panels, layout, overlays: overlays::Overlays::default() }
+        Self { panels, layout, overlays: overlays::Overlays::default(), dialogs: dialogs::Dialogs::default() }
     }
 
     /// The places, as the text of a layout file, when they changed since the last call.
@@ -113,6 +119,7 @@ impl Desk {
 
     /// Draws everything once.
     pub fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        commands::Keymap::install(&state.settings.keys, ui.ctx());
         let theme = theme::Theme::of(ui);
         let bar = egui::Frame::NONE.fill(theme.bar);
         egui::Panel::top("menu").exact_size(style::BAR).frame(bar).show_separator_line(false).show(
@@ -134,6 +141,7 @@ impl Desk {
         });
         drop_hint(ui);
         self.overlays.show(ui, state, requests);
+        self.dialogs.show(ui, state, requests);
     }
 }
 

@@ -1,5 +1,6 @@
 //! What the program remembers between runs.
 
+use super::commands::KeySettings;
 use crate::graphics::{BoneLook, Shading};
 use crate::playback::Repeat;
 use serde::{Deserialize, Serialize};
@@ -74,6 +75,12 @@ pub struct Settings {
     pub speed: f32,
     /// Frames a second, for display and stepping.
     pub frame_rate: u32,
+    /// Which keys give which command.
+    pub keys: KeySettings,
+    /// Does a changed pose become a key at once?
+    pub auto_key: bool,
+    /// Is it shown before each save what it will change?
+    pub show_changes: bool,
     /// Newest first.
     pub recent: Vec<PathBuf>,
 }
@@ -87,6 +94,9 @@ impl Default for Settings {
             repeat: Repeat::default(),
             speed: 1.0,
             frame_rate: 30,
+            keys: KeySettings::default(),
+            auto_key: true,
+            show_changes: false,
             recent: Vec::new(),
         }
     }

@@ -6,6 +6,7 @@
 pub enum Category {
     File,
     Edit,
+    Pose,
     Playback,
     Keys,
     Selection,
@@ -20,6 +21,7 @@ impl Category {
     pub const ALL: &[Self] = &[
         Self::File,
         Self::Edit,
+        Self::Pose,
         Self::Playback,
         Self::Keys,
         Self::Selection,
@@ -34,6 +36,7 @@ impl Category {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
+            Self::Pose => "Pose",
             Self::Playback => "Playback",
             Self::Keys => "Keys",
             Self::Selection => "Selection",

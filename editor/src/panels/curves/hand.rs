@@ -130,7 +130,7 @@ impl Hand {
         let (true, Some(pointer)) = (canvas.is_pointer_button_down_on(), input.pointer) else { return };
         if (input.secondary_down || input.escape) && !matches!(self.doing, Doing::Spent) {
             if matches!(self.doing, Doing::Times { .. } | Doing::Values { .. } | Doing::Tangent { .. }) {
-                requests.push(Request::Keys(KeysRequest::Cancel));
+                requests.push(Request::Timeline(KeysRequest::Cancel));
             }
             self.doing = Doing::Spent;
         }
@@ -257,7 +257,7 @@ impl Hand {
             }
             _ => return,
         };
-        requests.push(Request::Keys(KeysRequest::Drag(deed)));
+        requests.push(Request::Timeline(KeysRequest::Drag(deed)));
     }
 
     fn let_go(&mut self, within: &Within<'_>, pointer: Option<Pos2>, requests: &mut Vec<Request>) {
@@ -269,18 +269,18 @@ impl Hand {
             Doing::Pressed { on: On::Handle(_), .. } => {}
             Doing::Pressed { modifiers, .. } => {
                 if !modifiers.command && !modifiers.shift {
-                    requests.push(Request::Keys(KeysRequest::Deselect));
+                    requests.push(Request::Timeline(KeysRequest::Deselect));
                 }
             }
             Doing::Times { .. } | Doing::Values { .. } | Doing::Tangent { .. } => {
-                requests.push(Request::Keys(KeysRequest::Release));
+                requests.push(Request::Timeline(KeysRequest::Release));
             }
             Doing::Box { time, value, choice } => {
                 let Some(pointer) = pointer else { return };
                 let (end, other) = (within.time.time_at(pointer.x), within.value.value_at(pointer.y));
                 let parts =
                     within.boxed([time.min(end), time.max(end)], [value.min(other), value.max(other)]);
-                requests.push(Request::Keys(KeysRequest::SelectKeys { parts, choice }));
+                requests.push(Request::Timeline(KeysRequest::SelectKeys { parts, choice }));
             }
         }
     }
@@ -374,7 +374,7 @@ impl Within<'_> {
 
 fn select(on: &OnKey, choice: Choice) -> Request {
     let stretch = [on.time(); 2];
-    Request::Keys(KeysRequest::Select { channels: Arc::new([on.curve.id]), stretch, choice })
+    Request::Timeline(KeysRequest::Select { channels: Arc::new([on.curve.id]), stretch, choice })
 }
 
 fn choice(modifiers: Modifiers) -> Choice {

@@ -204,8 +204,8 @@ fn fields(
         .custom_parser(|text| evaluate(text.trim_end_matches('s').trim(), Quantity::Number).ok());
     let response = ui.add_sized(vec2(72.0, CONTROL), field).accessible_name("Time of the key");
     if response.on_hover_text("Time of the selected key, seconds\nClick to type").changed() {
-        requests.push(Request::Keys(KeysRequest::Drag(Deed::Move((time - was) as f32))));
-        requests.push(Request::Keys(KeysRequest::Release));
+        requests.push(Request::Timeline(KeysRequest::Drag(Deed::Move((time - was) as f32))));
+        requests.push(Request::Timeline(KeysRequest::Release));
     }
 }
 

@@ -169,7 +169,7 @@ fn mark(
         widgets::focus_ring(ui, &response, rect);
     }
     if response.on_hover_text(format!("{}\n{}", flag.name(), flag.help())).clicked() {
-        requests.push(Request::Keys(KeysRequest::Flag(flag, bone, !on)));
+        requests.push(Request::Timeline(KeysRequest::Flag(flag, bone, !on)));
     }
 }
 
@@ -202,7 +202,7 @@ pub(super) fn tools(
     ui.spacing_mut().interact_size.y = usual;
     response.widget_info(|| WidgetInfo::text_edit(true, "", filter.as_str(), "Filter bones of the timeline"));
     if response.changed() {
-        requests.push(Request::Keys(KeysRequest::Filter(filter.clone())));
+        requests.push(Request::Timeline(KeysRequest::Filter(filter.clone())));
     }
     let mut left = rect.right() - buttons - 2.0;
     let mut button = |ui: &mut Ui, icon: Icon, name: &str, help: String, on: bool| {
@@ -233,7 +233,7 @@ pub(super) fn tools(
         "Selected bones only\nLists the selected bones, where any are selected".to_owned(),
         only,
     ) {
-        requests.push(Request::Keys(KeysRequest::OnlySelected(!only)));
+        requests.push(Request::Timeline(KeysRequest::OnlySelected(!only)));
     }
     let snap = commands::tooltip(ui.ctx(), Id::ToggleSnap);
     if button(ui, Icon::Snap, "Snap", snap, state.keys.snap) {

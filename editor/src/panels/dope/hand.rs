@@ -100,7 +100,7 @@ impl Hand {
         };
         if (input.secondary_down || input.escape) && !matches!(self.doing, Doing::Spent) {
             if matches!(self.doing, Doing::Keys { .. }) {
-                requests.push(Request::Keys(KeysRequest::Cancel));
+                requests.push(Request::Timeline(KeysRequest::Cancel));
             }
             self.doing = Doing::Spent;
         }
@@ -200,7 +200,7 @@ impl Hand {
             How::Ripple { from } => Deed::Ripple { from, by },
         };
         *begun |=
-            !requests.iter().any(|request| matches!(request, Request::Keys(KeysRequest::Select { .. })));
+            !requests.iter().any(|request| matches!(request, Request::Timeline(KeysRequest::Select { .. })));
         ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         let verb = match how {
             How::Move => "",
@@ -209,7 +209,7 @@ impl Hand {
         };
         let frames = by * state.settings.frame_rate as f32;
         readout(ui, pointer, &format!("{verb}{by:+.3} s   {frames:+.1} frames"));
-        requests.push(Request::Keys(KeysRequest::Drag(deed)));
+        requests.push(Request::Timeline(KeysRequest::Drag(deed)));
     }
 
     #[allow(clippy::too_many_arguments, reason = "as above")]
@@ -227,7 +227,7 @@ impl Hand {
         match std::mem::take(&mut self.doing) {
             Doing::Nothing | Doing::Spent => {}
             Doing::Pressed { at, on, modifiers } => click(at, on, modifiers, rows, drawn, state, requests),
-            Doing::Keys { .. } => requests.push(Request::Keys(KeysRequest::Release)),
+            Doing::Keys { .. } => requests.push(Request::Timeline(KeysRequest::Release)),
             Doing::Box { time, height, choice } => {
                 let Some(pointer) = pointer else { return };
                 let other = pointer.y - places.canvas.top() + scrolled;
@@ -246,7 +246,7 @@ impl Hand {
                 }
                 channels.sort_unstable();
                 channels.dedup();
-                requests.push(Request::Keys(KeysRequest::Select {
+                requests.push(Request::Timeline(KeysRequest::Select {
                     channels: channels.into(),
                     stretch,
                     choice,
@@ -279,11 +279,11 @@ fn click(
                 Choice::Replace
             };
             let channels = Arc::clone(rows.channels());
-            requests.push(Request::Keys(KeysRequest::Select { channels, stretch, choice }));
+            requests.push(Request::Timeline(KeysRequest::Select { channels, stretch, choice }));
         }
         Some(on) => requests.push(select(rows, on.row, [on.time; 2], choice(modifiers))),
         None if modifiers.command || modifiers.shift => {}
-        None => requests.push(Request::Keys(KeysRequest::Deselect)),
+        None => requests.push(Request::Timeline(KeysRequest::Deselect)),
     }
 }
 
@@ -297,7 +297,7 @@ fn choice(modifiers: Modifiers) -> Choice {
 
 fn select(rows: &Rows, row: usize, stretch: [f32; 2], choice: Choice) -> Request {
     let kind = rows.list().get(row).map_or(RowKind::Morphs, |row| row.kind);
-    Request::Keys(KeysRequest::Select { channels: rows.of(kind).into(), stretch, choice })
+    Request::Timeline(KeysRequest::Select { channels: rows.of(kind).into(), stretch, choice })
 }
 
 /// The key under the pointer.

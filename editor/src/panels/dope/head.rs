@@ -206,7 +206,7 @@ impl Head {
                 ui.input(|input| input.pointer.secondary_down() || input.key_down(egui::Key::Escape));
             let gone = scaling.begun && !state.keys.drag().is_some_and(|drag| drag.held());
             if cancelled || gone {
-                requests.push(Request::Keys(KeysRequest::Cancel));
+                requests.push(Request::Timeline(KeysRequest::Cancel));
                 self.scaling = None;
                 return;
             }
@@ -220,11 +220,12 @@ impl Head {
                 if factor.abs() < 1e-3 { 1e-3_f32.copysign(factor) } else { factor.clamp(-1e3, 1e3) };
             if factor.is_finite() {
                 scaling.begun = true;
-                requests.push(Request::Keys(KeysRequest::Drag(Deed::Scale { about: scaling.about, factor })));
+                requests
+                    .push(Request::Timeline(KeysRequest::Drag(Deed::Scale { about: scaling.about, factor })));
             }
         }
         if response.drag_stopped() && self.scaling.take().is_some() {
-            requests.push(Request::Keys(KeysRequest::Release));
+            requests.push(Request::Timeline(KeysRequest::Release));
         }
     }
 }
@@ -275,7 +276,7 @@ fn range_ends(ui: &Ui, places: &Places, scale: &TimeScale, state: &State, reques
             } else {
                 [from, at.max(from + state.frame_seconds())]
             };
-            requests.push(Request::Keys(KeysRequest::Range(Some(range))));
+            requests.push(Request::Timeline(KeysRequest::Range(Some(range))));
         }
     }
 }

@@ -37,7 +37,7 @@ impl MarkerLane {
         ui.painter().rect_filled(lane, CornerRadius::ZERO, theme.bar);
         let painter = ui.painter().with_clip_rect(lane);
         let markers = state.markers();
-        let mut ask = |deed: MarkerDeed| requests.push(Request::Keys(KeysRequest::Marker(deed)));
+        let mut ask = |deed: MarkerDeed| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
         let mut seek = None;
         for (index, marker) in markers.iter().enumerate() {
             let time = self.held.filter(|(held, _)| *held == index).map_or(marker.time, |(_, time)| time);

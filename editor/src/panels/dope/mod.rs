@@ -75,6 +75,7 @@ impl Dope {
         self.menu.show(&canvas, &self.hand, state, requests);
         self.head.show(ui, &places, &scale, &drawn, state, requests);
         self.markers.show(ui, &places, &scale, state, requests);
+        overlay::pending(&painter, &places, &scale, state, theme);
         overlay::playhead(&painter, &places, &scale, state, theme);
         gutter::show(ui, &places, self.scroll, &mut self.rows, state, requests);
         gutter::tools(ui, &places, &mut self.filter, state, requests);
@@ -96,6 +97,6 @@ fn follow(scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
     let (time, window) = (f64::from(state.time()), scale.window);
     if time < window.start || time > window.start + window.length {
         let turned = super::keys::TimeWindow { start: time - window.length * 0.02, ..window };
-        requests.push(Request::Keys(KeysRequest::Window(Some(turned))));
+        requests.push(Request::Timeline(KeysRequest::Window(Some(turned))));
     }
 }

@@ -6,7 +6,7 @@ use super::rows::{RowKind, Rows};
 use crate::panels::keys::TimeScale;
 use crate::panels::state::State;
 use crate::panels::theme::Theme;
-use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, pos2};
+use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
 
 /// Selected bones are lit, summaries are a little apart, fine lines in between.
 pub(super) fn rows(
@@ -93,6 +93,17 @@ pub(in crate::panels) fn line(
         pos2(x - 5.0, y - 5.0),
     ];
     painter.add(Shape::convex_polygon(flag, theme.accent, Stroke::NONE));
+}
+
+/// A small hollow diamond in the ruler where poses wait to be keyed.
+pub(super) fn pending(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
+    let painter = painter.with_clip_rect(places.head.intersect(painter.clip_rect()));
+    for time in state.pending_times() {
+        let center = pos2(scale.x_of(time), places.head.bottom() - 5.0);
+        let points = [vec2(0.0, -4.0), vec2(4.0, 0.0), vec2(0.0, 4.0), vec2(-4.0, 0.0)];
+        let points = points.into_iter().map(|offset| center + offset).collect();
+        painter.add(Shape::convex_polygon(points, theme.bar, Stroke::new(1.3, theme.warning)));
+    }
 }
 
 /// Why no row is there.

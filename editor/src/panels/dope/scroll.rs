@@ -31,7 +31,7 @@ pub(in crate::panels) fn wheel(ui: &Ui, response: &Response, scale: &TimeScale, 
     if (factor - 1.0).abs() > 1e-6 || by != 0.0 {
         let about = f64::from(scale.time_at(pointer.x));
         let window = scale.window.zoomed(about, factor).panned(by);
-        requests.push(Request::Keys(KeysRequest::Window(Some(window))));
+        requests.push(Request::Timeline(KeysRequest::Window(Some(window))));
     }
 }
 
@@ -52,7 +52,7 @@ pub(in crate::panels) fn pan(
     ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
     if delta.x != 0.0 {
         let window = scale.window.panned(-f64::from(scale.seconds(delta.x)));
-        requests.push(Request::Keys(KeysRequest::Window(Some(window))));
+        requests.push(Request::Timeline(KeysRequest::Window(Some(window))));
     }
     delta.y
 }
@@ -105,7 +105,7 @@ pub(in crate::panels) fn time_bar(
     let moved = bar(ui, track, false, at, (window.length / whole) as f32, "Scroll through time");
     if moved != 0.0 {
         let panned = window.panned(f64::from(moved) * whole);
-        requests.push(Request::Keys(KeysRequest::Window(Some(panned))));
+        requests.push(Request::Timeline(KeysRequest::Window(Some(panned))));
     }
 }
 

@@ -19,7 +19,7 @@ impl State {
     pub(in crate::panels) fn delete_keys(&mut self) -> Option<Effect> {
         let keys = self.keys.selection.key_sets(self.take()?);
         let take = self.take_ref()?;
-        self.allowed(Change::Edit(Edit::DeleteKeys { take, keys }, None))
+        Some(Effect::Change(Change::Edit(Edit::DeleteKeys { take, keys }, None)))
     }
 
     /// Does to the selected keys what a drag would.
@@ -64,7 +64,7 @@ impl State {
         let step = frames * self.frame_seconds();
         // Closing takes away what lies behind the time shown, so what comes after it is moved.
         let from = if frames < 0.0 { from - step } else { from };
-        self.allowed(Change::Edit(Edit::Ripple { take, from, by: step }, None))
+        Some(Effect::Change(Change::Edit(Edit::Ripple { take, from, by: step }, None)))
     }
 
     /// Sets how the channels with selected keys find what lies between. Channels of different kinds are several steps.

@@ -103,7 +103,7 @@ impl BoneFlags {
         let first = || self.sets[BoneFlag::Lock as usize].first().copied();
         let list = |bones: &[BoneRef]| if bones.is_empty() { first() } else { named(&mut bones.iter()) };
         match edit {
-            Edit::Set { poses, .. } | Edit::Offset { poses, .. } => {
+            Edit::Set { poses, .. } | Edit::Offset { poses, .. } | Edit::Pend { poses, .. } => {
                 named(&mut poses.iter().map(|pose| &pose.bone))
             }
             Edit::SetMany { at, .. } => named(&mut at.iter().flat_map(|at| &at.poses).map(|pose| &pose.bone)),

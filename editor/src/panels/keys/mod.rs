@@ -110,11 +110,6 @@ impl State {
         self.view.as_ref()?.takes.get(self.playback.take?)
     }
 
-    /// The take that is shown, among the three forms of each.
-    pub fn slot(&self) -> Option<&Arc<crate::document::adapter::Slot>> {
-        self.view.as_ref()?.slots.get(self.playback.take?)
-    }
-
     /// The keys as they are to be drawn now; none where no take is shown.
     pub fn drawn_keys(&self) -> Option<Drawn> {
         match &self.keys.drag {

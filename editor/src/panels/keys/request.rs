@@ -157,8 +157,7 @@ impl State {
             let gesture = self.new_gesture();
             self.keys.drag = Some(KeyDrag::begin(gesture, take, base, moving, deed, now));
         }
-        let change = self.keys.drag.as_mut()?.send(generation, false, now)?;
-        self.allowed(change)
+        self.keys.drag.as_mut()?.send(generation, false, now).map(Effect::Change)
     }
 
     pub(super) fn release_keys(&mut self) -> Option<Effect> {
@@ -166,9 +165,8 @@ impl State {
         let drag = self.keys.drag.as_mut().filter(|drag| drag.held())?;
         let change = drag.send(generation, true, self.now);
         drag.release();
-        let effect = change.and_then(|change| self.allowed(change));
         self.settle_keys();
-        effect
+        change.map(Effect::Change)
     }
 
     /// As if the drag had never been; nothing where there is none.
@@ -177,11 +175,19 @@ impl State {
         drag.has_sent().then_some(Effect::Change(Change::Cancel(drag.gesture)))
     }
 
-    /// The change, unless a bone that it edits is locked: then the drag ends, and the person is told.
-    pub(in crate::panels) fn allowed(&mut self, change: Change) -> Option<Effect> {
-        let skeleton = self.loaded().map(|loaded| Arc::clone(&loaded.model.animation.skeleton));
-        let locked = skeleton.and_then(|skeleton| self.keys.flags.hinders(&change, &skeleton));
-        let Some(bone) = locked else { return Some(Effect::Change(change)) };
+    /// The effect, unless it edits a bone that is locked: then a drag ends, and the person is told.
+    pub(in crate::panels) fn unlocked(&mut self, effect: Effect) -> Option<Effect> {
+        if !self.keys.flags.any_locked() {
+            return Some(effect);
+        }
+        let skeleton = Arc::clone(&self.loaded()?.model.animation.skeleton);
+        let changes = match &effect {
+            Effect::Change(change) => std::slice::from_ref(change),
+            Effect::Changes(changes) => changes,
+            _ => &[],
+        };
+        let locked = changes.iter().find_map(|change| self.keys.flags.hinders(change, &skeleton));
+        let Some(bone) = locked else { return Some(effect) };
         self.say_locked(bone);
         self.keys.drag = None;
         None

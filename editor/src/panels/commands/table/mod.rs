@@ -8,6 +8,7 @@ mod help;
 mod keys;
 mod look;
 mod playback;
+mod pose;
 mod selection;
 mod window;
 
@@ -37,6 +38,7 @@ const fn command(
 pub const TABLE: &[(Category, &[Command])] = &[
     (Category::File, file::COMMANDS),
     (Category::Edit, edit::COMMANDS),
+    (Category::Pose, pose::COMMANDS),
     (Category::Playback, playback::COMMANDS),
     (Category::Keys, keys::COMMANDS),
     (Category::Selection, selection::COMMANDS),
