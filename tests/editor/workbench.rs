@@ -81,10 +81,10 @@ impl Workbench {
         let (Some(edited), Some(view)) = (&mut self.edited, self.state.view.clone()) else { return };
         let done = match change {
             Change::Edit(edit, gesture) => edited.apply(edit, gesture),
-            Change::Cancel(gesture) => Ok(drop(edited.cancel(gesture))),
-            Change::Undo => Ok(drop(edited.undo())),
-            Change::Redo => Ok(drop(edited.redo())),
-            Change::GoTo(done) => Ok(drop(edited.go_to(done))),
+            Change::Cancel(gesture) => Ok(_ = edited.cancel(gesture)),
+            Change::Undo => Ok(_ = edited.undo()),
+            Change::Redo => Ok(_ = edited.redo()),
+            Change::GoTo(done) => Ok(_ = edited.go_to(done)),
             Change::Release(_) => Ok(edited.end_gesture()),
         };
         if let Err(error) = done {

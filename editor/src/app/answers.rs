@@ -42,7 +42,10 @@ impl Receiver for Replies {
                 say_passed_over(&mut state.status, passed_over);
                 state.status.say(Level::Error, reason);
             }
-            DocumentReply::Refused(reason) => state.status.say(Level::Warning, reason),
+            DocumentReply::Refused(reason) => {
+                state.keys_refused();
+                state.status.say(Level::Warning, reason);
+            }
             DocumentReply::View(view) => {
                 state.now = Instant::now();
                 state.show(view);

@@ -138,6 +138,11 @@ impl EditorRuntime {
                     document.change(change);
                 }
             }
+            Effect::Changes(changes) => {
+                if let Some(document) = &running.document {
+                    changes.into_iter().for_each(|change| document.change(change));
+                }
+            }
             Effect::Copy(text) => interface.copy(text),
             Effect::PastePose { mirrored } => {
                 let text = interface.clipboard();

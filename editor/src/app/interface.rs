@@ -243,6 +243,9 @@ impl Interface {
         if let Some(layout) = self.desk.changed_layout() {
             self.keep(store::LAYOUT, &layout);
         }
+        if let Some((name, text)) = self.state.unsaved_markers() {
+            self.keep(&name, &text);
+        }
     }
 
     fn keep(&mut self, name: &str, text: &str) {
@@ -267,6 +270,10 @@ impl Interface {
         let input = self.egui.take_egui_input(&self.window);
         let dropped: Vec<_> = input.dropped_files.iter().map(|file| file.path().to_owned()).collect();
         let mut requests = Vec::new();
+        if let Some(name) = self.state.wanted_markers() {
+            let text = self.store.read(&name);
+            self.state.read_markers(&text);
+        }
         self.state.begin(now);
         let (desk, state) = (&mut self.desk, &self.state);
         let output = context.run_ui(input, |ui| {

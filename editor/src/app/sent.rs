@@ -23,6 +23,8 @@ pub(super) struct Sent {
     drags: bool,
     /// How often the hands changed something when it was told.
     revision: u64,
+    /// Version of the marks of bones.
+    flags: u64,
     /// Room for the list of selected bones.
     spare: Vec<BoneIndex>,
 }
@@ -39,6 +41,12 @@ impl Sent {
         if self.camera != Some(state.camera) {
             self.camera = Some(state.camera);
             graphics.set_camera(state.camera);
+        }
+        let flags = &state.keys.flags;
+        if self.flags != flags.version() {
+            self.flags = flags.version();
+            let bones = state.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());
+            graphics.hold_still(flags.still(bones));
         }
         let mut selected = std::mem::take(&mut self.spare);
         selected.clear();

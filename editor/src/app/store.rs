@@ -37,8 +37,9 @@ impl Store {
     /// Replaces a file in one step, so that a crash leaves the old or the new one.
     pub fn write(&self, name: &str, text: &str) -> std::io::Result<()> {
         let Some(folder) = &self.folder else { return Ok(()) };
-        std::fs::create_dir_all(folder)?;
-        crate::store::replace(&folder.join(name), text.as_bytes()).map_err(std::io::Error::other)?;
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
+        crate::store::replace(&path, text.as_bytes()).map_err(std::io::Error::other)?;
         Ok(())
     }
 }

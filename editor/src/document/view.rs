@@ -3,7 +3,7 @@
 use super::adapter::{ModelAdapter, PendingAt, Slot};
 use super::history::Edited;
 use dragonfly_anim::bounds::Bounds;
-use dragonfly_anim::data::{AnimationData, ModelData, Take};
+use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Take, Track};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -119,6 +119,23 @@ impl View {
     /// The poses that are pending at a time of a take and seen there instead of what its keys say.
     pub fn pending(&self, take: Option<usize>, time: f32) -> Option<&PendingAt> {
         self.slots.get(take?)?.pending_at(time).map(|at| &**at)
+    }
+
+    /// The takes as they are now, but for bones that are shown at rest.
+    pub fn takes_without(&self, still: &[BoneIndex]) -> Arc<[Arc<Take>]> {
+        if still.is_empty() {
+            return Arc::clone(&self.takes);
+        }
+        let quiet = |take: &Arc<Take>| {
+            let mut take = Take::clone(take);
+            for &bone in still {
+                if let Some(track) = take.tracks.get_mut(bone as usize).filter(|track| track.bone == bone) {
+                    *track = Track { bone, ..Track::default() };
+                }
+            }
+            Arc::new(take)
+        };
+        self.takes.iter().map(quiet).collect()
     }
 
     /// The skeleton and the takes as they are now.

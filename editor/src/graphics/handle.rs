@@ -5,6 +5,7 @@ use crate::camera::Camera;
 use crate::control::bones::OwnedRegion;
 use crate::document::View;
 use crate::playback::Playback;
+use dragonfly_anim::data::BoneIndex;
 use dragonfly_runtime::{Address, Thread, ThreadHandle};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -82,6 +83,11 @@ impl GraphicsHandle {
     /// Draws like that.
     pub fn set_look(&self, look: Look) {
         self.send(GraphicsMessage::Look(Box::new(look)));
+    }
+
+    /// Shows these bones at rest, and all others as they move.
+    pub fn hold_still(&self, bones: Vec<BoneIndex>) {
+        self.send(GraphicsMessage::Still(bones));
     }
 
     /// Shows these panels. All of them arrive: each may bring textures that come only once.

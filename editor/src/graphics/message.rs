@@ -151,6 +151,8 @@ pub enum GraphicsMessage {
     Camera(Camera),
     /// How.
     Look(Box<Look>),
+    /// Shows these bones at rest, and all others as they move.
+    Still(Vec<BoneIndex>),
     /// The panels over it.
     Panels(Box<PanelsFrame>),
     /// The window has this many physical pixels; zero when minimised.

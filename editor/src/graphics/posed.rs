@@ -7,7 +7,7 @@ use crate::document::adapter::Slot;
 use crate::document::{LoadedModel, View};
 use dragonfly_anim::animation::{Animation, final_poses};
 use dragonfly_anim::bounds::Bounds;
-use dragonfly_anim::data::{AlphaMode, ModelData, Primitive, Take, Transform};
+use dragonfly_anim::data::{AlphaMode, AnimationData, BoneIndex, ModelData, Primitive, Take, Transform};
 use dragonfly_anim::sample::sample_morph_weights;
 use dragonfly_anim::skin::rigid;
 use glam::{Mat4, Vec3};
@@ -100,14 +100,17 @@ impl PosedModel {
 
     /// Exchanges the takes for those of `view`, which must be of this model. Everything else stays; the next
     /// [`pose`](Self::pose) is one of theirs.
-    pub fn show_takes(&mut self, view: &View) {
+    ///
+    /// Bones in `still` are seen at rest.
+    pub fn show_takes(&mut self, view: &View, still: &[BoneIndex]) {
         self.slots = Arc::clone(&view.slots);
-        if self.animation.data().takes.len() == view.takes.len() {
-            for (index, take) in view.takes.iter().enumerate() {
+        let takes = view.takes_without(still);
+        if self.animation.data().takes.len() == takes.len() {
+            for (index, take) in takes.iter().enumerate() {
                 self.animation.replace_take(index, Arc::clone(take));
             }
         } else {
-            self.animation = Animation::new(view.animation());
+            self.animation = Animation::new(AnimationData { takes: takes.to_vec(), ..view.animation() });
         }
     }
 

@@ -31,6 +31,10 @@ pub struct Scene {
     pub controls: Controls,
     model: Option<PosedModel>,
     skin: Option<SkinPicker>,
+    /// What is shown.
+    shown: Option<View>,
+    /// Bones that are seen at rest.
+    still: Vec<BoneIndex>,
     uniform: FrameUniform,
 }
 
@@ -45,6 +49,8 @@ impl Scene {
             controls: Controls::default(),
             model: None,
             skin: None,
+            shown: None,
+            still: Vec::new(),
             uniform: bytemuck::Zeroable::zeroed(),
         }
     }
@@ -52,13 +58,22 @@ impl Scene {
     /// Shows `view` instead of what is shown. Of the model that is shown already only the takes are exchanged.
     pub fn show(&mut self, view: &View) {
         match &mut self.model {
-            Some(model) if Arc::ptr_eq(model.loaded(), &view.loaded) => model.show_takes(view),
+            Some(model) if Arc::ptr_eq(model.loaded(), &view.loaded) => model.show_takes(view, &self.still),
             _ => {
                 let mut model = PosedModel::new(Arc::clone(&view.loaded));
-                model.show_takes(view);
                 self.skin = None;
+                model.show_takes(view, &self.still);
                 self.model = Some(model);
             }
+        }
+        self.shown = Some(view.clone());
+    }
+
+    /// Shows these bones at rest, and all others as they move.
+    pub fn set_still(&mut self, still: Vec<BoneIndex>) {
+        self.still = still;
+        if let Some(view) = self.shown.take() {
+            self.show(&view);
         }
     }
 

@@ -203,6 +203,10 @@ impl Receiver for Graphics {
             GraphicsMessage::Play(playback) => Self::play(stage, playback),
             GraphicsMessage::Camera(camera) => Self::set_camera(stage, camera),
             GraphicsMessage::Look(look) => Self::set_look(stage, *look),
+            GraphicsMessage::Still(bones) => {
+                stage.scene.set_still(bones);
+                stage.touch_scene();
+            }
             GraphicsMessage::Panels(frame) => {
                 stage.panels().borrow_mut().show(frame);
                 stage.touch_window();

@@ -46,8 +46,6 @@ pub struct Totals {
 pub struct Lanes {
     /// Of the selected bone: translation, rotation, scale. Empty without selection.
     pub channels: [Arc<[f32]>; 3],
-    /// Of the selected bone, or of all bones without selection; each time once.
-    pub all: Vec<f32>,
 }
 
 /// Everything computed from a view.
@@ -150,25 +148,8 @@ fn lanes(takes: &[Arc<Take>], take: Option<usize>, bone: Option<BoneIndex>) -> L
     let Some(take) = take.and_then(|take| takes.get(take)) else {
         return Lanes::default();
     };
-    match bone {
-        Some(bone) => match take.tracks.iter().find(|track| track.bone == bone) {
-            Some(track) => Lanes {
-                channels: [&track.translation.times, &track.rotation.times, &track.scale.times]
-                    .map(Arc::clone),
-                all: track.key_times(),
-            },
-            None => Lanes::default(),
-        },
-        None => {
-            let of_bones = take.tracks.iter().flat_map(|track| {
-                [&track.translation.times, &track.rotation.times, &track.scale.times].into_iter()
-            });
-            let of_morphs = take.morphs.iter().map(|morph| &morph.times);
-            let mut all: Vec<f32> =
-                of_bones.chain(of_morphs).flat_map(|times| times.iter().copied()).collect();
-            all.sort_by(f32::total_cmp);
-            all.dedup();
-            Lanes { all, ..Lanes::default() }
-        }
-    }
+    let track = bone.and_then(|bone| take.tracks.iter().find(|track| track.bone == bone));
+    track.map_or_else(Lanes::default, |track| Lanes {
+        channels: [&track.translation.times, &track.rotation.times, &track.scale.times].map(Arc::clone),
+    })
 }

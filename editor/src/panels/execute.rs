@@ -1,12 +1,14 @@
 //! What requests and commands do to the state; what reaches beyond the panels comes back as effects.
 
 use super::commands::{self, Id};
+use super::keys::KeysRequest;
 use super::ruler;
 use super::saving::Deed;
 use super::settings::{SCALES, SPEEDS, ThemeChoice};
 use super::state::{Effect, Overlay, Request, State};
 use super::status::Level;
 use crate::camera::Side;
+use crate::document::edit::Between;
 use crate::document::edit::{Property, ResetTo};
 use crate::document::{Change, Source};
 use crate::graphics::{BoneLook, Shading};
@@ -15,10 +17,17 @@ use crate::playback::Repeat;
 impl State {
     /// Does what a panel asked for.
     pub fn execute(&mut self, request: Request) -> Option<Effect> {
+        let effect = self.perform(request);
+        self.bound_playback();
+        self.unlocked(effect?)
+    }
+
+    fn perform(&mut self, request: Request) -> Option<Effect> {
         match request {
             Request::Command(id) => return self.command(id),
             Request::Select(bone) => self.select(bone),
             Request::SelectBones(bones, choice) => self.selection.choose(&bones, choice),
+            Request::Timeline(request) => return self.keys_request(request),
             Request::Change(change) => return Some(Effect::Change(change)),
             Request::PastePose { text, mirrored } => return self.paste_pose(&text, mirrored),
             Request::Hover(bone) => self.hovered = Some(bone),
@@ -97,8 +106,11 @@ impl State {
             Id::NextFrame => self.step_frame(1),
             Id::PreviousKey => self.step_key(false),
             Id::NextKey => self.step_key(true),
-            Id::Start => self.seek(self.playback.start),
-            Id::End => self.seek(self.playback.start + self.playback.length),
+            Id::Start => self.seek(self.play_bounds().0),
+            Id::End => {
+                let (start, length) = self.play_bounds();
+                self.seek(start + length);
+            }
             Id::BackOneSecond => self.stop_at(self.time() - 1.0),
             Id::ForwardOneSecond => self.stop_at(self.time() + 1.0),
             Id::CycleRepeat => self.set_repeat(match self.playback.repeat {
@@ -110,6 +122,31 @@ impl State {
             Id::NextTake => self.step_take(1),
             Id::RestPose => self.show_take(None),
 
+            Id::DeleteKeys => return self.delete_keys(),
+            Id::DuplicateKeys => return self.duplicate_keys(),
+            Id::SelectAllKeys => self.select_all_keys(),
+            Id::KeysEarlier => return self.nudge_keys(-1.0),
+            Id::KeysLater => return self.nudge_keys(1.0),
+            Id::KeysSlower => return self.scale_keys(2.0),
+            Id::KeysFaster => return self.scale_keys(0.5),
+            Id::KeysReverse => return self.scale_keys(-1.0),
+            Id::SnapKeys => return self.snap_keys(),
+            Id::ToggleSnap => self.keys.snap = !self.keys.snap,
+            Id::RippleOpen => return self.ripple(1.0),
+            Id::RippleClose => return self.ripple(-1.0),
+            Id::InterpolateStep => return self.interpolate_keys(Between::Step),
+            Id::InterpolateLinear => return self.interpolate_keys(Between::Linear),
+            Id::InterpolateSpline => return self.interpolate_keys(Between::CubicSpline),
+            Id::FitKeys => self.fit_keys(),
+            Id::AddMarker => return self.add_marker(),
+            Id::PreviousMarker => self.step_marker(false),
+            Id::NextMarker => self.step_marker(true),
+            Id::RangeOfKeys => self.range_of_keys(),
+            Id::RangeFromHere => self.range_end_here(false),
+            Id::RangeToHere => self.range_end_here(true),
+            Id::RangeWhole => return self.keys_request(KeysRequest::Range(None)),
+
+            Id::ClearSelection if self.keys.drag().is_some() => return self.cancel_keys(),
             Id::ClearSelection => {
                 if self.overlay.take().is_none() {
                     self.selection.clear();
@@ -223,7 +260,7 @@ impl State {
     }
 
     fn step_key(&mut self, forward: bool) {
-        if let Some(time) = ruler::step_key(&self.digest.lanes.all, self.time(), forward) {
+        if let Some(time) = self.key_beside(forward) {
             self.stop_at(time);
         }
     }

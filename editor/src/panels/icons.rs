@@ -39,6 +39,11 @@ pub enum Icon {
     Octahedra,
     Sticks,
     Lines,
+    Snap,
+    Fit,
+    Step,
+    Linear,
+    Spline,
     AutoKey,
     Key,
     KeyHere,
@@ -105,6 +110,11 @@ impl Icon {
         Self::Octahedra,
         Self::Sticks,
         Self::Lines,
+        Self::Snap,
+        Self::Fit,
+        Self::Step,
+        Self::Linear,
+        Self::Spline,
         Self::AutoKey,
         Self::Key,
         Self::KeyHere,
@@ -188,6 +198,37 @@ impl Icon {
                 pen.line(&[(5.0, 5.0), (2.2, 8.0), (5.0, 11.0)]);
                 pen.line(&[(11.0, 5.0), (13.8, 8.0), (11.0, 11.0)]);
             }
+            Self::Snap => {
+                pen.line(&[
+                    (4.0, 3.0),
+                    (4.0, 9.0),
+                    (5.5, 11.8),
+                    (8.0, 12.8),
+                    (10.5, 11.8),
+                    (12.0, 9.0),
+                    (12.0, 3.0),
+                ]);
+                pen.bar(2.8, 2.6, 2.6, 2.2);
+                pen.bar(10.7, 2.6, 2.6, 2.2);
+            }
+            Self::Fit => {
+                pen.line(&[(2.5, 4.0), (2.5, 12.0)]);
+                pen.line(&[(13.5, 4.0), (13.5, 12.0)]);
+                pen.line(&[(4.5, 8.0), (11.5, 8.0)]);
+                pen.line(&[(6.5, 6.0), (4.5, 8.0), (6.5, 10.0)]);
+                pen.line(&[(9.5, 6.0), (11.5, 8.0), (9.5, 10.0)]);
+            }
+            Self::Step => pen.line(&[(2.5, 12.0), (8.0, 12.0), (8.0, 4.0), (13.5, 4.0)]),
+            Self::Linear => pen.line(&[(2.5, 12.0), (13.5, 4.0)]),
+            Self::Spline => pen.line(&[
+                (2.5, 12.0),
+                (4.5, 11.7),
+                (6.4, 10.4),
+                (8.0, 8.0),
+                (9.6, 5.6),
+                (11.5, 4.3),
+                (13.5, 4.0),
+            ]),
             Self::Search => {
                 pen.ring(7.0, 7.0, 4.0);
                 pen.line(&[(10.0, 10.0), (13.5, 13.5)]);

@@ -23,7 +23,7 @@ pub struct Layout {
 }
 
 /// Changes with the meaning of the stored tree.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 #[derive(Serialize, Deserialize)]
 struct Stored {
@@ -39,12 +39,13 @@ impl Layout {
             let panes = panels.iter().filter(|panel| panel.place() == place);
             panes.map(|panel| tiles.insert_pane(Pane(panel.id().to_owned()))).collect()
         };
-        let (left, left_below, middle, right, below) = (
+        let (left, left_below, middle, right, below, below_right) = (
             column(Place::Left),
             column(Place::LeftBelow),
             column(Place::Middle),
             column(Place::Right),
             column(Place::Below),
+            column(Place::BelowRight),
         );
         let tabs = |tiles: &mut Tiles<Pane>, panes: Vec<TileId>| tiles.insert_tab_tile(panes);
         let (upper, lower) = (tabs(&mut tiles, left), tabs(&mut tiles, left_below));
@@ -53,7 +54,8 @@ impl Layout {
         let right = tabs(&mut tiles, right);
         let top =
             tiles.insert_new(linear(LinearDir::Horizontal, &[(left, 0.19), (middle, 0.61), (right, 0.20)]));
-        let below = tabs(&mut tiles, below);
+        let (below, beside) = (tabs(&mut tiles, below), tabs(&mut tiles, below_right));
+        let below = tiles.insert_new(linear(LinearDir::Horizontal, &[(below, 0.58), (beside, 0.42)]));
         let share = timeline::HEIGHT / 664.0;
         let root = tiles.insert_new(linear(LinearDir::Vertical, &[(top, 1.0 - share), (below, share)]));
         Self { tree: Tree::new(egui::Id::unique("panels"), root, tiles), changed: true }

@@ -23,6 +23,7 @@ pub fn show(
         ui.menu_button("Pose", |ui| pose(ui, state, requests));
         ui.menu_button("Tools", |ui| list(ui, state, &[Category::Tools], requests));
         ui.menu_button("Play", |ui| list(ui, state, &[Category::Playback], requests));
+        ui.menu_button("Keys", |ui| list(ui, state, &[Category::Keys], requests));
         ui.menu_button("View", |ui| view(ui, state, panels, requests));
         ui.menu_button("Help", |ui| list(ui, state, &[Category::Help], requests));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

@@ -3,12 +3,15 @@
 //! A new panel is a file here and a line in [`all`].
 
 pub mod commands;
+pub mod curves;
 mod dialogs;
 pub mod digest;
+mod dope;
 mod execute;
 pub mod hands;
 pub mod hierarchy;
 pub mod icons;
+pub mod keys;
 pub mod layout;
 pub mod menu;
 mod mirror_pairs;
@@ -55,8 +58,10 @@ pub enum Place {
     Middle,
     /// The right edge.
     Right,
-    /// Over the whole width.
+    /// Along the lower edge.
     Below,
+    /// Beside it, at the right.
+    BelowRight,
 }
 
 /// A part of the window.
@@ -82,6 +87,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
         Box::<timeline::Timeline>::default(),
+        Box::<curves::Curves>::default(),
     ]
 }
 

@@ -2,6 +2,7 @@
 
 use super::digest::Digest;
 use super::hands::{Hold, Trail};
+use super::keys::{Keys, KeysRequest};
 use super::saving::{Deed, Question};
 use super::settings::Settings;
 use super::status::Status;
@@ -74,6 +75,8 @@ pub enum Request {
     SelectBones(Vec<BoneIndex>, Choice),
     /// Edits, undoes, does again.
     Change(Change),
+    /// About keys: selects, drags, marks.
+    Timeline(KeysRequest),
     /// Puts on the poses in a text from the clipboard.
     PastePose {
         /// As it was there.
@@ -132,6 +135,8 @@ pub enum Effect {
     CancelLoading,
     /// Tells the document.
     Change(Change),
+    /// Tells the document several things, each a step.
+    Changes(Vec<Change>),
     /// Puts a text into the clipboard.
     Copy(String),
     /// Asks for [`Request::PastePose`] with what is in the clipboard.
@@ -227,6 +232,8 @@ pub struct State {
     pub pointed: Option<BoneIndex>,
     /// Which time of which take.
     pub playback: Playback,
+    /// What the timeline and the curves share.
+    pub keys: Keys,
     /// From where.
     pub camera: Camera,
     /// Has the camera been placed for the model that is open?
@@ -285,6 +292,7 @@ impl State {
             pointer: None,
             pointed: None,
             playback,
+            keys: Keys::default(),
             camera: Camera::default(),
             framed: false,
             settings,
@@ -322,6 +330,7 @@ impl State {
             self.playback.playing = false;
             self.playback = self.playback.seek(time, now);
         }
+        self.settle_keys();
         self.posed.running = self.playback.moves(now);
         self.digest.update(self.view.as_ref(), self.playback.take, self.selection.active());
         if let Some(view) = &self.view
@@ -347,6 +356,7 @@ impl State {
         self.hovered = None;
         self.pointed = None;
         self.framed = false;
+        self.open_keys();
         let has_takes = self.view.as_ref().is_some_and(|view| !view.takes.is_empty());
         self.show_take(has_takes.then_some(0));
         self.playback = self.playback.with(has_takes, self.settings.speed, self.settings.repeat, self.now);
@@ -356,6 +366,7 @@ impl State {
 
     /// Shows a take from its start; keeps playing or standing.
     pub fn show_take(&mut self, index: Option<usize>) {
+        self.leave_take();
         let bounds = self.take_of(index).map(|take| (take.start, take.length));
         self.playback.take = bounds.and(index);
         (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
@@ -364,8 +375,10 @@ impl State {
 
     /// Goes on with the take that is shown, at the same time of it, where it begins or ends elsewhere now or is gone.
     fn keep_take(&mut self) {
+        self.settle_keys();
         let time = self.playback.time_at(self.now);
-        let bounds = self.take().map(|take| (take.start, take.length));
+        let bounds =
+            self.take().map(|_| if self.playback.playing { self.play_bounds() } else { self.take_bounds() });
         if bounds == Some((self.playback.start, self.playback.length)) {
             return;
         }

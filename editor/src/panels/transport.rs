@@ -8,12 +8,13 @@ use super::state::{Request, State};
 use super::style::{CONTROL, GRID};
 use super::theme::Theme;
 use super::widgets::{command_button, icon_button};
+use crate::control::expression::{Quantity, evaluate};
 use crate::playback::Repeat;
 use egui::{Align, Button, DragValue, Layout, RichText, Ui, vec2};
 
 /// Draws the bar.
 pub(super) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-    let able = state.playback.take.is_some() && state.playback.length > 0.0;
+    let able = state.playback.take.is_some() && state.take_bounds().1 > 0.0;
     ui.horizontal(|ui| {
         ui.set_height(32.0);
         ui.add_space(2.0 * GRID);
@@ -79,7 +80,8 @@ fn speed(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         .speed(0.01)
         .fixed_decimals(2)
         .suffix("×")
-        .update_while_editing(false);
+        .update_while_editing(false)
+        .custom_parser(number);
     let response = ui.add_sized(vec2(64.0, CONTROL), field).accessible_name("Speed");
     if response.on_hover_text("Speed\nDrag, or click to type").changed() {
         requests.push(Request::Speed(speed));
@@ -104,16 +106,17 @@ fn frame_rate(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
 fn time(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
     let rate = state.settings.frame_rate;
-    let (start, length) = (state.playback.start, state.playback.length);
+    let (start, length) = state.take_bounds();
     let last = ruler::frame_of(start + length, rate);
     ui.label(RichText::new(format!("/ {last}")).monospace().color(theme.weak));
     let mut frame = ruler::frame_of(state.time(), rate);
     let field = DragValue::new(&mut frame)
         .range(ruler::frame_of(start, rate)..=last)
         .speed(0.2)
-        .update_while_editing(false);
+        .update_while_editing(false)
+        .custom_parser(number);
     let response = ui.add_sized(vec2(56.0, CONTROL), field).accessible_name("Frame");
-    if response.on_hover_text("Frame\nDrag, or click to type").changed() {
+    if response.on_hover_text("Frame\nDrag, or click to type; 3*30+12 is fine").changed() {
         requests.push(Request::Seek(ruler::time_of(frame, rate)));
     }
     ui.label(RichText::new("frame").color(theme.weak));
@@ -124,11 +127,18 @@ fn time(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         .speed(0.005)
         .fixed_decimals(3)
         .suffix(" s")
-        .update_while_editing(false);
+        .update_while_editing(false)
+        .custom_parser(number);
     let response = ui.add_sized(vec2(80.0, CONTROL), field).accessible_name("Time");
-    if response.on_hover_text("Time in seconds\nDrag, or click to type").changed() {
+    if response.on_hover_text("Time in seconds\nDrag, or click to type; 45/30 is fine").changed() {
         requests.push(Request::Seek(seconds));
     }
+}
+
+/// What is typed into a field: numbers and sums, with or without the unit that the field shows.
+fn number(text: &str) -> Option<f64> {
+    let text = text.trim().trim_end_matches(['s', '×']);
+    evaluate(text, Quantity::Number).ok()
 }
 
 fn divider(ui: &mut Ui) {

@@ -20,6 +20,10 @@ pub const EXAMPLES: &[Example] = &[
         "Turns the head 30° about the y axis of its parent at half a second, exactly.",
     ),
     example(
+        r#"{"edit":"set_many","take":"Walk","at":[{"time":0.25,"poses":[{"bone":"Head","translation":[0,1,0]}]},{"time":0.5,"poses":[{"bone":"Head","translation":[0,1.1,0]}]}]}"#,
+        "Gives the head a place at a quarter and at half a second, in one step.",
+    ),
+    example(
         r#"{"edit":"offset","take":0,"time":0.5,"poses":[{"bone":3,"translation":[0,0.1,0]}]}"#,
         "Lifts the fourth bone 10 cm above where it is.",
     ),

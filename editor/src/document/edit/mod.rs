@@ -41,6 +41,16 @@ pub struct BonePose {
     pub scale: Option<[f32; 3]>,
 }
 
+/// Poses at one time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PoseAt {
+    /// Seconds.
+    pub time: f32,
+    /// The poses wanted; one for each bone.
+    pub poses: Vec<BonePose>,
+}
+
 /// What a reset leads back to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -87,6 +97,13 @@ pub enum Edit {
         time: f32,
         /// The poses wanted; one for each bone.
         poses: Vec<BonePose>,
+    },
+    /// Gives bones poses at several times at once: several [`Self::Set`] in one step.
+    SetMany {
+        /// Which take.
+        take: TakeRef,
+        /// The times, each with its poses.
+        at: Vec<PoseAt>,
     },
     /// Moves, turns, scales bones on top of the pose they have at a time: translations are added (parent space),
     /// rotations multiplied from the left (parent space), scales multiplied.
@@ -333,6 +350,7 @@ impl Edit {
         match self {
             Self::CreateTake { .. } => None,
             Self::Set { take, .. }
+            | Self::SetMany { take, .. }
             | Self::Offset { take, .. }
             | Self::Reset { take, .. }
             | Self::Pend { take, .. }
@@ -362,6 +380,7 @@ impl Edit {
     pub fn label(&self) -> &'static str {
         match self {
             Self::Set { poses, .. } | Self::Offset { poses, .. } => pose_label(poses),
+            Self::SetMany { at, .. } => at.first().map_or("Pose", |at| pose_label(&at.poses)),
             Self::Reset { to: ResetTo::Original, .. } => "Reset to original",
             Self::Reset { to: ResetTo::Rest, .. } => "Reset to rest pose",
             Self::Pend { poses, .. } => pending_label(poses),

@@ -166,6 +166,8 @@ fn repeats(id: Id) -> bool {
         Id::PreviousFrame
             | Id::NextFrame
             | Id::PreviousKey
+            | Id::KeysEarlier
+            | Id::KeysLater
             | Id::NextKey
             | Id::BackOneSecond
             | Id::ForwardOneSecond

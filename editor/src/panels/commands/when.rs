@@ -16,6 +16,8 @@ pub enum When {
     Bone,
     /// A bone is selected and a take is shown.
     BoneInTake,
+    /// A key is selected.
+    Keys,
     /// Poses of the take that is shown are pending.
     Pending,
     /// Something was done.
@@ -40,6 +42,7 @@ impl When {
             Self::Take => state.take().is_some(),
             Self::Bone => state.selected().is_some(),
             Self::BoneInTake => state.selected().is_some() && state.take().is_some(),
+            Self::Keys => state.take().is_some() && !state.keys.selection.is_empty(),
             Self::Pending => state.pending_times().next().is_some(),
             Self::Undo => history.is_some_and(|history| history.done > 0),
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
@@ -57,6 +60,7 @@ impl When {
             Self::Take => "No take is shown",
             Self::Bone => "No bone is selected",
             Self::BoneInTake => "It takes a selected bone and a take",
+            Self::Keys => "No key is selected",
             Self::Pending => "No pose is pending in this take",
             Self::Undo => "Nothing was done yet",
             Self::Redo => "Nothing was undone",

@@ -33,6 +33,7 @@ pub(super) struct Work {
 pub(super) fn run(work: &mut Work, edit: &Edit) -> Result<(), EditError> {
     match edit {
         Edit::Set { take, time, poses } => pose::set(work, take, *time, poses),
+        Edit::SetMany { take, at } => pose::set_many(work, take, at),
         Edit::Offset { take, time, poses } => pose::offset(work, take, *time, poses),
         Edit::Reset { take, time, bones, properties, to } => {
             pose::reset(work, take, *time, (bones, properties), *to)

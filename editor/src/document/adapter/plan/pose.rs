@@ -6,11 +6,18 @@ use super::super::op::{Op, Place};
 use super::keys::insert;
 use super::pending::overwritten;
 use super::{EditError, Named, Work, finite, key_at, key_time, rest};
-use crate::document::edit::{BonePose, NewKey, Property, ResetTo, TakeRef};
+use crate::document::edit::{BonePose, NewKey, PoseAt, Property, ResetTo, TakeRef};
 use glam::{Quat, Vec3};
 
 pub(super) fn set(work: &mut Work, take: &TakeRef, time: f32, poses: &[BonePose]) -> Result<(), EditError> {
     each(work, take, time, poses, Way::Set)
+}
+
+pub(super) fn set_many(work: &mut Work, take: &TakeRef, at: &[PoseAt]) -> Result<(), EditError> {
+    if at.is_empty() {
+        return Err(EditError::Nothing("no pose is given"));
+    }
+    at.iter().try_for_each(|at| each(work, take, at.time, &at.poses, Way::Set))
 }
 
 pub(super) fn offset(

@@ -5,6 +5,7 @@ mod camera;
 mod edit;
 mod file;
 mod help;
+mod keys;
 mod look;
 mod playback;
 mod pose;
@@ -40,6 +41,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::Edit, edit::COMMANDS),
     (Category::Pose, pose::COMMANDS),
     (Category::Playback, playback::COMMANDS),
+    (Category::Keys, keys::COMMANDS),
     (Category::Selection, selection::COMMANDS),
     (Category::Tools, tools::COMMANDS),
     (Category::Camera, camera::COMMANDS),

@@ -1,0 +1,108 @@
+//! Values from below to above.
+
+use crate::panels::theme::Theme;
+use egui::{Align2, FontId, Painter, Rect, Stroke, pos2};
+
+/// The part of values that is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ValueWindow {
+    /// The lower edge.
+    pub(super) low: f64,
+    /// From there to the upper edge; more than zero.
+    pub(super) span: f64,
+}
+
+const SMALLEST: f64 = 1e-6;
+const LARGEST: f64 = 1e9;
+
+impl Default for ValueWindow {
+    fn default() -> Self {
+        Self { low: -1.0, span: 2.0 }
+    }
+}
+
+impl ValueWindow {
+    /// All of `low..=high`, with some room; something to look at where it is a single value.
+    pub(super) fn around(low: f32, high: f32) -> Self {
+        if !(low.is_finite() && high.is_finite() && low <= high) {
+            return Self::default();
+        }
+        let (low, high) = (f64::from(low), f64::from(high));
+        let span = (high - low).max((low.abs().max(high.abs()) * 0.02).max(0.02));
+        let middle = (low + high) / 2.0;
+        Self { low: middle - span * 0.58, span: span * 1.16 }.mended()
+    }
+
+    fn mended(self) -> Self {
+        let span = if self.span.is_finite() { self.span.clamp(SMALLEST, LARGEST) } else { 2.0 };
+        let low = if self.low.is_finite() { self.low.clamp(-LARGEST, LARGEST) } else { -1.0 };
+        Self { low, span }
+    }
+
+    pub(super) fn zoomed(self, about: f64, factor: f64) -> Self {
+        let span = (self.span * factor).clamp(SMALLEST, LARGEST);
+        let part = (about - self.low) / self.span;
+        Self { low: about - part * span, span }.mended()
+    }
+
+    pub(super) fn panned(self, by: f64) -> Self {
+        Self { low: self.low + by, ..self }.mended()
+    }
+}
+
+/// Which value lies at which height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ValueScale {
+    pub(super) rect: Rect,
+    pub(super) window: ValueWindow,
+}
+
+impl ValueScale {
+    /// Points a unit.
+    pub(super) fn per_unit(&self) -> f64 {
+        f64::from(self.rect.height().max(1.0)) / self.window.span
+    }
+
+    pub(super) fn y_of(&self, value: f32) -> f32 {
+        let y = f64::from(self.rect.bottom()) - (f64::from(value) - self.window.low) * self.per_unit();
+        y.clamp(-1e6, 1e6) as f32
+    }
+
+    pub(super) fn value_at(&self, y: f32) -> f32 {
+        (self.window.low + f64::from(self.rect.bottom() - y) / self.per_unit()) as f32
+    }
+
+    /// Units between lines that can be read.
+    pub(super) fn step(&self) -> f64 {
+        let wanted = self.window.span * 28.0 / f64::from(self.rect.height().max(28.0));
+        let ten = 10f64.powf(wanted.log10().floor());
+        [1.0, 2.0, 5.0, 10.0].into_iter().map(|part| part * ten).find(|&step| step >= wanted).unwrap_or(ten)
+    }
+}
+
+/// Lines over `rect`, with numbers in `strip` at its left.
+pub(super) fn paint(painter: &Painter, strip: Rect, scale: &ValueScale, theme: &Theme) {
+    let step = scale.step();
+    let decimals = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
+    let first = (scale.window.low / step).ceil() as i64;
+    let count = (scale.window.span / step).ceil().clamp(0.0, 200.0) as i64;
+    for index in first..=first.saturating_add(count) {
+        let value = index as f64 * step;
+        let y = painter.round_to_pixel_center(scale.y_of(value as f32));
+        if !scale.rect.y_range().contains(y) {
+            continue;
+        }
+        let strong = if index == 0 { 1.0 } else { 0.45 };
+        painter.hline(scale.rect.x_range(), y, Stroke::new(1.0, theme.line.gamma_multiply(strong)));
+        if y > strip.top() + 6.0 && y < strip.bottom() - 6.0 {
+            let text = format!("{value:.decimals$}");
+            painter.text(
+                pos2(strip.right() - 5.0, y),
+                Align2::RIGHT_CENTER,
+                text,
+                FontId::monospace(9.5),
+                theme.faint,
+            );
+        }
+    }
+}

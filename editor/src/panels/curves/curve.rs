@@ -1,0 +1,354 @@
+//! A channel as numbers over time, ready to be drawn: each key's numbers, and the least and greatest of every block of
+//! keys, so that a column of pixels costs the same whether it holds one key or a thousand.
+
+use super::form::Form;
+use crate::document::edit::Property;
+use crate::panels::keys::intervals::Intervals;
+use crate::panels::keys::{ChannelId, Shift, channel};
+use dragonfly_anim::data::{Channel, Interpolation, Take};
+use dragonfly_anim::sample::sample_channel;
+use glam::{Quat, Vec3};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Numbers of a key; a vector's fourth is 0.
+pub(super) type Numbers = [f32; 4];
+
+/// The columns of a channel.
+#[derive(Clone, Debug)]
+enum Columns {
+    Vector(Channel<Vec3>),
+    Turn(Channel<Quat>),
+}
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(super) struct Curve {
+    pub(super) id: ChannelId,
+    columns: Columns,
+    form: Form,
+    numbers: Vec<Numbers>,
+    /// Least and greatest of blocks of keys; each level's blocks are [`BLOCK`] of the one before.
+    levels: Vec<Vec<Extent>>,
+    whole: bool,
+    /// Of a curve whose keys are shifted: which ones are.
+    moved: Option<Vec<bool>>,
+}
+
+/// The least and the greatest of some keys.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Extent {
+    pub(super) low: Numbers,
+    pub(super) high: Numbers,
+}
+
+const BLOCK: usize = 16;
+
+impl Extent {
+    pub(super) const NONE: Self = Self { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] };
+
+    fn with(mut self, other: &Self) -> Self {
+        for at in 0..4 {
+            self.low[at] = self.low[at].min(other.low[at]);
+            self.high[at] = self.high[at].max(other.high[at]);
+        }
+        self
+    }
+
+    fn of(numbers: &Numbers) -> Self {
+        Self { low: *numbers, high: *numbers }
+    }
+}
+
+/// A key of a spline: its numbers, and how fast they change before and behind it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slopes {
+    pub(super) arrive: Numbers,
+    pub(super) leave: Numbers,
+}
+
+impl Curve {
+    /// A channel of a take, not yet computed; `None` where it has no keys.
+    pub(super) fn new(take: &Take, id: ChannelId, form: Form) -> Option<Self> {
+        let track = channel::track(take, id.0)?;
+        let columns = match id.1 {
+            Property::Translation => Columns::Vector(track.translation.clone()),
+            Property::Scale => Columns::Vector(track.scale.clone()),
+            Property::Rotation => Columns::Turn(track.rotation.clone()),
+        };
+        let curve =
+            Self { id, columns, form, numbers: Vec::new(), levels: Vec::new(), whole: false, moved: None };
+        (!curve.times().is_empty()).then_some(curve)
+    }
+
+    /// Is it of just these columns, shown just so?
+    pub(super) fn is_of(&self, take: &Take, form: Form) -> bool {
+        let Some(track) = channel::track(take, self.id.0) else { return false };
+        let same = |channel: &Channel<Vec3>, other: &Channel<Vec3>| {
+            Arc::ptr_eq(&channel.times, &other.times)
+                && Arc::ptr_eq(&channel.values, &other.values)
+                && channel.interpolation == other.interpolation
+        };
+        match (&self.columns, self.id.1) {
+            (Columns::Vector(channel), Property::Translation) => same(channel, &track.translation),
+            (Columns::Vector(channel), Property::Scale) => same(channel, &track.scale),
+            (Columns::Turn(channel), _) => {
+                let other = &track.rotation;
+                self.form == form
+                    && Arc::ptr_eq(&channel.times, &other.times)
+                    && Arc::ptr_eq(&channel.values, &other.values)
+                    && channel.interpolation == other.interpolation
+            }
+            _ => false,
+        }
+    }
+
+    pub(super) fn times(&self) -> &[f32] {
+        match &self.columns {
+            Columns::Vector(channel) => &channel.times,
+            Columns::Turn(channel) => &channel.times,
+        }
+    }
+
+    pub(super) fn interpolation(&self) -> Interpolation {
+        match &self.columns {
+            Columns::Vector(channel) => channel.interpolation,
+            Columns::Turn(channel) => channel.interpolation,
+        }
+    }
+
+    /// How many numbers a key has.
+    pub(super) fn width(&self) -> usize {
+        if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
+    }
+
+    /// Is everything computed?
+    pub(super) fn is_whole(&self) -> bool {
+        self.whole
+    }
+
+    /// Computes some more keys, as many as `budget` still has.
+    pub(super) fn compute(&mut self, budget: &mut usize) {
+        if self.whole {
+            return;
+        }
+        let count = self.times().len();
+        let until = (self.numbers.len() + *budget).min(count);
+        *budget -= until - self.numbers.len();
+        let mut near = self.numbers.last().copied().unwrap_or_default();
+        for key in self.numbers.len()..until {
+            near = match &self.columns {
+                Columns::Vector(channel) => vector(channel.value(key).unwrap_or_default()),
+                Columns::Turn(channel) => self.form.of(channel.value(key).unwrap_or_default(), near),
+            };
+            self.numbers.push(near);
+        }
+        if self.numbers.len() == count {
+            self.whole = true;
+            self.levels = levels(&self.numbers);
+        }
+    }
+
+    /// The numbers of a key; zeros where there is none.
+    pub(super) fn key(&self, key: usize) -> Numbers {
+        self.numbers.get(key).copied().unwrap_or_default()
+    }
+
+    /// The least and the greatest of some keys.
+    pub(super) fn extent(&self, keys: Range<usize>) -> Extent {
+        let (mut from, mut to) = (keys.start, keys.end.min(self.numbers.len()));
+        let mut found = Extent::NONE;
+        let mut below: Option<&[Extent]> = None;
+        // Single keys up to whole blocks, then blocks up to whole blocks of blocks.
+        for level in 0..=self.levels.len() {
+            let at =
+                |index: usize| below.map_or_else(|| Extent::of(&self.numbers[index]), |below| below[index]);
+            if from >= to {
+                break;
+            }
+            if level == self.levels.len() || to - from < 2 * BLOCK {
+                for index in from..to {
+                    found = found.with(&at(index));
+                }
+                break;
+            }
+            while !from.is_multiple_of(BLOCK) {
+                found = found.with(&at(from));
+                from += 1;
+            }
+            while !to.is_multiple_of(BLOCK) {
+                to -= 1;
+                found = found.with(&at(to));
+            }
+            (from, to) = (from / BLOCK, to / BLOCK);
+            below = Some(&self.levels[level]);
+        }
+        found
+    }
+
+    /// The numbers at a time; angles near to `near`.
+    pub(super) fn at(&self, time: f32, near: Numbers) -> Numbers {
+        match &self.columns {
+            Columns::Vector(channel) => vector(sample_channel(channel, Vec3::ZERO, time)),
+            Columns::Turn(channel) => self.form.of(sample_channel(channel, Quat::IDENTITY, time), near),
+        }
+    }
+
+    /// Does it run straight between keys as it is drawn?
+    pub(super) fn is_straight(&self) -> bool {
+        matches!((&self.columns, self.interpolation()), (Columns::Vector(_), Interpolation::Linear))
+    }
+
+    /// How fast the numbers of a key of a spline change.
+    pub(super) fn slopes(&self, key: usize) -> Option<Slopes> {
+        if self.interpolation() != Interpolation::CubicSpline {
+            return None;
+        }
+        match &self.columns {
+            Columns::Vector(channel) => Some(Slopes {
+                arrive: vector(*channel.values.get(key * 3)?),
+                leave: vector(*channel.values.get(key * 3 + 2)?),
+            }),
+            Columns::Turn(channel) => {
+                let value = channel.value(key)?;
+                let of = |rate: Quat| self.form.slopes(value, rate, self.key(key));
+                Some(Slopes {
+                    arrive: of(*channel.values.get(key * 3)?),
+                    leave: of(*channel.values.get(key * 3 + 2)?),
+                })
+            }
+        }
+    }
+
+    /// The tangent, as edits name it, at which the numbers of a key change by `slopes` a second.
+    pub(super) fn tangent(&self, key: usize, arrive: bool, slopes: Numbers) -> Option<Vec<f32>> {
+        match &self.columns {
+            Columns::Vector(_) => Some(slopes[..3].to_vec()),
+            Columns::Turn(channel) => {
+                let rate = *channel.values.get(key * 3 + if arrive { 0 } else { 2 })?;
+                let rate = self.form.rate(channel.value(key)?, rate, self.key(key), slopes);
+                Some(rate.to_array().to_vec())
+            }
+        }
+    }
+
+    /// Is this key selected, where those in `chosen` are?
+    pub(super) fn is_chosen(&self, key: usize, chosen: &Intervals) -> bool {
+        match &self.moved {
+            Some(moved) => moved.get(key) == Some(&true),
+            None => self.times().get(key).is_some_and(|&time| chosen.holds(time)),
+        }
+    }
+
+    /// How its rotations are shown.
+    pub(super) fn form(&self) -> Form {
+        self.form
+    }
+
+    /// The curve as it is when the keys in `chosen` are shifted, as long as it is short enough to be made every frame.
+    pub(super) fn shifted(&self, chosen: &Intervals, shift: Shift, copies: bool) -> Option<Self> {
+        let times = self.times();
+        if chosen.is_empty() || times.len() > SHORT || !self.whole {
+            return None;
+        }
+        // Time, key, and whether it was moved: a moved key takes the place of one that stays.
+        let mut keys: Vec<(f32, usize, bool)> = Vec::with_capacity(times.len());
+        for (key, &time) in times.iter().enumerate() {
+            let moves = chosen.holds(time);
+            if moves {
+                keys.push((shift.apply(time), key, true));
+            }
+            if !moves || copies {
+                keys.push((time, key, false));
+            }
+        }
+        keys.retain(|(time, ..)| time.is_finite());
+        keys.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.2.cmp(&a.2)));
+        keys.dedup_by(|later, earlier| later.0 - earlier.0 <= crate::document::edit::SAME_TIME);
+        let steeper = match shift {
+            Shift::Scale { factor, .. } => 1.0 / factor,
+            _ => 1.0,
+        };
+        let columns = match &self.columns {
+            Columns::Vector(channel) => Columns::Vector(rearranged(channel, &keys, steeper)),
+            Columns::Turn(channel) => Columns::Turn(rearranged(channel, &keys, steeper)),
+        };
+        let numbers = keys.iter().map(|&(_, key, _)| self.key(key)).collect();
+        let moved = Some(keys.iter().map(|&(.., moved)| moved).collect());
+        Some(Self { columns, numbers, levels: Vec::new(), moved, ..*self })
+    }
+}
+
+/// Keys of a curve that is made anew for every frame of a drag.
+const SHORT: usize = 4096;
+
+fn rearranged<T: Copy + std::ops::Mul<f32, Output = T>>(
+    channel: &Channel<T>,
+    keys: &[(f32, usize, bool)],
+    steeper: f32,
+) -> Channel<T> {
+    let per_key = channel.values_per_key();
+    let mut values = Vec::with_capacity(keys.len() * per_key);
+    for &(_, key, moved) in keys {
+        for part in 0..per_key {
+            let Some(&value) = channel.values.get(key * per_key + part) else { continue };
+            let tangent = per_key == 3 && part != 1 && moved;
+            values.push(if tangent { value * steeper } else { value });
+        }
+    }
+    let times: Vec<f32> = keys.iter().map(|key| key.0).collect();
+    Channel { times: times.into(), values: values.into(), interpolation: channel.interpolation }
+}
+
+fn vector(value: Vec3) -> Numbers {
+    [value.x, value.y, value.z, 0.0].map(|number| if number.is_finite() { number } else { 0.0 })
+}
+
+fn levels(numbers: &[Numbers]) -> Vec<Vec<Extent>> {
+    let mut all: Vec<Vec<Extent>> = Vec::new();
+    let fold = |block: &[Extent]| block.iter().fold(Extent::NONE, |sum, next| sum.with(next));
+    let mut level: Vec<Extent> = numbers
+        .chunks(BLOCK)
+        .map(|block| block.iter().fold(Extent::NONE, |sum, next| sum.with(&Extent::of(next))))
+        .collect();
+    while level.len() > 1 {
+        let next = level.chunks(BLOCK).map(fold).collect();
+        all.push(std::mem::replace(&mut level, next));
+    }
+    all.push(level);
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dragonfly_kit::random::{Random, seed};
+
+    #[test]
+    fn the_extent_of_any_keys_is_what_looking_at_each_gives() {
+        let seed = seed(9);
+        let mut random = Random::new(seed);
+        for count in [1, 15, 16, 17, 255, 257, 5000] {
+            let numbers: Vec<Numbers> =
+                (0..count).map(|_| [(); 4].map(|()| random.between(-9.0, 9.0))).collect();
+            let channel = Channel::<Vec3>::default();
+            let curve = Curve {
+                id: (0, Property::Translation),
+                columns: Columns::Vector(channel),
+                form: Form::Xyz,
+                levels: levels(&numbers),
+                numbers,
+                whole: true,
+                moved: None,
+            };
+            for _ in 0..200 {
+                let from = random.below(count);
+                let to = from + random.below(count - from + 1);
+                let slow = curve.numbers[from..to]
+                    .iter()
+                    .fold(Extent::NONE, |sum, next| sum.with(&Extent::of(next)));
+                assert_eq!(curve.extent(from..to), slow, "seed {seed} {from}..{to} of {count}");
+            }
+        }
+    }
+}

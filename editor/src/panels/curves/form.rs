@@ -1,0 +1,196 @@
+//! Rotations as numbers that can be read: angles in degrees in an order, or the four numbers of the quaternion.
+
+use glam::{DQuat, EulerRot, Quat};
+
+/// How rotations are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Three angles, degrees, turned in this order.
+    #[default]
+    Xyz,
+    /// See [`Self::Xyz`].
+    Xzy,
+    /// See [`Self::Xyz`].
+    Yxz,
+    /// See [`Self::Xyz`].
+    Yzx,
+    /// See [`Self::Xyz`].
+    Zxy,
+    /// See [`Self::Xyz`].
+    Zyx,
+    /// x, y, z, w.
+    Quaternion,
+}
+
+impl Form {
+    /// Every form, in the order in which they are offered.
+    pub(super) const ALL: [Self; 7] =
+        [Self::Xyz, Self::Xzy, Self::Yxz, Self::Yzx, Self::Zxy, Self::Zyx, Self::Quaternion];
+
+    /// Its name.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Xyz => "Euler XYZ",
+            Self::Xzy => "Euler XZY",
+            Self::Yxz => "Euler YXZ",
+            Self::Yzx => "Euler YZX",
+            Self::Zxy => "Euler ZXY",
+            Self::Zyx => "Euler ZYX",
+            Self::Quaternion => "Quaternion",
+        }
+    }
+
+    /// The order and which axis each of its angles turns; `None` for quaternions.
+    fn order(self) -> Option<(EulerRot, [usize; 3])> {
+        Some(match self {
+            Self::Xyz => (EulerRot::XYZ, [0, 1, 2]),
+            Self::Xzy => (EulerRot::XZY, [0, 2, 1]),
+            Self::Yxz => (EulerRot::YXZ, [1, 0, 2]),
+            Self::Yzx => (EulerRot::YZX, [1, 2, 0]),
+            Self::Zxy => (EulerRot::ZXY, [2, 0, 1]),
+            Self::Zyx => (EulerRot::ZYX, [2, 1, 0]),
+            Self::Quaternion => return None,
+        })
+    }
+
+    /// How many numbers a rotation has.
+    pub(super) fn numbers(self) -> usize {
+        if self == Self::Quaternion { 4 } else { 3 }
+    }
+
+    /// The numbers of a rotation, by axis; of all angles that mean the same, those nearest to `near`.
+    pub(super) fn of(self, rotation: Quat, near: [f32; 4]) -> [f32; 4] {
+        let Some((order, axes)) = self.order() else { return rotation.to_array() };
+        let unit = rotation.as_dquat().normalize();
+        if !unit.is_finite() {
+            return near;
+        }
+        let near = near.map(f64::from);
+        let (a, b, c) = unit.to_euler(order);
+        // The other set of angles that means the same: the middle one beyond a right angle.
+        let half = std::f64::consts::PI;
+        let sets = [[a, b, c], [a + half, half - b, c + half]];
+        let best = sets.map(|angles| {
+            let mut numbers = [0.0; 3];
+            for (angle, &axis) in angles.iter().zip(&axes) {
+                let degrees = angle.to_degrees();
+                numbers[axis] = degrees + ((near[axis] - degrees) / 360.0).round() * 360.0;
+            }
+            let distance: f64 = (0..3).map(|axis| (numbers[axis] - near[axis]).abs()).sum();
+            (distance, numbers)
+        });
+        let [x, y, z] = if best[1].0 < best[0].0 - 1e-6 { best[1].1 } else { best[0].1 };
+        [x as f32, y as f32, z as f32, 0.0]
+    }
+
+    /// The rotation that numbers mean.
+    pub(super) fn rotation(self, numbers: [f32; 4]) -> Quat {
+        self.exact(numbers.map(f64::from)).as_quat()
+    }
+
+    fn exact(self, numbers: [f64; 4]) -> DQuat {
+        match self.order() {
+            Some((order, axes)) => {
+                let [a, b, c] = axes.map(|axis| numbers[axis].to_radians());
+                DQuat::from_euler(order, a, b, c)
+            }
+            None => {
+                let raw = DQuat::from_array(numbers);
+                if raw.length_squared() > 1e-12 { raw.normalize() } else { DQuat::IDENTITY }
+            }
+        }
+    }
+
+    /// How fast the numbers change where the quaternion changes by `rate` a second.
+    pub(super) fn slopes(self, rotation: Quat, rate: Quat, numbers: [f32; 4]) -> [f32; 4] {
+        if self == Self::Quaternion {
+            return rate.to_array();
+        }
+        let speed = f64::from(rate.length());
+        if !(speed > 1e-9 && speed.is_finite()) {
+            return [0.0; 4];
+        }
+        let step = 1e-3 / speed;
+        let moved = |sign: f64| {
+            let moved = rotation.as_dquat() + rate.as_dquat() * (step * sign);
+            self.of(moved.normalize().as_quat(), numbers).map(f64::from)
+        };
+        let (before, after) = (moved(-1.0), moved(1.0));
+        std::array::from_fn(|axis| ((after[axis] - before[axis]) / (2.0 * step)) as f32)
+    }
+
+    /// The rate of the quaternion at which `numbers` change by `slopes` a second; what `rate` had along the quaternion
+    /// itself, which turns nothing, stays.
+    pub(super) fn rate(self, rotation: Quat, rate: Quat, numbers: [f32; 4], slopes: [f32; 4]) -> Quat {
+        if self == Self::Quaternion {
+            return Quat::from_array(slopes);
+        }
+        let speed: f64 = slopes.iter().map(|slope| f64::from(slope.abs())).sum();
+        let along = rotation * rotation.dot(rate);
+        if !(speed > 1e-9 && speed.is_finite()) {
+            return along;
+        }
+        let step = 0.05 / speed;
+        let moved = |sign: f64| {
+            let at =
+                std::array::from_fn(|axis| f64::from(numbers[axis]) + f64::from(slopes[axis]) * step * sign);
+            let turned = self.exact(at);
+            if turned.dot(rotation.as_dquat()) < 0.0 { -turned } else { turned }
+        };
+        let turning = (moved(1.0) - moved(-1.0)) * (0.5 / step);
+        turning.as_quat() + along
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dragonfly_kit::random::{Random, seed};
+
+    #[test]
+    fn numbers_and_rotation_say_the_same_in_every_form() {
+        let seed = seed(3);
+        let mut random = Random::new(seed);
+        for _ in 0..500 {
+            let near = [(); 4].map(|()| random.between(-400.0, 400.0));
+            let quaternion = Quat::from_array([(); 4].map(|()| random.between(-1.0, 1.0))).normalize();
+            for form in Form::ALL {
+                let back = form.rotation(form.of(quaternion, near));
+                assert!(back.dot(quaternion).abs() > 0.999_99, "seed {seed} {form:?} {quaternion}");
+            }
+        }
+    }
+
+    #[test]
+    fn angles_go_on_over_half_a_turn() {
+        let mut near = [0.0; 4];
+        for step in 0..=36 {
+            let angle = step as f32 * 20.0;
+            near = Form::Xyz.of(Quat::from_rotation_z(angle.to_radians()), near);
+            assert!((near[2] - angle).abs() < 0.01, "{near:?}");
+        }
+    }
+
+    #[test]
+    fn slopes_and_rates_lead_to_each_other() {
+        let seed = seed(5);
+        let mut random = Random::new(seed);
+        for _ in 0..200 {
+            let numbers =
+                [random.between(-70.0, 70.0), random.between(-70.0, 70.0), random.between(-70.0, 70.0), 0.0];
+            let slopes =
+                [random.between(-90.0, 90.0), random.between(-90.0, 90.0), random.between(-90.0, 90.0), 0.0];
+            for form in [Form::Xyz, Form::Zyx, Form::Yxz] {
+                let rotation = form.rotation(numbers);
+                let rate = form.rate(rotation, Quat::from_array([0.0; 4]), numbers, slopes);
+                let back = form.slopes(rotation, rate, numbers);
+                for axis in 0..3 {
+                    assert!(
+                        (back[axis] - slopes[axis]).abs() < 1.5,
+                        "seed {seed} {form:?} {back:?} {slopes:?}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! The curves of the selected bones: values over time, with keys and tangents that can be dragged.
+
+mod axis;
+mod curve;
+mod form;
+mod hand;
+mod paint;
+mod shown;
+mod tangents;
+mod toolbar;
+mod values;
+
+use super::dope::{self, Scrub};
+use super::keys::{Drawn, TimeScale};
+use super::state::{Request, State};
+use super::theme::Theme;
+use super::{Panel, Place, widgets};
+use axis::{ValueScale, ValueWindow};
+use egui::{
+    Align2, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2,
+};
+use hand::{Hand, Within};
+use paint::CurveMesh;
+use shown::Shown;
+use tangents::Tangents;
+use toolbar::Chosen;
+
+/// See the module.
+#[derive(Debug, Default)]
+pub struct Curves {
+    chosen: Chosen,
+    shown: Shown,
+    mesh: CurveMesh,
+    tangents: Tangents,
+    hand: Hand,
+    scrub: Scrub,
+    /// Which values are shown; none until there are curves to fit.
+    window: Option<ValueWindow>,
+    /// What the values were fitted to.
+    fitted: Option<Fitted>,
+}
+
+#[derive(Debug, PartialEq)]
+struct Fitted {
+    model: usize,
+    take: Option<usize>,
+    ids: Vec<super::keys::ChannelId>,
+    chosen: (u8, u8, form::Form),
+}
+
+/// Width of the numbers at the left.
+const STRIP: f32 = 44.0;
+/// Height of the ruler.
+const HEAD: f32 = 18.0;
+
+impl Panel for Curves {
+    fn id(&self) -> &'static str {
+        "curves"
+    }
+
+    fn title(&self) -> &'static str {
+        "Curves"
+    }
+
+    fn place(&self) -> Place {
+        Place::BelowRight
+    }
+
+    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let drawn = state.drawn_keys();
+        if let Some(drawn) = &drawn {
+            self.follow(ui, state, drawn);
+        }
+        let fit = toolbar::show(ui, &mut self.chosen, &self.mesh.drawn, drawn.as_ref(), state, requests);
+        let rect = ui.available_rect_before_wrap();
+        if rect.height() < HEAD + 24.0 || rect.width() < STRIP + 40.0 {
+            return;
+        }
+        let theme = Theme::of(ui);
+        ui.painter().rect_filled(rect, CornerRadius::ZERO, theme.sunken);
+        let Some(drawn) = drawn else {
+            self.mesh.drawn.clear();
+            let text =
+                if state.view.is_none() { "Curves appear here" } else { "The rest pose does not move" };
+            return widgets::empty(ui, text, "");
+        };
+        if fit {
+            self.fitted = None;
+            requests.push(Request::Command(super::commands::Id::FitKeys));
+        }
+        self.body(ui, rect, state, &drawn, requests);
+    }
+}
+
+impl Curves {
+    /// Brings the numbers up to date, and fits the values to other curves.
+    fn follow(&mut self, ui: &Ui, state: &State, drawn: &Drawn) {
+        let ids = shown::wanted(state, drawn, self.chosen.properties);
+        let more = self.shown.update(&drawn.take, &ids, self.chosen.form);
+        if more {
+            ui.ctx().request_repaint();
+        }
+        let fitted = Fitted {
+            model: state.view.as_ref().map_or(0, |view| std::sync::Arc::as_ptr(&view.loaded) as usize),
+            take: state.playback.take,
+            ids,
+            chosen: (self.chosen.properties, self.chosen.components, self.chosen.form),
+        };
+        if self.fitted.as_ref() != Some(&fitted)
+            && !more
+            && !self.hand.is_busy()
+            && let Some([low, high]) = self.shown.extent(self.chosen.components, None)
+        {
+            self.window = Some(ValueWindow::around(low, high));
+            self.fitted = Some(fitted);
+        }
+    }
+
+    fn body(&mut self, ui: &mut Ui, rect: Rect, state: &State, drawn: &Drawn, requests: &mut Vec<Request>) {
+        let theme = Theme::of(ui);
+        let strip = Rect::from_min_max(
+            pos2(rect.left(), rect.top() + HEAD),
+            pos2(rect.left() + STRIP, rect.bottom()),
+        );
+        let head = Rect::from_min_max(pos2(strip.right(), rect.top()), pos2(rect.right(), rect.top() + HEAD));
+        let canvas = Rect::from_min_max(pos2(strip.right(), head.bottom()), rect.max);
+        let time = TimeScale {
+            left: canvas.left() + 16.0,
+            width: (canvas.width() - 36.0).max(1.0),
+            window: state.keys.window(&drawn.take),
+        };
+        let value = ValueScale { rect: canvas, window: self.window.unwrap_or_default() };
+        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+        painter.rect_filled(
+            Rect::from_min_max(rect.min, pos2(rect.right(), head.bottom())),
+            CornerRadius::ZERO,
+            theme.bar,
+        );
+        painter.hline(rect.x_range(), head.bottom(), Stroke::new(1.0, theme.line));
+        let right =
+            painter.with_clip_rect(Rect::from_min_max(head.min, rect.max).intersect(painter.clip_rect()));
+        dope::ticks(&right, head, rect.bottom(), &time, state, theme);
+        axis::paint(&painter, strip, &value, theme);
+        painter.vline(strip.right() - 0.5, rect.y_range(), Stroke::new(1.0, theme.line));
+        dope::shade(&painter, canvas, &time, state, theme);
+
+        let response = ui.interact(canvas, ui.scope_id().with("curves"), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Curves of keys"));
+        let inside = painter.with_clip_rect(canvas.intersect(painter.clip_rect()));
+        self.mesh.paint(&inside, &self.shown, drawn, &time, &value, self.chosen.components, theme);
+        self.tangents.update(&self.mesh.drawn, drawn, &time, &value, self.chosen.components);
+        self.tangents.paint(&inside, theme);
+        self.legend(&inside, canvas, state, drawn, theme);
+
+        self.scrub.show(ui, head, "Time track of the curves", &time, state, requests);
+        self.values(ui, strip, &response, &value);
+        self.wheel(ui, &response, &time, &value, requests);
+        let panned = dope::pan(ui, &response, &time, requests);
+        if panned != 0.0 {
+            self.window = Some(value.window.panned(f64::from(panned) / value.per_unit()));
+        }
+        let within = Within {
+            curves: &self.mesh.drawn,
+            drawn,
+            time: &time,
+            value: &value,
+            components: self.chosen.components,
+            tangents: &self.tangents,
+            state,
+        };
+        self.hand.update(ui, &response, &within, requests);
+        if !self.hand.is_busy() {
+            response.context_menu(|ui| dope::key_menu(ui, state, requests));
+        }
+        dope::time_bar(ui, canvas, &time, &drawn.take, requests);
+        dope::playhead(&painter, head, rect.bottom(), &time, state, theme);
+    }
+
+    /// The strip of numbers: dragged up and down it pans, the wheel over it zooms, a double click fits.
+    fn values(&mut self, ui: &Ui, strip: Rect, canvas: &Response, value: &ValueScale) {
+        let response = ui.interact(strip, ui.scope_id().with("values"), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::ScrollBar, true, "Values"));
+        let response = response
+            .on_hover_cursor(egui::CursorIcon::ResizeVertical)
+            .on_hover_text("Values\nDrag to pan, wheel to zoom, double click to fit");
+        if response.dragged_by(PointerButton::Primary) {
+            let by = f64::from(response.drag_delta().y) / value.per_unit();
+            self.window = Some(value.window.panned(by));
+        }
+        if response.double_clicked() {
+            self.fitted = None;
+        }
+        let (pointer, delta, pinch) =
+            ui.input(|input| (input.pointer.hover_pos(), input.smooth_scroll_delta().y, input.zoom_delta()));
+        let Some(pointer) = pointer else { return };
+        let factor = if response.contains_pointer() {
+            f64::from((-delta * 0.005).exp() / pinch.max(1e-3))
+        } else if canvas.contains_pointer() {
+            1.0 / f64::from(pinch.max(1e-3))
+        } else {
+            1.0
+        };
+        if (factor - 1.0).abs() > 1e-6 {
+            self.window = Some(value.window.zoomed(f64::from(value.value_at(pointer.y)), factor));
+        }
+    }
+
+    /// The wheel over the curves: time as in the timeline; with Ctrl values, which [`Self::values`] does.
+    fn wheel(
+        &self,
+        ui: &Ui,
+        canvas: &Response,
+        time: &TimeScale,
+        _value: &ValueScale,
+        requests: &mut Vec<Request>,
+    ) {
+        if ui.input(|input| (input.zoom_delta() - 1.0).abs() < 1e-6) {
+            dope::wheel(ui, canvas, time, requests);
+        }
+    }
+
+    /// Whose curves they are.
+    fn legend(&self, painter: &egui::Painter, canvas: Rect, state: &State, _drawn: &Drawn, theme: &Theme) {
+        let mut bones: Vec<u32> = self.mesh.drawn.iter().map(|curve| curve.id.0).collect();
+        bones.dedup();
+        let text = match bones.as_slice() {
+            [] if state.selected().is_none() => "Select a bone to see its curves".to_owned(),
+            [] => "The selected bone has no keys in this take".to_owned(),
+            [bone] => state.bone_name(*bone),
+            all => format!("{} bones", all.len()),
+        };
+        let (at, align) = if bones.is_empty() {
+            (canvas.center(), Align2::CENTER_CENTER)
+        } else {
+            (canvas.left_top() + egui::vec2(8.0, 6.0), Align2::LEFT_TOP)
+        };
+        painter.text(
+            at,
+            align,
+            text,
+            FontId::proportional(11.0),
+            if bones.is_empty() { theme.faint } else { theme.weak },
+        );
+    }
+}

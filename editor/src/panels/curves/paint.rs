@@ -1,0 +1,303 @@
+//! Curves as triangles: made when something of them changed, and used again until then.
+
+use super::axis::ValueScale;
+use super::curve::{Curve, Extent, Numbers};
+use super::shown::Shown;
+use crate::panels::dope::Pen;
+use crate::panels::keys::intervals::{Intervals, keys_between};
+use crate::panels::keys::{Drawn, TimeScale};
+use crate::panels::theme::Theme;
+use dragonfly_anim::data::Interpolation;
+use egui::epaint::{TessellationOptions, Tessellator};
+use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2};
+use std::sync::Arc;
+
+/// See the module.
+#[derive(Debug, Default)]
+pub(super) struct CurveMesh {
+    made_of: Option<MadeOf>,
+    mesh: Arc<Mesh>,
+    /// The curves as they are drawn: while keys are dragged, those that come of it.
+    pub(super) drawn: Vec<Arc<Curve>>,
+}
+
+#[derive(Debug)]
+struct MadeOf {
+    drawn: Drawn,
+    version: u64,
+    scales: (TimeScale, ValueScale),
+    components: u8,
+    pixels_per_point: f32,
+    dark: bool,
+}
+
+/// Points: keys nearer to each other than this, on average, have no dots.
+const APART: f32 = 5.0;
+/// Points between samples of a bent curve.
+const SAMPLE: f32 = 3.0;
+/// Points from the middle of a key to its corner.
+const RADIUS: f32 = 4.0;
+
+/// Everything that a curve is drawn into.
+struct Canvas<'a> {
+    time: &'a TimeScale,
+    value: &'a ValueScale,
+    mesh: Mesh,
+    tessellator: Tessellator,
+    points: [Vec<Pos2>; 4],
+}
+
+/// The colour of a component.
+pub(super) fn color(theme: &Theme, component: usize) -> Color32 {
+    theme.axes.get(component).copied().unwrap_or(theme.weak)
+}
+
+impl CurveMesh {
+    #[allow(clippy::too_many_arguments, reason = "what is drawn follows from all of it")]
+    pub(super) fn paint(
+        &mut self,
+        painter: &Painter,
+        shown: &Shown,
+        drawn: &Drawn,
+        time: &TimeScale,
+        value: &ValueScale,
+        components: u8,
+        theme: &Theme,
+    ) {
+        let made_of = MadeOf {
+            drawn: drawn.clone(),
+            version: shown.version(),
+            scales: (*time, *value),
+            components,
+            pixels_per_point: painter.pixels_per_point(),
+            dark: theme.dark,
+        };
+        if !self.made_of.as_ref().is_some_and(|old| old.same(&made_of)) {
+            self.made_of = Some(made_of);
+            self.make(shown, drawn, time, value, components, theme, painter.pixels_per_point());
+        }
+        painter.add(Shape::Mesh(Arc::clone(&self.mesh)));
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "as above")]
+    fn make(
+        &mut self,
+        shown: &Shown,
+        drawn: &Drawn,
+        time: &TimeScale,
+        value: &ValueScale,
+        components: u8,
+        theme: &Theme,
+        pixels_per_point: f32,
+    ) {
+        let moves = drawn.shift != crate::panels::keys::Shift::NONE;
+        self.drawn.clear();
+        let options = TessellationOptions::default();
+        let mut canvas = Canvas {
+            time,
+            value,
+            mesh: Mesh::default(),
+            tessellator: Tessellator::new(pixels_per_point, options, [1, 1], Vec::new()),
+            points: Default::default(),
+        };
+        let count = shown.curves().count();
+        for curve in shown.curves() {
+            let chosen = drawn.selection.of(curve.id);
+            let shifted =
+                if moves { curve.shifted(chosen, drawn.shift, drawn.copies).map(Arc::new) } else { None };
+            let ghost = moves && shifted.is_none() && !chosen.is_empty();
+            let curve = shifted.unwrap_or_else(|| Arc::clone(curve));
+            let strength = if count > 6 { 0.7 } else { 1.0 };
+            canvas.curve(&curve, components, theme, strength);
+            if ghost {
+                canvas.ghost(&curve, components, chosen, drawn, theme);
+            }
+            canvas.dots(&curve, components, chosen, theme, 1.0 / pixels_per_point);
+            self.drawn.push(curve);
+        }
+        self.mesh = Arc::new(canvas.mesh);
+    }
+}
+
+impl MadeOf {
+    fn same(&self, other: &Self) -> bool {
+        let (a, b) = (&self.drawn, &other.drawn);
+        Arc::ptr_eq(&a.take, &b.take)
+            && a.selection.same(&b.selection)
+            && (a.shift, a.copies) == (b.shift, b.copies)
+            && (self.version, self.scales, self.components, self.dark)
+                == (other.version, other.scales, other.components, other.dark)
+            && self.pixels_per_point == other.pixels_per_point
+    }
+}
+
+impl Canvas<'_> {
+    fn rect(&self) -> Rect {
+        self.value.rect
+    }
+
+    /// The keys in sight, with one more at each side.
+    fn in_sight(&self, curve: &Curve) -> std::ops::Range<usize> {
+        let times = curve.times();
+        let keys = keys_between(
+            times,
+            [self.time.time_at(self.rect().left()), self.time.time_at(self.rect().right())],
+        );
+        keys.start.saturating_sub(1)..(keys.end + 1).min(times.len())
+    }
+
+    fn curve(&mut self, curve: &Curve, components: u8, theme: &Theme, strength: f32) {
+        let keys = self.in_sight(curve);
+        if keys.is_empty() {
+            return;
+        }
+        let dense = keys.len() as f32 > self.rect().width() / 2.0;
+        if dense {
+            return self.bands(curve, components, theme, strength);
+        }
+        self.sample(curve, keys);
+        for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+            let color = color(theme, at).gamma_multiply(strength);
+            let points = std::mem::take(&mut self.points[at]);
+            let line = Shape::line(points, Stroke::new(1.4, color));
+            self.tessellator.tessellate_shape(line, &mut self.mesh);
+        }
+    }
+
+    /// Points of all components, from edge to edge.
+    fn sample(&mut self, curve: &Curve, keys: std::ops::Range<usize>) {
+        let (rect, width) = (self.rect(), curve.width());
+        self.points.iter_mut().for_each(Vec::clear);
+        let times = curve.times();
+        let mut near = curve.key(keys.start);
+        let first = self.time.x_of(times[keys.start]);
+        if first > rect.left() {
+            self.push(rect.left(), near, width);
+        }
+        for key in keys.clone() {
+            let (x, numbers) = (self.time.x_of(times[key]), curve.key(key));
+            self.push(x, numbers, width);
+            let Some(&next) = times.get(key + 1).filter(|_| key + 1 < keys.end) else {
+                if x < rect.right() {
+                    self.push(rect.right(), numbers, width);
+                }
+                break;
+            };
+            let end = self.time.x_of(next);
+            match curve.interpolation() {
+                Interpolation::Step => self.push(end, numbers, width),
+                Interpolation::Closest => {
+                    self.push((x + end) / 2.0, numbers, width);
+                    self.push((x + end) / 2.0, curve.key(key + 1), width);
+                }
+                _ if curve.is_straight() => {}
+                _ => {
+                    near = numbers;
+                    let mut at = (x + SAMPLE).max(rect.left() - SAMPLE);
+                    while at < end.min(rect.right() + SAMPLE) {
+                        near = curve.at(self.time.time_at(at), near);
+                        self.push(at, near, width);
+                        at += SAMPLE;
+                    }
+                }
+            }
+        }
+    }
+
+    fn push(&mut self, x: f32, numbers: Numbers, width: usize) {
+        for (at, points) in self.points.iter_mut().enumerate().take(width) {
+            points.push(pos2(x, self.value.y_of(numbers[at])));
+        }
+    }
+
+    /// From the least to the greatest in every column of pixels.
+    fn bands(&mut self, curve: &Curve, components: u8, theme: &Theme, strength: f32) {
+        let rect = self.rect();
+        let mut last: Option<Extent> = None;
+        let mut x = rect.left();
+        while x < rect.right() {
+            let keys = keys_between(curve.times(), [self.time.time_at(x), self.time.time_at(x + 1.0)]);
+            let extent = curve.extent(keys);
+            if extent.low[0] <= extent.high[0] {
+                let joined = last.map_or(extent, |last| joined(&extent, &last));
+                for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+                    self.column(
+                        x,
+                        joined.low[at],
+                        joined.high[at],
+                        color(theme, at).gamma_multiply(strength * 0.85),
+                    );
+                }
+                last = Some(extent);
+            }
+            x += 1.0;
+        }
+    }
+
+    fn column(&mut self, x: f32, low: f32, high: f32, color: Color32) {
+        let (top, bottom) = (self.value.y_of(high), self.value.y_of(low));
+        let thin = (1.2 - (bottom - top)).max(0.0) / 2.0;
+        let rect = Rect::from_min_max(pos2(x, top - thin), pos2(x + 1.0, bottom + thin));
+        if rect.intersects(self.rect()) {
+            self.mesh.add_colored_rect(rect.intersect(self.rect()), color);
+        }
+    }
+
+    /// Where the selected keys of a long curve go, while they are dragged.
+    fn ghost(&mut self, curve: &Curve, components: u8, chosen: &Intervals, drawn: &Drawn, theme: &Theme) {
+        let (factor, offset) = drawn.shift.affine();
+        if factor == 0.0 {
+            return;
+        }
+        let rect = self.rect();
+        let source = |x: f32| ((f64::from(self.time.time_at(x)) - offset) / factor) as f32;
+        let mut x = rect.left();
+        while x < rect.right() {
+            let (a, b) = (source(x), source(x + 1.0));
+            let keys = keys_between(curve.times(), [a.min(b), a.max(b)]);
+            let met = chosen.next(curve.times(), keys.start, true).is_some_and(|key| key < keys.end);
+            if met {
+                let extent = curve.extent(keys);
+                for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+                    self.column(x, extent.low[at], extent.high[at], theme.accent);
+                }
+            }
+            x += 1.0;
+        }
+    }
+
+    /// Keys that can be told apart, as diamonds.
+    fn dots(&mut self, curve: &Curve, components: u8, chosen: &Intervals, theme: &Theme, feather: f32) {
+        let keys = self.in_sight(curve);
+        if keys.len() as f32 * APART > self.rect().width() {
+            return;
+        }
+        let pen = Pen { feather };
+        let bounds = self.rect().expand(RADIUS);
+        for key in keys {
+            let (x, numbers) = (self.time.x_of(curve.times()[key]), curve.key(key));
+            let selected = curve.is_chosen(key, chosen);
+            for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+                let center = pos2(x, self.value.y_of(numbers[at]));
+                if bounds.contains(center) {
+                    let fill = if selected { theme.accent } else { color(theme, at) };
+                    pen.diamond(&mut self.mesh, center, RADIUS + 1.0, theme.sunken);
+                    pen.diamond(&mut self.mesh, center, RADIUS, fill);
+                }
+            }
+        }
+    }
+}
+
+/// An extent that touches the one before, so that steep parts have no gaps.
+fn joined(extent: &Extent, last: &Extent) -> Extent {
+    let mut joined = *extent;
+    for at in 0..4 {
+        if last.high[at] < extent.low[at] {
+            joined.low[at] = last.high[at];
+        } else if last.low[at] > extent.high[at] {
+            joined.high[at] = last.low[at];
+        }
+    }
+    joined
+}

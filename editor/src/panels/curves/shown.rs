@@ -1,0 +1,129 @@
+//! Which curves are shown, and their numbers: computed when a channel changes, a part each frame where it is long.
+
+use super::curve::{Curve, Extent};
+use super::form::Form;
+use crate::document::edit::Property;
+use crate::panels::keys::{ChannelId, Drawn, channel};
+use crate::panels::state::State;
+use dragonfly_anim::data::Take;
+use std::sync::Arc;
+
+/// More channels at once than this are not told apart.
+pub(super) const MOST: usize = 24;
+/// Keys that are computed in a frame.
+const BUDGET: usize = 24_000;
+
+/// See the module.
+#[derive(Debug, Default)]
+pub(super) struct Shown {
+    entries: Vec<Entry>,
+    /// Grows with every curve that is another one.
+    version: u64,
+}
+
+#[derive(Debug)]
+struct Entry {
+    id: ChannelId,
+    /// As it is drawn.
+    curve: Option<Arc<Curve>>,
+    /// The next one, until all of it is computed.
+    next: Option<Box<Curve>>,
+}
+
+impl Shown {
+    /// Brings the curves of `ids` up to `take`; is there more to do in the next frame?
+    pub(super) fn update(&mut self, take: &Take, ids: &[ChannelId], form: Form) -> bool {
+        if self.entries.len() != ids.len() || self.entries.iter().zip(ids).any(|(entry, &id)| entry.id != id)
+        {
+            let mut old = std::mem::take(&mut self.entries);
+            self.entries = ids
+                .iter()
+                .map(|&id| match old.iter().position(|entry| entry.id == id) {
+                    Some(at) => old.swap_remove(at),
+                    None => Entry { id, curve: None, next: None },
+                })
+                .collect();
+            self.version += 1;
+        }
+        let mut budget = BUDGET;
+        for entry in &mut self.entries {
+            if entry.curve.as_ref().is_some_and(|curve| curve.is_of(take, form)) {
+                entry.next = None;
+                continue;
+            }
+            if entry.next.as_ref().is_none_or(|next| !next.is_of(take, form)) {
+                entry.next = Curve::new(take, entry.id, form).map(Box::new);
+                if entry.next.is_none() && entry.curve.take().is_some() {
+                    self.version += 1;
+                }
+            }
+            if let Some(next) = &mut entry.next {
+                next.compute(&mut budget);
+                // Numbers in another form are not shown in the place of those that were asked for.
+                if next.is_whole() || entry.curve.as_ref().is_some_and(|curve| curve.form() != form) {
+                    entry.curve = entry.next.take_if(|next| next.is_whole()).map(|next| Arc::from(*next));
+                    self.version += 1;
+                }
+            }
+        }
+        self.entries.iter().any(|entry| entry.next.is_some())
+    }
+
+    /// Grows with every curve that is another one.
+    pub(super) fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// The curves that can be drawn.
+    pub(super) fn curves(&self) -> impl Iterator<Item = &Arc<Curve>> {
+        self.entries.iter().filter_map(|entry| entry.curve.as_ref())
+    }
+
+    /// The least and the greatest number of those components that are shown.
+    pub(super) fn extent(&self, components: u8, times: Option<[f32; 2]>) -> Option<[f32; 2]> {
+        let mut all = [f32::INFINITY, f32::NEG_INFINITY];
+        for curve in self.curves() {
+            let keys = match times {
+                Some(times) => crate::panels::keys::intervals::keys_between(curve.times(), times),
+                None => 0..curve.times().len(),
+            };
+            let Extent { low, high } = curve.extent(keys);
+            for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+                all = [all[0].min(low[at]), all[1].max(high[at])];
+            }
+        }
+        (all[0] <= all[1]).then_some(all)
+    }
+}
+
+/// The channels whose curves are wanted: of the selected bones, or those with selected keys.
+///
+/// Where the bones have none of the wanted properties, those that they have: an empty panel explains nothing.
+pub(super) fn wanted(state: &State, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
+    let of_bones: Vec<ChannelId> = state
+        .selection
+        .bones()
+        .iter()
+        .rev()
+        .flat_map(|&bone| channel::channels(&drawn.take, bone))
+        .take(3 * MOST)
+        .collect();
+    let all = if state.selection.bones().is_empty() {
+        drawn.selection.channels().map(|(id, _)| id).take(3 * MOST).collect()
+    } else {
+        of_bones
+    };
+    let fits = |id: &&ChannelId| properties & bit(id.1) != 0;
+    let mut ids: Vec<ChannelId> = all.iter().filter(fits).take(MOST).copied().collect();
+    if ids.is_empty()
+        && let Some(&(_, first)) = all.iter().max_by_key(|(_, property)| *property == Property::Rotation)
+    {
+        ids = all.into_iter().filter(|(_, property)| *property == first).take(MOST).collect();
+    }
+    ids
+}
+
+/// The place of a property in a set of them.
+pub(super) fn bit(property: Property) -> u8 {
+    1 << property as u8
+}

@@ -1,0 +1,146 @@
+//! Tangents of selected keys: two ends that are dragged, straight through the key unless Alt breaks them.
+
+use super::axis::ValueScale;
+use super::curve::{Curve, Slopes};
+use super::paint::color;
+use crate::document::edit::{BoneRef, Edit, TakeRef};
+use crate::panels::keys::intervals::keys_between;
+use crate::panels::keys::{ChannelId, Drawn, TimeScale};
+use crate::panels::theme::Theme;
+use egui::{Painter, Pos2, Rect, Stroke, Vec2, vec2};
+use std::sync::Arc;
+
+/// One end of a tangent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Handle {
+    pub(super) id: ChannelId,
+    pub(super) key: usize,
+    pub(super) component: usize,
+    /// Does it lie before the key?
+    pub(super) arrive: bool,
+    /// Where the key is, points.
+    center: Pos2,
+    /// Where the end is, points.
+    end: Pos2,
+    slopes: Slopes,
+}
+
+/// The ends in sight.
+#[derive(Debug, Default)]
+pub(super) struct Tangents {
+    handles: Vec<Handle>,
+}
+
+/// Points from a key to an end.
+const LENGTH: f32 = 44.0;
+/// Keys with ends: more are no help.
+const MOST: usize = 48;
+
+impl Tangents {
+    /// Finds the ends of the selected keys.
+    pub(super) fn update(
+        &mut self,
+        curves: &[Arc<Curve>],
+        drawn: &Drawn,
+        time: &TimeScale,
+        value: &ValueScale,
+        components: u8,
+    ) {
+        self.handles.clear();
+        let mut keys = 0;
+        for curve in curves {
+            let in_sight = keys_between(
+                curve.times(),
+                [time.time_at(value.rect.left()), time.time_at(value.rect.right())],
+            );
+            let chosen = drawn.selection.of(curve.id);
+            if chosen.is_empty() || curve.interpolation() != dragonfly_anim::data::Interpolation::CubicSpline
+            {
+                continue;
+            }
+            for key in in_sight.take(4096).filter(|&key| curve.is_chosen(key, chosen)) {
+                let Some(slopes) = curve.slopes(key) else { continue };
+                keys += 1;
+                if keys > MOST {
+                    return self.handles.clear();
+                }
+                for component in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+                    let center =
+                        egui::pos2(time.x_of(curve.times()[key]), value.y_of(curve.key(key)[component]));
+                    for arrive in [true, false] {
+                        let slope = if arrive { slopes.arrive } else { slopes.leave }[component];
+                        let way = direction(slope, time, value) * if arrive { -LENGTH } else { LENGTH };
+                        let end = center + way;
+                        self.handles.push(Handle {
+                            id: curve.id,
+                            key,
+                            component,
+                            arrive,
+                            center,
+                            end,
+                            slopes,
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    pub(super) fn paint(&self, painter: &Painter, theme: &Theme) {
+        for handle in &self.handles {
+            let color = color(theme, handle.component);
+            painter.line_segment([handle.center, handle.end], Stroke::new(1.0, color.gamma_multiply(0.7)));
+            painter.circle(handle.end, 3.5, theme.sunken, Stroke::new(1.4, color));
+        }
+    }
+
+    /// The end under the pointer.
+    pub(super) fn under(&self, pointer: Pos2, reach: f32) -> Option<Handle> {
+        let near = self.handles.iter().filter(|handle| handle.end.distance(pointer) <= reach);
+        near.min_by(|a, b| a.end.distance(pointer).total_cmp(&b.end.distance(pointer))).copied()
+    }
+
+    /// Where the ends are, for tests and for who looks.
+    #[allow(dead_code, reason = "read by tests beside this file")]
+    pub(super) fn bounds(&self) -> Option<Rect> {
+        self.handles
+            .iter()
+            .map(|handle| Rect::from_two_pos(handle.center, handle.end))
+            .reduce(|a, b| a.union(b))
+    }
+}
+
+/// Which way a curve of this slope runs on the screen, one point long.
+fn direction(slope: f32, time: &TimeScale, value: &ValueScale) -> Vec2 {
+    let way = vec2(time.per_second() as f32, -(f64::from(slope) * value.per_unit()) as f32);
+    let length = way.length();
+    if length.is_finite() && length > 0.0 { way / length } else { vec2(0.0, -slope.signum()) }
+}
+
+impl Handle {
+    /// The slope that brings the end under the pointer, units a second.
+    pub(super) fn slope_at(&self, pointer: Pos2, time: &TimeScale, value: &ValueScale) -> f32 {
+        let way = if self.arrive { self.center - pointer } else { pointer - self.center };
+        // An end stays on its side of the key.
+        let seconds = f64::from(way.x.max(1.0)) / time.per_second();
+        let units = f64::from(-way.y) / value.per_unit();
+        (units / seconds).clamp(-1e6, 1e6) as f32
+    }
+
+    /// The edit that gives this component that slope: on both sides, or on one where `broken`.
+    pub(super) fn edit(&self, take: TakeRef, curve: &Curve, slope: f32, broken: bool) -> Option<Edit> {
+        let with = |mut slopes: [f32; 4]| {
+            slopes[self.component] = slope;
+            slopes
+        };
+        let (here, there) = (self.arrive, !self.arrive);
+        let own = if here { self.slopes.arrive } else { self.slopes.leave };
+        let other = if here { self.slopes.leave } else { self.slopes.arrive };
+        let own = curve.tangent(self.key, here, with(own))?;
+        let other = if broken { None } else { Some(curve.tangent(self.key, there, with(other))?) };
+        let (arrive, leave) = if here { (Some(own), other) } else { (other, Some(own)) };
+        let (bone, property) = self.id;
+        let time = *curve.times().get(self.key)?;
+        Some(Edit::SetTangents { take, time, bone: BoneRef::Index(bone), property, arrive, leave })
+    }
+}

@@ -1,0 +1,58 @@
+//! Values that are dragged or typed: one component of some keys, as an edit.
+
+use super::curve::{Curve, Numbers};
+use super::form::Form;
+use crate::document::edit::{BonePose, BoneRef, Edit, PoseAt, Property, TakeRef};
+use crate::panels::keys::ChannelId;
+use std::collections::BTreeMap;
+
+/// A key with the numbers that it had when a drag began.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ValueKey {
+    pub(super) id: ChannelId,
+    pub(super) time: f32,
+    pub(super) numbers: Numbers,
+    pub(super) form: Form,
+}
+
+impl ValueKey {
+    pub(super) fn of(curve: &Curve, key: usize) -> Option<Self> {
+        let time = *curve.times().get(key)?;
+        Some(Self { id: curve.id, time, numbers: curve.key(key), form: curve.form() })
+    }
+
+    /// The pose that gives it these numbers.
+    pub(super) fn pose(&self, numbers: Numbers) -> BonePose {
+        let mut pose =
+            BonePose { bone: BoneRef::Index(self.id.0), translation: None, rotation: None, scale: None };
+        let vector = Some([numbers[0], numbers[1], numbers[2]]);
+        match self.id.1 {
+            Property::Translation => pose.translation = vector,
+            Property::Scale => pose.scale = vector,
+            Property::Rotation => pose.rotation = Some(self.form.rotation(numbers).to_array()),
+        }
+        pose
+    }
+}
+
+/// Adds `by` to one component of keys; nothing where there are none.
+pub(super) fn value_edit(take: TakeRef, keys: &[ValueKey], component: usize, by: f32) -> Option<Edit> {
+    if !by.is_finite() || component > 3 {
+        return None;
+    }
+    let mut at: BTreeMap<u32, PoseAt> = BTreeMap::new();
+    for key in keys {
+        let mut numbers = key.numbers;
+        numbers[component] += by;
+        let there =
+            at.entry(key.time.to_bits()).or_insert_with(|| PoseAt { time: key.time, poses: Vec::new() });
+        there.poses.push(key.pose(numbers));
+    }
+    let at: Vec<PoseAt> = at.into_values().collect();
+    match at.len() {
+        0 => None,
+        // One time is what every program that reads edits knows.
+        1 => at.into_iter().next().map(|PoseAt { time, poses }| Edit::Set { take, time, poses }),
+        _ => Some(Edit::SetMany { take, at }),
+    }
+}

@@ -1,0 +1,246 @@
+//! Names of rows, and what a bone can be marked with.
+
+use super::ROW;
+use super::place::Places;
+use super::rows::{RowKind, Rows};
+use crate::control::bones::Choice;
+use crate::panels::commands::{self, Id};
+use crate::panels::icons::Icon;
+use crate::panels::keys::{BoneFlag, KeysRequest};
+use crate::panels::state::{Request, State};
+use crate::panels::style::RADIUS;
+use crate::panels::theme::Theme;
+use crate::panels::widgets;
+use dragonfly_anim::data::BoneIndex;
+use egui::accesskit::Role;
+use egui::{
+    Align2, CornerRadius, FontId, Rect, Sense, Shape, Stroke, TextEdit, TextStyle, Ui, WidgetInfo, pos2, vec2,
+};
+
+/// Width of the mark of a bone.
+const FLAG: f32 = 17.0;
+
+/// Draws the names of the rows in sight.
+pub(super) fn show(
+    ui: &mut Ui,
+    places: &Places,
+    scroll: f32,
+    rows: &mut Rows,
+    state: &State,
+    requests: &mut Vec<Request>,
+) {
+    let names = places.names;
+    let first = (scroll / ROW).floor().max(0.0) as usize;
+    let last = ((scroll + names.height()) / ROW).ceil().max(0.0) as usize;
+    let list = std::sync::Arc::clone(rows.list());
+    let clip = ui.clip_rect();
+    ui.set_clip_rect(names.intersect(clip));
+    let mut toggled = None;
+    for (at, row) in list.iter().enumerate().take(last).skip(first) {
+        let top = names.top() - scroll + at as f32 * ROW;
+        let rect = Rect::from_min_max(pos2(names.left(), top), pos2(names.right(), top + ROW));
+        let theme = Theme::of(ui);
+        match row.kind {
+            RowKind::Bone(bone) => {
+                if let Some(bone) = bone_row(ui, rect, bone, &row.name, row.open, state, requests) {
+                    toggled = Some(bone);
+                }
+            }
+            RowKind::Summary => {
+                let text = Rect::from_min_max(
+                    pos2(rect.left() + 12.0, rect.top()),
+                    pos2(rect.right() - 8.0, rect.bottom()),
+                );
+                widgets::text_in(ui, text, &row.name, &TextStyle::Small, theme.weak);
+            }
+            RowKind::Channel(..) | RowKind::Morphs => {
+                let indent = if row.kind == RowKind::Morphs { 12.0 } else { 36.0 };
+                let text = Rect::from_min_max(
+                    pos2(rect.left() + indent, rect.top()),
+                    pos2(rect.right() - 8.0, rect.bottom()),
+                );
+                widgets::text_in(ui, text, &row.name, &TextStyle::Small, theme.faint);
+            }
+        }
+    }
+    ui.set_clip_rect(clip);
+    if let Some(bone) = toggled {
+        rows.toggle(bone);
+    }
+}
+
+/// A bone: opened by the triangle, selected by its name, marked at the right; the bone whose triangle was clicked.
+fn bone_row(
+    ui: &mut Ui,
+    rect: Rect,
+    bone: BoneIndex,
+    name: &str,
+    open: bool,
+    state: &State,
+    requests: &mut Vec<Request>,
+) -> Option<BoneIndex> {
+    let theme = Theme::of(ui);
+    let visible = rect.intersect(ui.clip_rect());
+    if visible.height() < 4.0 {
+        return None;
+    }
+    let over = ui.rect_contains_pointer(visible);
+    let wide = rect.width() > 150.0;
+    let flags = if wide { 3.0 * FLAG + 8.0 } else { 6.0 };
+    let label =
+        Rect::from_min_max(pos2(rect.left() + 28.0, rect.top()), pos2(rect.right() - flags, rect.bottom()));
+    let response = ui.interact(label.intersect(visible), ui.scope_id().with(("bone", bone)), Sense::click());
+    let selected = state.selection.contains(bone);
+    response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("Keys of {name}")));
+    widgets::focus_ring(ui, &response, label);
+    let color = match () {
+        () if state.keys.flags.locked(bone) => theme.faint,
+        () if selected => theme.accent,
+        () => theme.text,
+    };
+    widgets::text_in(ui, label, name, &TextStyle::Small, color);
+    if response.hovered() {
+        requests.push(Request::Hover(bone));
+    }
+    if response.clicked() {
+        let modifiers = ui.input(|input| input.modifiers);
+        let choice = if modifiers.command {
+            Choice::Toggle
+        } else if modifiers.shift {
+            Choice::Add
+        } else {
+            Choice::Replace
+        };
+        requests.push(Request::SelectBones(vec![bone], choice));
+    }
+
+    let triangle =
+        Rect::from_min_max(pos2(rect.left() + 8.0, rect.top()), pos2(rect.left() + 26.0, rect.bottom()));
+    let arrow = ui.interact(triangle.intersect(visible), ui.scope_id().with(("open", bone)), Sense::click());
+    let verb = if open { "Close" } else { "Open" };
+    arrow.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{verb} {name}")));
+    let (center, tone) = (triangle.center(), if arrow.hovered() { theme.text } else { theme.faint });
+    let corners = if open {
+        vec![center + vec2(-4.0, -2.0), center + vec2(4.0, -2.0), center + vec2(0.0, 3.0)]
+    } else {
+        vec![center + vec2(-2.0, -4.0), center + vec2(3.0, 0.0), center + vec2(-2.0, 4.0)]
+    };
+    ui.painter().add(Shape::convex_polygon(corners, tone, Stroke::NONE));
+    widgets::focus_ring(ui, &arrow, triangle);
+
+    if wide {
+        for (at, flag) in BoneFlag::ALL.into_iter().enumerate() {
+            let left = rect.right() - 6.0 - FLAG * (3 - at) as f32;
+            let place = Rect::from_min_size(pos2(left, rect.top() + 1.5), vec2(FLAG, ROW - 3.0));
+            mark(ui, place.intersect(visible), flag, bone, name, over, state, requests);
+        }
+    }
+    arrow.clicked().then_some(bone)
+}
+
+/// One mark of a bone: a letter, faint until the row is under the pointer or the mark is set.
+#[allow(clippy::too_many_arguments, reason = "a small button that says what it is about")]
+fn mark(
+    ui: &mut Ui,
+    rect: Rect,
+    flag: BoneFlag,
+    bone: BoneIndex,
+    name: &str,
+    over: bool,
+    state: &State,
+    requests: &mut Vec<Request>,
+) {
+    let theme = Theme::of(ui);
+    let on = state.keys.flags.has(flag, bone);
+    let response = ui.interact(rect, ui.scope_id().with((flag.name(), bone)), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, format!("{} {name}", flag.name())));
+    if on || over || response.has_focus() {
+        let color = match flag {
+            _ if !on => theme.faint,
+            BoneFlag::Mute => theme.error,
+            BoneFlag::Solo => theme.warning,
+            BoneFlag::Lock => theme.accent,
+        };
+        if response.hovered() {
+            ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.hover);
+        }
+        let letter = flag.name().get(..1).unwrap_or_default();
+        ui.painter().text(rect.center(), Align2::CENTER_CENTER, letter, FontId::proportional(10.5), color);
+        widgets::focus_ring(ui, &response, rect);
+    }
+    if response.on_hover_text(format!("{}\n{}", flag.name(), flag.help())).clicked() {
+        requests.push(Request::Timeline(KeysRequest::Flag(flag, bone, !on)));
+    }
+}
+
+/// Over the names: a search field, and what the rows and drags follow.
+pub(super) fn tools(
+    ui: &mut Ui,
+    places: &Places,
+    filter: &mut String,
+    state: &State,
+    requests: &mut Vec<Request>,
+) {
+    let rect = places.tools;
+    if rect.width() < 150.0 || rect.height() < 20.0 {
+        return;
+    }
+    let buttons = 3.0 * 22.0;
+    let field = Rect::from_min_max(
+        pos2(rect.left() + 8.0, rect.top() + 2.0),
+        pos2(rect.right() - buttons - 8.0, rect.bottom() - 2.0),
+    );
+    if *filter != state.keys.filter {
+        filter.clone_from(&state.keys.filter);
+    }
+    let edit = TextEdit::singleline(filter)
+        .font(TextStyle::Small)
+        .hint_text("Filter bones")
+        .margin(egui::Margin { left: 6, right: 6, top: 2, bottom: 2 });
+    let usual = std::mem::replace(&mut ui.spacing_mut().interact_size.y, field.height());
+    let response = ui.put(field, edit);
+    ui.spacing_mut().interact_size.y = usual;
+    response.widget_info(|| WidgetInfo::text_edit(true, "", filter.as_str(), "Filter bones of the timeline"));
+    if response.changed() {
+        requests.push(Request::Timeline(KeysRequest::Filter(filter.clone())));
+    }
+    let mut left = rect.right() - buttons - 2.0;
+    let mut button = |ui: &mut Ui, icon: Icon, name: &str, help: String, on: bool| {
+        let place = Rect::from_min_size(pos2(left, rect.top() + 1.0), vec2(22.0, 22.0));
+        left += 22.0;
+        let response = ui.interact(place, ui.scope_id().with(name), Sense::click());
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
+        let theme = Theme::of(ui);
+        let color = if on {
+            theme.accent
+        } else if response.hovered() {
+            theme.text
+        } else {
+            theme.weak
+        };
+        if response.hovered() {
+            ui.painter().rect_filled(place, CornerRadius::same(RADIUS), theme.hover);
+        }
+        icon.paint(ui.painter(), place, color);
+        widgets::focus_ring(ui, &response, place);
+        response.on_hover_text(help).clicked()
+    };
+    let only = state.keys.only_selected;
+    if button(
+        ui,
+        Icon::Bone,
+        "Selected bones only",
+        "Selected bones only\nLists the selected bones, where any are selected".to_owned(),
+        only,
+    ) {
+        requests.push(Request::Timeline(KeysRequest::OnlySelected(!only)));
+    }
+    let snap = commands::tooltip(ui.ctx(), Id::ToggleSnap);
+    if button(ui, Icon::Snap, "Snap", snap, state.keys.snap) {
+        requests.push(Request::Command(Id::ToggleSnap));
+    }
+    let fit = commands::tooltip(ui.ctx(), Id::FitKeys);
+    if button(ui, Icon::Fit, "Fit the timeline", fit, false) {
+        requests.push(Request::Command(Id::FitKeys));
+    }
+}

@@ -1,0 +1,142 @@
+//! The lane of markers below the ruler.
+
+use super::head::to_frame;
+use super::place::Places;
+use crate::panels::keys::{KeysRequest, MarkerDeed, TimeScale};
+use crate::panels::state::{Request, State};
+use crate::panels::theme::Theme;
+use crate::panels::widgets;
+use egui::{
+    Button, CornerRadius, CursorIcon, PointerButton, Rect, Sense, Shape, Stroke, TextEdit, TextStyle, Ui,
+    WidgetInfo, pos2, vec2,
+};
+
+/// What is held or renamed.
+#[derive(Debug, Default)]
+pub(super) struct MarkerLane {
+    renaming: Option<(usize, String, bool)>,
+    /// A marker on its way: it moves when it is let go, so that the order stays while it is held.
+    held: Option<(usize, f32)>,
+}
+
+impl MarkerLane {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        places: &Places,
+        scale: &TimeScale,
+        state: &State,
+        requests: &mut Vec<Request>,
+    ) {
+        let lane = places.markers;
+        if lane.height() < 4.0 {
+            (self.renaming, self.held) = (None, None);
+            return;
+        }
+        let theme = Theme::of(ui);
+        ui.painter().rect_filled(lane, CornerRadius::ZERO, theme.bar);
+        let painter = ui.painter().with_clip_rect(lane);
+        let markers = state.markers();
+        let mut ask = |deed: MarkerDeed| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
+        let mut seek = None;
+        for (index, marker) in markers.iter().enumerate() {
+            let time = self.held.filter(|(held, _)| *held == index).map_or(marker.time, |(_, time)| time);
+            let x = scale.x_of(time);
+            let end = markers.get(index + 1).map_or(f32::INFINITY, |next| scale.x_of(next.time));
+            let grip = Rect::from_min_max(
+                pos2(x - 5.0, lane.top()),
+                pos2((x + 64.0).min(end - 5.0).max(x + 6.0), lane.bottom()),
+            );
+            if grip.right() < lane.left() || grip.left() > lane.right() {
+                continue;
+            }
+            let response = ui.interact(
+                grip.intersect(lane),
+                ui.scope_id().with(("marker", index)),
+                Sense::click_and_drag(),
+            );
+            response.widget_info(|| {
+                WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Marker {}", marker.name))
+            });
+            let lit = response.hovered() || response.dragged();
+            let color = if lit { theme.warning } else { theme.warning.gamma_multiply(0.85) };
+            let flag =
+                vec![pos2(x, lane.top() + 2.0), pos2(x + 6.0, lane.top() + 5.5), pos2(x, lane.top() + 9.0)];
+            painter.vline(x, lane.y_range(), Stroke::new(1.0, color));
+            painter.add(Shape::convex_polygon(flag, color, Stroke::NONE));
+            let name = Rect::from_min_max(
+                pos2(x + 9.0, lane.top()),
+                pos2((end - 6.0).min(lane.right()), lane.bottom()),
+            );
+            if name.width() > 12.0 {
+                widgets::text_in(ui, name, &marker.name, &TextStyle::Small, theme.weak);
+            }
+            let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(format!(
+                "{}\n{time:.3} s\nClick to go there, drag to move, double click to rename",
+                marker.name
+            ));
+            if response.clicked_by(PointerButton::Primary) {
+                seek = Some(marker.time);
+            }
+            if response.double_clicked() {
+                self.renaming = Some((index, marker.name.clone(), true));
+            }
+            if response.dragged_by(PointerButton::Primary)
+                && let Some(pointer) = response.interact_pointer_pos()
+            {
+                let snap = state.keys.snap != ui.input(|input| input.modifiers.command);
+                let time = scale.time_at(pointer.x);
+                let time = if snap { to_frame(time, state) } else { time };
+                let cancelled =
+                    ui.input(|input| input.pointer.secondary_down() || input.key_down(egui::Key::Escape));
+                self.held = if cancelled { None } else { Some((index, time)) };
+            }
+            if response.drag_stopped()
+                && let Some((index, time)) = self.held.take()
+            {
+                ask(MarkerDeed::Move(index, time));
+            }
+            response.context_menu(|ui| {
+                if ui.add(Button::new("Rename").frame_when_inactive(false)).clicked() {
+                    self.renaming = Some((index, marker.name.clone(), true));
+                    ui.close();
+                }
+                if ui.add(Button::new("Delete marker").frame_when_inactive(false)).clicked() {
+                    ask(MarkerDeed::Delete(index));
+                    ui.close();
+                }
+            });
+        }
+        if let Some(deed) = self.rename(ui, lane, scale, state) {
+            ask(deed);
+        }
+        if let Some(time) = seek {
+            requests.push(Request::Seek(time));
+        }
+    }
+
+    /// The field in which a name is typed.
+    fn rename(&mut self, ui: &mut Ui, lane: Rect, scale: &TimeScale, state: &State) -> Option<MarkerDeed> {
+        let (index, name, fresh) = self.renaming.as_mut()?;
+        let Some(marker) = state.markers().get(*index) else {
+            self.renaming = None;
+            return None;
+        };
+        let left = scale.x_of(marker.time).clamp(lane.left(), (lane.right() - 120.0).max(lane.left()));
+        let rect = Rect::from_min_size(pos2(left, lane.top() - 3.0), vec2(120.0, lane.height() + 6.0));
+        let response = ui.put(rect, TextEdit::singleline(name).font(TextStyle::Small).hint_text("Name"));
+        response.widget_info(|| {
+            WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Name of the marker")
+        });
+        if std::mem::take(fresh) {
+            response.request_focus();
+            return None;
+        }
+        if !response.lost_focus() {
+            return None;
+        }
+        let (index, name, _) = self.renaming.take()?;
+        let kept = !ui.input(|input| input.key_down(egui::Key::Escape));
+        kept.then_some(MarkerDeed::Rename(index, name))
+    }
+}

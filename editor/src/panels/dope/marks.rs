@@ -1,0 +1,259 @@
+//! Keys as triangles: made once for what is seen, and used again until something of it changes.
+
+use super::ROW;
+use super::place::Places;
+use super::rows::{Row, RowKind, Rows};
+use crate::panels::keys::columns::Columns;
+use crate::panels::keys::intervals::Intervals;
+use crate::panels::keys::{Drawn, KeySelection, Shift, TimeScale, channel};
+use crate::panels::state::State;
+use crate::panels::theme::Theme;
+use dragonfly_anim::data::Take;
+use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
+use std::sync::Arc;
+
+/// The triangles of all keys in sight.
+#[derive(Debug, Default)]
+pub(super) struct KeysMesh {
+    made_of: Option<MadeOf>,
+    mesh: Arc<Mesh>,
+    plain: Columns,
+    chosen: Columns,
+    marks: Vec<Mark>,
+    /// Selected keys, counted when the selection changed.
+    count: Option<(KeySelection, Arc<Take>, usize)>,
+}
+
+/// Everything that the triangles follow from.
+#[derive(Debug)]
+struct MadeOf {
+    drawn: Drawn,
+    rows: Arc<[Row]>,
+    scale: TimeScale,
+    canvas: Rect,
+    scroll: f32,
+    pixels_per_point: f32,
+    dark: bool,
+    flags: u64,
+}
+
+/// A key, or several in one column of pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Mark {
+    /// Points.
+    pub(super) x: f32,
+    /// Is one of them selected?
+    pub(super) chosen: bool,
+}
+
+/// Points: keys closer than this to each other are drawn as one band.
+const DENSE: f32 = 6.0;
+/// Points from the middle of a diamond to its corner.
+const RADIUS: f32 = 4.5;
+
+impl KeysMesh {
+    /// How many keys are selected.
+    pub(super) fn selected(&self) -> usize {
+        self.count.as_ref().map_or(0, |(_, _, count)| *count)
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "what is drawn follows from all of it")]
+    pub(super) fn paint(
+        &mut self,
+        painter: &Painter,
+        places: &Places,
+        scroll: f32,
+        rows: &Rows,
+        scale: &TimeScale,
+        drawn: &Drawn,
+        state: &State,
+        theme: &Theme,
+    ) {
+        let live = &state.keys.selection;
+        if let Some(take) = state.shared_take()
+            && !self
+                .count
+                .as_ref()
+                .is_some_and(|(selection, of, _)| selection.same(live) && Arc::ptr_eq(of, take))
+        {
+            self.count = Some((live.clone(), Arc::clone(take), live.count(take)));
+        }
+        let made_of = MadeOf {
+            drawn: drawn.clone(),
+            rows: Arc::clone(rows.list()),
+            scale: *scale,
+            canvas: places.canvas,
+            scroll,
+            pixels_per_point: painter.pixels_per_point(),
+            dark: theme.dark,
+            flags: state.keys.flags.version(),
+        };
+        let same = self.made_of.as_ref().is_some_and(|old| old.same(&made_of));
+        if !same {
+            self.made_of = Some(made_of);
+            self.make(places, scroll, rows, scale, drawn, state, theme, painter.pixels_per_point());
+        }
+        painter
+            .with_clip_rect(places.canvas.intersect(painter.clip_rect()))
+            .add(Shape::Mesh(Arc::clone(&self.mesh)));
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "as above")]
+    fn make(
+        &mut self,
+        places: &Places,
+        scroll: f32,
+        rows: &Rows,
+        scale: &TimeScale,
+        drawn: &Drawn,
+        state: &State,
+        theme: &Theme,
+        pixels_per_point: f32,
+    ) {
+        let mut mesh = Mesh::default();
+        let canvas = places.canvas;
+        let pen = Pen { feather: 1.0 / pixels_per_point };
+        let first = (scroll / ROW).floor().max(0.0) as usize;
+        let last = ((scroll + canvas.height()) / ROW).ceil().max(0.0) as usize;
+        // Wider than the canvas, so that a diamond whose middle is outside is not cut.
+        let (left, right) = (canvas.left() - RADIUS, canvas.right() + RADIUS);
+        for (at, row) in rows.list().iter().enumerate().take(last).skip(first) {
+            self.plain.reset(*scale, left, right, pixels_per_point);
+            self.chosen.reset(*scale, left, right, pixels_per_point);
+            let none = Intervals::none();
+            for &id in rows.of(row.kind) {
+                let times = channel::times(&drawn.take, id);
+                let selected = drawn.selection.of(id);
+                let stay = if drawn.copies { &none } else { selected };
+                self.plain.mark(times, stay, false, Shift::NONE);
+                self.chosen.mark(times, selected, true, drawn.shift);
+            }
+            if row.kind == RowKind::Morphs {
+                for morph in &drawn.take.morphs {
+                    self.plain.mark(&morph.times, &none, false, Shift::NONE);
+                }
+            }
+            let color = match row.kind {
+                RowKind::Summary => theme.weak,
+                RowKind::Morphs => theme.faint,
+                RowKind::Bone(bone) | RowKind::Channel(bone, _) if state.keys.flags.locked(bone) => {
+                    theme.faint
+                }
+                RowKind::Bone(_) => theme.key,
+                RowKind::Channel(..) => theme.key.gamma_multiply(0.85),
+            };
+            let y = canvas.top() - scroll + (at as f32 + 0.5) * ROW;
+            merge(&self.plain, &self.chosen, &mut self.marks);
+            pen.row(&mut mesh, &self.marks, y, [color, theme.accent]);
+        }
+        self.mesh = Arc::new(mesh);
+    }
+}
+
+impl MadeOf {
+    /// The same, without looking into what is shared.
+    fn same(&self, other: &Self) -> bool {
+        let (a, b) = (&self.drawn, &other.drawn);
+        Arc::ptr_eq(&a.take, &b.take)
+            && a.selection.same(&b.selection)
+            && (a.shift, a.copies) == (b.shift, b.copies)
+            && Arc::ptr_eq(&self.rows, &other.rows)
+            && (self.scale, self.canvas, self.scroll) == (other.scale, other.canvas, other.scroll)
+            && (self.pixels_per_point, self.dark, self.flags)
+                == (other.pixels_per_point, other.dark, other.flags)
+    }
+}
+
+/// Both kinds in one list, ascending; where both share a column it counts as selected.
+fn merge(plain: &Columns, chosen: &Columns, out: &mut Vec<Mark>) {
+    out.clear();
+    let mut chosen = chosen.marks().peekable();
+    let mut push = |mark: Mark| match out.last_mut() {
+        Some(last) if mark.x - last.x < 0.75 => last.chosen |= mark.chosen,
+        _ => out.push(mark),
+    };
+    for x in plain.marks() {
+        while let Some(x) = chosen.next_if(|&other| other <= x) {
+            push(Mark { x, chosen: true });
+        }
+        push(Mark { x, chosen: false });
+    }
+    chosen.for_each(|x| push(Mark { x, chosen: true }));
+}
+
+/// Draws marks into a mesh.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::panels) struct Pen {
+    /// Points over which an edge fades.
+    pub(in crate::panels) feather: f32,
+}
+
+impl Pen {
+    fn row(self, mesh: &mut Mesh, marks: &[Mark], y: f32, colors: [Color32; 2]) {
+        let color = |mark: &Mark| colors[usize::from(mark.chosen)];
+        let mut at = 0;
+        while at < marks.len() {
+            let mut end = at + 1;
+            while end < marks.len() && marks[end].x - marks[end - 1].x < DENSE {
+                end += 1;
+            }
+            let run = &marks[at..end];
+            if run.len() < 4 {
+                for mark in run {
+                    self.diamond(mesh, pos2(mark.x, y), RADIUS, color(mark));
+                }
+            } else {
+                self.band(mesh, run, y, colors);
+            }
+            at = end;
+        }
+    }
+
+    /// Keys that cannot be told apart: a band, in parts of one colour, with a line where a key still can be seen.
+    fn band(self, mesh: &mut Mesh, run: &[Mark], y: f32, colors: [Color32; 2]) {
+        let mut at = 0;
+        while at < run.len() {
+            let chosen = run[at].chosen;
+            let mut end = at + 1;
+            while end < run.len() && run[end].chosen == chosen {
+                end += 1;
+            }
+            let right = if end < run.len() { run[end].x - 1.0 } else { run[end - 1].x + 1.0 };
+            let rect =
+                Rect::from_min_max(pos2(run[at].x - 1.0, y - 4.0), pos2(right.max(run[at].x), y + 4.0));
+            let color = colors[usize::from(chosen)];
+            mesh.add_colored_rect(rect, color.gamma_multiply(0.45));
+            // Lines that touch are one.
+            let mut lines = run[at..end].iter().map(|mark| mark.x).peekable();
+            while let Some(first) = lines.next() {
+                let mut last = first;
+                while let Some(next) = lines.next_if(|&next| next - last < 1.5) {
+                    last = next;
+                }
+                let line = Rect::from_min_max(pos2(first - 0.5, y - 4.0), pos2(last + 0.5, y + 4.0));
+                mesh.add_colored_rect(line, color.gamma_multiply(0.6));
+            }
+            at = end;
+        }
+    }
+
+    /// A diamond with soft edges.
+    pub(in crate::panels) fn diamond(self, mesh: &mut Mesh, center: Pos2, radius: f32, color: Color32) {
+        let first = mesh.vertices.len() as u32;
+        let corners = [vec2(0.0, -1.0), vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(-1.0, 0.0)];
+        let half = self.feather * std::f32::consts::FRAC_1_SQRT_2;
+        for corner in corners {
+            mesh.colored_vertex(center + corner * (radius - half), color);
+        }
+        for corner in corners {
+            mesh.colored_vertex(center + corner * (radius + half), Color32::TRANSPARENT);
+        }
+        mesh.add_triangle(first, first + 1, first + 2);
+        mesh.add_triangle(first, first + 2, first + 3);
+        for side in 0..4 {
+            let (a, b) = (first + side, first + (side + 1) % 4);
+            mesh.add_triangle(a, b, b + 4);
+            mesh.add_triangle(a, b + 4, a + 4);
+        }
+    }
+}

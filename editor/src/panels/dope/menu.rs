@@ -1,0 +1,65 @@
+//! The menu of keys, at the right button.
+
+use super::hand::Hand;
+use crate::document::Change;
+use crate::document::edit::{BoneRef, Edit, NewKey};
+use crate::panels::commands::Id;
+use crate::panels::menu::item;
+use crate::panels::state::{Request, State};
+use egui::{Button, Response, Ui};
+
+/// See the module.
+#[derive(Debug, Default)]
+pub(super) struct KeyMenu;
+
+impl KeyMenu {
+    pub(super) fn show(&self, canvas: &Response, hand: &Hand, state: &State, requests: &mut Vec<Request>) {
+        // The right button that takes a drag back opens nothing.
+        if hand.is_busy() {
+            return;
+        }
+        canvas.context_menu(|ui| show(ui, state, requests));
+    }
+}
+
+/// The entries: for the dope sheet and for the curves.
+pub(in crate::panels) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let button = Button::new("Add keys at the playhead").frame_when_inactive(false);
+    let hint = "Keys that keep the motion: of the selected bones, or of all";
+    if ui.add_enabled(state.take().is_some(), button).on_hover_text(hint).clicked() {
+        requests.extend(add_keys(state));
+        ui.close();
+    }
+    for id in [Id::DuplicateKeys, Id::DeleteKeys, Id::SnapKeys] {
+        item(ui, state, id, false, requests);
+    }
+    ui.separator();
+    for id in [Id::InterpolateStep, Id::InterpolateLinear, Id::InterpolateSpline] {
+        item(ui, state, id, false, requests);
+    }
+    ui.separator();
+    for id in [Id::KeysSlower, Id::KeysFaster, Id::KeysReverse] {
+        item(ui, state, id, false, requests);
+    }
+    ui.separator();
+    for id in [Id::RippleOpen, Id::RippleClose] {
+        item(ui, state, id, false, requests);
+    }
+    ui.separator();
+    for id in [Id::SelectAllKeys, Id::RangeOfKeys, Id::FitKeys] {
+        item(ui, state, id, false, requests);
+    }
+}
+
+/// Keys at the time shown that leave the motion as it is.
+fn add_keys(state: &State) -> Option<Request> {
+    let bones = state.selection.bones().iter().map(|&bone| BoneRef::Index(bone)).collect();
+    let edit = Edit::AddKeys {
+        take: state.take_ref()?,
+        time: state.time(),
+        bones,
+        properties: Vec::new(),
+        value: NewKey::Current,
+    };
+    Some(Request::Change(Change::Edit(edit, None)))
+}

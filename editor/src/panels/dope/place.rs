@@ -1,0 +1,62 @@
+//! Where the parts of the dope sheet are.
+
+use crate::panels::state::State;
+use egui::{Rect, pos2};
+
+/// See the module, in points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Places {
+    /// Everything.
+    pub(super) all: Rect,
+    /// Over the names: search field and switches.
+    pub(super) tools: Rect,
+    /// The ruler.
+    pub(super) head: Rect,
+    /// Markers; no height where there are none.
+    pub(super) markers: Rect,
+    /// The bar over the selected keys.
+    pub(super) bar: Rect,
+    /// Names of rows.
+    pub(super) names: Rect,
+    /// Keys.
+    pub(super) canvas: Rect,
+}
+
+/// Height of the ruler.
+pub(in crate::panels) const RULER: f32 = 24.0;
+/// Height of the lane of markers.
+const MARKERS: f32 = 16.0;
+/// Height of the bar over the selected keys.
+const BAR: f32 = 8.0;
+/// Room before the start and after the end of the take.
+pub(super) const ROOM: f32 = 16.0;
+pub(super) const ROOM_RIGHT: f32 = 20.0;
+/// Height and width of scroll bars.
+pub(super) const SCROLL: f32 = 8.0;
+
+impl Places {
+    pub(super) fn of(all: Rect, state: &State) -> Self {
+        // A narrow panel keeps at least half of itself for keys.
+        let gutter = if all.width() < 480.0 { (all.width() * 0.3).clamp(64.0, 120.0) } else { 192.0 };
+        let left = all.left() + gutter;
+        let lane = |top: f32, height: f32| {
+            Rect::from_min_max(
+                pos2(left, top.min(all.bottom())),
+                pos2(all.right(), (top + height).min(all.bottom())),
+            )
+        };
+        let head = lane(all.top(), RULER);
+        let markers = lane(head.bottom(), if state.markers().is_empty() { 0.0 } else { MARKERS });
+        let bar = lane(markers.bottom(), BAR);
+        let below = all.bottom().max(bar.bottom());
+        Self {
+            all,
+            tools: Rect::from_min_max(all.min, pos2(left, head.bottom())),
+            head,
+            markers,
+            bar,
+            names: Rect::from_min_max(pos2(all.left(), bar.bottom()), pos2(left, below)),
+            canvas: Rect::from_min_max(pos2(left, bar.bottom()), pos2(all.right(), below)),
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! The rows of the dope sheet: which there are, and the channels of each.
+
+use crate::document::edit::Property;
+use crate::panels::keys::{self, ChannelId, channel};
+use crate::panels::state::State;
+use dragonfly_anim::data::{BoneIndex, Take};
+use std::collections::HashSet;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// What a row shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum RowKind {
+    /// All bones that are listed.
+    Summary,
+    /// A bone.
+    Bone(BoneIndex),
+    /// One of its channels.
+    Channel(BoneIndex, Property),
+    /// Weights of shapes, which are shown and not edited.
+    Morphs,
+}
+
+/// One row.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Row {
+    /// What it shows.
+    pub(super) kind: RowKind,
+    /// Its name.
+    pub(super) name: String,
+    /// Of a bone: are its channels listed?
+    pub(super) open: bool,
+}
+
+/// See the module; made anew only when something that it follows from changed.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    list: Arc<[Row]>,
+    /// Of the listed bones, in their order.
+    channels: Arc<[ChannelId]>,
+    /// Bones that a hand opened or closed.
+    toggled: HashSet<BoneIndex>,
+    made_of: Option<MadeOf>,
+    looked_at: Option<(Arc<Take>, u64)>,
+}
+
+#[derive(PartialEq)]
+struct MadeOf {
+    model: usize,
+    signature: u64,
+    selected: Vec<BoneIndex>,
+    only_selected: bool,
+    filter: String,
+    toggled: usize,
+}
+
+impl std::fmt::Debug for MadeOf {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "MadeOf({:x})", self.signature)
+    }
+}
+
+impl Rows {
+    /// Makes them anew where they are not those of `take` any more.
+    pub(super) fn update(&mut self, state: &State, take: &Arc<Take>) {
+        let signature = match &self.looked_at {
+            Some((looked_at, signature)) if Arc::ptr_eq(looked_at, take) => *signature,
+            _ => signature(take),
+        };
+        self.looked_at = Some((Arc::clone(take), signature));
+        let model = state.view.as_ref().map_or(0, |view| Arc::as_ptr(&view.loaded) as usize);
+        if self.made_of.as_ref().is_some_and(|made_of| made_of.model != model) {
+            self.toggled.clear();
+        }
+        let same = self.made_of.as_ref().is_some_and(|made_of| {
+            made_of.model == model
+                && made_of.signature == signature
+                && made_of.selected == state.selection.bones()
+                && made_of.only_selected == state.keys.only_selected
+                && made_of.filter == state.keys.filter
+                && made_of.toggled == self.toggled.len()
+        });
+        if same {
+            return;
+        }
+        self.made_of = Some(MadeOf {
+            model,
+            signature,
+            selected: state.selection.bones().to_vec(),
+            only_selected: state.keys.only_selected,
+            filter: state.keys.filter.clone(),
+            toggled: self.toggled.len(),
+        });
+        self.make(state, take);
+    }
+
+    fn make(&mut self, state: &State, take: &Take) {
+        let bones = keys::shown_bones(state);
+        let channels: Vec<ChannelId> = bones.iter().flat_map(|&bone| channel::channels(take, bone)).collect();
+        let mut list = Vec::new();
+        let row = |kind, name: &str, open| Row { kind, name: name.to_owned(), open };
+        if !bones.is_empty() {
+            let name = match bones.len() {
+                1 => "1 bone".to_owned(),
+                count => format!("{count} bones"),
+            };
+            list.push(row(RowKind::Summary, &name, false));
+        }
+        // One or two bones are open at once; a hand can turn that round.
+        let usually = bones.len() <= 2;
+        for &bone in &bones {
+            let open = usually != self.toggled.contains(&bone);
+            list.push(row(RowKind::Bone(bone), &state.bone_name(bone), open));
+            if open {
+                for (bone, property) in channel::channels(take, bone) {
+                    let name = match property {
+                        Property::Translation => "Translation",
+                        Property::Rotation => "Rotation",
+                        Property::Scale => "Scale",
+                    };
+                    list.push(row(RowKind::Channel(bone, property), name, false));
+                }
+            }
+        }
+        if !take.morphs.is_empty() && state.keys.filter.is_empty() {
+            list.push(row(RowKind::Morphs, "Shapes", false));
+        }
+        (self.list, self.channels) = (list.into(), channels.into());
+    }
+
+    /// The rows from top to bottom.
+    pub(super) fn list(&self) -> &Arc<[Row]> {
+        &self.list
+    }
+
+    /// Is there none?
+    pub(super) fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The channels of all bones that are listed.
+    pub(super) fn channels(&self) -> &Arc<[ChannelId]> {
+        &self.channels
+    }
+
+    /// The channels of a row.
+    pub(super) fn of(&self, kind: RowKind) -> &[ChannelId] {
+        match kind {
+            RowKind::Summary => &self.channels,
+            RowKind::Bone(bone) => &self.channels[self.range(bone)],
+            RowKind::Channel(bone, property) => {
+                let range = self.range(bone);
+                let at = self.channels[range.clone()].iter().position(|channel| *channel == (bone, property));
+                at.map_or(&[], |at| std::slice::from_ref(&self.channels[range.start + at]))
+            }
+            RowKind::Morphs => &[],
+        }
+    }
+
+    fn range(&self, bone: BoneIndex) -> Range<usize> {
+        let Some(first) = self.channels.iter().position(|channel| channel.0 == bone) else { return 0..0 };
+        let count = self.channels[first..].iter().take_while(|channel| channel.0 == bone).count();
+        first..first + count
+    }
+
+    /// Opens or closes a bone.
+    pub(super) fn toggle(&mut self, bone: BoneIndex) {
+        if !self.toggled.remove(&bone) {
+            self.toggled.insert(bone);
+        }
+        self.made_of = None;
+    }
+}
+
+/// Which channels of a take have keys at all.
+fn signature(take: &Take) -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64 ^ u64::from(take.morphs.is_empty());
+    for track in &take.tracks {
+        let has = [track.translation.is_empty(), track.rotation.is_empty(), track.scale.is_empty()];
+        let bits = has.iter().fold(u64::from(track.bone) + 1, |bits, &empty| bits << 1 | u64::from(empty));
+        hash = (hash ^ bits).wrapping_mul(0x0000_0100_0000_01b3);
+    }
+    hash
+}

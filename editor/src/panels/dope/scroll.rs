@@ -1,0 +1,138 @@
+//! Zooming and panning: wheel, middle button, bars.
+
+use super::place::{Places, SCROLL};
+use crate::panels::commands::Id;
+use crate::panels::keys::{KeysRequest, TimeScale};
+use crate::panels::state::Request;
+use crate::panels::theme::Theme;
+use dragonfly_anim::data::Take;
+use egui::{CornerRadius, PointerButton, Rect, Response, Sense, Ui, WidgetInfo, pos2};
+
+/// The wheel over a part that shows time: zooms about the pointer, pans with Shift, steps frames with Alt. Pinching
+/// zooms, two fingers sidewards pan.
+pub(in crate::panels) fn wheel(ui: &Ui, response: &Response, scale: &TimeScale, requests: &mut Vec<Request>) {
+    // Also while another part holds the pointer: a drag can be zoomed into.
+    if !response.contains_pointer() {
+        return;
+    }
+    let (delta, pinch, alt, pointer) = ui.input(|input| {
+        (input.smooth_scroll_delta(), input.zoom_delta(), input.modifiers.alt, input.pointer.hover_pos())
+    });
+    let Some(pointer) = pointer else { return };
+    if alt {
+        let turned = delta.x + delta.y;
+        if turned.abs() > 1.0 {
+            requests.push(Request::Command(if turned > 0.0 { Id::PreviousFrame } else { Id::NextFrame }));
+        }
+        return;
+    }
+    let factor = f64::from((-delta.y * 0.005).exp() / pinch.max(1e-3));
+    let by = -f64::from(scale.seconds(delta.x));
+    if (factor - 1.0).abs() > 1e-6 || by != 0.0 {
+        let about = f64::from(scale.time_at(pointer.x));
+        let window = scale.window.zoomed(about, factor).panned(by);
+        requests.push(Request::Timeline(KeysRequest::Window(Some(window))));
+    }
+}
+
+/// Dragging with the middle button pans; how far the content goes down comes back.
+pub(in crate::panels) fn pan(
+    ui: &Ui,
+    response: &Response,
+    scale: &TimeScale,
+    requests: &mut Vec<Request>,
+) -> f32 {
+    let space = ui.input(|input| input.modifiers.alt && input.modifiers.shift);
+    let pans =
+        response.dragged_by(PointerButton::Middle) || (space && response.dragged_by(PointerButton::Primary));
+    let delta = response.drag_delta();
+    if !pans || delta == egui::Vec2::ZERO {
+        return 0.0;
+    }
+    ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
+    if delta.x != 0.0 {
+        let window = scale.window.panned(-f64::from(scale.seconds(delta.x)));
+        requests.push(Request::Timeline(KeysRequest::Window(Some(window))));
+    }
+    delta.y
+}
+
+/// Both bars, where something is out of sight.
+pub(super) fn show(
+    ui: &Ui,
+    places: &Places,
+    scroll: &mut f32,
+    content: f32,
+    scale: &TimeScale,
+    take: &Take,
+    requests: &mut Vec<Request>,
+) {
+    let canvas = places.canvas;
+    if content > canvas.height() + 0.5 && canvas.height() > 24.0 {
+        let track = Rect::from_min_max(pos2(canvas.right() - SCROLL, canvas.top()), canvas.max);
+        let part = canvas.height() / content;
+        let moved = bar(ui, track, true, *scroll / content, part, "Scroll through bones");
+        *scroll = (*scroll + moved * content).clamp(0.0, content - canvas.height());
+        let over = ui.rect_contains_pointer(places.names);
+        if over {
+            *scroll -= ui.input(|input| input.smooth_scroll_delta().y);
+            *scroll = scroll.clamp(0.0, content - canvas.height());
+        }
+    }
+    time_bar(ui, canvas, scale, take, requests);
+}
+
+/// The bar for time at the lower edge of `canvas`, where not all of the take is in sight.
+pub(in crate::panels) fn time_bar(
+    ui: &Ui,
+    canvas: Rect,
+    scale: &TimeScale,
+    take: &Take,
+    requests: &mut Vec<Request>,
+) {
+    let (first, last) = (f64::from(take.start), f64::from(take.end()));
+    let window = scale.window;
+    let all = (first.min(window.start), last.max(window.start + window.length));
+    let whole = all.1 - all.0;
+    if window.length >= whole * 0.999 || canvas.height() < 24.0 || !whole.is_finite() || whole <= 0.0 {
+        return;
+    }
+    let track = Rect::from_min_max(
+        pos2(canvas.left(), canvas.bottom() - SCROLL),
+        pos2(canvas.right() - SCROLL, canvas.bottom()),
+    );
+    let at = ((window.start - all.0) / whole) as f32;
+    let moved = bar(ui, track, false, at, (window.length / whole) as f32, "Scroll through time");
+    if moved != 0.0 {
+        let panned = window.panned(f64::from(moved) * whole);
+        requests.push(Request::Timeline(KeysRequest::Window(Some(panned))));
+    }
+}
+
+/// A bar that shows `part` of a whole from `at` on, both 0..1; how far it was dragged, as a part of the whole.
+fn bar(ui: &Ui, track: Rect, vertical: bool, at: f32, part: f32, name: &'static str) -> f32 {
+    let theme = Theme::of(ui);
+    let length = if vertical { track.height() } else { track.width() };
+    let size = (part * length).clamp(16.0_f32.min(length), length);
+    let start = at.clamp(0.0, 1.0) * (length - size) / (1.0 - part).max(1e-3);
+    let start = start.clamp(0.0, (length - size).max(0.0));
+    let handle = if vertical {
+        Rect::from_min_max(
+            pos2(track.left() + 2.0, track.top() + start),
+            pos2(track.right() - 2.0, track.top() + start + size),
+        )
+    } else {
+        Rect::from_min_max(
+            pos2(track.left() + start, track.top() + 2.0),
+            pos2(track.left() + start + size, track.bottom() - 2.0),
+        )
+    };
+    let response = ui.interact(handle.expand(2.0), ui.scope_id().with(name), Sense::drag());
+    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::ScrollBar, true, name));
+    let lit = response.hovered() || response.dragged();
+    let color = if lit { theme.weak } else { theme.faint.gamma_multiply(0.6) };
+    ui.painter().rect_filled(handle, CornerRadius::same(2), color);
+    let delta = response.drag_delta();
+    let moved = if vertical { delta.y } else { delta.x };
+    if response.dragged_by(PointerButton::Primary) && moved != 0.0 { moved / length.max(1.0) } else { 0.0 }
+}

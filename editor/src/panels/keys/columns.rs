@@ -1,0 +1,195 @@
+//! Keys as columns of pixels: whatever the number of keys, a row costs as much as it is wide.
+
+use super::intervals::Intervals;
+use super::shift::Shift;
+use super::window::TimeScale;
+
+/// Which columns of pixels have a key, and where in it the first one lies.
+///
+/// Channel after channel is marked; a column that has a key already is not asked again, so many channels with the same
+/// dense keys cost little more than one.
+#[derive(Debug, Default)]
+pub struct Columns {
+    /// Points; NaN where the column has no key.
+    x: Vec<f32>,
+    /// The first column at or after this one that has no key yet, as far as it is known.
+    free: Vec<u32>,
+    scale: Option<Grid>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Grid {
+    left: f64,
+    /// Columns a point.
+    per_point: f64,
+    scale: TimeScale,
+}
+
+/// A screen has no more columns than this.
+const WIDEST: f64 = 16_384.0;
+
+impl Columns {
+    /// No keys, in the columns from `left` points to `right`, each a pixel wide.
+    pub fn reset(&mut self, scale: TimeScale, left: f32, right: f32, pixels_per_point: f32) {
+        let per_point = f64::from(pixels_per_point).clamp(0.1, 16.0);
+        let count = (f64::from(right - left) * per_point).ceil().clamp(0.0, WIDEST) as usize;
+        self.x.clear();
+        self.x.resize(count, f32::NAN);
+        self.free.clear();
+        self.free.extend(0..=count as u32);
+        self.scale = Some(Grid { left: f64::from(left), per_point, scale });
+    }
+
+    /// Points of the first key of each column that has one, ascending.
+    pub fn marks(&self) -> impl Iterator<Item = f32> + '_ {
+        self.x.iter().copied().filter(|x| !x.is_nan())
+    }
+
+    /// Marks the keys of a channel that are selected, or those that are not, where `shift` brings them.
+    pub fn mark(&mut self, times: &[f32], intervals: &Intervals, selected: bool, shift: Shift) {
+        let Some(grid) = self.scale else { return };
+        if times.is_empty() || self.x.is_empty() || (selected && intervals.is_empty()) {
+            return;
+        }
+        let (factor, offset) = shift.affine();
+        let per_second = grid.scale.per_second();
+        // column = first + slope · time
+        let slope = factor * per_second * grid.per_point;
+        let first = (f64::from(grid.scale.left) + (offset - grid.scale.window.start) * per_second
+            - grid.left)
+            * grid.per_point;
+        if !(slope.is_finite() && first.is_finite()) || slope == 0.0 {
+            return;
+        }
+        let place = |time: f32| first + slope * f64::from(time);
+        let mut column = 0;
+        let mut index = if slope > 0.0 { 0 } else { times.len() - 1 };
+        while let Some(next) = self.next_free(column) {
+            let from = ((next as f64 - first) / slope) as f32;
+            let found = if slope > 0.0 {
+                index = gallop(times, index, from);
+                if index >= times.len() {
+                    break;
+                }
+                if intervals.is_empty() { Some(index) } else { intervals.next(times, index, selected) }
+            } else {
+                let before = times.partition_point(|&time| time <= from);
+                let Some(last) = before.checked_sub(1) else { break };
+                if selected {
+                    intervals.previous(times, last)
+                } else {
+                    (0..=last).rev().find(|&at| !intervals.holds(times[at]))
+                }
+            };
+            let Some(found) = found else { break };
+            let at = place(times[found]);
+            if !(at < self.x.len() as f64) {
+                break;
+            }
+            // What rounding puts before the column that was asked for is in it.
+            let hit = (at.max(0.0) as usize).max(next);
+            if self.x[hit].is_nan() {
+                self.x[hit] = (grid.left + at / grid.per_point) as f32;
+                self.free[hit] = hit as u32 + 1;
+            }
+            column = hit + 1;
+            if slope > 0.0 {
+                index = found;
+            }
+        }
+    }
+
+    /// The first column from `column` on without a key.
+    fn next_free(&mut self, column: usize) -> Option<usize> {
+        let mut found = column.min(self.x.len());
+        while self.free[found] as usize != found {
+            found = self.free[found] as usize;
+        }
+        // The way is remembered.
+        let mut at = column.min(self.x.len());
+        while self.free[at] as usize != at {
+            at = std::mem::replace(&mut self.free[at], found as u32) as usize;
+        }
+        (found < self.x.len()).then_some(found)
+    }
+}
+
+/// The first position from `index` on whose time is not before `time`: near ones are found at once.
+fn gallop(times: &[f32], index: usize, time: f32) -> usize {
+    let (mut low, mut step) = (index, 1);
+    while times.get(low + step).is_some_and(|&at| at < time) {
+        low += step;
+        step *= 2;
+    }
+    let high = (low + step + 1).min(times.len());
+    low + times.get(low..high).map_or(0, |part| part.partition_point(|&at| at < time))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::window::TimeWindow;
+    use super::*;
+    use dragonfly_kit::random::{Random, seed};
+    use std::collections::BTreeSet;
+
+    /// The columns that looking at each key gives.
+    fn slow(
+        channels: &[Vec<f32>],
+        intervals: &Intervals,
+        selected: bool,
+        shift: Shift,
+        scale: TimeScale,
+    ) -> BTreeSet<usize> {
+        let mut found = BTreeSet::new();
+        for &time in channels.iter().flatten().filter(|&&time| intervals.holds(time) == selected) {
+            let (factor, offset) = shift.affine();
+            let moved = factor * f64::from(time) + offset;
+            let x = f64::from(scale.left) + (moved - scale.window.start) * scale.per_second();
+            if (0.0..500.0).contains(&x) {
+                found.insert(x as usize);
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn columns_are_those_that_looking_at_each_key_gives() {
+        let seed = seed(11);
+        let mut random = Random::new(seed);
+        for round in 0..300 {
+            let channels: Vec<Vec<f32>> = (0..1 + random.below(4))
+                .map(|_| {
+                    let mut times: Vec<f32> =
+                        (0..random.below(400)).map(|_| random.between(0.0, 10.0)).collect();
+                    times.sort_by(f32::total_cmp);
+                    times.dedup();
+                    times
+                })
+                .collect();
+            let from = random.between(0.0, 10.0);
+            let intervals = Intervals::of([[from, from + random.between(0.0, 4.0)], [1.0, 1.5]]);
+            let window = TimeWindow {
+                start: f64::from(random.between(-2.0, 8.0)),
+                length: f64::from(random.between(0.1, 12.0)),
+            };
+            let scale = TimeScale { left: 20.0, width: 440.0, window };
+            let shift = match random.below(3) {
+                0 => Shift::NONE,
+                1 => Shift::Move(random.between(-3.0, 3.0)),
+                _ => Shift::Scale { about: random.between(0.0, 10.0), factor: random.between(-2.0, 2.0) },
+            };
+            for selected in [true, false] {
+                let mut columns = Columns::default();
+                columns.reset(scale, 0.0, 500.0, 1.0);
+                for times in &channels {
+                    columns.mark(times, &intervals, selected, shift);
+                }
+                let quick: BTreeSet<usize> = (0..500).filter(|&at| !columns.x[at].is_nan()).collect();
+                let slow = slow(&channels, &intervals, selected, shift, scale);
+                // A key on the border of two columns may be in either.
+                let differ = quick.symmetric_difference(&slow).count();
+                assert!(differ <= 2, "seed {seed} round {round}: {differ} columns differ, {shift:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Bones that are muted, soloed or locked.
+
+use crate::document::Change;
+use crate::document::edit::{BoneRef, Edit};
+use dragonfly_anim::data::{BoneIndex, Skeleton};
+use std::collections::BTreeSet;
+
+/// One of the marks of a bone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BoneFlag {
+    /// The picture shows it at rest.
+    Mute,
+    /// The picture shows all others at rest.
+    Solo,
+    /// It is not edited.
+    Lock,
+}
+
+impl BoneFlag {
+    /// All three, in the order in which they are shown.
+    pub const ALL: [Self; 3] = [Self::Mute, Self::Solo, Self::Lock];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mute => "Mute",
+            Self::Solo => "Solo",
+            Self::Lock => "Lock",
+        }
+    }
+
+    /// What it does.
+    pub fn help(self) -> &'static str {
+        match self {
+            Self::Mute => "The picture shows this bone at rest; its keys stay",
+            Self::Solo => "The picture shows all other bones at rest",
+            Self::Lock => "This bone is not edited",
+        }
+    }
+}
+
+/// See the module.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct BoneFlags {
+    sets: [BTreeSet<BoneIndex>; 3],
+    version: u64,
+}
+
+impl BoneFlags {
+    /// Has the bone this mark?
+    pub fn has(&self, flag: BoneFlag, bone: BoneIndex) -> bool {
+        self.sets[flag as usize].contains(&bone)
+    }
+
+    /// Gives a bone a mark, or takes it.
+    pub fn set(&mut self, flag: BoneFlag, bone: BoneIndex, on: bool) {
+        let set = &mut self.sets[flag as usize];
+        let changed = if on { set.insert(bone) } else { set.remove(&bone) };
+        self.version += u64::from(changed);
+    }
+
+    /// Grows with every change.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Is any bone locked?
+    pub fn any_locked(&self) -> bool {
+        !self.sets[BoneFlag::Lock as usize].is_empty()
+    }
+
+    /// Is this bone locked?
+    pub fn locked(&self, bone: BoneIndex) -> bool {
+        self.has(BoneFlag::Lock, bone)
+    }
+
+    /// The bones of `count` that the picture shows at rest.
+    pub fn still(&self, count: usize) -> Vec<BoneIndex> {
+        let solo = &self.sets[BoneFlag::Solo as usize];
+        let still =
+            |&bone: &BoneIndex| self.has(BoneFlag::Mute, bone) || (!solo.is_empty() && !solo.contains(&bone));
+        if self.sets[BoneFlag::Mute as usize].is_empty() && solo.is_empty() {
+            return Vec::new();
+        }
+        (0..count as BoneIndex).filter(still).collect()
+    }
+
+    /// A locked bone that `change` would edit, if there is one.
+    ///
+    /// Edits of whole takes (trim, retime, rename) are not about bones.
+    pub fn hinders(&self, change: &Change, skeleton: &Skeleton) -> Option<BoneIndex> {
+        let Change::Edit(edit, _) = change else { return None };
+        if !self.any_locked() {
+            return None;
+        }
+        let named = |bones: &mut dyn Iterator<Item = &BoneRef>| {
+            let index = |bone: &BoneRef| match bone {
+                BoneRef::Index(index) => Some(*index),
+                BoneRef::Name(name) => skeleton.find(name),
+            };
+            bones.filter_map(index).find(|&bone| self.locked(bone))
+        };
+        let first = || self.sets[BoneFlag::Lock as usize].first().copied();
+        let list = |bones: &[BoneRef]| if bones.is_empty() { first() } else { named(&mut bones.iter()) };
+        match edit {
+            Edit::Set { poses, .. } | Edit::Offset { poses, .. } | Edit::Pend { poses, .. } => {
+                named(&mut poses.iter().map(|pose| &pose.bone))
+            }
+            Edit::SetMany { at, .. } => named(&mut at.iter().flat_map(|at| &at.poses).map(|pose| &pose.bone)),
+            Edit::Reset { bones, .. }
+            | Edit::AddKeys { bones, .. }
+            | Edit::SetInterpolation { bones, .. } => list(bones),
+            Edit::DeleteKeys { keys, .. }
+            | Edit::MoveKeys { keys, .. }
+            | Edit::ScaleKeys { keys, .. }
+            | Edit::DuplicateKeys { keys, .. }
+            | Edit::SnapKeys { keys, .. } => keys.iter().find_map(|set| list(&set.bones)),
+            Edit::SetTangents { bone, .. } => named(&mut std::iter::once(bone)),
+            Edit::Ripple { .. } => first(),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Markers: times with names, kept beside the program's settings and never in the model's file.
+
+use crate::document::adapter::{Slot, TakeId};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A time with a name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Marker {
+    /// Seconds.
+    pub time: f32,
+    /// May be empty.
+    pub name: String,
+}
+
+/// What is done to the markers of the take that is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MarkerDeed {
+    /// A new one, unless there is one already.
+    Add(f32),
+    /// This one elsewhere.
+    Move(usize, f32),
+    /// This one under another name.
+    Rename(usize, String),
+    /// This one away.
+    Delete(usize),
+}
+
+/// Most markers of a take, and characters of a name.
+const MOST: usize = 1000;
+const LONGEST: usize = 200;
+
+/// Of all takes of the model that is open.
+#[derive(Clone, Debug, Default)]
+pub struct Markers {
+    takes: BTreeMap<TakeId, Vec<Marker>>,
+    /// The file in the store; none before a model is open.
+    file: Option<String>,
+    path: String,
+    unsaved: bool,
+    unread: bool,
+}
+
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+struct Stored {
+    path: String,
+    takes: BTreeMap<String, Vec<Marker>>,
+}
+
+impl Markers {
+    /// For another model: none until they are [read](Self::read).
+    pub fn open(path: Option<&Path>, title: &str) -> Self {
+        let path = match path {
+            Some(path) => std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).display().to_string(),
+            None => format!("built in: {title}"),
+        };
+        let file = format!("markers/{:016x}.json", fingerprint(path.as_bytes()));
+        Self { file: Some(file), path, unread: true, ..Self::default() }
+    }
+
+    /// The file that is to be read now; said once.
+    pub fn wanted(&mut self) -> Option<String> {
+        self.file.clone().filter(|_| std::mem::take(&mut self.unread))
+    }
+
+    /// Takes the text of the file; a damaged one holds no markers.
+    pub fn read(&mut self, text: &str, slots: &[Arc<Slot>]) {
+        let stored: Stored = serde_json::from_str(text).unwrap_or_default();
+        if stored.path != self.path {
+            return;
+        }
+        for slot in slots {
+            // Of several takes with one name the first is meant.
+            let first = slots.iter().find(|other| other.original.name == slot.original.name);
+            if first.is_none_or(|first| first.id != slot.id) {
+                continue;
+            }
+            if let Some(markers) = stored.takes.get(&slot.original.name) {
+                let sound = markers.iter().filter(|marker| marker.time.is_finite()).take(MOST);
+                self.takes.insert(slot.id, sorted(sound.cloned().collect()));
+            }
+        }
+    }
+
+    /// The file and its text, when they changed since the last call.
+    pub fn unsaved(&mut self, slots: &[Arc<Slot>]) -> Option<(String, String)> {
+        if !std::mem::take(&mut self.unsaved) {
+            return None;
+        }
+        let takes = slots.iter().rev().filter_map(|slot| {
+            let markers = self.takes.get(&slot.id).filter(|markers| !markers.is_empty())?;
+            Some((slot.original.name.clone(), markers.clone()))
+        });
+        let stored = Stored { path: self.path.clone(), takes: takes.collect() };
+        Some((self.file.clone()?, serde_json::to_string_pretty(&stored).unwrap_or_default()))
+    }
+
+    /// Those of a take, ascending.
+    pub fn of(&self, take: TakeId) -> &[Marker] {
+        self.takes.get(&take).map_or(&[], Vec::as_slice)
+    }
+
+    /// Does it.
+    pub fn change(&mut self, take: TakeId, deed: MarkerDeed) {
+        let markers = self.takes.entry(take).or_default();
+        match deed {
+            MarkerDeed::Add(time) if time.is_finite() && markers.len() < MOST => {
+                if markers.iter().any(|marker| (marker.time - time).abs() < 1e-4) {
+                    return;
+                }
+                let name = format!("Marker {}", markers.len() + 1);
+                markers.push(Marker { time, name });
+            }
+            MarkerDeed::Move(index, time) if time.is_finite() => match markers.get_mut(index) {
+                Some(marker) => marker.time = time,
+                None => return,
+            },
+            MarkerDeed::Rename(index, name) => match markers.get_mut(index) {
+                Some(marker) => marker.name = name.chars().take(LONGEST).collect(),
+                None => return,
+            },
+            MarkerDeed::Delete(index) if index < markers.len() => {
+                markers.remove(index);
+            }
+            _ => return,
+        }
+        *markers = sorted(std::mem::take(markers));
+        self.unsaved = true;
+    }
+}
+
+fn sorted(mut markers: Vec<Marker>) -> Vec<Marker> {
+    markers.sort_by(|a, b| a.time.total_cmp(&b.time));
+    markers
+}
+
+/// FNV-1a: names a file by the path of another.
+fn fingerprint(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}

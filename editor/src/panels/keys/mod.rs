@@ -1,0 +1,190 @@
+//! Everything about keys that the timeline and the curves share: what is selected, what is dragged, which part of time
+//! is shown, markers, marks of bones, the range that plays. Nothing here draws.
+
+pub mod channel;
+pub mod columns;
+mod commands;
+pub mod drag;
+pub mod flags;
+pub mod intervals;
+pub mod markers;
+mod range;
+mod request;
+pub mod selection;
+pub mod shift;
+mod shown;
+mod step;
+pub mod window;
+
+pub use channel::ChannelId;
+pub use drag::Deed;
+pub use flags::{BoneFlag, BoneFlags};
+pub use markers::{Marker, MarkerDeed, Markers};
+pub use request::KeysRequest;
+pub use selection::KeySelection;
+pub use shift::Shift;
+pub use shown::bones as shown_bones;
+pub use window::{TimeScale, TimeWindow};
+
+use super::state::State;
+use drag::KeyDrag;
+use dragonfly_anim::data::Take;
+use std::sync::Arc;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub struct Keys {
+    /// Which keys are selected.
+    pub selection: KeySelection,
+    /// Do moved keys go to whole frames?
+    pub snap: bool,
+    /// Are only the selected bones listed, where any are selected?
+    pub only_selected: bool,
+    /// Part of the names of the bones that are listed; empty for all.
+    pub filter: String,
+    /// Marks of bones.
+    pub flags: BoneFlags,
+    /// Markers of all takes.
+    pub markers: Markers,
+    /// The part of time that is shown; none for the whole take.
+    window: Option<TimeWindow>,
+    /// The part that plays, seconds; none for the whole take.
+    range: Option<[f32; 2]>,
+    drag: Option<KeyDrag>,
+}
+
+impl Default for Keys {
+    fn default() -> Self {
+        Self {
+            selection: KeySelection::default(),
+            snap: true,
+            only_selected: true,
+            filter: String::new(),
+            flags: BoneFlags::default(),
+            markers: Markers::default(),
+            window: None,
+            range: None,
+            drag: None,
+        }
+    }
+}
+
+/// The keys as they are to be drawn now.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The take: as it is, or as it was when a drag began.
+    pub take: Arc<Take>,
+    /// The selected keys, of that take.
+    pub selection: KeySelection,
+    /// Where they are drawn.
+    pub shift: Shift,
+    /// Are they drawn at their old places too?
+    pub copies: bool,
+}
+
+impl Keys {
+    /// The drag under way.
+    pub fn drag(&self) -> Option<&KeyDrag> {
+        self.drag.as_ref()
+    }
+
+    /// The part that plays, seconds.
+    pub fn range(&self) -> Option<[f32; 2]> {
+        self.range
+    }
+
+    /// The part of time that is shown of a take.
+    pub fn window(&self, take: &Take) -> TimeWindow {
+        self.window.unwrap_or_else(|| TimeWindow::whole(take.start, take.length))
+    }
+
+    /// Another model is open, or none.
+    fn forget(&mut self) {
+        *self = Self { snap: self.snap, only_selected: self.only_selected, ..Self::default() };
+    }
+}
+
+impl State {
+    /// The take that is shown, as it is shared.
+    pub fn shared_take(&self) -> Option<&Arc<Take>> {
+        self.view.as_ref()?.takes.get(self.playback.take?)
+    }
+
+    /// The keys as they are to be drawn now; none where no take is shown.
+    pub fn drawn_keys(&self) -> Option<Drawn> {
+        match &self.keys.drag {
+            Some(drag) if !matches!(drag.deed, Deed::Edit(_)) => Some(Drawn {
+                take: Arc::clone(&drag.base),
+                selection: drag.moving.clone(),
+                shift: drag.deed.shift(),
+                copies: matches!(drag.deed, Deed::Duplicate(_)),
+            }),
+            _ => Some(Drawn {
+                take: Arc::clone(self.shared_take()?),
+                selection: self.keys.selection.clone(),
+                shift: Shift::NONE,
+                copies: false,
+            }),
+        }
+    }
+
+    /// Markers of the take that is shown.
+    pub fn markers(&self) -> &[Marker] {
+        self.slot().map_or(&[], |slot| self.keys.markers.of(slot.id))
+    }
+
+    /// The file in the program's own folder that holds the markers of the model that is open; said once.
+    pub fn wanted_markers(&mut self) -> Option<String> {
+        self.keys.markers.wanted()
+    }
+
+    /// Takes its text.
+    pub fn read_markers(&mut self, text: &str) {
+        if let Some(view) = &self.view {
+            self.keys.markers.read(text, &view.slots);
+        }
+    }
+
+    /// The file and what it is to hold, when the markers changed since the last call.
+    pub fn unsaved_markers(&mut self) -> Option<(String, String)> {
+        let view = self.view.as_ref()?;
+        self.keys.markers.unsaved(&view.slots)
+    }
+
+    /// Another model is shown.
+    pub(super) fn open_keys(&mut self) {
+        self.keys.forget();
+        if let Some(loaded) = self.loaded() {
+            let markers = Markers::open(loaded.path.as_deref(), &loaded.title);
+            self.keys.markers = markers;
+        }
+    }
+
+    /// Another take is shown.
+    pub(super) fn leave_take(&mut self) {
+        self.keys.selection = KeySelection::default();
+        (self.keys.window, self.keys.range, self.keys.drag) = (None, None, None);
+    }
+
+    /// A newer view is there, or time has passed: ends a drag that was let go and is done.
+    pub(super) fn settle_keys(&mut self) {
+        let Some(view) = &self.view else { return };
+        let (generation, now) = (view.generation, self.now);
+        if let Some(drag) = self.keys.drag.take_if(|drag| drag.settled(generation, now)) {
+            self.keys.selection = match (self.shared_take(), &drag.deed) {
+                (Some(take), Deed::Move(_) | Deed::Scale { .. } | Deed::Duplicate(_) | Deed::Snap(_)) => {
+                    drag.moved(take)
+                }
+                _ => self.keys.selection.clone(),
+            };
+        }
+    }
+
+    /// An edit was refused.
+    pub fn keys_refused(&mut self) {
+        if let Some(drag) = &mut self.keys.drag {
+            drag.refused();
+        }
+        self.settle_keys();
+    }
+}

@@ -1,0 +1,206 @@
+//! What panels ask for about keys.
+
+use super::drag::{Deed, KeyDrag};
+use super::flags::BoneFlag;
+use super::intervals::WHOLE;
+use super::markers::MarkerDeed;
+use super::selection::KeySelection;
+use super::window::TimeWindow;
+use super::{ChannelId, channel};
+use crate::control::bones::Choice;
+use crate::document::Change;
+use crate::panels::state::{Effect, State};
+use crate::panels::status::Level;
+use dragonfly_anim::data::BoneIndex;
+use std::sync::Arc;
+
+/// See the module.
+#[derive(Clone, Debug, PartialEq)]
+pub enum KeysRequest {
+    /// Selects the keys of channels between two times, ends included.
+    Select {
+        /// Of which channels.
+        channels: Arc<[ChannelId]>,
+        /// Seconds.
+        stretch: [f32; 2],
+        /// How.
+        choice: Choice,
+    },
+    /// Selects single keys of channels: stretches of time for each.
+    SelectKeys {
+        /// Which.
+        parts: Vec<(ChannelId, Vec<[f32; 2]>)>,
+        /// How.
+        choice: Choice,
+    },
+    /// Selects no key.
+    Deselect,
+    /// Shows this part of time, or the whole take.
+    Window(Option<TimeWindow>),
+    /// A drag goes on like this, or begins.
+    Drag(Deed),
+    /// The hand is off: the drag counts.
+    Release,
+    /// As if the drag had never been.
+    Cancel,
+    /// Gives a bone a mark, or takes it.
+    Flag(BoneFlag, BoneIndex, bool),
+    /// Do moved keys go to whole frames?
+    Snap(bool),
+    /// Are only the selected bones listed?
+    OnlySelected(bool),
+    /// Part of the names of the bones that are listed.
+    Filter(String),
+    /// To the markers of the take.
+    Marker(MarkerDeed),
+    /// This part plays, or the whole take.
+    Range(Option<[f32; 2]>),
+}
+
+impl State {
+    /// Does what a panel asked for.
+    pub(in crate::panels) fn keys_request(&mut self, request: KeysRequest) -> Option<Effect> {
+        match request {
+            KeysRequest::Select { channels, stretch, choice } => self.select_keys(&channels, stretch, choice),
+            KeysRequest::SelectKeys { parts, choice } => self.select_parts(&parts, choice),
+            KeysRequest::Deselect => self.keys.selection = KeySelection::default(),
+            KeysRequest::Window(window) => self.show_window(window),
+            KeysRequest::Drag(deed) => return self.drag_keys(deed),
+            KeysRequest::Release => return self.release_keys(),
+            KeysRequest::Cancel => return self.cancel_keys(),
+            KeysRequest::Flag(flag, bone, on) => self.flag(flag, bone, on),
+            KeysRequest::Snap(on) => self.keys.snap = on,
+            KeysRequest::OnlySelected(on) => self.keys.only_selected = on,
+            KeysRequest::Filter(text) => self.keys.filter = text,
+            KeysRequest::Marker(deed) => {
+                if let Some(id) = self.slot().map(|slot| slot.id) {
+                    self.keys.markers.change(id, deed);
+                }
+            }
+            KeysRequest::Range(range) => self.set_range(range),
+        }
+        None
+    }
+
+    pub(in crate::panels) fn select_keys(
+        &mut self,
+        channels: &[ChannelId],
+        stretch: [f32; 2],
+        choice: Choice,
+    ) {
+        // What a drag that waits for its answer moved is selected when that is there.
+        if self.keys.drag.is_some() {
+            return;
+        }
+        let Some(take) = self.shared_take().cloned() else { return };
+        let free: Vec<ChannelId> =
+            channels.iter().copied().filter(|&(bone, _)| !self.keys.flags.locked(bone)).collect();
+        if free.is_empty()
+            && let Some(&(bone, _)) = channels.first()
+        {
+            self.say_locked(bone);
+        }
+        self.keys.selection.choose(&take, &free, stretch, choice);
+    }
+
+    fn select_parts(&mut self, parts: &[(ChannelId, Vec<[f32; 2]>)], choice: Choice) {
+        if choice == Choice::Replace {
+            self.keys.selection = KeySelection::default();
+        }
+        let choice = if choice == Choice::Toggle { Choice::Toggle } else { Choice::Add };
+        let Some(take) = self.shared_take().cloned() else { return };
+        for (channel, stretches) in parts.iter().filter(|((bone, _), _)| !self.keys.flags.locked(*bone)) {
+            self.keys.selection.choose_parts(&take, *channel, stretches, choice);
+        }
+    }
+
+    /// Selects everything that is listed and not locked.
+    pub(in crate::panels) fn select_all_keys(&mut self) {
+        let Some(take) = self.shared_take().cloned() else { return };
+        let bones = super::shown_bones(self);
+        let channels: Vec<ChannelId> =
+            bones.iter().flat_map(|&bone| channel::channels(&take, bone)).collect();
+        self.select_keys(&channels, WHOLE, Choice::Replace);
+    }
+
+    fn show_window(&mut self, window: Option<TimeWindow>) {
+        let Some(take) = self.take() else { return };
+        let (first, last) = (f64::from(take.start), f64::from(take.end()));
+        self.keys.window = window.map(|window| window.mended().near(first, last));
+    }
+
+    /// A drag begins or goes on.
+    pub(super) fn drag_keys(&mut self, deed: Deed) -> Option<Effect> {
+        let view = self.view.as_ref()?;
+        let (generation, now) = (view.generation, self.now);
+        // One that was let go still waits: the next begins when it is done.
+        if self.keys.drag.as_ref().is_some_and(|drag| !drag.held()) {
+            return None;
+        }
+        if let Some(drag) = &mut self.keys.drag {
+            drag.deed = deed;
+        } else {
+            let (take, base) = (self.take_ref()?, Arc::clone(self.shared_take()?));
+            let moving = match deed {
+                Deed::Ripple { from, .. } => {
+                    let bones = base.tracks.iter().map(|track| track.bone);
+                    let all: Vec<ChannelId> = bones.flat_map(|bone| channel::channels(&base, bone)).collect();
+                    let mut late = KeySelection::default();
+                    late.choose(&base, &all, [from, f32::INFINITY], Choice::Replace);
+                    late
+                }
+                _ => self.keys.selection.clone(),
+            };
+            if moving.is_empty() && !matches!(deed, Deed::Edit(_)) {
+                return None;
+            }
+            let gesture = self.new_gesture();
+            self.keys.drag = Some(KeyDrag::begin(gesture, take, base, moving, deed, now));
+        }
+        self.keys.drag.as_mut()?.send(generation, false, now).map(Effect::Change)
+    }
+
+    pub(super) fn release_keys(&mut self) -> Option<Effect> {
+        let generation = self.view.as_ref()?.generation;
+        let drag = self.keys.drag.as_mut().filter(|drag| drag.held())?;
+        let change = drag.send(generation, true, self.now);
+        drag.release();
+        self.settle_keys();
+        change.map(Effect::Change)
+    }
+
+    /// As if the drag had never been; nothing where there is none.
+    pub(in crate::panels) fn cancel_keys(&mut self) -> Option<Effect> {
+        let drag = self.keys.drag.take_if(|drag| drag.held())?;
+        drag.has_sent().then_some(Effect::Change(Change::Cancel(drag.gesture)))
+    }
+
+    /// The effect, unless it edits a bone that is locked: then a drag ends, and the person is told.
+    pub(in crate::panels) fn unlocked(&mut self, effect: Effect) -> Option<Effect> {
+        if !self.keys.flags.any_locked() {
+            return Some(effect);
+        }
+        let skeleton = Arc::clone(&self.loaded()?.model.animation.skeleton);
+        let changes = match &effect {
+            Effect::Change(change) => std::slice::from_ref(change),
+            Effect::Changes(changes) => changes,
+            _ => &[],
+        };
+        let locked = changes.iter().find_map(|change| self.keys.flags.hinders(change, &skeleton));
+        let Some(bone) = locked else { return Some(effect) };
+        self.say_locked(bone);
+        self.keys.drag = None;
+        None
+    }
+
+    fn say_locked(&mut self, bone: BoneIndex) {
+        let text = format!("{} is locked: its keys are not edited", self.bone_name(bone));
+        self.status.say(Level::Warning, text);
+    }
+
+    fn flag(&mut self, flag: BoneFlag, bone: BoneIndex, on: bool) {
+        self.keys.flags.set(flag, bone, on);
+        let flags = self.keys.flags.clone();
+        self.keys.selection.drop_bones(|bone| flags.locked(bone));
+    }
+}

@@ -1,0 +1,170 @@
+//! Which keys are selected: per channel a few stretches of time, never a list of keys.
+
+use super::channel::{self, ChannelId};
+use super::intervals::{Intervals, WHOLE};
+use super::shift::Shift;
+use crate::control::bones::Choice;
+use crate::document::edit::{BoneRef, KeySet, Property};
+use dragonfly_anim::data::{BoneIndex, Take};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// See the module. A copy is cheap.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct KeySelection {
+    channels: Arc<BTreeMap<ChannelId, Intervals>>,
+}
+
+static NONE: Intervals = Intervals::none();
+
+impl KeySelection {
+    /// Is nothing selected?
+    pub fn is_empty(&self) -> bool {
+        self.channels.is_empty()
+    }
+
+    /// What is selected of a channel.
+    pub fn of(&self, channel: ChannelId) -> &Intervals {
+        self.channels.get(&channel).unwrap_or(&NONE)
+    }
+
+    /// Every channel of which something is selected.
+    pub fn channels(&self) -> impl Iterator<Item = (ChannelId, &Intervals)> {
+        self.channels.iter().map(|(&channel, intervals)| (channel, intervals))
+    }
+
+    /// Do both hold the very same?
+    pub fn same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.channels, &other.channels)
+    }
+
+    /// How many keys.
+    pub fn count(&self, take: &Take) -> usize {
+        self.channels().map(|(channel, intervals)| intervals.count(channel::times(take, channel))).sum()
+    }
+
+    /// The first and the last selected key, seconds.
+    pub fn extent(&self, take: &Take) -> Option<[f32; 2]> {
+        self.channels()
+            .filter_map(|(channel, intervals)| intervals.extent(channel::times(take, channel)))
+            .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+    }
+
+    /// Chooses the keys of `channels` between two times, ends included; all of them where [`WHOLE`] is given.
+    ///
+    /// A toggle takes out what is selected where all of it is, and adds it else.
+    pub fn choose(&mut self, take: &Take, channels: &[ChannelId], stretch: [f32; 2], choice: Choice) {
+        let all = choice == Choice::Toggle
+            && channels.iter().all(|&channel| {
+                let times = channel::times(take, channel);
+                let keys = super::intervals::keys_between(times, stretch);
+                let intervals = self.of(channel);
+                keys.is_empty()
+                    || (intervals.holds(times[keys.start])
+                        && intervals.next(times, keys.start, false).is_none_or(|next| next >= keys.end))
+            });
+        if choice == Choice::Replace {
+            self.channels = Arc::default();
+        }
+        let map = Arc::make_mut(&mut self.channels);
+        for &channel in channels {
+            let times = channel::times(take, channel);
+            let intervals = map.entry(channel).or_default();
+            if all {
+                intervals.remove(stretch, times);
+            } else {
+                intervals.add(stretch);
+            }
+            intervals.tidy(times);
+            if intervals.is_empty() {
+                map.remove(&channel);
+            }
+        }
+    }
+
+    /// Adds stretches of one channel to what is selected; a toggle takes each out that is selected already.
+    pub fn choose_parts(&mut self, take: &Take, channel: ChannelId, stretches: &[[f32; 2]], choice: Choice) {
+        let times = channel::times(take, channel);
+        let map = Arc::make_mut(&mut self.channels);
+        let intervals = map.entry(channel).or_default();
+        let (gone, new): (Vec<_>, Vec<_>) =
+            stretches.iter().partition(|[from, _]| choice == Choice::Toggle && intervals.holds(*from));
+        *intervals = Intervals::of(intervals.stretches().iter().copied().chain(new));
+        gone.into_iter().for_each(|stretch| intervals.remove(stretch, times));
+        intervals.tidy(times);
+        if intervals.is_empty() {
+            map.remove(&channel);
+        }
+    }
+
+    /// Nothing of these bones any more.
+    pub fn drop_bones(&mut self, gone: impl Fn(BoneIndex) -> bool) {
+        if self.channels.keys().any(|&(bone, _)| gone(bone)) {
+            Arc::make_mut(&mut self.channels).retain(|&(bone, _), _| !gone(bone));
+        }
+    }
+
+    /// The same keys after they were moved: `old` is the take in which they were selected, `new` the one they are in.
+    pub fn shifted(&self, old: &Take, new: &Take, shift: Shift) -> Self {
+        let moved = self.channels().filter_map(|(channel, intervals)| {
+            let (before, after) = (channel::times(old, channel), channel::times(new, channel));
+            let mut moved =
+                Intervals::of(intervals.stretches().iter().map(|&stretch| shift.stretch(stretch)));
+            // A stretch may have come to lie around keys that were not selected: then each key is said by itself.
+            if moved.count(after) != intervals.count(before) {
+                let keys = intervals.keys(before).flatten().map(|key| shift.apply(before[key]));
+                moved = Intervals::singles(keys);
+            }
+            moved.tidy(after);
+            (!moved.is_empty()).then_some((channel, moved))
+        });
+        Self { channels: Arc::new(moved.collect()) }
+    }
+
+    /// The same as edits name it, in as few sets as say it.
+    pub fn key_sets(&self, take: &Take) -> Vec<KeySet> {
+        // Channels that have the same stretches are said together: first the channels of a bone, then bones.
+        let mut bones: BTreeMap<(BoneIndex, Vec<[u32; 2]>), u8> = BTreeMap::new();
+        for (&(bone, property), intervals) in self.channels.iter() {
+            if intervals.keys(channel::times(take, (bone, property))).next().is_some() {
+                let bits = intervals.stretches().iter().map(|stretch| stretch.map(f32::to_bits)).collect();
+                *bones.entry((bone, bits)).or_default() |= 1 << property as u8;
+            }
+        }
+        let mut groups: BTreeMap<(Vec<[u32; 2]>, u8), Vec<BoneIndex>> = BTreeMap::new();
+        for ((bone, bits), mask) in bones {
+            groups.entry((bits, mask)).or_default().push(bone);
+        }
+        let everyone = take.tracks.len();
+        let mut sets = Vec::new();
+        for ((bits, mask), bones) in groups {
+            let properties = Property::ALL.into_iter().filter(|&property| mask & (1 << property as u8) != 0);
+            let set = KeySet {
+                bones: if bones.len() == everyone {
+                    Vec::new()
+                } else {
+                    bones.into_iter().map(BoneRef::Index).collect()
+                },
+                properties: if mask == 7 { Vec::new() } else { properties.collect() },
+                ..KeySet::default()
+            };
+            let stretches: Vec<[f32; 2]> = bits.into_iter().map(|ends| ends.map(f32::from_bits)).collect();
+            let at: Vec<f32> = stretches.iter().filter(|[from, to]| from == to).map(|[at, _]| *at).collect();
+            if !at.is_empty() {
+                sets.push(KeySet { at: Some(at), ..set.clone() });
+            }
+            for [from, to] in stretches.into_iter().filter(|[from, to]| from != to) {
+                let end = |time: f32| time.is_finite().then_some(time);
+                sets.push(KeySet { from: end(from), to: end(to), ..set.clone() });
+            }
+        }
+        sets
+    }
+
+    /// Everything of these channels.
+    pub fn whole(take: &Take, channels: &[ChannelId]) -> Self {
+        let mut all = Self::default();
+        all.choose(take, channels, WHOLE, Choice::Replace);
+        all
+    }
+}

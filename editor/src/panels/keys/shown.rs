@@ -1,0 +1,19 @@
+//! Which bones the timeline lists.
+
+use super::channel;
+use crate::panels::state::State;
+use dragonfly_anim::data::BoneIndex;
+
+/// The bones that the timeline lists, in the order of the tree: those with keys, and of these the selected ones where
+/// only they are wanted, and those that are called as the filter says.
+pub fn bones(state: &State) -> Vec<BoneIndex> {
+    let Some(take) = state.take() else { return Vec::new() };
+    let only = state.keys.only_selected && state.selected().is_some();
+    let filter = state.keys.filter.to_lowercase();
+    let wanted = |&bone: &BoneIndex| {
+        (!only || state.selection.contains(bone))
+            && channel::channels(take, bone).next().is_some()
+            && (filter.is_empty() || state.bone_name(bone).to_lowercase().contains(&filter))
+    };
+    state.digest.rows.iter().map(|row| row.bone).filter(wanted).collect()
+}

@@ -1,0 +1,121 @@
+//! Which part of time the timeline and the curves show, and where each time lies.
+
+use crate::panels::ruler::Ruler;
+
+/// The part of time that is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeWindow {
+    /// Seconds at the left end.
+    pub start: f64,
+    /// Seconds from the left to the right end.
+    pub length: f64,
+}
+
+/// Seconds: the shortest and the longest part of time that can be shown.
+const SHORTEST: f64 = 0.01;
+const LONGEST: f64 = 1e6;
+
+impl TimeWindow {
+    /// A whole take; one second where it is a single pose.
+    pub fn whole(start: f32, length: f32) -> Self {
+        let length = if length > 0.0 { f64::from(length) } else { 1.0 };
+        Self { start: f64::from(start), length }.mended()
+    }
+
+    /// Finite, neither too short nor too long.
+    pub fn mended(self) -> Self {
+        let start = if self.start.is_finite() { self.start.clamp(-LONGEST, LONGEST) } else { 0.0 };
+        let length = if self.length.is_finite() { self.length.clamp(SHORTEST, LONGEST) } else { 1.0 };
+        Self { start, length }
+    }
+
+    /// `factor` times as much of time; what lies at `about` stays where it is.
+    pub fn zoomed(self, about: f64, factor: f64) -> Self {
+        let length = (self.length * factor).clamp(SHORTEST, LONGEST);
+        let part = (about - self.start) / self.length;
+        Self { start: about - part * length, length }.mended()
+    }
+
+    /// The same length, `by` seconds later.
+    pub fn panned(self, by: f64) -> Self {
+        Self { start: self.start + by, ..self }.mended()
+    }
+
+    /// At least a part of `first..=last` stays in sight, and no more than three times as much is shown.
+    pub fn near(self, first: f64, last: f64) -> Self {
+        let span = (last - first).max(1.0);
+        let length = self.length.min(span * 3.0).max(SHORTEST);
+        let start = self.start.clamp(first - length * 0.9, (last - length * 0.1).max(first - length * 0.9));
+        Self { start, length }.mended()
+    }
+}
+
+/// Which time lies at which place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeScale {
+    /// Points: where the window begins.
+    pub left: f32,
+    /// Points: from there to where it ends; more than zero.
+    pub width: f32,
+    /// What is shown.
+    pub window: TimeWindow,
+}
+
+impl TimeScale {
+    /// Points a second.
+    pub fn per_second(&self) -> f64 {
+        f64::from(self.width.max(1.0)) / self.window.length
+    }
+
+    /// Points where `time` lies; far away rather than infinite.
+    pub fn x_of(&self, time: f32) -> f32 {
+        let x = f64::from(self.left) + (f64::from(time) - self.window.start) * self.per_second();
+        x.clamp(-1e6, 1e6) as f32
+    }
+
+    /// Seconds at `x` points, also beside the ends.
+    pub fn time_at(&self, x: f32) -> f32 {
+        (self.window.start + f64::from(x - self.left) / self.per_second()) as f32
+    }
+
+    /// Seconds that `points` are long.
+    pub fn seconds(&self, points: f32) -> f32 {
+        (f64::from(points) / self.per_second()) as f32
+    }
+
+    /// For lines and labels.
+    pub fn ruler(&self) -> Ruler {
+        Ruler {
+            left: self.left,
+            width: self.width,
+            start: self.window.start as f32,
+            length: self.window.length as f32,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zooming_keeps_what_is_under_the_pointer() {
+        let scale = |window| TimeScale { left: 50.0, width: 600.0, window };
+        let before = TimeWindow { start: 1.0, length: 4.0 };
+        let time = scale(before).time_at(200.0);
+        for factor in [0.5, 0.9, 1.3, 7.0] {
+            let after = before.zoomed(f64::from(time), factor);
+            assert!((scale(after).x_of(time) - 200.0).abs() < 0.01, "{factor}");
+        }
+    }
+
+    #[test]
+    fn no_number_makes_a_window_without_size() {
+        for start in [f64::NAN, f64::INFINITY, -1e300, 0.0] {
+            for length in [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e300] {
+                let window = TimeWindow { start, length }.mended().near(0.0, 3.0);
+                assert!(window.start.is_finite() && window.length >= SHORTEST, "{window:?}");
+            }
+        }
+    }
+}
