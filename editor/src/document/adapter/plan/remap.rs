@@ -22,7 +22,7 @@ impl Clock {
     fn at(&self, time: f32) -> f32 {
         let new = self.about + (time - self.from) * self.stretch;
         // Rounding, and a key that counts as lying on a cut, must not lead before the begin of time.
-        if time >= 0.0 && new < 0.0 && new >= -SAME_TIME { 0.0 } else { new }
+        if time >= 0.0 && (-SAME_TIME..0.0).contains(&new) { 0.0 } else { new }
     }
 }
 
