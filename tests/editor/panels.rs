@@ -30,8 +30,8 @@ impl Bench {
     pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
         let mut requests = Vec::new();
         self.state.begin(self.state.now);
-        for id in panels::commands::pressed(ui.ctx()) {
-            requests.push(Request::Command(id));
+        if self.state.question().is_none() {
+            requests.extend(panels::commands::pressed(ui.ctx()).into_iter().map(Request::Command));
         }
         self.desk.show(ui, &self.state, &mut requests);
         self.state.hovered = None;
