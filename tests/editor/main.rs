@@ -39,6 +39,7 @@ mod journal_scenarios;
 mod journal_writer;
 mod keeping;
 mod keeping_desk;
+mod keeping_save;
 mod life;
 mod made;
 mod made_take;
