@@ -187,6 +187,7 @@ fn work_opened_beside_is_a_document_of_its_own_and_the_rest_stays() {
     desk.change(Change::Undo);
     assert!(!desk.view().history.saved, "it is in no file");
     desk.change(Change::Redo);
+    desk.view();
     // Killed again, both can be had back, and the one beside is the same.
     killed(&folder.join("second"), &folder.join("third"));
     let mut third = Desk::new(&folder.join("third"));
@@ -335,6 +336,7 @@ fn a_disk_that_fails_at_any_call_and_is_well_again_loses_no_step() {
     let path = fox(&folder);
     for kind in [Fault::Full, Fault::Io] {
         for call in (1..60).step_by(3) {
+            println!("{kind:?} from call {call}");
             let place = folder.join(&format!("{kind:?}-{call}"));
             let files = FaultyFiles::between(call, call + 3, kind);
             let setup = Setup { autosave: Some(autosave_with(&place, files)), ..Setup::default() };
@@ -360,6 +362,7 @@ fn a_disk_that_fails_at_any_call_and_is_well_again_loses_no_step() {
                 // It was said that nothing is recorded.
                 continue;
             }
+            println!("{said:?}: {:?}", autosave_in(&second).recoverable());
             let offer = after.offered().remove(0);
             after.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
             same_takes(&after.shows(|view| view.history.done == 6), &before);

@@ -7,7 +7,6 @@ use dragonfly::document::{
     Setup, Source, View,
 };
 use dragonfly::store::{Autosave, RealFiles, Vfs};
-use dragonfly_kit::eventually;
 use dragonfly_runtime::{Captured, Context, Receiver, Thread};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -113,16 +112,15 @@ impl Desk {
     pub(crate) fn hears<T>(&mut self, mut what: impl FnMut(&DocumentReply) -> Option<T>) -> T {
         let mut found = None;
         let heard = Rc::clone(&self.heard.0);
-        let main = &mut self.main;
         let deadline = Instant::now() + SOON;
         while found.is_none() {
-            main.iterate();
+            self.main.iterate();
             let mut heard = heard.borrow_mut();
             if let Some(place) = heard.iter().position(|reply| what(reply).is_some()) {
                 found = what(&heard.remove(place));
             }
-            assert!(found.is_some() || Instant::now() < deadline, "heard only {heard:?}");
             drop(heard);
+            assert!(found.is_some() || Instant::now() < deadline, "heard only {:#?}", self.said());
             std::thread::park_timeout(Duration::from_millis(1));
         }
         found.expect("found")
@@ -131,7 +129,8 @@ impl Desk {
     /// Everything that it said so far and nobody took.
     pub(crate) fn said(&mut self) -> Vec<String> {
         self.main.iterate();
-        self.heard.0.borrow().iter().map(|reply| format!("{reply:?}")).collect()
+        let heard = self.heard.0.borrow();
+        heard.iter().filter(|reply| !is_large(reply)).map(|reply| format!("{reply:?}")).collect()
     }
 
     pub(crate) fn tell(&self, message: DocumentMessage) {
@@ -159,13 +158,13 @@ impl Desk {
     /// Waits until this is shown.
     #[track_caller]
     pub(crate) fn shows(&mut self, what: impl Fn(&View) -> bool) -> View {
-        let shown = Rc::clone(&self.shown.0);
-        let main = &mut self.main;
-        eventually(SOON, || {
-            main.iterate();
-            shown.borrow().as_ref().is_some_and(&what)
-        });
-        let view = shown.borrow().clone();
+        let deadline = Instant::now() + SOON;
+        while !self.shown.0.borrow().as_ref().is_some_and(&what) {
+            self.main.iterate();
+            assert!(Instant::now() < deadline, "it is not shown; heard {:#?}", self.said());
+            std::thread::park_timeout(Duration::from_millis(1));
+        }
+        let view = self.shown.0.borrow().clone();
         view.expect("shown")
     }
 
@@ -232,6 +231,11 @@ impl Drop for Desk {
         let ended = Thread::wait_for(&[self.document.thread().clone()], Instant::now() + SOON);
         assert!(ended.is_ok() || std::thread::panicking(), "{ended:?}");
     }
+}
+
+/// Would it fill pages?
+fn is_large(reply: &DocumentReply) -> bool {
+    matches!(reply, DocumentReply::View(_) | DocumentReply::Opened(_) | DocumentReply::Loading { .. })
 }
 
 /// Are the takes the same, number by number, in their three forms?

@@ -42,6 +42,7 @@ mod journal_writer;
 mod keeping;
 mod keeping_desk;
 mod keymap;
+mod keeping_save;
 mod life;
 mod made;
 mod made_take;

@@ -33,8 +33,8 @@ impl Bench {
         panels::hands::feed(ui.ctx(), &mut self.state, &mut input, 0, &mut self.effects);
         ui.input_mut(|state| state.events = input.events);
         self.state.begin(self.state.now);
-        for id in panels::commands::pressed(ui.ctx()) {
-            requests.push(Request::Command(id));
+        if self.state.question().is_none() {
+            requests.extend(panels::commands::pressed(ui.ctx()).into_iter().map(Request::Command));
         }
         self.desk.show(ui, &self.state, &mut requests);
         self.state.hovered = None;

@@ -180,8 +180,11 @@ pub(super) fn heard(interface: &mut Interface, reply: DocumentReply) -> Option<D
 
 /// Asks about unsaved work; what was asked already and not answered stays asked.
 fn offer(state: &mut crate::panels::State, mut offers: Vec<crate::document::Offer>) {
-    if let Some(Question::Recover { offers: before, .. }) =
-        state.questions.iter().find(|question| matches!(question, Question::Recover { .. }))
+    if let Some(Question::Recover { offers: before, .. }) = state
+        .questions
+        .iter()
+        .map(|(_, question)| question)
+        .find(|question| matches!(question, Question::Recover { .. }))
     {
         let new = |other: &&crate::document::Offer| {
             !offers.iter().any(|offer| offer.found.journal == other.found.journal)

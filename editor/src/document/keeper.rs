@@ -178,10 +178,10 @@ impl Keeper {
         self.gap.is_some()
     }
 
-    /// Begins the journal anew with everything.
-    pub(super) fn snapshot(&mut self, bytes: &[u8], now: Instant) {
+    /// Begins the journal anew with everything; is that what the file holds?
+    pub(super) fn snapshot(&mut self, bytes: &[u8], saved: bool, now: Instant) {
         let Some(journal) = &mut self.journal else { return };
-        match journal.compact(bytes) {
+        match journal.compact_as(bytes, saved) {
             Ok(()) => {
                 self.compact = journal.size();
                 self.begun = false;

@@ -167,7 +167,7 @@ impl Open {
     pub(super) fn snapshot(&mut self, saves: bool, now: Instant) {
         let base = (saves || self.base.is_some() || self.edited.is_cut()).then(|| self.beginning());
         match Snapshot::bytes(self.about.clone(), &self.edited, base.as_deref()) {
-            Ok(bytes) => self.keeper.snapshot(&bytes, now),
+            Ok(bytes) => self.keeper.snapshot(&bytes, self.edited.is_saved(), now),
             Err(error) => tracing::error!("the history has no JSON: {error}"),
         }
     }

@@ -35,8 +35,8 @@ pub enum Question {
 }
 
 impl Question {
-    /// For the log.
-    fn name(&self) -> &'static str {
+    /// What happens, for the log.
+    pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Unsaved(_) => "asked what becomes of unsaved work",
             Self::Changed(..) => "asked what becomes of a changed file",
@@ -83,21 +83,26 @@ pub enum Deed {
 impl State {
     /// What must be decided next.
     pub fn question(&self) -> Option<&Question> {
-        self.questions.front()
+        self.questions.front().map(|(_, question)| question)
+    }
+
+    /// Tells one question from all others that were asked before.
+    pub(super) fn question_number(&self) -> Option<u64> {
+        self.questions.front().map(|(number, _)| *number)
     }
 
     /// Asks, behind what is asked already; the same thing is not asked twice.
     pub fn ask(&mut self, question: Question) {
-        tracing::info!(target: "dragonfly::question", "{}", question.name());
         let same = std::mem::discriminant(&question);
         // The newer one knows better.
-        self.questions.retain(|other| std::mem::discriminant(other) != same);
-        self.questions.push_back(question);
+        self.questions.retain(|(_, other)| std::mem::discriminant(other) != same);
+        self.asked += 1;
+        self.questions.push_back((self.asked, question));
     }
 
     /// Takes the question away that was answered.
     pub(super) fn answered(&mut self, deed: Deed) -> Option<Effect> {
-        match (&deed, self.questions.front_mut()) {
+        match (&deed, self.questions.front_mut().map(|(_, question)| question)) {
             // The other offers still wait for a decision.
             (
                 Deed::Decide(offer, Decision::Discard | Decision::Later),
@@ -121,10 +126,10 @@ impl State {
     /// The person does not want to decide: nothing is done. Unsaved work stays where it is.
     pub(super) fn dismiss(&mut self) -> Option<Effect> {
         match self.questions.pop_front()? {
-            Question::Recover { mut offers, lost } => {
+            (number, Question::Recover { mut offers, lost }) => {
                 let offer = offers.pop()?;
                 if !offers.is_empty() {
-                    self.questions.push_front(Question::Recover { offers, lost });
+                    self.questions.push_front((number, Question::Recover { offers, lost }));
                 }
                 Some(Effect::Deed(Deed::Decide(Box::new(offer), Decision::Later)))
             }

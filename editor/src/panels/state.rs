@@ -253,7 +253,9 @@ pub struct State {
     /// What lies over the panels.
     pub overlay: Option<Overlay>,
     /// What the person is asked, the first one first.
-    pub questions: VecDeque<Question>,
+    pub questions: VecDeque<(u64, Question)>,
+    /// How many questions were asked so far.
+    pub asked: u64,
     /// Was the document lost by a mistake in the program, and its work not offered yet?
     pub lost: bool,
     /// Is the cursor to be put into the search field?
@@ -303,6 +305,7 @@ impl State {
             frame_time: None,
             overlay: None,
             questions: VecDeque::new(),
+            asked: 0,
             lost: false,
             find: false,
             viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),

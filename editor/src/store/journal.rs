@@ -250,11 +250,21 @@ impl Journal {
     /// # Errors
     /// When the new one is not on the disk. The old one goes on then.
     pub fn compact(&mut self, snapshot: &[u8]) -> Result<(), JournalError> {
+        let saved = self.state.unsaved == 0;
+        self.compact_as(snapshot, saved)
+    }
+
+    /// The same with a snapshot that may hold more than the journal does, after an edit could not be appended: `saved`
+    /// says whether it is what the document's file holds.
+    ///
+    /// # Errors
+    /// As [`compact`](Self::compact).
+    pub fn compact_as(&mut self, snapshot: &[u8], saved: bool) -> Result<(), JournalError> {
         self.fits(snapshot)?;
         // The lock makes the name ours, and what has it is of a program that was killed.
         let beside = self.path.with_extension("compact");
         let _ = again(|| self.files.remove(&beside));
-        let made = self.make_compact(&beside, snapshot).and_then(|new| {
+        let made = self.make_compact(&beside, snapshot, saved).and_then(|new| {
             again(|| self.files.rename(&beside, &self.path))?;
             Ok(new)
         });
@@ -274,7 +284,7 @@ impl Journal {
         })
     }
 
-    fn make_compact(&self, beside: &Path, snapshot: &[u8]) -> io::Result<Self> {
+    fn make_compact(&self, beside: &Path, snapshot: &[u8], saved: bool) -> io::Result<Self> {
         let file = again(|| self.files.create_new(beside, true))?;
         lock_patiently(&*file)?;
         let header =
@@ -284,7 +294,7 @@ impl Journal {
             new.put(Tag::Saving, &serde_json::to_vec(saving)?)?;
         }
         new.put(Tag::Snapshot, snapshot)?;
-        if let Some(stamp) = self.state.stamp.filter(|_| self.state.unsaved == 0) {
+        if let Some(stamp) = self.state.stamp.filter(|_| saved) {
             new.put(Tag::Saved, &serde_json::to_vec(&stamp)?)?;
         }
         again(|| new.file.sync_all())?;

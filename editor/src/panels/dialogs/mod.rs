@@ -18,19 +18,27 @@ use egui::{Button, CornerRadius, Id, Modal, Response, RichText, Ui, vec2};
 pub(super) struct Dialogs {
     path: String,
     chosen: usize,
-    shown: Option<std::mem::Discriminant<Question>>,
+    shown: Option<u64>,
+    /// Was the question told to the log?
+    told: bool,
 }
 
 impl Dialogs {
     /// Draws the question that the state asks.
     pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-        let kind = state.question().map(std::mem::discriminant);
-        let fresh = self.shown != kind;
-        self.shown = kind;
+        let number = state.question_number();
+        let fresh = self.shown != number;
+        self.shown = number;
         let Some(question) = state.question() else { return };
         if fresh {
+            self.told = false;
+            // The keyboard gets there with the next frame.
+            ui.ctx().request_repaint();
             self.chosen = 0;
             self.path = place::proposal(state, matches!(question, Question::Where { copy: true, .. }));
+        }
+        if !fresh && !std::mem::replace(&mut self.told, true) {
+            tracing::info!(target: "dragonfly::question", "{}", question.name());
         }
         let modal = Modal::new(Id::unique(("question", format!("{:?}", std::mem::discriminant(question)))))
             .backdrop_color(Theme::of(ui).backdrop)

@@ -6,7 +6,7 @@ use crate::panels::saving::Deed;
 use crate::panels::state::Request;
 use crate::panels::style::{self, GRID};
 use crate::panels::theme::Theme;
-use egui::{Frame, Label, RichText, ScrollArea};
+use egui::{Align, Frame, Label, Layout, RichText, ScrollArea, vec2};
 
 /// Height of a line of the list, in points.
 const LINE: f32 = 18.0;
@@ -32,7 +32,11 @@ pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder
                     |ui, range| {
                         for line in &lines[range] {
                             let text = RichText::new(line).monospace().size(style::SMALL);
-                            ui.add_sized([0.0, LINE], Label::new(text).extend());
+                            let room = vec2(ui.available_width(), LINE);
+                            ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
+                                ui.set_min_height(LINE);
+                                ui.add(Label::new(text).extend());
+                            });
                         }
                     },
                 );

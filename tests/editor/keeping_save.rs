@@ -1,0 +1,260 @@
+//! Saving in the document's thread: the same bytes as everywhere, nothing overwritten unasked, the journal goes along.
+
+use crate::keeping_desk::{Desk, autosave_in, fox, killed, rename, same_takes, turn};
+use crate::program::{Folder, data, run};
+use dragonfly::document::edit::Edit;
+use dragonfly::document::{
+    Change, DocumentMessage, DocumentReply, NotSaved, SaveOrder, SaveTo, Setup, Source, Then,
+};
+use dragonfly::store::{FileState, RealFiles};
+use std::fs;
+use std::path::Path;
+
+/// Orders a save that is refused; why.
+#[track_caller]
+fn refused(desk: &mut Desk, to: SaveTo) -> NotSaved {
+    desk.tell(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
+    desk.hears(|reply| match reply {
+        DocumentReply::NotSaved(_, reason) => Some(reason.clone()),
+        DocumentReply::Saved(saved) => panic!("{saved:?}"),
+        _ => None,
+    })
+}
+
+/// Orders a save that is done whatever is there.
+#[track_caller]
+fn anyway(desk: &mut Desk, to: SaveTo) {
+    desk.tell(DocumentMessage::Save(SaveOrder { to, anyway: true, then: None }));
+    desk.hears(|reply| matches!(reply, DocumentReply::Saved(_)).then_some(()));
+}
+
+fn written(folder: &Folder, edits: &[Edit]) -> String {
+    let lines: Vec<String> = edits.iter().map(|edit| serde_json::to_string(edit).unwrap()).collect();
+    let path = folder.join("edits.jsonl");
+    fs::write(&path, lines.join("\n")).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn a_save_writes_what_the_command_line_writes_and_announces_the_same_changes() {
+    let folder = Folder::new("saving-same");
+    let path = fox(&folder);
+    let edits = [turn(0.5), rename("Look around"), turn(0.7)];
+    let lines = written(&folder, &edits);
+    let file = path.to_str().unwrap();
+    let out = folder.join("out.glb");
+    run(["edit", file, "--edits", &lines, "-o", out.to_str().unwrap()]).expect(0);
+    let announced = run(["edit", file, "--edits", &lines, "--dry-run"]).expect(0).text().to_owned();
+
+    let mut desk = Desk::new(&folder.join("autosave"));
+    desk.open(&path);
+    edits.into_iter().for_each(|edit| desk.edit(edit));
+    desk.tell(DocumentMessage::Plan(None));
+    let plan = desk.hears(|reply| match reply {
+        DocumentReply::Plan(plan, None) => Some(plan.clone()),
+        _ => None,
+    });
+    assert_eq!(plan, Ok(announced));
+    let saved = desk.save(SaveTo::Own);
+    assert!(fs::read(&path).unwrap() == fs::read(&out).unwrap());
+    assert_eq!((saved.copy, saved.beside), (false, 0));
+    assert!(desk.view().history.saved);
+    desk.tell(DocumentMessage::Plan(None));
+    let plan = desk.hears(|reply| match reply {
+        DocumentReply::Plan(plan, None) => Some(plan.clone()),
+        _ => None,
+    });
+    assert_eq!(plan, Ok("nothing changes\n".to_owned()));
+}
+
+#[test]
+fn a_file_that_somebody_else_changed_is_overwritten_only_when_asked_for_and_its_version_is_kept() {
+    let folder = Folder::new("saving-changed");
+    let (path, autosave) = (fox(&folder), folder.join("autosave"));
+    let mut desk = Desk::new(&autosave);
+    desk.open(&path);
+    desk.edit(turn(0.5));
+    desk.tell(DocumentMessage::LookAtFile);
+    let other = fs::read(data("gltf/Fox_skeleton.glb")).unwrap();
+    desk.view();
+    assert!(!desk.said().iter().any(|said| said.contains("FileChanged")), "nobody changed it");
+    fs::write(&path, &other).unwrap();
+    // Said once, however often the window gets the focus.
+    for _ in 0..3 {
+        desk.tell(DocumentMessage::LookAtFile);
+    }
+    desk.hears(|reply| matches!(reply, DocumentReply::FileChanged(FileState::Changed)).then_some(()));
+    desk.view();
+    assert!(!desk.said().iter().any(|said| said.contains("FileChanged")));
+    assert_eq!(refused(&mut desk, SaveTo::Own), NotSaved::Changed);
+    assert!(fs::read(&path).unwrap() == other);
+    assert!(!desk.view().history.saved);
+    anyway(&mut desk, SaveTo::Own);
+    assert!(fs::read(&path).unwrap() != other);
+    let versions = autosave_in(&autosave).versions().of(&RealFiles, &path).unwrap();
+    assert!(fs::read(&versions[0].path).unwrap() == other, "what the other program wrote is kept");
+    // Gone is said too; saving puts it back.
+    fs::remove_file(&path).unwrap();
+    desk.tell(DocumentMessage::LookAtFile);
+    desk.hears(|reply| matches!(reply, DocumentReply::FileChanged(FileState::Missing)).then_some(()));
+    desk.save(SaveTo::Own);
+    assert!(path.is_file());
+}
+
+#[test]
+fn saved_as_another_file_it_is_that_file_and_the_first_one_has_nothing_unsaved() {
+    let folder = Folder::new("saving-as");
+    let (path, autosave) = (fox(&folder), folder.join("autosave"));
+    let before = fs::read(&path).unwrap();
+    let mut desk = Desk::new(&autosave);
+    let opened = desk.open(&path);
+    desk.edit(turn(0.5));
+    desk.save(SaveTo::As(folder.join("Vixen")));
+    let other = folder.join("Vixen.glb");
+    let view = desk.view();
+    assert_eq!((view.file.title.as_str(), view.file.path.as_deref()), ("Vixen.glb", Some(&*other)));
+    assert!(view.history.saved && fs::read(&path).unwrap() == before);
+    desk.edit(rename("Sneak"));
+    let edited = desk.view();
+    killed(&autosave, &folder.join("second"));
+    let mut second = Desk::new(&folder.join("second"));
+    let offers = second.offered();
+    assert_eq!(
+        offers.iter().map(|offer| (&*offer.title, offer.steps)).collect::<Vec<_>>(),
+        [("Vixen.glb", 1)]
+    );
+    second.tell(DocumentMessage::Decide(Box::new(offers[0].clone()), dragonfly::document::Decision::Keep));
+    same_takes(&second.shows(|view| view.history.done == 2), &edited);
+    second.change(Change::GoTo(0));
+    same_takes(&second.view(), &opened);
+    // The first file is opened as it always was.
+    let first = second.open(&path);
+    assert!(first.history.steps.is_empty() && first.history.saved);
+}
+
+#[test]
+fn a_copy_leaves_what_is_open_as_unsaved_as_it_was() {
+    let folder = Folder::new("saving-copy");
+    let path = fox(&folder);
+    let mut desk = Desk::new(&folder.join("autosave"));
+    desk.open(&path);
+    desk.edit(turn(0.5));
+    let copy = folder.join("copy.glb");
+    assert!(desk.save(SaveTo::Copy(copy.clone())).copy);
+    let view = desk.view();
+    assert!(!view.history.saved && view.file.path.as_deref() == Some(&*path));
+    let mut fresh = Desk::with(Setup::default());
+    same_takes(&fresh.open(&copy), &view);
+    assert!(matches!(refused(&mut desk, SaveTo::Copy(path)), NotSaved::Failed(_)));
+}
+
+#[test]
+fn another_file_is_replaced_only_when_asked_for_and_another_format_is_refused() {
+    let folder = Folder::new("saving-exists");
+    let path = fox(&folder);
+    let other = folder.join("other.glb");
+    fs::write(&other, "precious").unwrap();
+    let mut desk = Desk::new(&folder.join("autosave"));
+    desk.open(&path);
+    desk.edit(turn(0.5));
+    for to in [SaveTo::As(other.clone()), SaveTo::Copy(other.clone())] {
+        assert_eq!(refused(&mut desk, to), NotSaved::Exists(other.clone()));
+    }
+    assert_eq!(fs::read(&other).unwrap(), b"precious");
+    let NotSaved::Failed(reason) = refused(&mut desk, SaveTo::As(folder.join("fox.gltf"))) else { panic!() };
+    assert!(reason.contains("fox.gltf: the file is a .glb"), "{reason}");
+    let NotSaved::Failed(reason) = refused(&mut desk, SaveTo::As("/proc/nothing/fox.glb".into())) else {
+        panic!()
+    };
+    assert!(reason.starts_with("/proc/nothing"), "{reason}");
+    anyway(&mut desk, SaveTo::As(other.clone()));
+    assert_eq!(desk.view().file.path, Some(other));
+}
+
+#[test]
+fn reverting_goes_back_to_what_is_saved_and_can_be_taken_back() {
+    let folder = Folder::new("saving-revert");
+    let path = fox(&folder);
+    let mut desk = Desk::new(&folder.join("autosave"));
+    desk.open(&path);
+    desk.edit(turn(0.5));
+    desk.save(SaveTo::Own);
+    let saved = desk.view();
+    desk.edit(turn(0.7));
+    desk.edit(rename("Sneak"));
+    let edited = desk.view();
+    desk.tell(DocumentMessage::Revert);
+    let view = desk.view();
+    same_takes(&view, &saved);
+    assert!(view.history.saved && view.history.steps.len() == 3);
+    desk.change(Change::GoTo(3));
+    same_takes(&desk.view(), &edited);
+    // Where no undo leads to it, it is read again.
+    desk.change(Change::GoTo(0));
+    desk.edit(turn(0.1));
+    assert!(!desk.view().history.saved);
+    let generation = desk.view().generation;
+    desk.tell(DocumentMessage::Revert);
+    let view = desk.shows(|view| view.generation > generation && view.history.saved);
+    same_takes(&view, &saved);
+}
+
+#[test]
+fn what_has_no_file_asks_where_and_leaving_asks_only_while_something_is_unsaved() {
+    let folder = Folder::new("saving-nowhere");
+    let mut desk = Desk::new(&folder.join("autosave"));
+    let leave = |desk: &mut Desk| {
+        desk.tell(DocumentMessage::Leave(Then::Quit));
+        desk.hears(|reply| match reply {
+            DocumentReply::Leave(Then::Quit, unsaved) => Some(*unsaved),
+            _ => None,
+        })
+    };
+    assert!(!leave(&mut desk), "nothing is open");
+    desk.open_source(Source::BuiltIn);
+    assert!(!leave(&mut desk));
+    desk.edit(rename("Hover"));
+    assert!(leave(&mut desk));
+    assert_eq!(refused(&mut desk, SaveTo::Own), NotSaved::NoFile);
+    desk.change(Change::Undo);
+    assert!(!leave(&mut desk));
+    desk.change(Change::Redo);
+    desk.save(SaveTo::As(folder.join("mine.glb")));
+    assert!(!leave(&mut desk));
+    assert!(Path::new(&folder.join("mine.glb")).is_file());
+    // From now on it is saved there.
+    desk.edit(rename("Hang"));
+    assert_eq!(desk.save(SaveTo::Own).path, folder.join("mine.glb"));
+}
+
+#[test]
+fn every_format_is_saved_and_its_history_comes_back() {
+    let folder = Folder::new("saving-formats");
+    let dfm = folder.join("fox.dfm");
+    let model = {
+        let mut desk = Desk::with(Setup::default());
+        desk.open(&data("gltf/Fox.glb")).loaded.model.clone()
+    };
+    fs::write(&dfm, dragonfly_anim::format::dfm::write(&model).unwrap()).unwrap();
+    for name in ["SimpleSkin_embedded.gltf", "Fox_skeleton.glb"] {
+        fs::copy(data(&format!("gltf/{name}")), folder.join(name)).unwrap();
+    }
+    for name in ["fox.dfm", "SimpleSkin_embedded.gltf", "Fox_skeleton.glb"] {
+        let (path, autosave) = (folder.join(name), folder.join(&format!("{name}-autosave")));
+        let mut desk = Desk::new(&autosave);
+        let opened = desk.open(&path);
+        if opened.takes.is_empty() {
+            continue;
+        }
+        desk.edit(rename("Something else"));
+        desk.save(SaveTo::Own);
+        let saved = desk.view();
+        desk.end();
+        let mut desk = Desk::new(&autosave);
+        let again = desk.open(&path);
+        assert_eq!((again.history.done, again.history.saved), (1, true), "{name}");
+        same_takes(&again, &saved);
+        desk.change(Change::Undo);
+        same_takes(&desk.view(), &opened);
+    }
+}
