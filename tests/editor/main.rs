@@ -52,6 +52,7 @@ mod picking_skin;
 mod picture;
 mod playback;
 mod portal;
+mod posing;
 mod program;
 mod ruler;
 mod screen;

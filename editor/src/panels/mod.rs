@@ -7,6 +7,7 @@ pub mod digest;
 mod execute;
 pub mod hierarchy;
 pub mod icons;
+mod ik;
 pub mod layout;
 pub mod menu;
 mod mirror_pairs;

@@ -8,6 +8,7 @@ use crate::control::bones::{BoneSelection, Choice, HiddenBones};
 use crate::document::history::Gesture;
 use crate::document::{Change, LoadedModel, Progress, Source, View};
 use crate::playback::Playback;
+use crate::posing::IkMode;
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{BoneIndex, Take};
 use glam::Vec3;
@@ -197,6 +198,10 @@ pub struct State {
     pub posed: Posed,
     /// The selected bones; the active one is [`Self::selected`].
     pub selection: BoneSelection,
+    /// Bones that stay where and how they are while others are moved.
+    pub pins: Vec<BoneIndex>,
+    /// Do the bones above follow one that is moved?
+    pub ik: IkMode,
     /// Bones put out of sight.
     pub hidden: HiddenBones,
     /// The bone under the pointer.
@@ -246,6 +251,8 @@ impl State {
             digest: Digest::default(),
             posed: Posed::default(),
             selection: BoneSelection::default(),
+            pins: Vec::new(),
+            ik: IkMode::default(),
             hidden: HiddenBones::default(),
             hovered: None,
             pointer: None,
@@ -300,6 +307,7 @@ impl State {
         let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());
         self.selection = BoneSelection::new(bones);
         self.hidden = HiddenBones::default();
+        self.forget_pins();
         self.hovered = None;
         self.pointed = None;
         self.framed = false;

@@ -18,6 +18,8 @@ pub enum When {
     BoneInTake,
     /// Poses of the take that is shown are pending.
     Pending,
+    /// A bone is pinned.
+    Pinned,
     /// Something was done.
     Undo,
     /// Something was undone.
@@ -39,6 +41,7 @@ impl When {
             Self::Bone => state.selected().is_some(),
             Self::BoneInTake => state.selected().is_some() && state.take().is_some(),
             Self::Pending => state.pending_times().next().is_some(),
+            Self::Pinned => !state.pins.is_empty(),
             Self::Undo => history.is_some_and(|history| history.done > 0),
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
             Self::Loading => state.loading.is_some(),
@@ -55,6 +58,7 @@ impl When {
             Self::Bone => "No bone is selected",
             Self::BoneInTake => "It takes a selected bone and a take",
             Self::Pending => "No pose is pending in this take",
+            Self::Pinned => "No bone is pinned",
             Self::Undo => "Nothing was done yet",
             Self::Redo => "Nothing was undone",
             Self::Loading => "No model is being opened",
