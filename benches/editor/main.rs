@@ -1,9 +1,15 @@
-//! What opening a model costs: `cargo bench -p dragonfly`.
+//! What opening a model and editing it cost: `cargo bench -p dragonfly`.
+
+mod edits;
 
 use dragonfly::document::{Cancel, Source, load_model};
 use dragonfly_kit::bench::measure;
 
+#[global_allocator]
+static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;
+
 fn main() {
+    edits::run();
     measure("editor/document/open_the_built_in_model", 1, || {
         load_model(&Source::BuiltIn, &mut |_| {}, &Cancel::default()).expect("part of the program")
     });

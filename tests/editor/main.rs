@@ -58,6 +58,7 @@ mod picking_skin;
 mod picture;
 mod playback;
 mod portal;
+mod posing;
 mod program;
 mod properties;
 mod questions;

@@ -98,6 +98,13 @@ impl State {
             Id::RestRotation => return self.reset_pose(&[Property::Rotation], ResetTo::Rest),
             Id::RestScale => return self.reset_pose(&[Property::Scale], ResetTo::Rest),
             Id::ResetToRest => return self.reset_pose(&Property::ALL, ResetTo::Rest),
+            Id::Pin => self.toggle_pins(),
+            Id::FreePins => self.free_pins(),
+            Id::ToggleIk => self.toggle_ik(),
+            Id::LongerIk => self.lengthen_ik(1),
+            Id::ShorterIk => self.lengthen_ik(-1),
+            Id::IkPole => self.toggle_pole(),
+            Id::LookAt => return self.look(),
             Id::MirrorPairs => self.toggle(Overlay::MirrorPairs),
 
             Id::PlayPause => self.play(1.0),

@@ -61,9 +61,16 @@ fn list(ui: &mut Ui, state: &State, categories: &[Category], requests: &mut Vec<
 
 fn pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     for command in commands::of(Category::Pose) {
-        let on = command.id == Id::AutoKey && state.settings.auto_key;
+        let on = match command.id {
+            Id::AutoKey => state.settings.auto_key,
+            Id::ToggleIk => state.ik.on,
+            _ => false,
+        };
         item(ui, state, command.id, on, requests);
-        if matches!(command.id, Id::AutoKey | Id::DropPending | Id::PasteMirrored | Id::ResetToRest) {
+        if matches!(
+            command.id,
+            Id::AutoKey | Id::DropPending | Id::PasteMirrored | Id::ResetToRest | Id::LookAt
+        ) {
             ui.separator();
         }
     }

@@ -12,6 +12,7 @@ pub mod hands;
 pub mod hierarchy;
 pub mod icons;
 pub mod keys;
+mod ik;
 pub mod layout;
 pub mod menu;
 mod mirror_pairs;

@@ -12,6 +12,7 @@ use crate::control::bones::{BoneSelection, Choice, ClickCycle, HiddenBones, Owne
 use crate::document::history::Gesture;
 use crate::document::{Change, LoadedModel, Progress, Source, View};
 use crate::playback::Playback;
+use crate::posing::IkMode;
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{BoneIndex, Take};
 use glam::Vec3;
@@ -222,6 +223,10 @@ pub struct State {
     pub posed: Posed,
     /// The selected bones; the active one is [`Self::selected`].
     pub selection: BoneSelection,
+    /// Bones that stay where and how they are while others are moved.
+    pub pins: Vec<BoneIndex>,
+    /// Do the bones above follow one that is moved?
+    pub ik: IkMode,
     /// Bones put out of sight.
     pub hidden: HiddenBones,
     /// The bone under the pointer.
@@ -289,6 +294,8 @@ impl State {
             digest: Digest::default(),
             posed: Posed::default(),
             selection: BoneSelection::default(),
+            pins: Vec::new(),
+            ik: IkMode::default(),
             hidden: HiddenBones::default(),
             hovered: None,
             pointer: None,
@@ -356,6 +363,7 @@ impl State {
         self.cycle.forget();
         self.selection = BoneSelection::new(bones);
         self.hidden = HiddenBones::default();
+        self.forget_pins();
         self.hovered = None;
         self.pointed = None;
         self.framed = false;

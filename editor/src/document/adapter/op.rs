@@ -25,6 +25,8 @@ pub(super) enum Op {
     Changes(Place, Vec<(u32, Option<KeyChange>)>),
     /// Keys out (positions before) and keys in (positions after).
     Splice(Place, Vec<u32>, Vec<(u32, Key)>),
+    /// Other times for some keys, ascending, whose order stays.
+    Times(Place, Vec<(u32, f32)>),
     /// Another channel in place of the one that is there.
     Replace(Place, Box<Content>),
     /// Other morph tracks.
@@ -61,6 +63,7 @@ impl Op {
                 Self::Splice(_, remove, insert) => {
                     size_of_val(remove.as_slice()) + size_of_val(insert.as_slice())
                 }
+                Self::Times(_, times) => size_of_val(times.as_slice()),
                 Self::Replace(_, content) => content.bytes(),
                 Self::Morphs(_, morphs) => {
                     morphs.iter().map(|morph| 4 * (morph.times.len() + morph.weights.len())).sum()
@@ -69,6 +72,22 @@ impl Op {
                 Self::Insert(_, slot) => slot.original.keys() * 16,
                 Self::Name(..) | Self::Remove(_) | Self::Move(..) => 0,
             }
+    }
+}
+
+impl Op {
+    /// The take whose keys it makes, moves or takes away.
+    pub(super) fn keys_of(&self) -> Option<TakeId> {
+        match self {
+            Self::Splice(place, ..) | Self::Times(place, _) | Self::Replace(place, _) => Some(place.take),
+            Self::Morphs(take, _) => Some(*take),
+            Self::Changes(..)
+            | Self::Pending(..)
+            | Self::Name(..)
+            | Self::Insert(..)
+            | Self::Remove(_)
+            | Self::Move(..) => None,
+        }
     }
 }
 
@@ -84,6 +103,10 @@ impl ModelAdapter {
                 let slot = self.slot_mut(place.take);
                 let (remove, insert) = slot.splice(place.bone, place.property, &remove, &insert, shared);
                 Op::Splice(place, remove, insert)
+            }
+            Op::Times(place, times) => {
+                let slot = self.slot_mut(place.take);
+                Op::Times(place, slot.set_times(place.bone, place.property, &times, shared))
             }
             Op::Replace(place, content) => {
                 let before = self.slot_mut(place.take).replace(place.bone, place.property, *content);
@@ -110,6 +133,13 @@ impl ModelAdapter {
                 self.slots.insert(to.min(self.slots.len()), slot);
                 Op::Move(take, from)
             }
+        }
+    }
+
+    /// Looks for the begin and the end of takes whose keys lie elsewhere now, if they are still there.
+    pub(super) fn measure(&mut self, takes: &[TakeId]) {
+        for slot in self.slots.iter_mut().filter(|slot| takes.contains(&slot.id)) {
+            Arc::make_mut(slot).measure();
         }
     }
 

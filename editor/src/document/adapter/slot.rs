@@ -5,7 +5,7 @@ use super::kind::{AnyChannel, Held, Kind, Numbers, with_kind};
 use super::pending::{Pending, PendingAt, place_of};
 use super::times::Shared;
 use crate::document::edit::{Property, SAME_TIME};
-use dragonfly_anim::data::{Channel, MorphTrack, Take};
+use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Take};
 use dragonfly_anim::sample::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -178,6 +178,21 @@ impl Slot {
         (insert.iter().map(|(at, _)| *at).collect(), taken)
     }
 
+    /// Gives keys other times, without another order; their times from before.
+    pub(super) fn set_times(
+        &mut self,
+        bone: u32,
+        property: Property,
+        wanted: &[(u32, f32)],
+        shared: &mut Shared,
+    ) -> Vec<(u32, f32)> {
+        let old = Arc::clone(self.times(bone, property));
+        let before = wanted.iter().filter_map(|&(key, _)| Some((key, *old.get(key as usize)?))).collect();
+        let times = shared.moved(&old, wanted);
+        with_kind!(property, retimed::<K>(self, bone, &times));
+        before
+    }
+
     /// Puts a whole channel in the place of another; the other.
     pub(super) fn replace(&mut self, bone: u32, property: Property, content: Content) -> Content {
         with_kind!(property, replaced::<K>(self, property, bone, content))
@@ -204,11 +219,10 @@ impl Slot {
         } else {
             change(Arc::make_mut(&mut self.result));
         }
-        self.measure();
     }
 
     /// Start and length are those of the keys.
-    fn measure(&mut self) {
+    pub(super) fn measure(&mut self) {
         let (start, length) = extent(&self.original);
         for take in [&mut self.original, &mut self.result] {
             if take.start.to_bits() != start.to_bits() || take.length.to_bits() != length.to_bits() {
@@ -300,28 +314,65 @@ fn spliced<K: Kind>(
     let mut times = Vec::with_capacity(keys);
     let mut values: Vec<K::Value> = Vec::with_capacity(keys * per_key);
     let mut changes = Changes::new();
-    let mut kept = (0..old.len() as u32).filter(|at| remove.binary_search(at).is_err());
+    let mut old_changes = slot.changes(bone, property).iter().peekable();
     let mut inserted = insert.iter().peekable();
-    let old_changes = slot.changes(bone, property).to_vec();
-    for at in 0..keys as u32 {
-        if let Some((_, key)) = inserted.next_if(|(place, _)| *place == at) {
-            times.push(key.time);
-            values.extend(std::iter::repeat_n(K::Value::ZERO, per_key));
-            put::<K>(&mut values, old.interpolation, at as usize, &key.original);
-            changes.extend(key.change.map(|change| (at, change)));
-        } else if let Some(from) = kept.next() {
-            let first = from as usize * per_key;
-            times.push(old.times[from as usize]);
-            values.extend_from_slice(&old.values[first..first + per_key]);
-            if let Ok(found) = old_changes.binary_search_by_key(&from, |(key, _)| *key) {
-                changes.push((at, old_changes[found].1));
+    // What stays stays in runs, and a run is copied as a whole.
+    for (mut from, end) in runs(old.len(), remove) {
+        while from < end {
+            put_in::<K>(&mut inserted, &mut times, &mut values, &mut changes, old.interpolation);
+            let before_next = inserted.peek().map_or(end - from, |(place, _)| *place as usize - times.len());
+            let until = end.min(from + before_next);
+            while let Some((key, change)) = old_changes.next_if(|(key, _)| (*key as usize) < until) {
+                if (*key as usize) >= from {
+                    changes.push(((*key as usize - from + times.len()) as u32, *change));
+                }
             }
+            times.extend_from_slice(&old.times[from..until]);
+            values.extend_from_slice(&old.values[from * per_key..until * per_key]);
+            from = until;
         }
     }
+    put_in::<K>(&mut inserted, &mut times, &mut values, &mut changes, old.interpolation);
     let times = shared.times(&old.times, times);
     let original = Channel { times, values: values.into(), interpolation: old.interpolation };
     put_channel::<K>(slot, property, bone, original, changes);
     taken
+}
+
+/// Runs of keys between those at ascending `gone`, as begin and end.
+fn runs(keys: usize, gone: &[u32]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let ends = gone.iter().map(move |&gone| (gone as usize).min(keys)).chain([keys]);
+    let begins = [0].into_iter().chain(gone.iter().map(|&gone| gone as usize + 1));
+    begins.zip(ends).filter(|(begin, end)| begin < end)
+}
+
+/// Puts in the keys whose place has come.
+fn put_in<K: Kind>(
+    inserted: &mut std::iter::Peekable<std::slice::Iter<'_, (u32, Key)>>,
+    times: &mut Vec<f32>,
+    values: &mut Vec<K::Value>,
+    changes: &mut Changes,
+    interpolation: Interpolation,
+) {
+    while let Some((at, key)) = inserted.next_if(|(place, _)| *place as usize <= times.len()) {
+        let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+        times.push(key.time);
+        values.extend(std::iter::repeat_n(K::Value::ZERO, per_key));
+        put::<K>(values, interpolation, *at as usize, &key.original);
+        changes.extend(key.change.map(|change| (*at, change)));
+    }
+}
+
+/// Other times for some keys, which stay in their order; the times from before.
+fn retimed<K: Kind>(slot: &mut Slot, bone: u32, times: &Arc<[f32]>) {
+    let original = Arc::make_mut(&mut slot.original);
+    K::channel_mut(&mut original.tracks[bone as usize]).times = Arc::clone(times);
+    if slot.changes.is_empty() {
+        slot.result = Arc::clone(&slot.original);
+    } else {
+        let result = Arc::make_mut(&mut slot.result);
+        K::channel_mut(&mut result.tracks[bone as usize]).times = Arc::clone(times);
+    }
 }
 
 fn replaced<K: Kind>(slot: &mut Slot, property: Property, bone: u32, content: Content) -> Content {
@@ -353,5 +404,4 @@ fn put_channel<K: Kind>(
         *K::channel_mut(&mut Arc::make_mut(&mut slot.result).tracks[bone as usize]) = original;
     }
     refresh::<K>(slot, property, bone, None);
-    slot.measure();
 }

@@ -7,7 +7,10 @@ use std::sync::Arc;
 /// A file often has one column for all channels of a take. Where an edit does the same to all of them, they have one
 /// afterwards, too: in memory, and in the file that is saved.
 #[derive(Debug, Default)]
-pub(super) struct Shared(Vec<(Times, Times)>);
+pub(super) struct Shared(Vec<(Times, Times)>, Vec<Moved>);
+
+/// A column, what was moved in it, and what came of it.
+type Moved = (Times, Vec<(u32, f32)>, Times);
 
 /// Seconds, ascending; shared by channels.
 type Times = Arc<[f32]>;
@@ -28,5 +31,26 @@ impl Shared {
         }
         self.0.push((Arc::clone(old), Arc::clone(&new)));
         new
+    }
+
+    /// `old` with other times for some keys; the same column again for another channel that has it.
+    pub(super) fn moved(&mut self, old: &Times, wanted: &[(u32, f32)]) -> Times {
+        let same = |(from, moved, _): &&Moved| Arc::ptr_eq(from, old) && moved == wanted;
+        if let Some((.., to)) = self.1.iter().find(same) {
+            return Arc::clone(to);
+        }
+        let mut times: Times = Arc::from(&**old);
+        if let Some(times) = Arc::get_mut(&mut times) {
+            for &(key, time) in wanted {
+                if let Some(at) = times.get_mut(key as usize) {
+                    *at = time;
+                }
+            }
+        }
+        if self.1.len() == REMEMBERED {
+            self.1.remove(0);
+        }
+        self.1.push((Arc::clone(old), wanted.to_vec(), Arc::clone(&times)));
+        times
     }
 }

@@ -33,6 +33,13 @@ pub enum Id {
     RestScale,
     ResetToRest,
     MirrorPairs,
+    Pin,
+    FreePins,
+    ToggleIk,
+    LongerIk,
+    ShorterIk,
+    IkPole,
+    LookAt,
 
     PlayPause,
     PlayBackwards,

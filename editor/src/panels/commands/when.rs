@@ -20,6 +20,8 @@ pub enum When {
     Keys,
     /// Poses of the take that is shown are pending.
     Pending,
+    /// A bone is pinned.
+    Pinned,
     /// Something was done.
     Undo,
     /// Something was undone.
@@ -44,6 +46,7 @@ impl When {
             Self::BoneInTake => state.selected().is_some() && state.take().is_some(),
             Self::Keys => state.take().is_some() && !state.keys.selection.is_empty(),
             Self::Pending => state.pending_times().next().is_some(),
+            Self::Pinned => !state.pins.is_empty(),
             Self::Undo => history.is_some_and(|history| history.done > 0),
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
             Self::Unsaved => history.is_some_and(|history| !history.saved),
@@ -62,6 +65,7 @@ impl When {
             Self::BoneInTake => "It takes a selected bone and a take",
             Self::Keys => "No key is selected",
             Self::Pending => "No pose is pending in this take",
+            Self::Pinned => "No bone is pinned",
             Self::Undo => "Nothing was done yet",
             Self::Redo => "Nothing was undone",
             Self::Unsaved => "Everything is saved",

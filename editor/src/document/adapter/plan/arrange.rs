@@ -27,6 +27,9 @@ impl Moving {
 pub(super) fn arrange<K: Kind>(work: &mut Work, place: Place, chosen: &[(u32, f32)], moving: Moving) {
     let slot = work.slot(place.take);
     let times = slot.times(place.bone, place.property);
+    if !moving.copy && moving.stretch == 1.0 && stays_in_order(times, chosen) {
+        return work.perform(Op::Times(place, chosen.to_vec()));
+    }
     let key = |at: u32| slot.key::<K>(place.property, place.bone, at as usize);
     let mut moved: Vec<Key> = chosen
         .iter()
@@ -37,27 +40,47 @@ pub(super) fn arrange<K: Kind>(work: &mut Work, place: Place, chosen: &[(u32, f3
     moved.reverse();
     moved.dedup_by(|next, kept| (kept.time - next.time).abs() <= SAME_TIME);
     moved.reverse();
-    let is_chosen = |at: &u32| chosen.binary_search_by_key(at, |(at, _)| *at).is_ok();
-    let covered = |time: f32| {
-        let near = moved.partition_point(|key| key.time < time - SAME_TIME);
-        moved.get(near).is_some_and(|key| (key.time - time).abs() <= SAME_TIME)
-    };
-    let (mut remove, mut kept) = (Vec::new(), Vec::new());
-    for at in 0..times.len() as u32 {
-        let time = times[at as usize];
-        if (is_chosen(&at) && !moving.copy) || covered(time) {
-            remove.push(at);
-        } else {
-            kept.push(time);
-        }
+    // Those that move away, and those on which one comes to lie.
+    let mut remove: Vec<u32> =
+        if moving.copy { Vec::new() } else { chosen.iter().map(|&(at, _)| at).collect() };
+    for key in &moved {
+        let near = times.partition_point(|&time| time < key.time - 2.0 * SAME_TIME);
+        let there = times.iter().enumerate().skip(near);
+        let there = there.take_while(|(_, time)| **time <= key.time + 2.0 * SAME_TIME);
+        let covered = there.filter(|(_, time)| (key.time - **time).abs() <= SAME_TIME);
+        remove.extend(covered.map(|(at, _)| at as u32));
     }
-    let before = |position: usize, time: f32| kept.partition_point(|&other| other < time) + position;
+    remove.sort_unstable();
+    remove.dedup();
+    let before = |position: usize, time: f32| {
+        let there = times.partition_point(|&other| other < time);
+        let gone = remove.partition_point(|&at| (at as usize) < there);
+        there - gone + position
+    };
     let insert = moved
         .into_iter()
         .enumerate()
         .map(|(position, key)| (before(position, key.time) as u32, key))
         .collect();
     work.perform(Op::Splice(place, remove, insert));
+}
+
+/// Does no key come to another place among the others, nor on another one? Then its column of values stays as it is.
+fn stays_in_order(times: &[f32], chosen: &[(u32, f32)]) -> bool {
+    let apart = |before: f32, after: f32| after - before > SAME_TIME;
+    chosen.iter().enumerate().all(|(index, &(at, time))| {
+        let at = at as usize;
+        let before = match index.checked_sub(1).map(|index| chosen[index]) {
+            Some((key, time)) if key as usize + 1 == at => Some(time),
+            _ => at.checked_sub(1).and_then(|key| times.get(key).copied()),
+        };
+        let after = match chosen.get(index + 1) {
+            Some(&(key, time)) if key as usize == at + 1 => Some(time),
+            _ => times.get(at + 1).copied(),
+        };
+        // Keys that were nearer than that before are no reason to rearrange, but are not worth a rule of their own.
+        before.is_none_or(|before| apart(before, time)) && after.is_none_or(|after| apart(time, after))
+    })
 }
 
 /// The same key where time runs `stretch` times slower.

@@ -1,6 +1,7 @@
 //! From an edit to operations: a file a family of edits.
 
 mod arrange;
+mod chosen;
 mod cut;
 mod keys;
 mod morph;
@@ -17,7 +18,7 @@ use super::op::{Op, Place};
 use super::slot::{Content, Slot, TakeId, key_at};
 use super::times::Shared;
 use super::{EditError, ModelAdapter};
-use crate::document::edit::{BoneRef, Edit, KeySet, Property, TakeRef};
+use crate::document::edit::{BoneRef, Edit, Property, TakeRef};
 use dragonfly_anim::data::{Bone, Channel};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -27,6 +28,8 @@ pub(super) struct Work {
     adapter: ModelAdapter,
     undo: Vec<Op>,
     shared: Shared,
+    /// Takes whose keys lie elsewhere now: their begin and end are looked for once, at the end.
+    touched: Vec<TakeId>,
 }
 
 /// Does `edit` on `work`.
@@ -76,15 +79,21 @@ type Named<'a> = (&'a [BoneRef], &'a [Property]);
 
 impl Work {
     pub(super) fn on(adapter: ModelAdapter) -> Self {
-        Self { adapter, undo: Vec::new(), shared: Shared::default() }
+        Self { adapter, undo: Vec::new(), shared: Shared::default(), touched: Vec::new() }
     }
 
     /// The document, and what leads back from it in the order of doing.
-    pub(super) fn done(self) -> (ModelAdapter, Vec<Op>) {
+    pub(super) fn done(mut self) -> (ModelAdapter, Vec<Op>) {
+        self.adapter.measure(&self.touched);
         (self.adapter, self.undo)
     }
 
     pub(super) fn perform(&mut self, op: Op) {
+        if let Some(take) = op.keys_of()
+            && !self.touched.contains(&take)
+        {
+            self.touched.push(take);
+        }
         let inverse = self.adapter.perform(op, &mut self.shared);
         self.undo.push(inverse);
     }
@@ -137,33 +146,6 @@ impl Work {
             places.map(move |property| Place { take, bone, property })
         };
         Ok(bones.into_iter().flat_map(of_bone).collect())
-    }
-
-    /// The keys that are meant: the channels with any, and which of theirs, ascending.
-    fn keys(&self, take: TakeId, sets: &[KeySet]) -> Result<Vec<(Place, Vec<u32>)>, EditError> {
-        let mut found: Vec<(Place, Vec<u32>)> = Vec::new();
-        for set in sets {
-            for number in set.at.iter().flatten().chain(&set.from).chain(&set.to) {
-                finite("a time", *number)?;
-            }
-            for place in self.channels(take, (&set.bones, &set.properties))? {
-                let times = self.slot(take).times(place.bone, place.property);
-                let held = (0..times.len() as u32).filter(|&key| set.holds(times[key as usize]));
-                let held: Vec<u32> = held.collect();
-                if held.is_empty() {
-                    continue;
-                }
-                match found.iter_mut().find(|(other, _)| *other == place) {
-                    Some((_, keys)) => {
-                        keys.extend(held);
-                        keys.sort_unstable();
-                        keys.dedup();
-                    }
-                    None => found.push((place, held)),
-                }
-            }
-        }
-        if found.is_empty() { Err(EditError::Nothing("no key is meant")) } else { Ok(found) }
     }
 }
 

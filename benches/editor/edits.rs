@@ -1,0 +1,132 @@
+//! What edits cost in a take of 200 bones × 10 minutes × 120 keys a second: 43 million keys.
+
+use dragonfly::document::adapter::ModelAdapter;
+use dragonfly::document::edit::{BonePose, BoneRef, Edit, KeySet, Property, TakeRef};
+use dragonfly::document::history::{Edited, Gesture};
+use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
+use dragonfly_kit::counting;
+use glam::{Mat4, Quat, Vec3};
+use std::sync::Arc;
+use std::time::Instant;
+
+const BONES: u32 = 200;
+const RATE: usize = 120;
+const SECONDS: usize = 600;
+
+/// Runs `work` a few times and prints the median, and what it asked of the allocator in its last run.
+fn measure(name: &str, times: usize, mut work: impl FnMut(usize)) {
+    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    if wanted.is_some_and(|part| !name.contains(&part)) {
+        return;
+    }
+    let mut milliseconds = Vec::new();
+    let mut last = counting::Count::default();
+    for run in 0..times {
+        let begin = Instant::now();
+        (last, ()) = counting::count(|| work(run));
+        milliseconds.push(begin.elapsed().as_secs_f64() * 1e3);
+    }
+    milliseconds.sort_by(f64::total_cmp);
+    let (median, worst) = (milliseconds[times / 2], milliseconds[times - 1]);
+    println!(
+        "{name:<56} median {median:>9.3} ms   worst {worst:>9.3} ms   {:>9} allocations {:>12} bytes",
+        last.allocations, last.bytes
+    );
+}
+
+/// All channels share a column of times where `shared`, as in files that sample everything at once.
+fn model(shared: bool) -> AnimationData {
+    let bones = (0..BONES).map(|bone| Bone {
+        name: format!("bone {bone}"),
+        parent: bone.checked_sub(1),
+        rest: Transform::IDENTITY,
+        rest_matrix: None,
+        offset: Mat4::IDENTITY,
+        node: None,
+    });
+    let keys = RATE * SECONDS;
+    let column = || -> Arc<[f32]> { (0..keys).map(|key| key as f32 / RATE as f32).collect() };
+    let times = column();
+    // What the values are does not matter; that each channel has its own column does not either.
+    let translation: Arc<[Vec3]> = (0..keys).map(|key| Vec3::splat(key as f32 * 1e-4)).collect();
+    let rotation: Arc<[Quat]> = (0..keys).map(|key| Quat::from_rotation_y(key as f32 * 1e-4)).collect();
+    let tracks = (0..BONES).map(|bone| {
+        let own = || if shared { Arc::clone(&times) } else { column() };
+        let linear = Interpolation::Linear;
+        Track {
+            bone,
+            translation: Channel::new(own(), Arc::clone(&translation), linear),
+            rotation: Channel::new(own(), Arc::clone(&rotation), linear),
+            scale: Channel::new(own(), Arc::clone(&translation), linear),
+        }
+    });
+    let length = (keys - 1) as f32 / RATE as f32;
+    let take = Take { name: "long".to_owned(), length, tracks: tracks.collect(), ..Take::default() };
+    AnimationData { skeleton: Arc::new(Skeleton { bones: bones.collect() }), takes: vec![Arc::new(take)] }
+}
+
+fn take() -> TakeRef {
+    TakeRef::Index(0)
+}
+
+/// 500 keys at the end of each of 200 channels, named one by one as a timeline does.
+fn chosen() -> Vec<KeySet> {
+    let last = RATE * SECONDS;
+    let set = |bone| KeySet {
+        bones: vec![BoneRef::Index(bone)],
+        properties: vec![Property::Rotation],
+        at: Some((last - 500..last).map(|key| key as f32 / RATE as f32).collect()),
+        ..KeySet::default()
+    };
+    (0..BONES).map(set).collect()
+}
+
+/// The same, each key a set by itself.
+fn one_by_one() -> Vec<KeySet> {
+    let alone = |set: KeySet| {
+        let times = set.at.clone().unwrap_or_default();
+        times.into_iter().map(move |time| KeySet { at: Some(vec![time]), ..set.clone() })
+    };
+    chosen().into_iter().flat_map(alone).collect()
+}
+
+pub(crate) fn run() {
+    let (same, apart) = (model(true), model(false));
+    for (name, data) in [("one column of times", &same), ("a column of times each", &apart)] {
+        let mut edited = Edited::new(ModelAdapter::new(data));
+        let keys = chosen();
+        measure(&format!("editor/edits/drag_100_000_keys, {name}"), 9, |run| {
+            let by = 0.01 + run as f32 * 0.25;
+            let edit = Edit::MoveKeys { take: take(), keys: keys.clone(), by };
+            edited.apply(edit, Some(Gesture(1))).expect("keys at the end move freely");
+        });
+        let mut edited = Edited::new(ModelAdapter::new(data));
+        measure(&format!("editor/edits/move_100_000_keys_among_others, {name}"), 5, |run| {
+            let by = -10.0 - run as f32;
+            let edit = Edit::MoveKeys { take: take(), keys: keys.clone(), by };
+            edited.apply(edit, Some(Gesture(1))).expect("keys move among others");
+        });
+    }
+    let mut edited = Edited::new(ModelAdapter::new(&same));
+    let keys = one_by_one();
+    measure("editor/edits/drag_100_000_keys_named_one_by_one", 5, |run| {
+        let edit = Edit::MoveKeys { take: take(), keys: keys.clone(), by: 0.01 + run as f32 * 0.25 };
+        edited.apply(edit, Some(Gesture(1))).expect("keys at the end move freely");
+    });
+    for (name, time) in [("a_key", 300.0), ("no_key", 300.004)] {
+        let mut edited = Edited::new(ModelAdapter::new(&same));
+        let mut shown = Vec::new();
+        measure(&format!("editor/edits/drag_a_pose_where_there_is_{name}"), 200, |run| {
+            let rotation = Some(Quat::from_rotation_x(run as f32 * 0.01).to_array());
+            let pose = BonePose { bone: BoneRef::Index(7), translation: None, rotation, scale: None };
+            let edit = Edit::Set { take: take(), time, poses: vec![pose] };
+            edited.apply(edit, Some(Gesture(1))).expect("a pose can be set");
+            // What the panels and the picture still show.
+            if shown.len() == 2 {
+                shown.remove(0);
+            }
+            shown.push(edited.adapter().slots()[0].clone());
+        });
+    }
+    measure("editor/edits/open", 9, |_| drop(Edited::new(ModelAdapter::new(&same))));
+}

@@ -1,0 +1,110 @@
+//! Pins, rows of bones that follow, and bones that look: what commands do to them, and what a drag begins with.
+
+use super::state::{Effect, State};
+use super::status::Level;
+use crate::document::Change;
+use crate::posing::{Hold, LONGEST_CHAIN, look_at};
+use dragonfly_anim::data::BoneIndex;
+use std::sync::Arc;
+
+impl State {
+    /// What a drag at the time shown begins with: the poses as they are seen, the pins, whether rows of bones follow.
+    pub fn hold(&mut self) -> Option<Hold> {
+        let view = self.view.clone()?;
+        let (take, time) = (self.playback.take, self.time());
+        let poses = self.posed.update(&view, take, time).poses();
+        let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
+        Some(Hold::new(skeleton, poses, &self.pins, self.ik, None))
+    }
+
+    /// Is this bone held where it is while others move?
+    pub fn is_pinned(&self, bone: BoneIndex) -> bool {
+        self.pins.contains(&bone)
+    }
+
+    /// Pins the selected bones, or frees them where all of them are pinned.
+    pub(super) fn toggle_pins(&mut self) {
+        let bones = self.selection.bones().to_vec();
+        let all = bones.iter().all(|&bone| self.is_pinned(bone));
+        self.pins.retain(|pin| !bones.contains(pin));
+        if !all {
+            self.pins.extend(&bones);
+        }
+        let count = super::widgets::count(bones.len(), "bone", "bones");
+        let text = if all {
+            format!("Freed {count}")
+        } else {
+            format!("Pinned {count}: they stay while others move")
+        };
+        self.status.say(Level::Info, text);
+    }
+
+    /// Frees all bones.
+    pub(super) fn free_pins(&mut self) {
+        self.pins.clear();
+        self.status.say(Level::Info, "No bone is pinned any more");
+    }
+
+    /// Lets the bones above follow a bone that is moved, or not.
+    pub(super) fn toggle_ik(&mut self) {
+        self.ik.on = !self.ik.on;
+        self.say_ik();
+    }
+
+    /// Lets so many bones more follow.
+    pub(super) fn lengthen_ik(&mut self, by: i64) {
+        self.ik.length = (i64::from(self.ik.length) + by).clamp(1, i64::from(LONGEST_CHAIN)) as u32;
+        self.say_ik();
+    }
+
+    fn say_ik(&mut self) {
+        let count = super::widgets::count(self.ik.length as usize, "bone", "bones");
+        self.status.say(
+            Level::Info,
+            if self.ik.on {
+                format!("IK is on: {count} above follow a bone that is moved")
+            } else {
+                format!("IK is off: a bone is moved alone ({count} with it on)")
+            },
+        );
+    }
+
+    /// Makes the active bone the one towards which elbows and knees bend, or none where it was it.
+    pub(super) fn toggle_pole(&mut self) {
+        let Some(active) = self.selected() else { return };
+        self.ik.pole = Some(active).filter(|_| self.ik.pole != Some(active));
+        let name = self.bone_name(active);
+        let text = match self.ik.pole {
+            Some(_) => format!("Elbows and knees bend towards {name}"),
+            None => "Elbows and knees bend as they are".to_owned(),
+        };
+        self.status.say(Level::Info, text);
+    }
+
+    /// Aims the selected bones at the active one; one alone at the middle of the picture.
+    pub(super) fn look(&mut self) -> Option<Effect> {
+        let view = self.view.clone()?;
+        let (take, time) = (self.playback.take, self.time());
+        let active = self.selected()?;
+        let animation = self.posed.update(&view, take, time);
+        let skeleton = &view.loaded.model.animation.skeleton;
+        let others: Vec<BoneIndex> =
+            self.selection.bones().iter().copied().filter(|&bone| bone != active).collect();
+        let poses = if others.is_empty() {
+            look_at(skeleton, animation.poses(), &[active], self.camera.target)
+        } else {
+            let target = animation.to_root().get(active as usize)?.w_axis.truncate();
+            look_at(skeleton, animation.poses(), &others, target)
+        };
+        if poses.is_empty() {
+            self.status.say(Level::Info, "There is nothing to turn to");
+        }
+        self.pose_edit(poses).map(|edit| Effect::Change(Change::Edit(edit, None)))
+    }
+
+    /// Another model has other bones.
+    pub(super) fn forget_pins(&mut self) {
+        self.pins.clear();
+        self.ik.pole = None;
+    }
+}

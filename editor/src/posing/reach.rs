@@ -1,0 +1,128 @@
+//! A row of bones turned so that its end comes to a place, with the pole, the limits and the end's own direction.
+
+use dragonfly_anim::animation::to_root;
+use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
+use dragonfly_anim::ik::{Chain, ChainScratch, EndOrientation, Pole, TwoBone, chain, two_bone};
+use dragonfly_anim::joint::JointLimits;
+use glam::{Mat4, Quat, Vec3};
+
+/// What is to be reached, and by which bones.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reaching {
+    /// Comes to the place; does not count to the length.
+    pub(super) end: BoneIndex,
+    /// How many bones above it turn, at least 1.
+    pub(super) length: u32,
+    /// Scene space.
+    pub(super) place: Vec3,
+    /// Scene space: the direction that the end keeps or gets; none: it turns with the bone above it.
+    pub(super) rotation: Option<Quat>,
+    /// Scene space: towards which place the row bends.
+    pub(super) pole: Option<Vec3>,
+}
+
+/// Poses that are worked on.
+pub(super) struct Work<'a> {
+    pub(super) skeleton: &'a Skeleton,
+    pub(super) limits: Option<&'a JointLimits>,
+    pub(super) poses: &'a mut [Transform],
+    pub(super) to_root: &'a mut [Mat4],
+    pub(super) scratch: &'a mut ChainScratch,
+}
+
+/// The parent of a bone; one that does not come before its child counts as none.
+pub(super) fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
+    skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
+}
+
+/// The bones above `end` that turn, the nearest first: `length` of them, or as many as there are.
+pub(super) fn row(skeleton: &Skeleton, end: BoneIndex, length: u32) -> impl Iterator<Item = BoneIndex> + '_ {
+    let parent = |bone: &BoneIndex| parent_of(skeleton, *bone);
+    std::iter::successors(parent_of(skeleton, end), parent).take(length.max(1) as usize)
+}
+
+impl Work<'_> {
+    /// The matrices from the poses.
+    pub(super) fn chain_poses(&mut self) {
+        to_root(self.skeleton, self.poses, self.to_root);
+    }
+
+    /// Turns the row as near to its goal as it comes. Where there is no answer, nothing moves.
+    pub(super) fn reach(&mut self, wanted: &Reaching) {
+        let limits = self.limits;
+        let limit_of = |bone: BoneIndex| limits.and_then(|limits| limits.get(bone));
+        let mut above = row(self.skeleton, wanted.end, wanted.length);
+        let (Some(middle), rest) = (above.next(), above.last()) else { return };
+        let limited = row(self.skeleton, wanted.end, wanted.length).any(|bone| limit_of(bone).is_some());
+        let root = rest.unwrap_or(middle);
+        let solved = wanted.length == 2 && root != middle && !limited && {
+            let mut limb = TwoBone::new(root, middle, wanted.end);
+            limb.pole = wanted.pole.map_or(Pole::AsPosed, Pole::Point);
+            limb.end_orientation =
+                wanted.rotation.map_or(EndOrientation::FollowParent, EndOrientation::SetToRoot);
+            two_bone(self.skeleton, self.to_root, &limb, wanted.place, self.poses).is_ok()
+        };
+        if !solved {
+            self.reach_by_chain(root, limited, wanted);
+        }
+        self.chain_poses();
+        if let Some(rotation) = wanted.rotation {
+            self.turn_to(wanted.end, rotation);
+        }
+    }
+
+    fn reach_by_chain(&mut self, root: BoneIndex, limited: bool, wanted: &Reaching) {
+        let (skeleton, limits) = (self.skeleton, self.limits);
+        let mut clamp = |bone: BoneIndex, rotation: Quat| {
+            let rest = skeleton.bones.get(bone as usize).map_or(Quat::IDENTITY, |bone| bone.rest.rotation);
+            let limit = limits.and_then(|limits| limits.get(bone));
+            limit.map_or(rotation, |limit| limit.clamp(rotation, rest).rotation)
+        };
+        // Towards the pole first, so that the row bends there; then it reaches, and keeps that side.
+        if let Some(pole) = wanted.pole.filter(|_| !limited) {
+            self.swing(root, wanted, pole);
+        }
+        let mut row = Chain::new(root, wanted.end);
+        row.tolerance = 1e-6;
+        let limit: Option<dragonfly_anim::ik::Limit<'_>> = if limited { Some(&mut clamp) } else { None };
+        let found = chain(skeleton, self.to_root, &row, wanted.place, limit, self.scratch, self.poses);
+        if found.is_ok() {
+            self.chain_poses();
+            if let Some(pole) = wanted.pole.filter(|_| !limited) {
+                self.swing(root, wanted, pole);
+            }
+        }
+    }
+
+    /// Turns a row about the line from its root to its end until the joint farthest from that line points to the pole.
+    fn swing(&mut self, root: BoneIndex, wanted: &Reaching, pole: Vec3) {
+        let place = |bone: BoneIndex| self.to_root[bone as usize].w_axis.truncate();
+        let (begin, end) = (place(root), place(wanted.end));
+        let Some(axis) = (end - begin).try_normalize() else { return };
+        let aside = |point: Vec3| (point - begin) - axis * (point - begin).dot(axis);
+        let joints = row(self.skeleton, wanted.end, wanted.length).map(|bone| aside(place(bone)));
+        let Some(bend) = joints.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())) else {
+            return;
+        };
+        let towards = aside(pole);
+        let (Some(bend), Some(towards)) = (bend.try_normalize(), towards.try_normalize()) else { return };
+        let angle = axis.dot(bend.cross(towards)).atan2(bend.dot(towards));
+        let (_, now, _) = self.to_root[root as usize].to_scale_rotation_translation();
+        self.turn_to(root, Quat::from_axis_angle(axis, angle) * now);
+    }
+
+    /// Gives a bone this rotation in scene space.
+    pub(super) fn turn_to(&mut self, bone: BoneIndex, rotation: Quat) {
+        let parent = parent_of(self.skeleton, bone)
+            .and_then(|parent| self.to_root.get(parent as usize))
+            .map_or(Quat::IDENTITY, |matrix| matrix.to_scale_rotation_translation().1);
+        let local = parent.inverse() * rotation;
+        let Some(pose) = self.poses.get_mut(bone as usize) else { return };
+        if local.is_finite() && local.length_squared() > 0.5 {
+            let local = local.normalize();
+            // In the hemisphere of what was there, so that nothing flips.
+            pose.rotation = if local.dot(pose.rotation) < 0.0 { -local } else { local };
+            self.chain_poses();
+        }
+    }
+}
