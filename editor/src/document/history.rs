@@ -145,8 +145,8 @@ impl Edited {
         self.saved == Some(self.done)
     }
 
-    /// How many steps were done when it was saved or opened; `None` where no undo and no redo leads there any more.
-    pub fn saved_at(&self) -> Option<usize> {
+    /// How many steps were done when it was saved; `None` where no undo and no redo leads there any more.
+    pub fn saved(&self) -> Option<usize> {
         self.saved
     }
 

@@ -60,7 +60,7 @@ impl Open {
     fn look(&mut self) {
         let (steps, done) = self.edited.steps();
         let last = steps.back().map(|step| (step.edit.label(), &step.about));
-        let now = (steps.len(), done, self.edited.saved_at(), last);
+        let now = (steps.len(), done, self.edited.saved(), last);
         let shown = &self.history;
         let last = shown.steps.last().copied().zip(shown.about.last());
         if now != (shown.steps.len(), shown.done, shown.saved_at, last) || self.edited.is_saved() != shown.saved {

@@ -59,7 +59,7 @@ impl HistoryView {
         let (steps, done) = edited.steps();
         let labels: Vec<_> = steps.iter().map(|step| step.edit.label()).collect();
         let about = steps.iter().map(|step| Arc::clone(&step.about)).collect();
-        Self { steps: labels, about, done, saved: edited.is_saved(), saved_at: edited.saved_at() }
+        Self { steps: labels, about, done, saved: edited.is_saved(), saved_at: edited.saved() }
     }
 
     /// What undo would take back, and what redo would bring back.

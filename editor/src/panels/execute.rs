@@ -32,6 +32,7 @@ impl State {
             Request::Open(source) => return Some(Effect::Open(source)),
             Request::Overlay(overlay) => self.overlay = overlay,
             Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
+            Request::RenameTake(index) => self.rename_take(index),
             Request::PropertiesLook(look) => self.settings.properties = look,
         }
         None
@@ -81,6 +82,16 @@ impl State {
             Id::PreviousTake => self.step_take(-1),
             Id::NextTake => self.step_take(1),
             Id::RestPose => self.show_take(None),
+
+            Id::NewTake
+            | Id::DuplicateTake
+            | Id::RenameTake
+            | Id::DeleteTake
+            | Id::MoveTakeUp
+            | Id::MoveTakeDown
+            | Id::SplitTake
+            | Id::TrimTake
+            | Id::ReverseTake => return self.take_command(id),
 
             Id::ClearSelection => {
                 if self.overlay.take().is_none() {

@@ -23,7 +23,7 @@ pub struct Layout {
 }
 
 /// Changes with the meaning of the stored tree.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 #[derive(Serialize, Deserialize)]
 struct Stored {

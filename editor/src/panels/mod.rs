@@ -6,6 +6,7 @@ pub mod commands;
 pub mod digest;
 mod execute;
 pub mod hierarchy;
+pub mod history;
 pub mod icons;
 pub mod layout;
 pub mod menu;
@@ -74,6 +75,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<takes::Takes>::default(),
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
+        Box::<history::History>::default(),
         Box::<timeline::Timeline>::default(),
     ]
 }

@@ -95,6 +95,8 @@ pub enum Request {
     Overlay(Option<Overlay>),
     /// Shows or hides the panel of this name.
     TogglePanel(&'static str),
+    /// Begins to rename a take, or ends it.
+    RenameTake(Option<usize>),
     /// How the numbers of a bone are shown.
     PropertiesLook(super::properties::PropertiesLook),
 }
@@ -195,6 +197,8 @@ pub struct State {
     pub find: bool,
     /// Where the picture is, in points.
     pub viewport: egui::Rect,
+    /// What the list of takes is about to do.
+    pub takes: super::takes::TakesState,
     /// Names of gestures given so far.
     gestures: Cell<u64>,
     /// Does the window fill the screen?
@@ -228,6 +232,7 @@ impl State {
             overlay: None,
             find: false,
             viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
+            takes: super::takes::TakesState::default(),
             gestures: Cell::new(0),
             full_screen: false,
             now,
@@ -258,8 +263,9 @@ impl State {
     /// Shows another document: its first take, playing from the start.
     pub fn show(&mut self, view: View) {
         let fresh = self.view.as_ref().is_none_or(|old| !std::sync::Arc::ptr_eq(&old.loaded, &view.loaded));
-        self.view = Some(view);
+        let before = self.view.replace(view);
         if !fresh {
+            self.follow_take(before.as_ref().map_or(&[], |view| &view.slots));
             return self.keep_take();
         }
         let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());

@@ -27,6 +27,17 @@ pub enum Id {
     PreviousTake,
     NextTake,
     RestPose,
+
+    NewTake,
+    DuplicateTake,
+    RenameTake,
+    DeleteTake,
+    MoveTakeUp,
+    MoveTakeDown,
+    SplitTake,
+    TrimTake,
+    ReverseTake,
+
     ClearSelection,
     SelectParent,
     SelectChild,

@@ -114,7 +114,7 @@ pub fn text(shortcut: &KeyboardShortcut) -> String {
 /// Held keys repeat only where that is wanted: stepping through time.
 pub fn pressed(context: &egui::Context) -> Vec<Id> {
     // Escape closes what is open first, and takes back what is dragged.
-    let open = context.any_popup_open() || context.dragged_id().is_some();
+    let open = context.any_popup_open() || context.input(|input| input.pointer.any_down());
     let typing = context.text_edit_focused();
     let focused = context.memory(|memory| memory.focused().is_some());
     let keymap = Keymap::of(context);

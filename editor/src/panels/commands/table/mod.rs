@@ -8,6 +8,7 @@ mod help;
 mod look;
 mod playback;
 mod selection;
+mod takes;
 mod window;
 
 use super::{Category, Command, Id, When};
@@ -37,6 +38,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::File, file::COMMANDS),
     (Category::Edit, edit::COMMANDS),
     (Category::Playback, playback::COMMANDS),
+    (Category::Takes, takes::COMMANDS),
     (Category::Selection, selection::COMMANDS),
     (Category::Camera, camera::COMMANDS),
     (Category::Look, look::COMMANDS),
