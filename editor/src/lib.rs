@@ -11,5 +11,6 @@ pub mod document;
 pub mod graphics;
 pub mod panels;
 pub mod playback;
+pub mod posing;
 pub mod protocol;
 pub mod store;

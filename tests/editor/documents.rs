@@ -3,8 +3,8 @@
 use crate::arm;
 use dragonfly::document::edit::{Edit, TakeRef};
 use dragonfly::document::{
-    Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Progress, Source, View,
-    images, load_model,
+    Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Opened, Progress, Setup,
+    Source, View, images, load_model,
 };
 use dragonfly_anim::data::Image;
 use dragonfly_kit::eventually;
@@ -141,9 +141,9 @@ fn panics_on_files(
     source: &Source,
     progress: &mut dyn FnMut(Progress),
     cancel: &Cancel,
-) -> Result<LoadedModel, LoadError> {
+) -> Result<Opened, LoadError> {
     match source {
-        Source::BuiltIn => load_model(source, progress, cancel),
+        Source::BuiltIn => load_model(source, progress, cancel).map(Opened::from),
         Source::File(path) => match path.as_os_str().len() % 3 {
             0 => panic!("a text without numbers"),
             1 => panic!("a text about {}", path.display()),
@@ -158,7 +158,8 @@ fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
     let picture = main.context().register_receiver(Picture::default());
-    let document = Document::start_with(panics_on_files, replies, picture).unwrap();
+    let document =
+        Document::start_with(Setup { load: panics_on_files, ..Setup::default() }, replies, picture).unwrap();
     let mut wait = |what: &dyn Fn(&[DocumentReply]) -> bool| {
         eventually(Duration::from_secs(30), || {
             main.iterate();
@@ -185,13 +186,9 @@ fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays
 }
 
 /// Opens every file at once, as the same small model with the file's name.
-fn opens_anything(
-    source: &Source,
-    _: &mut dyn FnMut(Progress),
-    _: &Cancel,
-) -> Result<LoadedModel, LoadError> {
+fn opens_anything(source: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
     let loaded = std::sync::Arc::into_inner(arm::loaded()).unwrap();
-    Ok(LoadedModel { title: source.title(), ..loaded })
+    Ok(LoadedModel { title: source.title(), ..loaded }.into())
 }
 
 /// The three threads, turned by hand.
@@ -212,7 +209,8 @@ impl Bench {
         let picture = Picture::default();
         let shown = stage.context(&graphics).register_receiver(picture.clone());
         let replies = stage.context(&main).register_receiver(heard.clone());
-        let document = Document::start_in(&thread, opens_anything, replies, shown);
+        let setup = Setup { load: opens_anything, ..Setup::default() };
+        let document = Document::start_in(&thread, setup, replies, shown);
         stage.iterate(&thread);
         Self { stage, main, thread, graphics, document, heard, picture }
     }

@@ -99,7 +99,8 @@ impl FaultyFiles {
         Self(Arc::new(Plan { calls, from: number, to: number, fault: Fault::Io, meddling }))
     }
 
-    fn between(from: u64, to: u64, fault: Fault) -> Self {
+    /// All calls from one to another come to `fault`.
+    pub(crate) fn between(from: u64, to: u64, fault: Fault) -> Self {
         Self(Arc::new(Plan { calls: AtomicU64::new(0), from, to, fault, meddling: None }))
     }
 

@@ -27,7 +27,7 @@ impl Bench {
         Self { desk: Desk::new(""), state, effects: Vec::new() }
     }
 
-    fn frame(&mut self, ui: &mut egui::Ui) {
+    pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
         let mut requests = Vec::new();
         self.state.begin(self.state.now);
         for id in panels::commands::pressed(ui.ctx()) {

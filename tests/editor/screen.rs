@@ -19,6 +19,13 @@ pub(crate) mod key {
     pub(crate) const CONTROL: u8 = 37;
     pub(crate) const O: u8 = 32;
     pub(crate) const SPACE: u8 = 65;
+    pub(crate) const ESCAPE: u8 = 9;
+    pub(crate) const TAB: u8 = 23;
+    pub(crate) const ENTER: u8 = 36;
+    pub(crate) const Q: u8 = 24;
+    pub(crate) const S: u8 = 39;
+    pub(crate) const SHIFT: u8 = 50;
+    pub(crate) const Z: u8 = 52;
     pub(crate) const F11: u8 = 95;
     pub(crate) const HOME: u8 = 110;
 }
@@ -77,15 +84,22 @@ impl Screen {
     /// The window with this title, as soon as there is one of some size.
     #[track_caller]
     pub(crate) fn window(&mut self, title: &str, limit: Duration) -> Window {
+        self.any_window(&[title], limit)
+    }
+
+    /// The window with one of these titles, as soon as there is one.
+    #[track_caller]
+    pub(crate) fn any_window(&mut self, titles: &[&str], limit: Duration) -> Window {
         let deadline = Instant::now() + limit;
         let name = self.hand.atom("_NET_WM_NAME");
         loop {
             for window in self.hand.children() {
-                if self.hand.property(window, name).is_some_and(|text| text.starts_with(title.as_bytes())) {
+                let title = self.hand.property(window, name).unwrap_or_default();
+                if titles.iter().any(|wanted| title.starts_with(wanted.as_bytes())) {
                     return window;
                 }
             }
-            assert!(Instant::now() < deadline, "no window called {title} within {limit:?}");
+            assert!(Instant::now() < deadline, "no window called {titles:?} within {limit:?}");
             std::thread::park_timeout(Duration::from_millis(20));
         }
     }
@@ -125,6 +139,11 @@ impl Screen {
     /// Gives the window the keyboard; without a window manager nobody else does.
     pub(crate) fn focus(&mut self, window: Window) {
         self.hand.tell(42, 2, &words(&[window, 0]));
+    }
+
+    /// Takes the keyboard away from every window.
+    pub(crate) fn leave(&mut self) {
+        self.hand.tell(42, 2, &words(&[0, 0]));
     }
 
     /// Where the window is: left, top, width, height.

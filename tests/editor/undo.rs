@@ -12,11 +12,11 @@ use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// Any edit, sensible or not.
-fn any_edit(random: &mut Random, takes: usize) -> Edit {
+/// Any edit, sensible or not, of a model with so many takes and these bones.
+pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> Edit {
     let take = TakeRef::Index(random.below(takes));
     let time = random.choice(&[0.0, 0.125, 0.3, 0.5, 0.77, 1.0, 1.3]);
-    let bone = BoneRef::Name(random.choice(&BONES).to_owned());
+    let bone = bones[random.below(bones.len())].clone();
     let bones = if random.below(3) == 0 { Vec::new() } else { vec![bone.clone()] };
     let property = random.choice(&Property::ALL);
     let properties = if random.below(2) == 0 { Vec::new() } else { vec![property] };
@@ -32,7 +32,13 @@ fn any_edit(random: &mut Random, takes: usize) -> Edit {
         scale: (random.below(3) == 0).then(|| three(random)),
     }];
     let name = format!("take {}", random.below(100));
-    match random.below(22) {
+    match random.below(26) {
+        22 | 23 => Edit::Pend { take, time, poses },
+        24 => Edit::KeyPending { take, time: (random.below(2) == 0).then_some(time), bones },
+        25 if random.below(2) == 0 => Edit::DropPending { take, time: None, bones },
+        25 => {
+            Edit::Paste { take, time, poses, mirrored: random.below(2) == 0, pending: random.below(2) == 0 }
+        }
         0..=2 => Edit::Set { take, time, poses },
         3 => Edit::Offset { take, time, poses },
         4 => Edit::Reset {
@@ -100,9 +106,10 @@ fn same_slot(a: &Slot, b: &Slot) -> bool {
         && same_take(&a.original, &b.original)
         && same_take(&a.result, &b.result)
         && changes(a) == changes(b)
+        && a.pending() == b.pending()
 }
 
-fn same_take(a: &Take, b: &Take) -> bool {
+pub(crate) fn same_take(a: &Take, b: &Take) -> bool {
     fn same_channel<T: Copy, const N: usize>(
         a: &Channel<T>,
         b: &Channel<T>,
@@ -140,12 +147,13 @@ fn same_numbers(a: &[f32], b: &[f32]) -> bool {
 #[test]
 fn whatever_was_done_undo_leads_back_to_the_bit_and_redo_forth_again() {
     let first = seed(900);
+    let bones = BONES.map(|name| BoneRef::Name(name.to_owned()));
     for number in first..first + 200 {
         let mut random = Random::new(number);
         let mut edited = Edited::new(ModelAdapter::new(&animation(&mut random)));
         let mut states = vec![edited.adapter().clone()];
         for _ in 0..500 {
-            let edit = any_edit(&mut random, edited.adapter().slots().len());
+            let edit = any_edit(&mut random, edited.adapter().slots().len(), &bones);
             let before = edited.adapter().clone();
             if edited.apply(edit.clone(), None).is_ok() {
                 states.push(edited.adapter().clone());

@@ -6,6 +6,7 @@ use crate::screen::{Screen, Window, key, pass};
 use image::RgbaImage;
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
+use std::path::Path;
 use std::process::{Child, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -43,11 +44,26 @@ pub(crate) struct Editor {
 impl Editor {
     /// Starts it with Fox, and waits until the model is there.
     pub(crate) fn open(screen: &mut Screen, arguments: &[&str], environment: &[(&str, &str)]) -> Self {
+        let mut editor = Self::open_file(screen, &data("gltf/Fox.glb"), arguments, environment);
+        editor.window = screen.window("Fox.glb", SOON);
+        screen.focus(editor.window);
+        // The arrow is part of the picture.
+        screen.point(i16::MAX, i16::MAX);
+        editor
+    }
+
+    /// Starts it with any file, and waits until the model is there; its window is not looked for.
+    pub(crate) fn open_file(
+        screen: &mut Screen,
+        file: &Path,
+        arguments: &[&str],
+        environment: &[(&str, &str)],
+    ) -> Self {
         let settings = Folder::new(&format!("settings{}", screen.display().replace(':', "-")));
         let mut child = dragonfly(arguments)
             .arg("--settings")
             .arg(settings.path())
-            .arg(data("gltf/Fox.glb"))
+            .arg(file)
             .env("DISPLAY", screen.display())
             .env("XDG_RUNTIME_DIR", settings.path())
             .env("DRAGONFLY_LOG", "error,dragonfly=info")
@@ -62,12 +78,8 @@ impl Editor {
         std::thread::Builder::new().name("reader".to_owned()).spawn(read).expect("a thread");
         let variables = environment.iter().map(|(name, _)| (*name).to_owned()).collect();
         let mut editor = Self { child, said, lines: Vec::new(), window: 0, variables, _settings: settings };
-        editor.hears("Opened Fox.glb", 1, SOON);
-        editor.window = screen.window("Fox.glb", SOON);
+        editor.hears("Opened ", 1, SOON);
         screen.program = Some(editor.child.id());
-        screen.focus(editor.window);
-        // The arrow is part of the picture.
-        screen.point(i16::MAX, i16::MAX);
         editor
     }
 
@@ -108,6 +120,12 @@ impl Editor {
         while let Ok(line) = self.said.recv() {
             self.lines.push(line);
         }
+    }
+
+    /// Ends it as the system ends what it cannot save.
+    pub(crate) fn kill(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 
     /// Processor time used so far, in hundredths of a second.

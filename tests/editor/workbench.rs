@@ -97,6 +97,7 @@ impl Workbench {
             Change::Undo => Ok(drop(edited.undo())),
             Change::Redo => Ok(drop(edited.redo())),
             Change::GoTo(done) => Ok(drop(edited.go_to(done))),
+            Change::Release(_) => Ok(edited.end_gesture()),
         };
         if let Err(error) = done {
             self.refused.push(error.to_string());
@@ -170,6 +171,11 @@ pub(crate) fn release(window: &mut Window, at: egui::Pos2) {
 
 pub(crate) fn button(window: &mut Window, pos: egui::Pos2, pressed: bool) {
     let modifiers = egui::Modifiers::NONE;
-    window.event(egui::Event::PointerButton { pos, button: egui::PointerButton::Primary, pressed, modifiers });
+    window.event(egui::Event::PointerButton {
+        pos,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers,
+    });
     window.run_steps(1);
 }

@@ -1,10 +1,11 @@
 //! What the document and the dialogs answer, shown in the window.
 
+use super::file_dialog::Answer;
 use super::interface::Interface;
-use super::open_dialog::Answer;
-use crate::document::{DocumentReply, Source};
+use super::saving;
+use crate::document::{Change, DocumentReply, Source};
 use crate::panels::Effect;
-use crate::panels::state::{Loading, Overlay};
+use crate::panels::state::Loading;
 use crate::panels::status::{Level, Status};
 use dragonfly_runtime::{Context, Receiver};
 use std::cell::RefCell;
@@ -22,6 +23,7 @@ impl Receiver for Replies {
 
     fn receive(&mut self, reply: DocumentReply, _main: &mut Context) {
         let mut interface = self.interface.borrow_mut();
+        let Some(reply) = saving::heard(&mut interface, reply) else { return interface.redraw() };
         let state = &mut interface.state;
         use DocumentReply::{Loading as Goes, Refused, View};
         let ends = !matches!(reply, Goes { .. } | View(_) | Refused(_));
@@ -44,6 +46,9 @@ impl Receiver for Replies {
             DocumentReply::View(view) => {
                 state.now = Instant::now();
                 state.show(view);
+                let Some(view) = &state.view else { return };
+                let (file, saved) = (std::sync::Arc::clone(&view.file), view.history.saved);
+                interface.set_title(&file.title, saved);
             }
             DocumentReply::Opened(loaded) => {
                 state.loading = None;
@@ -55,8 +60,12 @@ impl Receiver for Replies {
                 }
                 state.status.say(Level::Info, format!("Opened {}", loaded.title));
                 say_passed_over(&mut state.status, passed_over);
-                interface.set_title(&loaded.title);
+                let edits = std::mem::take(&mut interface.edits).into_iter();
+                let changes = edits.map(|edit| Effect::Change(Change::Edit(edit, None)));
+                interface.effects.extend(changes);
             }
+            // What remains was heard above.
+            _ => {}
         }
         interface.redraw();
     }
@@ -81,19 +90,7 @@ impl Receiver for Answers {
 
     fn receive(&mut self, answer: Answer, _main: &mut Context) {
         let mut interface = self.0.borrow_mut();
-        interface.asking = false;
-        match answer {
-            Answer::File(path) => interface.effects.push(Effect::Open(Source::File(path))),
-            Answer::Nothing { quick: true } => {
-                let text = "This desktop has no dialog for opening files; type the path instead";
-                interface.state.status.say(Level::Warning, text);
-                interface.state.overlay = Some(Overlay::OpenPath);
-            }
-            // Also where the dialog failed slowly, which looks the same from here.
-            Answer::Nothing { quick: false } => {
-                interface.state.status.say(Level::Info, "No file was chosen");
-            }
-        }
+        saving::chosen(&mut interface, answer);
         interface.redraw();
     }
 }

@@ -2,25 +2,28 @@
 
 use super::answers::{Answers, Replies};
 use super::base_runtime::{BaseRuntime, Parts};
+use super::file_dialog::{self, Answer, Purpose};
 use super::hover::{Hover, Place};
 use super::interface::Interface;
-use super::open_dialog::{self, Answer};
 use super::options::Options;
 use crate::camera::Camera;
-use crate::document::{Document, DocumentHandle, DocumentReply, Source};
+use crate::document::{Document, DocumentHandle, DocumentReply, Setup, Source, Then};
 use crate::graphics::{GraphicsHandle, GraphicsReply, Look};
+use crate::panels::saving::Deed;
 use crate::panels::state::Device;
 use crate::panels::status::Level;
 use crate::panels::theme::{Theme, linear};
-use crate::panels::{Effect, State};
+use crate::panels::{Effect, Request, State};
 use crate::playback::Playback;
+use crate::store::{Autosave, RealFiles};
 use dragonfly_runtime::{Address, Context, Receiver, Thread};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// How long the document may take to end.
-const END: Duration = Duration::from_millis(500);
+/// How long the document may take to end: what is in its journal must come to the disk, and disks can be slow.
+const END: Duration = Duration::from_secs(10);
 
 /// The editor's custom run-time.
 pub struct EditorRuntime {
@@ -30,11 +33,13 @@ pub struct EditorRuntime {
 }
 
 /// What it has between initialize and destroy.
-struct Running {
-    parts: Parts,
-    document: Option<DocumentHandle>,
+pub(super) struct Running {
+    pub(super) parts: Parts,
+    pub(super) document: Option<DocumentHandle>,
+    /// The document was asked whether the program may end.
+    pub(super) leaving: bool,
     replies: Address<DocumentReply>,
-    answers: Address<Answer>,
+    pub(super) answers: Address<Answer>,
     sent: Sent,
     /// Questions asked so far.
     tickets: u64,
@@ -71,22 +76,39 @@ impl EditorRuntime {
         }
     }
 
+    /// Where the document records what is not saved: with settings of their own, beside them.
+    fn setup(&self) -> Setup {
+        let beside = self.options.settings_folder.as_ref().map(|folder| folder.join("autosave"));
+        let folder = self.options.autosave_folder.clone().or(beside);
+        let autosave = Autosave::new(Arc::new(RealFiles), folder);
+        Setup { autosave, fail_at: self.options.fail_at, ..Setup::default() }
+    }
+
     fn effect(&mut self, effect: Effect) {
-        if let Effect::Open(source) = effect {
-            return self.open_model(source);
-        }
         let Some(running) = &mut self.running else { return };
+        let effect = match effect {
+            Effect::Open(source) => Effect::Deed(Deed::Leave(Then::Open(source))),
+            Effect::Quit => Effect::Deed(Deed::Leave(Then::Quit)),
+            other => other,
+        };
+        if let Effect::Deed(deed) = effect {
+            if running.deed(deed) {
+                self.quit.set(true);
+            }
+            return;
+        }
         let graphics = &running.parts.graphics;
         let mut interface = running.parts.interface.borrow_mut();
         match effect {
-            Effect::Open(_) => {}
+            Effect::Open(_) | Effect::Quit | Effect::Deed(_) => {}
+            Effect::Stays => running.leaving = false,
             Effect::OpenDialog if interface.asking => {
                 interface.state.status.say(Level::Info, "The dialog for opening files is open already");
             }
             Effect::OpenDialog => {
                 let recent = interface.state.settings.recent.first();
                 let folder = recent.and_then(|path| path.parent()).map(std::path::Path::to_owned);
-                match open_dialog::ask(folder, running.answers.clone()) {
+                match file_dialog::ask(Purpose::Open, folder, running.answers.clone()) {
                     Ok(()) => interface.asking = true,
                     Err(error) => {
                         let text = format!("No dialog could be opened: {error}");
@@ -104,6 +126,12 @@ impl EditorRuntime {
                     document.change(change);
                 }
             }
+            Effect::Copy(text) => interface.copy(text),
+            Effect::PastePose { mirrored } => {
+                let text = interface.clipboard();
+                let effect = interface.state.execute(Request::PastePose { text, mirrored });
+                interface.effects.extend(effect);
+            }
             Effect::Pick(position) => {
                 running.tickets += 1;
                 running.click = running.tickets;
@@ -115,7 +143,6 @@ impl EditorRuntime {
             Effect::TogglePanel(id) => interface.toggle_panel(id),
             Effect::ResetLayout => interface.reset_layout(),
             Effect::RetryDevice => graphics.resume(),
-            Effect::Quit => self.quit.set(true),
         }
         interface.redraw();
     }
@@ -123,10 +150,15 @@ impl EditorRuntime {
 
 impl BaseRuntime for EditorRuntime {
     fn initialize(&mut self, parts: Parts, main: &mut Context) {
-        parts.interface.borrow_mut().state.passed_over = self.options.passed_over;
+        {
+            let mut interface = parts.interface.borrow_mut();
+            interface.state.passed_over = self.options.passed_over;
+            interface.edits = std::mem::take(&mut self.options.edits);
+        }
         let replies = main.register_receiver(Replies { interface: Rc::clone(&parts.interface) });
         let answers = main.register_receiver(Answers(Rc::clone(&parts.interface)));
-        let document = match Document::start(replies.clone(), parts.graphics.views().clone()) {
+        let setup = self.setup();
+        let document = match Document::start_with(setup, replies.clone(), parts.graphics.views().clone()) {
             Ok(document) => {
                 report_faults(document.thread(), &parts.interface, main);
                 Some(document)
@@ -145,6 +177,7 @@ impl BaseRuntime for EditorRuntime {
             document,
             replies,
             answers,
+            leaving: false,
             sent: Sent::default(),
             tickets: 0,
             click: 0,

@@ -35,6 +35,11 @@ impl InitManager {
         self.fatal.as_deref()
     }
 
+    /// Has the run-time begun?
+    pub(super) fn is_running(&self) -> bool {
+        self.runtime.is_some()
+    }
+
     /// Lets the run-time begin; the graphics thread is ready.
     fn initialize(&mut self, main: &mut Context) {
         let (Some(make), Some(parts)) = (self.prepared.take(), self.parts.take()) else { return };

@@ -3,8 +3,10 @@
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
 use super::store::{self, Store};
+use crate::document::edit::Edit;
 use crate::graphics::{GraphicsHandle, PanelsFrame};
 use crate::panels::commands;
+use crate::panels::saving::Deed;
 use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;
 use crate::panels::{Desk, Effect, Request, Settings, State, style};
@@ -28,6 +30,10 @@ pub struct Interface {
     pub effects: Vec<Effect>,
     /// The system's dialog for opening files is open: one is enough.
     pub(super) asking: bool,
+    /// The window's title.
+    title: String,
+    /// Done once the first model is there.
+    pub(super) edits: Vec<Edit>,
     graphics: Option<GraphicsHandle>,
     store: Store,
     saved: Settings,
@@ -57,6 +63,8 @@ impl Interface {
             state: State::new(settings, now),
             effects: Vec::new(),
             asking: false,
+            title: String::new(),
+            edits: Vec::new(),
             graphics: None,
             store,
             saved,
@@ -118,9 +126,13 @@ impl Interface {
         self.egui.set_max_texture_side(side as usize);
     }
 
-    /// Names the document in the window's title.
-    pub fn set_title(&self, title: &str) {
-        self.window.set_title(&format!("{title} – Dragonfly"));
+    /// Names the document in the window's title, with a dot before it while something is not saved.
+    pub(super) fn set_title(&mut self, title: &str, saved: bool) {
+        let text = format!("{}{title} – Dragonfly", if saved { "" } else { "• " });
+        if text != self.title {
+            self.window.set_title(&text);
+            self.title = text;
+        }
     }
 
     /// Uses the whole screen, or a window again.
@@ -128,6 +140,16 @@ impl Interface {
         self.state.full_screen = !self.state.full_screen;
         let full = self.state.full_screen.then_some(Fullscreen::Borderless(None));
         self.window.set_fullscreen(full);
+    }
+
+    /// Puts a text into the clipboard.
+    pub fn copy(&mut self, text: String) {
+        self.egui.set_clipboard_text(text);
+    }
+
+    /// The text in the clipboard; empty where there is none.
+    pub fn clipboard(&mut self) -> String {
+        self.egui.clipboard_text().unwrap_or_default()
     }
 
     /// Shows or hides a panel.
@@ -159,6 +181,10 @@ impl Interface {
             WindowEvent::Occluded(occluded) => {
                 self.occluded = *occluded;
                 self.tell_size();
+                self.redraw();
+            }
+            WindowEvent::Focused(true) => {
+                self.effects.push(Effect::Deed(Deed::LookAtFile));
                 self.redraw();
             }
             WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => {
@@ -233,7 +259,10 @@ impl Interface {
         let (desk, state) = (&mut self.desk, &self.state);
         let output = context.run_ui(input, |ui| {
             // A frame may be run twice; what was asked for in the first run counts.
-            requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
+            // Who is asked something answers that first.
+            if state.question().is_none() {
+                requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
+            }
             desk.show(ui, state, &mut requests);
         });
         // Sent before anything else can go wrong: egui aborts when textures are lost on the way.
@@ -256,6 +285,7 @@ impl Interface {
             self.state.settings.clone(),
         );
         let (overlay, viewport) = (self.state.overlay, self.state.viewport);
+        let questions = self.state.questions.clone();
         self.state.hovered = None;
         self.state.find = false;
         let files = dropped.len();
@@ -274,7 +304,10 @@ impl Interface {
             self.state.bright(),
             self.state.settings.clone(),
         );
-        let changed = before != after || overlay != self.state.overlay || viewport != self.state.viewport;
+        let changed = before != after
+            || overlay != self.state.overlay
+            || questions != self.state.questions
+            || viewport != self.state.viewport;
 
         self.drawn = now;
         self.due = None;

@@ -102,6 +102,15 @@ impl MainRuntime {
         self.interface.borrow_mut().window_event(event);
     }
 
+    /// The person wants to close the window: is there somebody to ask whether everything is saved? Then that one decides.
+    pub(super) fn may_ask_before_closing(&mut self) -> bool {
+        let asks = self.init.borrow().is_running();
+        if asks {
+            self.interface.borrow_mut().effects.push(crate::panels::Effect::Quit);
+        }
+        asks
+    }
+
     /// Takes an event of the accessibility bridge.
     pub(super) fn accesskit_event(&mut self, event: accesskit_winit::Event) {
         self.interface.borrow_mut().accesskit_event(event.window_event);

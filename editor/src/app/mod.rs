@@ -11,12 +11,13 @@ mod answers;
 mod base_runtime;
 mod editor_runtime;
 mod event;
+mod file_dialog;
 pub mod hover;
 mod init_manager;
 mod interface;
 mod main_runtime;
-mod open_dialog;
 mod options;
+mod saving;
 pub mod store;
 pub mod timeline;
 
@@ -130,9 +131,10 @@ impl ApplicationHandler<UserEvent> for Shell {
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _window: WindowId, event: WindowEvent) {
         let Some(runtime) = &mut self.runtime else { return };
-        if matches!(event, WindowEvent::CloseRequested | WindowEvent::Destroyed) {
-            event_loop.exit();
-            return;
+        match event {
+            WindowEvent::CloseRequested if runtime.may_ask_before_closing() => return,
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => return event_loop.exit(),
+            _ => {}
         }
         runtime.window_event(&event);
     }

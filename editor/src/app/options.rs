@@ -1,6 +1,7 @@
 //! How the editor is started.
 
 use crate::document::Source;
+use crate::document::edit::Edit;
 use std::path::PathBuf;
 
 /// How the editor is started.
@@ -16,6 +17,12 @@ pub struct Options {
     pub never_pause: bool,
     /// Where settings are kept; the system's usual place when it is not given.
     pub settings_folder: Option<PathBuf>,
+    /// Where unsaved work is recorded; beside settings that have a folder of their own, else in the system's usual place.
+    pub autosave_folder: Option<PathBuf>,
+    /// Edits done once the first model is there, as if a person did them: for tests of what becomes of them.
+    pub edits: Vec<Edit>,
+    /// Lets the document fail at this change, to show that nothing is lost with it.
+    pub fail_at: Option<u32>,
 }
 
 impl Default for Options {
@@ -27,6 +34,9 @@ impl Default for Options {
             lose_device_every: None,
             never_pause: false,
             settings_folder: None,
+            autosave_folder: None,
+            edits: Vec::new(),
+            fail_at: None,
         }
     }
 }

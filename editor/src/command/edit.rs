@@ -71,6 +71,12 @@ impl Command for Arguments {
             Some(output) if !self.dry_run => save(&editable, &plan, output)?,
             _ => Vec::new(),
         };
+        let pending = adapter.pending_poses();
+        if pending > 0 {
+            tell(format_args!(
+                "{pending} pending poses are in no key, and not in the file; \"key_pending\" keys them"
+            ));
+        }
         self.report(&editable.title, edits.len(), &plan, written)
     }
 }
@@ -98,10 +104,7 @@ impl Arguments {
             return print_json(&Report { file: title.to_owned(), edits, changes, written });
         }
         if self.dry_run {
-            return print(|out| match &plan.changes {
-                Some(changes) => write!(out, "{changes}"),
-                None => writeln!(out, "the whole file is written anew: {} bytes", plan.files[0].bytes.len()),
-            });
+            return print(|out| write!(out, "{plan}"));
         }
         for file in written {
             tell(format_args!("wrote {} ({} bytes)", file.path, file.bytes));
@@ -147,7 +150,7 @@ fn list(json: bool) -> Result<(), Failure> {
     print_json(&List { version: VERSION, edits })
 }
 
-fn read_edits(path: &Path) -> Result<Vec<(usize, Edit)>, Failure> {
+pub(super) fn read_edits(path: &Path) -> Result<Vec<(usize, Edit)>, Failure> {
     let name = if path == Path::new("-") { "edits".to_owned() } else { path.display().to_string() };
     let bytes = if path == Path::new("-") {
         let mut bytes = Vec::new();

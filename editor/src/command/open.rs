@@ -25,6 +25,15 @@ pub(super) struct Arguments {
     /// Where settings are kept, instead of the usual place
     #[arg(long, value_name = "FOLDER", hide = true)]
     settings: Option<PathBuf>,
+    /// Where unsaved work is recorded, instead of the usual place
+    #[arg(long, value_name = "FOLDER", hide = true)]
+    autosave: Option<PathBuf>,
+    /// Does these edits once the model is there, one JSON object a line
+    #[arg(long, value_name = "EDITS", hide = true)]
+    edits: Option<PathBuf>,
+    /// Lets the document fail at this change
+    #[arg(long, value_name = "CHANGES", hide = true)]
+    fail_at: Option<u32>,
 }
 
 impl Command for Arguments {
@@ -36,7 +45,7 @@ impl Command for Arguments {
             quiet::about_wayland();
             return self.draw("DISPLAY and WAYLAND_DISPLAY are not set");
         }
-        match app::run(self.options()) {
+        match app::run(self.options()?) {
             Ok(()) => Ok(()),
             Err(AppError::Display(reason)) => self.draw(&reason),
             Err(AppError::Graphics(reason)) => Err(render::no_graphics(&reason)),
@@ -53,15 +62,19 @@ fn has_display() -> bool {
 }
 
 impl Arguments {
-    fn options(&self) -> Options {
+    fn options(&self) -> Result<Options, Failure> {
         let built_in = Source::BuiltIn;
-        Options {
+        let edits = self.edits.as_deref().map(super::edit::read_edits).transpose()?.unwrap_or_default();
+        Ok(Options {
             source: self.files.first().map_or(built_in, |file| source(file)),
             passed_over: self.files.len().saturating_sub(1),
             lose_device_every: self.lose_device,
             never_pause: self.never_pause,
             settings_folder: self.settings.clone(),
-        }
+            autosave_folder: self.autosave.clone(),
+            edits: edits.into_iter().map(|(_, edit)| edit).collect(),
+            fail_at: self.fail_at,
+        })
     }
 
     /// The main job without a window: a picture of the model in the current folder, and where to get more.

@@ -14,7 +14,8 @@ pub(super) fn about(adapter: &ModelAdapter, edit: &Edit) -> Arc<str> {
         Edit::RenameTake { take, name } => {
             // Both names, since one alone says little.
             let before = adapter.take(take).map(|slot| slot.original.name.clone());
-            return before.map_or_else(|_| "".into(), |before| format!("{} → {}", short(&before), short(name)).into());
+            return before
+                .map_or_else(|_| "".into(), |before| format!("{} → {}", short(&before), short(name)).into());
         }
         _ => edit.take().and_then(|take| adapter.take(take).ok()).map(|slot| slot.original.name.clone()),
     };
@@ -59,12 +60,20 @@ fn short(name: &str) -> String {
 mod tests {
     use super::*;
     use crate::document::edit::EXAMPLES;
-    use dragonfly_anim::data::{AnimationData, Bone, Skeleton, Take};
+    use dragonfly_anim::data::{AnimationData, Bone, Skeleton, Take, Transform};
+    use glam::Mat4;
 
     #[test]
     fn every_edit_says_what_it_was_done_to() {
         let long = "é".repeat(10_000);
-        let bone = |name: &str| Bone { name: name.to_owned(), ..Bone::default() };
+        let bone = |name: &str| Bone {
+            name: name.to_owned(),
+            parent: None,
+            rest: Transform::IDENTITY,
+            rest_matrix: None,
+            offset: Mat4::IDENTITY,
+            node: None,
+        };
         let skeleton = Skeleton { bones: vec![bone("b_Head_05"), bone(&long)] };
         let take = |name: &str| Arc::new(Take { name: name.to_owned(), ..Take::default() });
         let takes = vec![take("Survey"), take(&long)];

@@ -2,14 +2,18 @@
 
 use super::adapter::{ModelAdapter, Slot, TakeId};
 use super::load::{LoadError, Source, file_name};
-use super::{Cancel, Folder, import, read_file};
+use super::{Cancel, Folder, LoadedModel, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
-use crate::store::{Expected, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file};
+use crate::store::{
+    Expected, FileStamp, Journal, RealFiles, SaveError as DiskError, SaveOptions, Versions, folder_of,
+    save as save_file, save_document,
+};
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::{self, Changes, OutputFile, Plan, SourceFile, TakeNow};
 use dragonfly_anim::format::{AssetFs, NoFiles, ReadOptions, dfm};
 use dragonfly_anim::limits::FILE_BYTES;
 use std::collections::HashMap;
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
@@ -94,6 +98,34 @@ impl Editable {
         let (model, warnings) = (Arc::new(imported.model), imported.warnings);
         let on_disk = Arc::clone(&model);
         Ok(Self { title: source.title(), path, model, warnings, kind, stamp, on_disk, places: None })
+    }
+
+    /// The file behind `loaded`, which was made of `bytes` while the file had this stamp.
+    pub(super) fn of(
+        source: &Source,
+        bytes: Vec<u8>,
+        stamp: Option<FileStamp>,
+        loaded: &LoadedModel,
+    ) -> Result<Self, String> {
+        let kind = if loaded.format == "dfm" {
+            Kind::Dfm
+        } else {
+            let name = loaded.path.as_deref().map_or_else(|| "dragonfly.glb".to_owned(), file_name);
+            let source = with_door(loaded.path.as_deref(), |door| {
+                SourceFile::open(&name, bytes, door, &ReadOptions::default())
+            });
+            Kind::Gltf(Box::new(source.map_err(|error| error.to_string())?))
+        };
+        Ok(Self {
+            title: source.title(),
+            path: loaded.path.clone(),
+            model: Arc::clone(&loaded.model),
+            warnings: loaded.warnings.clone(),
+            kind,
+            stamp,
+            on_disk: Arc::clone(&loaded.model),
+            places: None,
+        })
     }
 
     /// What saving the takes of `adapter` will write.
@@ -200,45 +232,189 @@ impl Editable {
         plan: &SavePlan,
         output: &Path,
     ) -> Result<Vec<PathBuf>, String> {
-        let own = self.path.as_deref().is_some_and(|path| same_file(path, output));
-        let files = self.files(plan, output)?;
-        let mut written = Vec::new();
-        for (at, (path, bytes)) in files.iter().enumerate() {
+        let own = self.is_own(output);
+        let overwrite = if own { Overwrite::AsRead } else { Overwrite::Anything };
+        let how = Writing { overwrite, journal: None, versions: None, becomes: own };
+        let saved = self.save_with(adapter, plan, output, how).map_err(|error| error.to_string())?;
+        Ok(saved.files)
+    }
+
+    /// Is this the file that was opened?
+    pub(super) fn is_own(&self, path: &Path) -> bool {
+        self.path.as_deref().is_some_and(|own| same_file(own, path))
+    }
+
+    /// The ending of its name.
+    pub fn ending(&self) -> String {
+        let ending = self.path.as_deref().and_then(|path| path.extension()?.to_str().map(str::to_owned));
+        let usual = match &self.kind {
+            Kind::Gltf(_) => "glb",
+            Kind::Dfm => "dfm",
+        };
+        ending.unwrap_or_else(|| usual.to_owned())
+    }
+
+    /// What the file was when it was read or saved last.
+    pub(super) fn stamp(&self) -> Option<&FileStamp> {
+        self.stamp.as_ref()
+    }
+
+    /// Says which animation of the file each take is, of takes that do not begin with those of the file.
+    pub(super) fn set_places(&mut self, places: HashMap<TakeId, usize>) {
+        self.places = Some(places);
+    }
+
+    /// From now on it has no file of its own: the next save asks where.
+    pub(super) fn forget_file(&mut self) {
+        self.stamp = None;
+    }
+
+    /// Saves as `output`.
+    ///
+    /// # Errors
+    ///
+    /// What went wrong; what was there is whole then, unless the error says otherwise.
+    pub(super) fn save_with(
+        &mut self,
+        adapter: &ModelAdapter,
+        plan: &SavePlan,
+        output: &Path,
+        how: Writing<'_>,
+    ) -> Result<FilesSaved, SaveFailure> {
+        let mut files = self.files(plan, output)?;
+        let Some((main, bytes)) = files.pop() else { return Ok(FilesSaved::default()) };
+        let mut saved = FilesSaved::default();
+        for (path, bytes) in &files {
             make_folder(path)?;
-            let expected = match &self.stamp {
-                Some(stamp) if own && at + 1 == files.len() => Expected::Stamp(stamp),
-                _ => Expected::Anything,
-            };
-            let options = SaveOptions { expected, ..SaveOptions::default() };
-            let saved = save_file(&RealFiles, path, bytes, &options).map_err(|error| error.to_string())?;
-            if own && at + 1 == files.len() {
-                self.stamp = Some(saved.stamp);
+            let options = SaveOptions::default();
+            save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of)?;
+            saved.files.push(path.clone());
+        }
+        make_folder(&main)?;
+        let expected = match (how.overwrite, &self.stamp) {
+            (Overwrite::AsRead, Some(stamp)) => Expected::Stamp(stamp),
+            (Overwrite::Nothing, _) => Expected::Nothing,
+            _ => Expected::Anything,
+        };
+        let options = SaveOptions { expected, versions: how.versions };
+        let done = match how.journal {
+            Some(journal) => save_document(&RealFiles, journal, &main, &bytes, &options),
+            None => save_file(&RealFiles, &main, &bytes, &options),
+        };
+        let done = done.map_err(SaveFailure::of)?;
+        saved.files.push(main.clone());
+        saved.notices = done.notices;
+        saved.bytes = bytes.len();
+        if how.becomes {
+            self.stamp = Some(done.stamp);
+            self.title = file_name(&main);
+            self.path = Some(main);
+            if let Err(reason) = self.begin_again(adapter, bytes) {
+                saved.notices.push(format!("what was written cannot be saved again: {reason}"));
             }
-            written.push(path.clone());
         }
-        if own && let Some((_, bytes)) = files.last() {
-            self.begin_again(adapter, bytes)?;
-        }
-        Ok(written)
+        Ok(saved)
     }
 
     /// The file is `bytes` now, with the takes of `adapter`.
-    fn begin_again(&mut self, adapter: &ModelAdapter, bytes: &[u8]) -> Result<(), String> {
-        let Kind::Gltf(source) = &self.kind else { return Ok(()) };
-        let door = self.path.as_deref().and_then(|path| Folder::of(path).ok());
-        let door: &dyn AssetFs = door.as_ref().map_or(&NoFiles, |folder| folder);
-        let source = SourceFile::open(source.name(), bytes, door, &ReadOptions::default());
+    fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
+        let Kind::Gltf(_) = &self.kind else { return Ok(()) };
+        let source = with_door(self.path.as_deref(), |door| {
+            SourceFile::open(&self.title, bytes, door, &ReadOptions::default())
+        });
         self.kind = Kind::Gltf(Box::new(source.map_err(|error| error.to_string())?));
         let skeleton = Arc::clone(&self.model.animation.skeleton);
         let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
         self.on_disk = Arc::new(ModelData { animation, ..ModelData::clone(&self.model) });
-        let places = adapter.slots().iter().enumerate().map(|(place, slot)| (slot.id, place));
-        self.places = Some(places.collect());
+        self.places = Some(places(adapter));
         Ok(())
     }
 }
 
-fn same_file(a: &Path, b: &Path) -> bool {
+/// Which take of a file each one is, if the file has them all in this order.
+pub(super) fn places(adapter: &ModelAdapter) -> HashMap<TakeId, usize> {
+    adapter.slots().iter().enumerate().map(|(place, slot)| (slot.id, place)).collect()
+}
+
+impl fmt::Debug for Editable {
+    /// Its name; what it holds would fill pages.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "Editable({})", self.title)
+    }
+}
+
+/// What a save may overwrite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Overwrite {
+    /// The file as it was read or saved last.
+    AsRead,
+    /// No file.
+    Nothing,
+    /// Whatever is there: the person was asked.
+    Anything,
+}
+
+/// How a save writes.
+pub(super) struct Writing<'a> {
+    pub(super) overwrite: Overwrite,
+    /// Hears of it before and after, if it is that of the file.
+    pub(super) journal: Option<&'a mut Journal>,
+    /// Where the old version goes.
+    pub(super) versions: Option<&'a Versions>,
+    /// Is what was written the file that is edited from now on?
+    pub(super) becomes: bool,
+}
+
+/// What a save came to.
+#[derive(Debug, Default)]
+pub(super) struct FilesSaved {
+    /// What was written, the file itself last.
+    pub(super) files: Vec<PathBuf>,
+    /// Of the file itself.
+    pub(super) bytes: usize,
+    /// What could not be kept of the old file.
+    pub(super) notices: Vec<String>,
+}
+
+/// Why nothing was saved.
+#[derive(Debug, Error)]
+pub(super) enum SaveFailure {
+    /// Somebody else changed it.
+    #[error("{}: was changed on the disk by another program; it was not overwritten", .0.display())]
+    Changed(PathBuf),
+    /// It was to be a new file.
+    #[error("{}: exists already; it was not overwritten", .0.display())]
+    Exists(PathBuf),
+    /// Anything else.
+    #[error("{0}")]
+    Other(String),
+}
+
+impl SaveFailure {
+    fn of(error: DiskError) -> Self {
+        match error {
+            DiskError::Changed { path } => Self::Changed(path),
+            DiskError::Exists { path } => Self::Exists(path),
+            other => Self::Other(other.to_string()),
+        }
+    }
+}
+
+impl From<String> for SaveFailure {
+    fn from(reason: String) -> Self {
+        Self::Other(reason)
+    }
+}
+
+/// Does it with a door to the folder of the file at `path`; with none to go through where there is no such folder.
+fn with_door<T>(path: Option<&Path>, work: impl FnOnce(&dyn AssetFs) -> T) -> T {
+    match path.and_then(|path| Folder::of(path).ok()) {
+        Some(folder) => work(&folder),
+        None => work(&NoFiles),
+    }
+}
+
+pub(super) fn same_file(a: &Path, b: &Path) -> bool {
     matches!((std::fs::canonicalize(a), std::fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
@@ -246,6 +422,17 @@ fn same_file(a: &Path, b: &Path) -> bool {
 pub fn make_folder(path: &Path) -> Result<(), String> {
     let folder = folder_of(path);
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))
+}
+
+impl fmt::Display for SavePlan {
+    /// What will change, a line each.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.changes, self.files.last()) {
+            (Some(changes), _) => write!(out, "{changes}"),
+            (None, Some(file)) => writeln!(out, "the whole file is written anew: {} bytes", file.bytes.len()),
+            (None, None) => writeln!(out, "nothing changes"),
+        }
+    }
 }
 
 impl SavePlan {

@@ -41,12 +41,14 @@ pub struct Edited {
     saved: Option<usize>,
     /// Of all steps, about.
     bytes: usize,
+    /// Were steps forgotten because there were too many?
+    cut: bool,
 }
 
 impl Edited {
     /// Takes to which nothing was done yet.
     pub fn new(adapter: ModelAdapter) -> Self {
-        Self { adapter, steps: VecDeque::new(), done: 0, saved: Some(0), bytes: 0 }
+        Self { adapter, steps: VecDeque::new(), done: 0, saved: Some(0), bytes: 0, cut: false }
     }
 
     /// The takes as they are now.
@@ -150,6 +152,23 @@ impl Edited {
         self.saved
     }
 
+    /// Says where it was saved, of steps that were brought back; nowhere where there are not so many.
+    pub fn set_saved(&mut self, saved: Option<usize>) {
+        self.saved = saved.filter(|saved| *saved <= self.steps.len());
+    }
+
+    /// Were the first steps forgotten because there were too many?
+    pub fn is_cut(&self) -> bool {
+        self.cut
+    }
+
+    /// What comes from now on belongs to no gesture before.
+    pub fn end_gesture(&mut self) {
+        if let Some(step) = self.steps.back_mut() {
+            step.gesture = None;
+        }
+    }
+
     fn forget_after(&mut self, kept: usize) {
         self.bytes -= self.steps.drain(kept..).map(|step| step.bytes).sum::<usize>();
     }
@@ -159,6 +178,7 @@ impl Edited {
         while self.steps.len() > 1 && (self.steps.len() > MAX_STEPS || self.bytes > MAX_BYTES) {
             self.bytes -= self.steps.pop_front().map_or(0, |step| step.bytes);
             self.done -= 1;
+            self.cut = true;
             self.saved = self.saved.and_then(|saved| saved.checked_sub(1));
         }
     }

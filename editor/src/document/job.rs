@@ -1,6 +1,6 @@
 //! Loading in a thread of its own: the document goes on while a file is read, and outlives an importer that panics.
 
-use super::{Cancel, LoadError, LoadedModel, Loader, Progress, Source};
+use super::{Cancel, LoadError, Loader, Opened, Progress, Source};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::JoinHandle;
 
@@ -10,7 +10,7 @@ pub(super) enum JobNews {
     /// It goes on.
     Progress(Progress),
     /// It is over.
-    Done(Result<LoadedModel, LoadError>),
+    Done(Result<Opened, LoadError>),
 }
 
 /// A model being loaded. Dropping it cancels the job and lets it end by itself.

@@ -1,7 +1,9 @@
 //! Opening a model: bytes, data, pixels; with progress, cancellable, the same for window and command line.
 
-use super::{Cancel, DoorError, LoadedModel, Progress, Stage, read_file};
+use super::{Cancel, DoorError, Editable, LoadedModel, Progress, Stage, read_file};
 use super::{images, import};
+use crate::demo::DRAGONFLY_GLB;
+use crate::store::{FileData, FileStamp, RealFiles};
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::limits::FILE_BYTES;
 use std::cell::RefCell;
@@ -52,52 +54,126 @@ pub enum LoadError {
     Cancelled,
 }
 
-/// A way to open a model, such as [`load_model`].
-pub type Loader = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<LoadedModel, LoadError>;
+/// A model that is open: what is shown, and what it takes to save it.
+#[derive(Debug)]
+pub struct Opened {
+    /// What is shown.
+    pub loaded: LoadedModel,
+    /// The file behind it, from the same bytes; why it cannot be saved, where it cannot.
+    pub editable: Result<Editable, String>,
+}
 
-/// Opens `source`. `progress` hears how far it is; raising `cancel` ends it at the next step.
+impl From<LoadedModel> for Opened {
+    /// A model without a file.
+    fn from(loaded: LoadedModel) -> Self {
+        Self { loaded, editable: Err("it was not read from a file".to_owned()) }
+    }
+}
+
+/// A way to open a model, such as [`open_model`].
+pub type Loader = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
+
+/// Opens `source` to be shown. `progress` hears how far it is; raising `cancel` ends it at the next step.
 ///
 /// What is wrong but bearable becomes a warning of the model.
+///
+/// # Errors
+/// Place and reason.
 pub fn load_model(
     source: &Source,
     progress: &mut dyn FnMut(Progress),
     cancel: &Cancel,
 ) -> Result<LoadedModel, LoadError> {
+    let read = Read::file(source)?;
+    read.load(progress, cancel)
+}
+
+/// Opens `source` to be shown and edited: read once, imported once. The rest is as in [`load_model`].
+///
+/// # Errors
+/// Place and reason.
+pub fn open_model(
+    source: &Source,
+    progress: &mut dyn FnMut(Progress),
+    cancel: &Cancel,
+) -> Result<Opened, LoadError> {
     progress(Progress { stage: Stage::Reading, done: 0.0 });
-    let imported = {
-        // The importer may only look at its listener, so the listener is lent to it inside a cell.
-        let progress = RefCell::new(&mut *progress);
-        let understanding = |done: f32| {
-            let done = 0.1 + 0.4 * done.clamp(0.0, 1.0);
-            (progress.borrow_mut())(Progress { stage: Stage::Understanding, done });
-        };
-        match source {
-            Source::BuiltIn => import::built_in(&understanding, cancel)?,
+    let read = Read::file(source)?;
+    let loaded = read.load(progress, cancel)?;
+    let stamp = read.stamp()?;
+    let editable = Editable::of(source, read.bytes, stamp, &loaded);
+    Ok(Opened { loaded, editable })
+}
+
+/// The bytes of a model.
+struct Read<'a> {
+    source: &'a Source,
+    bytes: Vec<u8>,
+    /// What the file was before it was read.
+    before: Option<FileData>,
+}
+
+impl<'a> Read<'a> {
+    fn file(source: &'a Source) -> Result<Self, LoadError> {
+        let (bytes, before) = match source {
+            Source::BuiltIn => (DRAGONFLY_GLB.to_vec(), None),
             Source::File(path) => {
-                let bytes = read_file(path, FILE_BYTES)
-                    .map_err(|reason| LoadError::File { path: path.clone(), reason })?;
-                check(cancel)?;
-                import::file(path, &bytes, &understanding, cancel)?
+                let before = FileStamp::before(&RealFiles, path).ok();
+                let failed = |reason| LoadError::File { path: path.clone(), reason };
+                (read_file(path, FILE_BYTES).map_err(failed)?, before)
             }
+        };
+        Ok(Self { source, bytes, before })
+    }
+
+    /// What the file is now that it was read; none where there is no file.
+    fn stamp(&self) -> Result<Option<FileStamp>, LoadError> {
+        let (Source::File(path), Some(before)) = (self.source, &self.before) else { return Ok(None) };
+        match FileStamp::of_read(&RealFiles, path, before, &self.bytes) {
+            Ok(stamp) => Ok(Some(stamp)),
+            Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => Err(LoadError::Format {
+                title: self.source.title(),
+                reason: "file: it changed while it was read".to_owned(),
+            }),
+            // What cannot be asked for now will be noticed when it is saved.
+            Err(_) => Ok(None),
         }
-    };
-    check(cancel)?;
-    let import::Imported { model, format, mut warnings } = imported;
-    let count = model.images.len().max(1) as f32;
-    progress(Progress { stage: Stage::Decoding, done: 0.5 });
-    let decoded = images::decode_all(&model.images, cancel, |done| {
-        progress(Progress { stage: Stage::Decoding, done: 0.5 + 0.5 * done as f32 / count });
-    });
-    check(cancel)?;
-    warnings.extend(decoded.warnings);
-    let path = match source {
-        Source::BuiltIn => None,
-        Source::File(path) => Some(path.clone()),
-    };
-    let model = Arc::new(model);
-    let first = model.animation.takes.first().map(|take| take.start);
-    let bounds = bounds_of_pose(&model, first.map(|_| 0), first.unwrap_or(0.0));
-    Ok(LoadedModel { title: source.title(), path, format, model, bounds, images: decoded.images, warnings })
+    }
+
+    fn load(&self, progress: &mut dyn FnMut(Progress), cancel: &Cancel) -> Result<LoadedModel, LoadError> {
+        progress(Progress { stage: Stage::Reading, done: 0.0 });
+        check(cancel)?;
+        let imported = {
+            // The importer may only look at its listener, so the listener is lent to it inside a cell.
+            let progress = RefCell::new(&mut *progress);
+            let understanding = |done: f32| {
+                let done = 0.1 + 0.4 * done.clamp(0.0, 1.0);
+                (progress.borrow_mut())(Progress { stage: Stage::Understanding, done });
+            };
+            match self.source {
+                Source::BuiltIn => import::built_in(&understanding, cancel)?,
+                Source::File(path) => import::file(path, &self.bytes, &understanding, cancel)?,
+            }
+        };
+        check(cancel)?;
+        let import::Imported { model, format, mut warnings } = imported;
+        let count = model.images.len().max(1) as f32;
+        progress(Progress { stage: Stage::Decoding, done: 0.5 });
+        let decoded = images::decode_all(&model.images, cancel, |done| {
+            progress(Progress { stage: Stage::Decoding, done: 0.5 + 0.5 * done as f32 / count });
+        });
+        check(cancel)?;
+        warnings.extend(decoded.warnings);
+        let path = match self.source {
+            Source::BuiltIn => None,
+            Source::File(path) => Some(path.clone()),
+        };
+        let model = Arc::new(model);
+        let first = model.animation.takes.first().map(|take| take.start);
+        let bounds = bounds_of_pose(&model, first.map(|_| 0), first.unwrap_or(0.0));
+        let title = self.source.title();
+        Ok(LoadedModel { title, path, format, model, bounds, images: decoded.images, warnings })
+    }
 }
 
 fn check(cancel: &Cancel) -> Result<(), LoadError> {

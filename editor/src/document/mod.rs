@@ -2,6 +2,7 @@
 
 mod about;
 pub mod adapter;
+mod base;
 mod cancel;
 pub mod edit;
 mod editable;
@@ -10,15 +11,24 @@ pub mod history;
 pub mod images;
 mod import;
 mod job;
+mod keeper;
 mod load;
+mod offer;
 mod open;
 mod owner;
+mod recorded;
+mod recovering;
+mod replay;
+mod saving;
 mod view;
 
 pub use cancel::{Cancel, Progress, Stage};
 pub use editable::{Editable, SaveError, SavePlan, Written, make_folder};
 pub use folder::{DoorError, Folder, read_file};
-pub use load::{LoadError, Loader, Source, load_model};
+pub use load::{LoadError, Loader, Opened, Source, load_model, open_model};
+pub use offer::Offer;
 pub use open::Change;
-pub use owner::{Document, DocumentHandle, DocumentMessage, DocumentReply};
-pub use view::{DecodedImage, HistoryView, LoadedModel, View};
+pub use owner::{Document, DocumentHandle, DocumentMessage, DocumentReply, Setup};
+pub use recovering::Decision;
+pub use saving::{NotSaved, SaveOrder, SaveTo, SavedFile, Then};
+pub use view::{DecodedImage, FileView, HistoryView, LoadedModel, View};

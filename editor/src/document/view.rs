@@ -1,6 +1,6 @@
 //! What the document publishes: immutable, shared, never locked.
 
-use super::adapter::{ModelAdapter, Slot};
+use super::adapter::{ModelAdapter, PendingAt, Slot};
 use super::history::Edited;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, ModelData, Take};
@@ -68,6 +68,15 @@ impl HistoryView {
     }
 }
 
+/// Which file the document is saved as.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FileView {
+    /// Its name without folder; a stand-in where there is no file yet.
+    pub title: String,
+    /// Where it is; `None` for what was never saved: the first save asks where.
+    pub path: Option<PathBuf>,
+}
+
 /// The newest state of the document. Panels read it; nobody changes it.
 #[derive(Clone, Debug)]
 pub struct View {
@@ -82,6 +91,8 @@ pub struct View {
     pub slots: Arc<[Arc<Slot>]>,
     /// What was done.
     pub history: Arc<HistoryView>,
+    /// Where it is saved.
+    pub file: Arc<FileView>,
 }
 
 impl View {
@@ -89,7 +100,8 @@ impl View {
     pub fn opened(generation: u64, loaded: Arc<LoadedModel>) -> Self {
         let edited = Edited::new(ModelAdapter::new(&loaded.model.animation));
         let history = Arc::new(HistoryView { saved: true, saved_at: Some(0), ..HistoryView::default() });
-        Self::of(generation, loaded, edited.adapter(), history)
+        let file = Arc::new(FileView { title: loaded.title.clone(), path: loaded.path.clone() });
+        Self::of(generation, loaded, edited.adapter(), history, file)
     }
 
     /// `loaded` with its takes as they are in `adapter`.
@@ -98,9 +110,15 @@ impl View {
         loaded: Arc<LoadedModel>,
         adapter: &ModelAdapter,
         history: Arc<HistoryView>,
+        file: Arc<FileView>,
     ) -> Self {
         let takes = adapter.results().cloned().collect();
-        Self { generation, loaded, takes, slots: adapter.slots().into(), history }
+        Self { generation, loaded, takes, slots: adapter.slots().into(), history, file }
+    }
+
+    /// The poses that are pending at a time of a take and seen there instead of what its keys say.
+    pub fn pending(&self, take: Option<usize>, time: f32) -> Option<&PendingAt> {
+        self.slots.get(take?)?.pending_at(time).map(|at| &**at)
     }
 
     /// The skeleton and the takes as they are now.

@@ -3,6 +3,7 @@
 use super::message::Look;
 use super::shape::SkeletonShape;
 use super::uniform::{Affine, DrawUniform};
+use crate::document::adapter::Slot;
 use crate::document::{LoadedModel, View};
 use dragonfly_anim::animation::{Animation, final_poses};
 use dragonfly_anim::bounds::Bounds;
@@ -35,6 +36,8 @@ pub struct DrawItem {
 pub struct PosedModel {
     loaded: Arc<LoadedModel>,
     animation: Animation,
+    /// What is pending in the takes, as the view has it.
+    slots: Arc<[Arc<Slot>]>,
     /// One list for the device: all skins, then one matrix an instance.
     palettes: Vec<Affine>,
     /// First matrix of each skin.
@@ -75,6 +78,7 @@ impl PosedModel {
         let largest = model.skins.iter().map(|skin| skin.bones.len()).max().unwrap_or(0);
         let mut posed = Self {
             animation: Animation::of(model),
+            slots: Arc::default(),
             palettes: vec![Mat4::IDENTITY.into(); (rigid_start + model.instances.len()).max(1)],
             skin_starts,
             rigid_start,
@@ -88,13 +92,14 @@ impl PosedModel {
         };
         posed.items = posed.draw_items();
         posed.back_to_front.reserve(posed.items.iter().filter(|item| item.blend).count());
-        posed.pose(None, 0.0);
+        posed.pose(None, 0.0, false);
         posed
     }
 
     /// Exchanges the takes for those of `view`, which must be of this model. Everything else stays; the next
     /// [`pose`](Self::pose) is one of theirs.
     pub fn show_takes(&mut self, view: &View) {
+        self.slots = Arc::clone(&view.slots);
         if self.animation.data().takes.len() == view.takes.len() {
             for (index, take) in view.takes.iter().enumerate() {
                 self.animation.replace_take(index, Arc::clone(take));
@@ -150,10 +155,15 @@ impl PosedModel {
         x.truncate().dot(y.truncate().cross(z.truncate())) < 0.0
     }
 
-    /// Puts the model into the pose of `take` at `time`. Allocates nothing.
-    pub fn pose(&mut self, take: Option<usize>, time: f32) {
+    /// Puts the model into the pose of `take` at `time`, with what is pending there where `standing`: while time runs the
+    /// keys are seen. Allocates nothing.
+    pub fn pose(&mut self, take: Option<usize>, time: f32, standing: bool) {
         let model = &self.loaded.model;
         self.animation.to_root_bone_poses(take, time);
+        let slot = take.filter(|_| standing).and_then(|take| self.slots.get(take));
+        if let Some(pending) = slot.and_then(|slot| slot.pending_at(time)) {
+            self.animation.to_root_bone_poses_with(|poses| pending.put_on(poses));
+        }
         let to_root = self.animation.to_root();
         for (skin, &start) in model.skins.iter().zip(&self.skin_starts) {
             let finals = &mut self.finals[..skin.bones.len()];

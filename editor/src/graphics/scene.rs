@@ -79,7 +79,7 @@ impl Scene {
         let eye = self.camera.eye();
         let bounds = self.model.as_ref().map_or(Sphere::default(), |model| model.bounds().sphere);
         if let Some(model) = &mut self.model {
-            model.pose(self.playback.take, time);
+            model.pose(self.playback.take, time, !self.playback.moves(now));
             model.sort(eye, self.camera.back());
             model.place_bones(&self.look);
         }

@@ -2,10 +2,12 @@
 
 use super::commands::{self, Id};
 use super::ruler;
+use super::saving::Deed;
 use super::settings::{SCALES, SPEEDS, ThemeChoice};
 use super::state::{Effect, Overlay, Request, State};
 use super::status::Level;
 use crate::camera::Side;
+use crate::document::edit::{Property, ResetTo};
 use crate::document::{Change, Source};
 use crate::graphics::{BoneLook, Shading};
 use crate::playback::Repeat;
@@ -18,6 +20,7 @@ impl State {
             Request::Select(bone) => self.select(bone),
             Request::SelectBones(bones, choice) => self.selection.choose(&bones, choice),
             Request::Change(change) => return Some(Effect::Change(change)),
+            Request::PastePose { text, mirrored } => return self.paste_pose(&text, mirrored),
             Request::Hover(bone) => self.hovered = Some(bone),
             Request::ShowTake(take) => self.show_take(take),
             Request::Seek(time) => self.seek(time),
@@ -25,6 +28,7 @@ impl State {
             Request::Repeat(repeat) => self.set_repeat(repeat),
             Request::FrameRate(rate) => self.settings.frame_rate = rate,
             Request::Scale(scale) => self.set_scale(scale),
+            Request::Keys(keys) => self.settings.keys = keys,
             Request::Camera(camera) => self.camera = camera,
             Request::Viewport(rect) => self.set_viewport(rect),
             Request::Pick(position) => return Some(Effect::Pick(position)),
@@ -33,6 +37,8 @@ impl State {
             Request::Overlay(overlay) => self.overlay = overlay,
             Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
             Request::RenameTake(index) => self.rename_take(index),
+            Request::Deed(deed) => return self.answered(deed),
+            Request::Dismiss => return self.dismiss(),
             Request::PropertiesLook(look) => self.settings.properties = look,
         }
         None
@@ -59,10 +65,31 @@ impl State {
             Id::OpenPath => self.overlay = Some(Overlay::OpenPath),
             Id::OpenBuiltIn => return Some(Effect::Open(Source::BuiltIn)),
             Id::CancelLoading => return Some(Effect::CancelLoading),
+            Id::Save => return self.save_command(),
+            Id::SaveAs => return Some(Effect::Deed(Deed::Where { copy: false, then: None })),
+            Id::SaveCopy => return Some(Effect::Deed(Deed::Where { copy: true, then: None })),
+            Id::Revert => return Some(Effect::Deed(Deed::Revert)),
+            Id::WhatWillBeSaved => return Some(Effect::Deed(Deed::Plan(None))),
+            Id::ToggleShowChanges => self.settings.show_changes = !self.settings.show_changes,
+            Id::UnsavedWork => return Some(Effect::Deed(Deed::Search)),
             Id::Quit => return Some(Effect::Quit),
 
             Id::Undo => return Some(Effect::Change(Change::Undo)),
             Id::Redo => return Some(Effect::Change(Change::Redo)),
+
+            Id::AutoKey => self.toggle_auto_key(),
+            Id::Key => return self.key_here(),
+            Id::KeyAllPending => return self.key_pending(),
+            Id::DropPending => return self.drop_pending(),
+            Id::CopyPose => return self.copy_pose(),
+            Id::PastePose => return Some(Effect::PastePose { mirrored: false }),
+            Id::PasteMirrored => return Some(Effect::PastePose { mirrored: true }),
+            Id::ResetPose => return self.reset_pose(&Property::ALL, ResetTo::Original),
+            Id::RestTranslation => return self.reset_pose(&[Property::Translation], ResetTo::Rest),
+            Id::RestRotation => return self.reset_pose(&[Property::Rotation], ResetTo::Rest),
+            Id::RestScale => return self.reset_pose(&[Property::Scale], ResetTo::Rest),
+            Id::ResetToRest => return self.reset_pose(&Property::ALL, ResetTo::Rest),
+            Id::MirrorPairs => self.toggle(Overlay::MirrorPairs),
 
             Id::PlayPause => self.play(1.0),
             Id::PlayBackwards => self.play(-1.0),

@@ -39,6 +39,8 @@ pub enum Icon {
     Octahedra,
     Sticks,
     Lines,
+    AutoKey,
+    Key,
     KeyHere,
     KeyElsewhere,
     KeyNever,
@@ -95,6 +97,8 @@ impl Icon {
         Self::Octahedra,
         Self::Sticks,
         Self::Lines,
+        Self::AutoKey,
+        Self::Key,
         Self::KeyHere,
         Self::KeyElsewhere,
         Self::KeyNever,
@@ -142,6 +146,15 @@ impl Icon {
             Self::KeyForward => {
                 pen.line(&[(10.0, 4.5), (13.5, 8.0), (10.0, 11.5)]);
                 pen.diamond(5.5, 8.0, 3.4);
+            }
+            Self::AutoKey => {
+                pen.ring(8.0, 8.0, 5.6);
+                pen.dot(8.0, 8.0, 3.0);
+            }
+            Self::Key => {
+                pen.diamond(6.2, 8.0, 3.8);
+                pen.line(&[(12.0, 4.6), (12.0, 9.0)]);
+                pen.line(&[(9.8, 6.8), (14.2, 6.8)]);
             }
             Self::Once => {
                 pen.line(&[(2.5, 8.0), (11.0, 8.0)]);

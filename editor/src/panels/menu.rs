@@ -20,6 +20,7 @@ pub fn show(
         ui.add_space(GRID);
         ui.menu_button("File", |ui| file(ui, state, requests));
         ui.menu_button("Edit", |ui| list(ui, state, &[Category::Edit, Category::Selection], requests));
+        ui.menu_button("Pose", |ui| pose(ui, state, requests));
         ui.menu_button("Play", |ui| list(ui, state, &[Category::Playback], requests));
         ui.menu_button("Take", |ui| list(ui, state, &[Category::Takes], requests));
         ui.menu_button("View", |ui| view(ui, state, panels, requests));
@@ -56,6 +57,16 @@ fn list(ui: &mut Ui, state: &State, categories: &[Category], requests: &mut Vec<
     }
 }
 
+fn pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    for command in commands::of(Category::Pose) {
+        let on = command.id == Id::AutoKey && state.settings.auto_key;
+        item(ui, state, command.id, on, requests);
+        if matches!(command.id, Id::AutoKey | Id::DropPending | Id::PasteMirrored | Id::ResetToRest) {
+            ui.separator();
+        }
+    }
+}
+
 fn file(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     item(ui, state, Id::Open, false, requests);
     item(ui, state, Id::OpenPath, false, requests);
@@ -76,6 +87,15 @@ fn file(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     if state.loading.is_some() {
         item(ui, state, Id::CancelLoading, false, requests);
     }
+    ui.separator();
+    item(ui, state, Id::Save, false, requests);
+    item(ui, state, Id::SaveAs, false, requests);
+    item(ui, state, Id::SaveCopy, false, requests);
+    item(ui, state, Id::Revert, false, requests);
+    item(ui, state, Id::WhatWillBeSaved, false, requests);
+    item(ui, state, Id::ToggleShowChanges, state.settings.show_changes, requests);
+    ui.separator();
+    item(ui, state, Id::UnsavedWork, false, requests);
     ui.separator();
     item(ui, state, Id::Quit, false, requests);
 }

@@ -3,6 +3,7 @@
 //! A new panel is a file here and a line in [`all`].
 
 pub mod commands;
+mod dialogs;
 pub mod digest;
 mod execute;
 pub mod hierarchy;
@@ -10,14 +11,18 @@ pub mod history;
 pub mod icons;
 pub mod layout;
 pub mod menu;
+mod mirror_pairs;
 pub mod number_field;
 pub mod number_slider;
 pub mod number_text;
 pub mod overlays;
+mod pose_commands;
 mod posing;
 pub mod properties;
 pub mod ruler;
+pub mod saving;
 pub mod settings;
+mod shortcuts;
 pub mod state;
 pub mod status;
 pub mod status_line;
@@ -85,6 +90,7 @@ pub struct Desk {
     panels: Vec<Box<dyn Panel>>,
     layout: Layout,
     overlays: overlays::Overlays,
+    dialogs: dialogs::Dialogs,
 }
 
 impl Desk {
@@ -92,7 +98,7 @@ impl Desk {
     pub fn new(layout: &str) -> Self {
         let panels = all();
         let layout = Layout::parse(layout, &panels);
-        Self { panels, layout, overlays: overlays::Overlays::default() }
+        Self { panels, layout, overlays: overlays::Overlays::default(), dialogs: dialogs::Dialogs::default() }
     }
 
     /// The places, as the text of a layout file, when they changed since the last call.
@@ -112,6 +118,7 @@ impl Desk {
 
     /// Draws everything once.
     pub fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        commands::Keymap::install(&state.settings.keys, ui.ctx());
         let theme = theme::Theme::of(ui);
         let bar = egui::Frame::NONE.fill(theme.bar);
         egui::Panel::top("menu").exact_size(style::BAR).frame(bar).show_separator_line(false).show(
@@ -133,6 +140,7 @@ impl Desk {
         });
         drop_hint(ui);
         self.overlays.show(ui, state, requests);
+        self.dialogs.show(ui, state, requests);
     }
 }
 

@@ -208,7 +208,9 @@ impl NumberField<'_> {
             Some(reason) => (reason.clone(), theme.error),
             None if typing.text == typing.first || typing.text.trim().parse::<f64>().is_ok() => return,
             None => match self.read(&typing.text) {
-                Ok(value) => (format!("= {}{}", exact(value, self.grain.max(1e-6)), self.suffix()), theme.weak),
+                Ok(value) => {
+                    (format!("= {}{}", exact(value, self.grain.max(1e-6)), self.suffix()), theme.weak)
+                }
                 Err(_) => return,
             },
         };
@@ -236,7 +238,8 @@ impl NumberField<'_> {
         }
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        let refused = ui.data(|data| data.get_temp::<Refused>(id)).filter(|refused| refused.value == self.value);
+        let refused =
+            ui.data(|data| data.get_temp::<Refused>(id)).filter(|refused| refused.value == self.value);
         self.paint(ui, rect, &response, refused.as_ref());
         self.describe(ui, &response, refused.as_ref().map(|refused| refused.reason.as_str()));
         if response.clicked() {

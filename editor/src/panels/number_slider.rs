@@ -4,7 +4,9 @@ use super::number_field::Heard;
 use super::number_text::exact;
 use super::theme::Theme;
 use egui::accesskit::{Action, ActionData, Role};
-use egui::{Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
+use egui::{
+    Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Sense, Stroke, Ui, WidgetInfo, pos2,
+};
 
 /// What a slider is and shows.
 #[derive(Clone, Debug)]
@@ -92,7 +94,10 @@ impl NumberSlider<'_> {
             response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_ui(|ui| {
                 let value = self.value.map_or("different values".to_owned(), |value| exact(value, 1e-3));
                 ui.label(format!("{}: {value}", self.name));
-                ui.colored_label(Theme::of(ui).faint, "Drag. Shift is finer, Ctrl snaps. Double click for none.");
+                ui.colored_label(
+                    Theme::of(ui).faint,
+                    "Drag. Shift is finer, Ctrl snaps. Double click for none.",
+                );
             });
         }
         heard
@@ -180,6 +185,10 @@ impl NumberSlider<'_> {
         let color = if enabled { self.color } else { theme.faint };
         painter.hline(middle.min(x)..=middle.max(x), y, Stroke::new(2.0, color));
         let held = response.hovered() || response.dragged() || response.has_focus();
-        painter.circle_filled(pos2(x, y), if held { 5.0 } else { 4.0 }, if held { theme.text } else { color });
+        painter.circle_filled(
+            pos2(x, y),
+            if held { 5.0 } else { 4.0 },
+            if held { theme.text } else { color },
+        );
     }
 }

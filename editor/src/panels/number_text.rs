@@ -65,7 +65,9 @@ mod tests {
 
     #[test]
     fn a_shown_number_stays_short() {
-        for value in [0.0, -0.0, 1e-7, 0.5, -12.345_678, 123.456, 1234.5, 98_765.4, -1e9, 3.4e38, f64::INFINITY] {
+        for value in
+            [0.0, -0.0, 1e-7, 0.5, -12.345_678, 123.456, 1234.5, 98_765.4, -1e9, 3.4e38, f64::INFINITY]
+        {
             for digits in [Digits::Fitting, Digits::Fixed(2)] {
                 assert!(digits.text(value).chars().count() <= 9, "{value}: {}", digits.text(value));
             }

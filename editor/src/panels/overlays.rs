@@ -1,6 +1,7 @@
 //! What lies over the panels: command palette, shortcut sheet, about, path field.
 
-use super::commands::{self, Category, Command, Id, MOUSE};
+use super::commands::{self, Command, Id};
+use super::shortcuts::ShortcutSheet;
 use super::state::{Overlay, Request, State};
 use super::style::{self, GRID, ROW};
 use super::theme::Theme;
@@ -15,6 +16,7 @@ pub struct Overlays {
     query: String,
     chosen: usize,
     path: String,
+    shortcuts: ShortcutSheet,
     shown: Option<Overlay>,
 }
 
@@ -26,6 +28,7 @@ impl Overlays {
             self.shown = state.overlay;
             self.query.clear();
             self.chosen = 0;
+            self.shortcuts.begin(ui);
         }
         let Some(overlay) = state.overlay else { return };
         let id = WidgetId::unique(("overlay", format!("{overlay:?}")));
@@ -36,9 +39,10 @@ impl Overlays {
             modal = modal.area(Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, 72.0)));
         }
         let response = modal.show(ui.ctx(), |ui| match overlay {
-            Overlay::Palette => self.palette(ui, fresh, requests),
-            Overlay::Shortcuts => shortcuts(ui, requests),
+            Overlay::Palette => self.palette(ui, fresh, state, requests),
+            Overlay::Shortcuts => self.shortcuts.show(ui, state, requests),
             Overlay::About => about(ui, state, requests),
+            Overlay::MirrorPairs => super::mirror_pairs::show(ui, state, requests),
             Overlay::OpenPath => self.open_path(ui, fresh, requests),
         });
         if response.should_close() {
@@ -46,7 +50,7 @@ impl Overlays {
         }
     }
 
-    fn palette(&mut self, ui: &mut Ui, fresh: bool, requests: &mut Vec<Request>) {
+    fn palette(&mut self, ui: &mut Ui, fresh: bool, state: &State, requests: &mut Vec<Request>) {
         ui.set_width(460.0);
         let (up, down, enter) = ui.input_mut(|input| {
             let mut take = |key| input.consume_key(egui::Modifiers::NONE, key);
@@ -61,7 +65,7 @@ impl Overlays {
         if response.changed() {
             self.chosen = 0;
         }
-        let found = search(&self.query);
+        let found = search(&self.query, state);
         if found.is_empty() {
             ui.label(RichText::new("Nothing is called that").color(Theme::of(ui).weak));
             return;
@@ -77,7 +81,7 @@ impl Overlays {
         ui.spacing_mut().item_spacing.y = 0.0;
         ScrollArea::vertical().max_height(12.0 * ROW).show(ui, |ui| {
             for (index, command) in found.iter().enumerate() {
-                let response = palette_row(ui, command, index == self.chosen);
+                let response = palette_row(ui, state, command, index == self.chosen);
                 if index == self.chosen && (up || down) {
                     response.scroll_to_me(None);
                 }
@@ -121,26 +125,33 @@ impl Overlays {
 }
 
 /// Commands whose title, category or help has every word of `query`, those with it in the title first.
-fn search(query: &str) -> Vec<&'static Command> {
+fn search(query: &str, state: &State) -> Vec<&'static Command> {
     let words: Vec<String> = query.to_lowercase().split_whitespace().map(str::to_owned).collect();
     let has = |text: &str| {
         let text = text.to_lowercase();
         words.iter().all(|word| text.contains(word))
     };
-    let (mut first, second): (Vec<_>, Vec<_>) = commands::all()
+    let (mut first, second): (Vec<&Command>, Vec<&Command>) = commands::all()
         .filter(|command| command.id != Id::Palette)
         .filter(|command| {
             has(&format!("{} {} {}", commands::category_of(command.id).title(), command.title, command.help))
         })
         .partition(|command| has(command.title));
     first.extend(second);
+    // What cannot be given now stands last, with its reason.
+    first.sort_by_key(|command| !command.when.holds(state));
     first
 }
 
-fn palette_row(ui: &mut Ui, command: &Command, chosen: bool) -> egui::Response {
+fn palette_row(ui: &mut Ui, state: &State, command: &Command, chosen: bool) -> egui::Response {
     let theme = Theme::of(ui);
     let (rect, response) = widgets::row(ui, command.title, chosen, false);
-    let color = if chosen { theme.accent } else { theme.text };
+    let able = command.when.holds(state);
+    let color = match (able, chosen) {
+        (false, _) => theme.faint,
+        (true, true) => theme.accent,
+        (true, false) => theme.text,
+    };
     let inside = egui::Rect::from_min_max(pos2(rect.left() + 12.0, rect.top()), rect.max);
     let right = widgets::text_in(ui, inside, command.title, &TextStyle::Body, color);
     let shortcut = commands::shortcut_text(ui.ctx(), command.id);
@@ -152,66 +163,12 @@ fn palette_row(ui: &mut Ui, command: &Command, chosen: bool) -> egui::Response {
         ui.painter().text(
             category,
             Align2::LEFT_CENTER,
-            commands::category_of(command.id).title(),
+            if able { commands::category_of(command.id).title() } else { command.when.reason() },
             font,
             theme.faint,
         );
     }
     response
-}
-
-fn shortcuts(ui: &mut Ui, requests: &mut Vec<Request>) {
-    let room = ui.ctx().content_rect();
-    ui.set_width((room.width() - 96.0).clamp(320.0, 860.0));
-    title(ui, "Keys and mouse", requests);
-    let height = (room.height() - 160.0).max(160.0);
-    ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
-        let columns = if ui.available_width() > 700.0 { 2 } else { 1 };
-        ui.columns(columns, |columns| {
-            let last = columns.len() - 1;
-            for category in Category::ALL {
-                let right =
-                    matches!(category, Category::Look | Category::Camera | Category::Window | Category::Help);
-                sheet(&mut columns[if right { last } else { 0 }], *category);
-            }
-            let ui = &mut columns[0];
-            heading(ui, "Mouse");
-            for (gesture, deed) in MOUSE {
-                line(ui, deed, |ui| {
-                    ui.label(RichText::new(*gesture).small().color(Theme::of(ui).weak));
-                });
-            }
-        });
-    });
-}
-
-fn sheet(ui: &mut Ui, category: Category) {
-    heading(ui, category.title());
-    let commands = commands::of(category).iter();
-    for command in commands.filter(|command| !command.shortcuts.is_empty()) {
-        line(ui, command.title, |ui| {
-            // Right to left, so that the first stands first.
-            for shortcut in command.shortcuts.iter().take(2).rev() {
-                widgets::key_cap(ui, &commands::text(shortcut));
-            }
-        });
-    }
-}
-
-fn heading(ui: &mut Ui, text: &str) {
-    ui.add_space(2.0 * GRID);
-    ui.label(RichText::new(text).color(Theme::of(ui).accent));
-}
-
-fn line(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) {
-    ui.horizontal(|ui| {
-        ui.label(title);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.spacing_mut().item_spacing.x = GRID;
-            ui.add_space(3.0 * GRID);
-            add(ui);
-        });
-    });
 }
 
 fn about(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
@@ -232,7 +189,7 @@ fn about(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     }
 }
 
-fn title(ui: &mut Ui, text: &str, requests: &mut Vec<Request>) {
+pub(super) fn title(ui: &mut Ui, text: &str, requests: &mut Vec<Request>) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(text).heading());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

@@ -1,5 +1,6 @@
 //! What the program remembers between runs.
 
+use super::commands::KeySettings;
 use super::properties::PropertiesLook;
 use crate::graphics::{BoneLook, Shading};
 use crate::playback::Repeat;
@@ -75,6 +76,12 @@ pub struct Settings {
     pub speed: f32,
     /// Frames a second, for display and stepping.
     pub frame_rate: u32,
+    /// Which keys give which command.
+    pub keys: KeySettings,
+    /// Does a changed pose become a key at once?
+    pub auto_key: bool,
+    /// Is it shown before each save what it will change?
+    pub show_changes: bool,
     /// Newest first.
     pub recent: Vec<PathBuf>,
     /// How the numbers of a bone are shown.
@@ -90,6 +97,9 @@ impl Default for Settings {
             repeat: Repeat::default(),
             speed: 1.0,
             frame_rate: 30,
+            keys: KeySettings::default(),
+            auto_key: true,
+            show_changes: false,
             recent: Vec::new(),
             properties: PropertiesLook::default(),
         }

@@ -1,6 +1,7 @@
 //! What is shown and chosen right now. Panels read it and ask for changes; only [`super::execute`] makes them.
 
 use super::digest::Digest;
+use super::saving::{Deed, Question};
 use super::settings::Settings;
 use super::status::Status;
 use crate::camera::Camera;
@@ -12,9 +13,11 @@ use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{BoneIndex, Take};
 use glam::Vec3;
 use std::cell::Cell;
+use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::commands::Id;
+use super::commands::{Id, KeySettings};
 
 /// A model on its way.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +57,8 @@ pub enum Overlay {
     About,
     /// A field for a path.
     OpenPath,
+    /// Which bone is the other side of which.
+    MirrorPairs,
 }
 
 /// What a panel asks for.
@@ -67,6 +72,13 @@ pub enum Request {
     SelectBones(Vec<BoneIndex>, Choice),
     /// Edits, undoes, does again.
     Change(Change),
+    /// Puts on the poses in a text from the clipboard.
+    PastePose {
+        /// As it was there.
+        text: String,
+        /// On the other side?
+        mirrored: bool,
+    },
     /// The pointer is over this bone's row.
     Hover(BoneIndex),
     /// Shows a take, or the rest pose.
@@ -81,6 +93,8 @@ pub enum Request {
     FrameRate(u32),
     /// Scale of the window's content.
     Scale(f32),
+    /// Other keys for commands.
+    Keys(KeySettings),
     /// From where.
     Camera(Camera),
     /// Where the picture is, in points.
@@ -97,6 +111,10 @@ pub enum Request {
     TogglePanel(&'static str),
     /// Begins to rename a take, or ends it.
     RenameTake(Option<usize>),
+    /// Answers a question.
+    Deed(Deed),
+    /// Leaves a question without an answer.
+    Dismiss,
     /// How the numbers of a bone are shown.
     PropertiesLook(super::properties::PropertiesLook),
 }
@@ -112,6 +130,13 @@ pub enum Effect {
     CancelLoading,
     /// Tells the document.
     Change(Change),
+    /// Puts a text into the clipboard.
+    Copy(String),
+    /// Asks for [`Request::PastePose`] with what is in the clipboard.
+    PastePose {
+        /// On the other side?
+        mirrored: bool,
+    },
     /// Asks the graphics thread which bone lies there, in points.
     Pick(egui::Pos2),
     /// Uses the whole screen, or a window again.
@@ -124,34 +149,57 @@ pub enum Effect {
     RetryDevice,
     /// Ends the program.
     Quit,
+    /// Saves, leaves, brings back.
+    Deed(Deed),
+    /// The program does not end, since something is not saved.
+    Stays,
 }
 
 /// Poses at the time shown, computed when somebody reads them.
 #[derive(Debug, Default)]
 pub struct Posed {
-    animation: Option<(u64, Animation)>,
-    at: Option<(Option<usize>, f32)>,
+    animation: Option<(Arc<LoadedModel>, u64, Animation)>,
+    at: Option<(Option<usize>, f32, bool)>,
+    /// Does time run? Then the keys are seen, and not what is pending.
+    running: bool,
 }
 
 impl Posed {
-    /// The poses of `view` in `take` at `time`.
+    /// The poses of `view` in `take` at `time`, with what is pending there. Of the model that was posed last only the takes
+    /// are exchanged.
     pub fn update(&mut self, view: &View, take: Option<usize>, time: f32) -> &Animation {
-        if self.animation.as_ref().is_none_or(|(generation, _)| *generation != view.generation) {
+        let is_same = |(loaded, ..): &(Arc<LoadedModel>, u64, Animation)| Arc::ptr_eq(loaded, &view.loaded);
+        if !self.animation.as_ref().is_some_and(is_same) {
             self.animation = None;
             self.at = None;
         }
-        let (_, animation) =
-            self.animation.get_or_insert_with(|| (view.generation, Animation::new(view.animation())));
-        if self.at != Some((take, time)) {
+        let (_, generation, animation) = self.animation.get_or_insert_with(|| {
+            (Arc::clone(&view.loaded), view.generation, Animation::new(view.animation()))
+        });
+        if *generation != view.generation {
+            *generation = view.generation;
+            self.at = None;
+            if animation.data().takes.len() == view.takes.len() {
+                for (index, take) in view.takes.iter().enumerate() {
+                    animation.replace_take(index, Arc::clone(take));
+                }
+            } else {
+                *animation = Animation::new(view.animation());
+            }
+        }
+        if self.at != Some((take, time, self.running)) {
             animation.to_root_bone_poses(take, time);
-            self.at = Some((take, time));
+            if let Some(pending) = view.pending(take, time).filter(|_| !self.running) {
+                animation.to_root_bone_poses_with(|poses| pending.put_on(poses));
+            }
+            self.at = Some((take, time, self.running));
         }
         animation
     }
 
     /// The poses computed last, if there is a model.
     pub fn animation(&self) -> Option<&Animation> {
-        self.animation.as_ref().map(|(_, animation)| animation)
+        self.animation.as_ref().map(|(_, _, animation)| animation)
     }
 }
 
@@ -193,6 +241,10 @@ pub struct State {
     pub frame_time: Option<f32>,
     /// What lies over the panels.
     pub overlay: Option<Overlay>,
+    /// What the person is asked, the first one first.
+    pub questions: VecDeque<Question>,
+    /// Was the document lost by a mistake in the program, and its work not offered yet?
+    pub lost: bool,
     /// Is the cursor to be put into the search field?
     pub find: bool,
     /// Where the picture is, in points.
@@ -230,6 +282,8 @@ impl State {
             device: Device::default(),
             frame_time: None,
             overlay: None,
+            questions: VecDeque::new(),
+            lost: false,
             find: false,
             viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
             takes: super::takes::TakesState::default(),
@@ -252,6 +306,7 @@ impl State {
             self.playback.playing = false;
             self.playback = self.playback.seek(time, now);
         }
+        self.posed.running = self.playback.moves(now);
         self.digest.update(self.view.as_ref(), self.playback.take, self.selection.active());
         if let Some(view) = &self.view
             && self.selection.active().is_some()

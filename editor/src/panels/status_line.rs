@@ -1,19 +1,22 @@
 //! The line at the bottom: the newest message, all of them on a click, the device in the corner.
 
+use super::commands::{self, Id};
 use super::icons::Icon;
 use super::state::{Device, Request, State};
 use super::status::{Level, Line};
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets;
+use crate::document::edit::SAME_TIME;
 use egui::{Align, Color32, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
 
 /// Draws the line.
-pub fn show(ui: &mut Ui, state: &State, _requests: &mut Vec<Request>) {
+pub fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(3.0 * GRID);
         corner(ui, state);
         ui.add_space(3.0 * GRID);
+        pending(ui, state, requests);
         message(ui, state);
     });
 }
@@ -38,6 +41,29 @@ fn corner(ui: &mut Ui, state: &State) {
             }
         }
     }
+}
+
+/// How many poses wait to be keyed; a click goes to the next one.
+fn pending(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let (here, all) = state.pending_poses();
+    if all == 0 {
+        return;
+    }
+    let theme = Theme::of(ui);
+    let elsewhere = if here == 0 { " in other takes" } else { "" };
+    let text = format!("{} pending{elsewhere}", widgets::count(all, "pose", "poses"));
+    let [key, all_keys] = [Id::Key, Id::KeyAllPending].map(|id| commands::shortcut_text(ui.ctx(), id));
+    let hint = format!(
+        "Changed with auto-key off: shown, but in no key and in no saved file yet\n\
+         {key} keys what is pending at this time, {all_keys} all of this take\nClick to go to the next one"
+    );
+    let button = egui::Button::new(RichText::new(text).small().color(theme.warning)).frame(false);
+    if ui.add(button).on_hover_text(hint).clicked() {
+        let now = state.time();
+        let next = state.pending_times().find(|&time| time > now + SAME_TIME);
+        requests.extend(next.or(state.pending_times().next()).map(Request::Seek));
+    }
+    ui.add_space(2.0 * GRID);
 }
 
 fn message(ui: &mut Ui, state: &State) {

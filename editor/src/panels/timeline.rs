@@ -108,6 +108,7 @@ fn paint(ui: &Ui, rect: Rect, ruler: &Ruler, state: &State) {
     ticks(&painter, rect, head, ruler, state, theme);
     lanes(ui, &painter, rect, head, ruler, state, theme);
     playhead(&painter, rect, head, ruler, state, theme);
+    pending(&painter, head, ruler, state, theme);
     painter.vline(rect.left() + GUTTER - 10.0, rect.y_range(), Stroke::new(1.0, theme.line));
     let unit = Rect::from_min_max(
         pos2(rect.left() + 12.0, head.top()),
@@ -183,6 +184,16 @@ fn lanes(ui: &Ui, painter: &Painter, rect: Rect, head: Rect, ruler: &Ruler, stat
                 );
             }
         }
+    }
+}
+
+/// A small hollow diamond in the ruler where poses wait to be keyed.
+fn pending(painter: &Painter, head: Rect, ruler: &Ruler, state: &State, theme: &Theme) {
+    for time in state.pending_times() {
+        let center = pos2(ruler.x_of(time), head.bottom() - 5.0);
+        let points = [vec2(0.0, -4.0), vec2(4.0, 0.0), vec2(0.0, 4.0), vec2(-4.0, 0.0)];
+        let points = points.into_iter().map(|offset| center + offset).collect();
+        painter.add(Shape::convex_polygon(points, theme.bar, Stroke::new(1.3, theme.warning)));
     }
 }
 

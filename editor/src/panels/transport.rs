@@ -20,6 +20,8 @@ pub(super) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing.x = 2.0;
         ui.add_enabled_ui(able, |ui| buttons(ui, state, requests));
         divider(ui);
+        keying(ui, state, requests);
+        divider(ui);
         repeat(ui, state, requests);
         divider(ui);
         speed(ui, state, requests);
@@ -46,6 +48,14 @@ fn buttons(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     command_button(ui, Icon::FrameForward, Id::NextFrame, false, requests);
     command_button(ui, Icon::KeyForward, Id::NextKey, false, requests);
     command_button(ui, Icon::Last, Id::End, false, requests);
+}
+
+fn keying(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    command_button(ui, Icon::AutoKey, Id::AutoKey, state.settings.auto_key, requests);
+    let waits = state.pending_here().is_some();
+    ui.add_enabled_ui(state.take().is_some(), |ui| {
+        command_button(ui, Icon::Key, Id::Key, waits, requests);
+    });
 }
 
 fn repeat(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {

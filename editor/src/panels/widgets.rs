@@ -125,19 +125,6 @@ pub(super) fn empty(ui: &mut Ui, title: &str, hint: &str) {
     });
 }
 
-/// A key as it looks on a keyboard.
-pub(super) fn key_cap(ui: &mut Ui, text: &str) {
-    let theme = Theme::of(ui);
-    let font = FontId::proportional(style::SMALL);
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, theme.text);
-    let size = vec2((galley.size().x + 12.0).max(20.0), 20.0);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
-    let stroke = egui::Stroke::new(1.0, theme.line);
-    ui.painter().rect(rect, CornerRadius::same(RADIUS), theme.sunken, stroke, egui::StrokeKind::Inside);
-    ui.painter().galley(rect.center() - galley.size() / 2.0, galley, theme.text);
-}
-
 /// A dot between facts on one line.
 pub(super) fn dot_separated(parts: &[String]) -> String {
     parts.join("  ·  ")

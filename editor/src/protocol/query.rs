@@ -11,13 +11,13 @@ use serde_json::{Value, json};
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "query", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Query {
-    /// The takes: name, start, end, number of keys, whether anything was changed.
+    /// The takes: name, start, end, number of keys, whether anything was changed, how many poses are pending.
     Takes,
     /// The bones: name, parent.
     Bones,
     /// The steps of the history, how many are done, whether all is saved.
     History,
-    /// Original, change and result of a bone at a time, relative to its parent.
+    /// Original, change and result of a bone at a time, and what is pending there, relative to its parent.
     Pose {
         /// Which take.
         take: TakeRef,
@@ -85,7 +85,7 @@ fn take(slot: &Slot) -> Value {
     let take = &slot.result;
     let changed = slot.changed().next().is_some();
     json!({"name": take.name, "start": take.start, "end": take.end(), "keys": take.keys(), "changed": changed,
-           "origin": slot.origin})
+           "origin": slot.origin, "pending": slot.pending_poses()})
 }
 
 fn bones(adapter: &ModelAdapter) -> Value {
@@ -108,5 +108,16 @@ fn pose(adapter: &ModelAdapter, slot: &Slot, time: f32, bone: u32) -> Value {
             Some((property.name().to_owned(), json!(slot.change(bone, property, key))))
         })
         .collect();
-    json!({"original": original, "change": changes, "result": result})
+    let pending: serde_json::Map<String, Value> = slot
+        .pending_at(time)
+        .and_then(|at| at.of(bone))
+        .into_iter()
+        .flat_map(|pose| {
+            Property::ALL.into_iter().filter_map(|property| {
+                let count = if property == Property::Rotation { 4 } else { 3 };
+                Some((property.name().to_owned(), json!(pose.get(property)?[..count])))
+            })
+        })
+        .collect();
+    json!({"original": original, "change": changes, "result": result, "pending": pending})
 }

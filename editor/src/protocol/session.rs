@@ -83,7 +83,13 @@ impl Session {
         if to.is_none() {
             self.edited.mark_saved();
         }
-        Ok(json!({"written": written, "changes": changes(&plan)}))
+        let mut said = json!({"written": written, "changes": changes(&plan)});
+        // What is pending is not lost, but it is not in the file either.
+        let pending = self.edited.adapter().pending_poses();
+        if let (1.., Some(said)) = (pending, said.as_object_mut()) {
+            said.insert("pending_not_saved".to_owned(), json!(pending));
+        }
+        Ok(said)
     }
 }
 

@@ -83,6 +83,21 @@ impl Autosave {
         self.create(document, stamp, false)
     }
 
+    /// Begins a journal of the document beside those that there are, whoever has them.
+    ///
+    /// # Errors
+    /// When no journal can be written.
+    pub fn begin_beside(
+        &self,
+        document: Option<&Path>,
+        stamp: Option<&FileStamp>,
+    ) -> Result<Journal, JournalError> {
+        match self.create(document, stamp, true)? {
+            Opening::New(journal) => Ok(*journal),
+            Opening::Found(other) => Err(JournalError::Crowded { path: other.journal }),
+        }
+    }
+
     /// As [`begin`](Self::begin); `beside` all that is there.
     pub(super) fn create(
         &self,

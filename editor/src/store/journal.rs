@@ -157,6 +157,11 @@ impl Journal {
         self.length
     }
 
+    /// Is there no work in it?
+    pub fn is_empty(&self) -> bool {
+        self.state.work == 0
+    }
+
     /// Edits and snapshots in it that are not in the document's file.
     pub fn unsaved(&self) -> u64 {
         self.state.unsaved

@@ -34,6 +34,7 @@ pub use recoverable::{Entry, Fate, Reading, Recoverable};
 pub use recovery::{Claim, Resumed};
 pub use save::{Expected, SaveOptions, Saved, replace, save};
 pub use shelf::Bounds;
+pub(crate) use stamp::hash;
 pub use stamp::{FileStamp, FileState};
 pub use versions::{Version, VersionLimits, Versions};
 pub(crate) use vfs::folder_of;

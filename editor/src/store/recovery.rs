@@ -1,7 +1,7 @@
 //! What a person may do with a journal that can be had back: keep it, open it beside, discard it. Nothing is deleted
 //! unasked, and the document's own file is only looked at.
 
-use super::autosave::{Autosave, Lock, Opening, lock_patiently};
+use super::autosave::{Autosave, Lock, lock_patiently};
 use super::journal::{Journal, JournalError};
 use super::owner::{Life, Owner};
 use super::record::{PathText, Tag};
@@ -97,10 +97,7 @@ impl Autosave {
         let path = &found.journal;
         let file = again(|| self.files.open(path)).map_err(JournalError::io(path, "cannot be read"))?;
         let (scan, state, entries) = contents(&*file, path)?;
-        let mut journal = match self.create(document, state.stamp.as_ref(), true)? {
-            Opening::New(journal) => *journal,
-            Opening::Found(other) => return Err(JournalError::Crowded { path: other.journal }),
-        };
+        let mut journal = self.begin_beside(document, state.stamp.as_ref())?;
         let copied = entries.iter().try_for_each(|entry| match entry {
             Entry::Snapshot(bytes) => journal.write(Tag::Snapshot, bytes),
             Entry::Edit(bytes) => journal.write(Tag::Edit, bytes),
@@ -129,6 +126,18 @@ impl Autosave {
         again(|| self.files.sync_folder(folder_of(path))).map_err(fail)?;
         shelf::trim(&*self.files, &self.bin(), self.bin_bounds);
         Ok(to)
+    }
+
+    /// Puts a journal that this process has into the bin; where it is there.
+    ///
+    /// # Errors
+    /// As [`discard`](Self::discard).
+    pub fn put_away(&self, journal: Journal) -> Result<PathBuf, JournalError> {
+        let path = journal.path().to_path_buf();
+        // Its lock goes with it; whoever is quicker to take it has it.
+        drop(journal);
+        let found = self.inspect(&path)?;
+        self.discard(&found)
     }
 
     /// What is in the bin, last discarded first.

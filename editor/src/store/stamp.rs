@@ -63,6 +63,28 @@ impl FileStamp {
         Ok(Self::of(&after, hash.value()))
     }
 
+    /// What the system knows of the file at `path`, asked before it is read: see [`of_read`](Self::of_read).
+    ///
+    /// # Errors
+    /// When it cannot be looked at.
+    pub fn before(files: &dyn Vfs, path: &Path) -> io::Result<FileData> {
+        let path = again(|| files.resolve(path))?;
+        again(|| files.metadata(&path))
+    }
+
+    /// Of the file at `path`, which was read as `bytes` after it was as `before`.
+    ///
+    /// # Errors
+    /// When it cannot be looked at, or was changed meanwhile (`WouldBlock`).
+    pub fn of_read(files: &dyn Vfs, path: &Path, before: &FileData, bytes: &[u8]) -> io::Result<Self> {
+        let after = Self::before(files, path)?;
+        let same = |data: &FileData| (data.size, data.modified, data.changed, data.device, data.inode);
+        if same(before) != same(&after) || after.size != bytes.len() as u64 {
+            return Err(io::Error::new(io::ErrorKind::WouldBlock, "is being changed just now"));
+        }
+        Ok(Self::of(&after, hash(bytes)))
+    }
+
     /// Of a file whose bytes have this `hash`.
     pub(super) fn of(data: &FileData, hash: u64) -> Self {
         let FileData { size, modified, changed, device, inode, .. } = *data;
@@ -133,7 +155,7 @@ impl Hash {
 }
 
 /// The hash of `bytes`.
-pub(super) fn hash(bytes: &[u8]) -> u64 {
+pub(crate) fn hash(bytes: &[u8]) -> u64 {
     let mut hash = Hash::default();
     hash.add(bytes);
     hash.value()

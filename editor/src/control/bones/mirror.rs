@@ -5,11 +5,18 @@
 //! but for capitals; the same words written otherwise (`LeftArm` and `arm_r`); the same but for a number that ends the name,
 //! as some exporters count all bones (`b_LeftArm_09` and `b_RightArm_06`); a side glued to another word (`leftarm`,
 //! `rfoot`). A name that belongs to several bones pairs the first with the first, where there are as many on either side.
+//!
+//! Names can be wrong: some count the bones of one arm from the shoulder and those of the other from the hand. So where the
+//! bones stand has the last word: a pair that plainly does not lie opposite to each other is parted where others do.
 
 use super::mirror_names::{SideWord, glued_side_words, side_words};
+use super::mirror_place::Stance;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_anim::retarget::normalized_name;
 use std::collections::HashMap;
+
+/// Most pairs of bones whose places are compared.
+const MOST_COMPARED: usize = 1 << 20;
 
 /// Which side a name speaks of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -33,11 +40,25 @@ pub enum MirrorGuess {
     Numbers,
     /// A side without anything between it and another word.
     Glued,
+    /// They lie opposite to each other; the names say otherwise, or nothing but the side.
+    Place,
 }
 
 impl MirrorGuess {
-    /// The surest first.
-    pub const ALL: [Self; 5] = [Self::Name, Self::Capitals, Self::Words, Self::Numbers, Self::Glued];
+    /// Those from names, the surest first.
+    pub const NAMES: [Self; 5] = [Self::Name, Self::Capitals, Self::Words, Self::Numbers, Self::Glued];
+
+    /// What speaks for the pair, for lists.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Name => "same name",
+            Self::Capitals => "same but for capitals",
+            Self::Words => "same words",
+            Self::Numbers => "same but for a number",
+            Self::Glued => "same with the side glued on",
+            Self::Place => "opposite places",
+        }
+    }
 }
 
 /// Two bones that mirror each other.
@@ -75,7 +96,14 @@ impl MirrorPairs {
     /// Guesses for `skeleton`.
     pub fn of(skeleton: &Skeleton) -> Self {
         let names: Vec<&str> = skeleton.bones.iter().map(|bone| bone.name.as_str()).collect();
-        Self::of_names(&names)
+        let mut found = Self::of_names(&names);
+        if !found.pairs.is_empty() {
+            let stance = Stance::of(skeleton, &found.pairs);
+            if stance.is_sure(found.pairs.len()) {
+                found.mend(&stance);
+            }
+        }
+        found
     }
 
     /// Guesses for bones of these names. Takes time in proportion to their number.
@@ -83,7 +111,7 @@ impl MirrorPairs {
         let mut pairs = Vec::new();
         let mut partners = vec![None; names.len()];
         let words: Vec<Vec<SideWord>> = names.iter().map(|name| side_words(name)).collect();
-        for guess in MirrorGuess::ALL {
+        for guess in MirrorGuess::NAMES {
             let key = |bone: usize| keys(names[bone], &words[bone], guess);
             pair_up(names.len(), guess, key, &mut partners, &mut pairs);
         }
@@ -96,6 +124,52 @@ impl MirrorPairs {
             .collect();
         let middle = (0..names.len()).map(|bone| alone(&bone) && side(bone).is_none()).collect();
         Self { pairs, unpaired, partners, middle }
+    }
+
+    /// Parts pairs that do not lie opposite to each other, where bones of the same sides do.
+    fn mend(&mut self, stance: &Stance) {
+        let wrong: Vec<MirrorPair> =
+            self.pairs.iter().filter(|pair| stance.contradicts(pair.left, pair.right)).copied().collect();
+        let alone = |side: Side| {
+            let of_side = self.unpaired.iter().filter(move |alone| alone.side == Some(side));
+            of_side.map(|alone| alone.bone)
+        };
+        let mut lefts: Vec<BoneIndex> = wrong.iter().map(|pair| pair.left).chain(alone(Side::Left)).collect();
+        let mut rights: Vec<BoneIndex> =
+            wrong.iter().map(|pair| pair.right).chain(alone(Side::Right)).collect();
+        lefts.sort_unstable();
+        rights.sort_unstable();
+        let opposite = |&left: &BoneIndex| {
+            let right = stance.opposite(left, &rights)?;
+            (stance.opposite(right, &lefts) == Some(left)).then_some((left, right))
+        };
+        // Those are many only in a file made to be slow, and then names are all there is.
+        if lefts.len().saturating_mul(rights.len()) > MOST_COMPARED {
+            return;
+        }
+        let found: Vec<(BoneIndex, BoneIndex)> = lefts.iter().filter_map(opposite).collect();
+        let is_new = |left, right| self.partner(left) != Some(right);
+        let found: Vec<_> = found.into_iter().filter(|&(left, right)| is_new(left, right)).collect();
+        for (left, right) in found {
+            for bone in [left, right] {
+                if let Some(old) = self.partner(bone) {
+                    self.partners[old as usize] = None;
+                    self.partners[bone as usize] = None;
+                }
+            }
+            self.partners[left as usize] = Some(right);
+            self.partners[right as usize] = Some(left);
+            self.pairs.push(MirrorPair { left, right, guess: MirrorGuess::Place });
+        }
+        let partners = &self.partners;
+        self.pairs.retain(|pair| partners[pair.left as usize] == Some(pair.right));
+        self.pairs.sort_unstable_by_key(|pair| pair.left);
+        self.unpaired.retain(|alone| partners[alone.bone as usize].is_none());
+        // Who lost a partner and found none is alone, and of a side.
+        let sided = wrong.iter().flat_map(|pair| [(pair.left, Side::Left), (pair.right, Side::Right)]);
+        let lost = sided.filter(|(bone, _)| partners[*bone as usize].is_none());
+        self.unpaired.extend(lost.map(|(bone, side)| Unpaired { bone, side: Some(side) }));
+        self.unpaired.sort_unstable_by_key(|alone| alone.bone);
     }
 
     /// The bone that mirrors this one, of a pair.
@@ -144,6 +218,7 @@ fn keys(name: &str, words: &[SideWord], guess: MirrorGuess) -> Vec<(String, Side
             };
             keys.map(cut).collect()
         }
+        MirrorGuess::Place => Vec::new(),
         MirrorGuess::Glued => {
             let glued = glued_side_words(name);
             words.iter().chain(&glued).map(|word| (without(word, true), word.side)).collect()

@@ -3,8 +3,9 @@
 use super::ModelAdapter;
 use super::change::{KeyChange, triple};
 use super::kind::{Kind, Rotation, Scale, Translation};
+use super::pending::PendingPose;
 use super::slot::{Slot, extent};
-use crate::document::edit::Property;
+use crate::document::edit::{Property, SAME_TIME};
 use dragonfly_anim::data::Take;
 use std::sync::Arc;
 use thiserror::Error;
@@ -60,10 +61,32 @@ fn slot_is_right(slot: &Slot) -> Found {
         })?;
         ensure(!slot.changes(bone, property).is_empty(), || "a list of no changes is kept".to_owned())?;
     }
+    pending_is_right(slot)?;
     for bone in 0..original.tracks.len() as u32 {
         channel_is_right::<Translation>(slot, result, bone, Property::Translation)?;
         channel_is_right::<Rotation>(slot, result, bone, Property::Rotation)?;
         channel_is_right::<Scale>(slot, result, bone, Property::Scale)?;
+    }
+    Ok(())
+}
+
+fn pending_is_right(slot: &Slot) -> Found {
+    let pending = slot.pending();
+    let apart = pending.windows(2).all(|pair| pair[1].time - pair[0].time > SAME_TIME);
+    ensure(apart, || "pending poses do not ascend in time".to_owned())?;
+    for at in pending {
+        let inside = |pose: &PendingPose| (pose.bone as usize) < slot.original.tracks.len();
+        let is_finite = |pose: &PendingPose| {
+            let mut values = Property::ALL.into_iter().filter_map(|property| pose.get(property)).flatten();
+            values.all(f32::is_finite)
+        };
+        let finite = at.time.is_finite() && at.poses.iter().all(is_finite);
+        ensure(finite, || format!("what is pending at {} s is not finite", at.time))?;
+        let ascend = at.poses.windows(2).all(|pair| pair[0].bone < pair[1].bone);
+        let some = !at.poses.is_empty() && !at.poses.iter().any(PendingPose::is_empty);
+        ensure(ascend && some && at.poses.iter().all(inside), || {
+            format!("what is pending at {} s is not in order", at.time)
+        })?;
     }
     Ok(())
 }

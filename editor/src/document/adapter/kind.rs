@@ -27,6 +27,10 @@ pub(super) trait Kind {
     fn tangent(original: Self::Value, change: Numbers) -> Self::Value;
     /// The change that leads from one to the other; `None` where there is none.
     fn change(original: Self::Value, result: Self::Value) -> Option<Numbers>;
+    /// A value between keys as a key may hold it.
+    fn as_key(value: Self::Value) -> Self::Value {
+        value
+    }
     /// `on_top` applied to `value` (an offset of the person's).
     fn offset(value: Self::Value, on_top: Self::Value) -> Self::Value;
 }
@@ -111,6 +115,11 @@ fn addend(from: f32, to: f32) -> f32 {
     [guess, guess.next_up(), guess.next_down()].into_iter().find(exact).unwrap_or(guess)
 }
 
+/// With length one as exactly as single precision can say it, so that reading a saved file finds nothing to mend.
+fn unit(rotation: Quat) -> Quat {
+    rotation.as_dquat().normalize().as_quat()
+}
+
 /// Rotation: change * original, in the space of the parent, normalised.
 impl Kind for Rotation {
     type Value = Quat;
@@ -137,7 +146,7 @@ impl Kind for Rotation {
     }
 
     fn result(original: Quat, change: Numbers) -> Quat {
-        (Quat::from_array(change) * original).normalize()
+        unit(Quat::from_array(change) * original)
     }
 
     fn tangent(original: Quat, change: Numbers) -> Quat {
@@ -150,8 +159,12 @@ impl Kind for Rotation {
         (change.is_finite() && change.length_squared() > 1e-12).then(|| change.normalize().to_array())
     }
 
+    fn as_key(value: Quat) -> Quat {
+        unit(value)
+    }
+
     fn offset(value: Quat, on_top: Quat) -> Quat {
-        (on_top * value).normalize()
+        unit(on_top * value)
     }
 }
 

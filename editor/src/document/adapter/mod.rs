@@ -21,6 +21,7 @@ mod check;
 mod error;
 mod kind;
 mod op;
+mod pending;
 mod plan;
 mod slot;
 mod times;
@@ -29,6 +30,7 @@ pub use change::KeyChange;
 pub use check::Broken;
 pub use error::EditError;
 pub use kind::Numbers;
+pub use pending::{Pending, PendingAt, PendingPose};
 pub use slot::{Changes, Slot, TakeId};
 
 use super::edit::{BoneRef, Edit, TakeRef};
@@ -91,6 +93,11 @@ impl ModelAdapter {
     /// The results in their order: what is shown and saved.
     pub fn results(&self) -> impl Iterator<Item = &Arc<Take>> {
         self.slots.iter().map(|slot| &slot.result)
+    }
+
+    /// How many poses are pending in all takes: in no key, and in no file that is saved.
+    pub fn pending_poses(&self) -> usize {
+        self.slots.iter().map(|slot| slot.pending_poses()).sum()
     }
 
     /// The take that is meant; a name wins over a number.

@@ -3,6 +3,7 @@
 use super::ModelAdapter;
 use super::change::KeyChange;
 use super::kind::AnyChannel;
+use super::pending::PendingAt;
 use super::slot::{Content, Key, Slot, TakeId};
 use super::times::Shared;
 use crate::document::edit::Property;
@@ -28,6 +29,8 @@ pub(super) enum Op {
     Replace(Place, Box<Content>),
     /// Other morph tracks.
     Morphs(TakeId, Vec<MorphTrack>),
+    /// Other pending poses at a time, `None` for none.
+    Pending(TakeId, f32, Option<Arc<PendingAt>>),
     /// Another name.
     Name(TakeId, String),
     /// A take more, at a place in the list.
@@ -62,6 +65,7 @@ impl Op {
                 Self::Morphs(_, morphs) => {
                     morphs.iter().map(|morph| 4 * (morph.times.len() + morph.weights.len())).sum()
                 }
+                Self::Pending(_, _, at) => at.as_ref().map_or(0, |at| size_of_val(at.poses.as_slice())),
                 Self::Insert(_, slot) => slot.original.keys() * 16,
                 Self::Name(..) | Self::Remove(_) | Self::Move(..) => 0,
             }
@@ -86,6 +90,10 @@ impl ModelAdapter {
                 Op::Replace(place, Box::new(before))
             }
             Op::Morphs(take, morphs) => Op::Morphs(take, self.slot_mut(take).set_morphs(morphs)),
+            Op::Pending(take, time, at) => {
+                let before = self.slot_mut(take).set_pending(time, at);
+                Op::Pending(take, time, before)
+            }
             Op::Name(take, name) => Op::Name(take, self.slot_mut(take).set_name(&name)),
             Op::Insert(index, slot) => {
                 let id = slot.id;

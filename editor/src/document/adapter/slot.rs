@@ -2,6 +2,7 @@
 
 use super::change::{KeyChange, Triple, put, triple};
 use super::kind::{AnyChannel, Held, Kind, Numbers, with_kind};
+use super::pending::{Pending, PendingAt, place_of};
 use super::times::Shared;
 use crate::document::edit::{Property, SAME_TIME};
 use dragonfly_anim::data::{Channel, MorphTrack, Take};
@@ -44,14 +45,22 @@ pub struct Slot {
     /// Original + changes: what is shown and saved.
     pub result: Arc<Take>,
     changes: BTreeMap<(u32, Property), Arc<Changes>>,
+    pending: Pending,
 }
 
 impl Slot {
     pub(super) fn unchanged(id: TakeId, origin: Option<usize>, take: Arc<Take>) -> Self {
-        Self { id, origin, original: Arc::clone(&take), result: take, changes: BTreeMap::new() }
+        Self {
+            id,
+            origin,
+            original: Arc::clone(&take),
+            result: take,
+            changes: BTreeMap::new(),
+            pending: Vec::new(),
+        }
     }
 
-    /// The same take under another number, made here.
+    /// The same take under another number, made here; pending poses come along.
     pub(super) fn copied(&self, id: TakeId) -> Self {
         Self { id, origin: None, ..self.clone() }
     }
@@ -71,6 +80,39 @@ impl Slot {
         ((bone as usize) < self.original.tracks.len())
             .then(|| key_at(self.times(bone, property), time).ok())
             .flatten()
+    }
+
+    /// Poses that are shown at their times and held by no key, ascending in time.
+    pub fn pending(&self) -> &[Arc<PendingAt>] {
+        &self.pending
+    }
+
+    /// Those at `time` seconds, if there are any.
+    pub fn pending_at(&self, time: f32) -> Option<&Arc<PendingAt>> {
+        place_of(&self.pending, time).ok().map(|at| &self.pending[at])
+    }
+
+    /// How many poses are pending: bones, summed over times.
+    pub fn pending_poses(&self) -> usize {
+        self.pending.iter().map(|at| at.poses.len()).sum()
+    }
+
+    /// A take without anything pending.
+    pub(super) fn forget_pending(&mut self) {
+        self.pending.clear();
+    }
+
+    /// Puts in other pending poses at a time, `None` for none; those from before.
+    pub(super) fn set_pending(&mut self, time: f32, poses: Option<Arc<PendingAt>>) -> Option<Arc<PendingAt>> {
+        match (place_of(&self.pending, time), poses) {
+            (Ok(at), Some(poses)) => Some(std::mem::replace(&mut self.pending[at], poses)),
+            (Ok(at), None) => Some(self.pending.remove(at)),
+            (Err(at), Some(poses)) => {
+                self.pending.insert(at, poses);
+                None
+            }
+            (Err(_), None) => None,
+        }
     }
 
     pub(super) fn key_change(&self, bone: u32, property: Property, key: usize) -> Option<KeyChange> {

@@ -28,6 +28,19 @@ pub const EXAMPLES: &[Example] = &[
         "Takes back what was changed of the head's rotation at that key.",
     ),
     example(
+        r#"{"edit":"pend","take":"Walk","time":0.5,"poses":[{"bone":"Head","rotation":[0,0.2588190,0,0.9659258]}]}"#,
+        "Shows the head turned by 30° at half a second, without a key yet.",
+    ),
+    example(
+        r#"{"edit":"paste","take":"Walk","time":1,"poses":[{"bone":"Hand.L","rotation":[0,0.2588190,0,0.9659258]}],"mirrored":true}"#,
+        "Gives the right hand the pose of the left one, mirrored.",
+    ),
+    example(r#"{"edit":"key_pending","take":"Walk","time":0.5}"#, "Keys what is pending at half a second."),
+    example(
+        r#"{"edit":"drop_pending","take":"Walk","bones":["Head"]}"#,
+        "Gives up all pending poses of the head.",
+    ),
+    example(
         r#"{"edit":"add_keys","take":"Walk","time":0.25,"bones":["Head"],"value":"current"}"#,
         "Adds keys of the head that keep the motion; \"predecessor\" copies the keys before.",
     ),

@@ -114,6 +114,53 @@ pub enum Edit {
         #[serde(default)]
         to: ResetTo,
     },
+    /// Shows bones in a pose at a time without keys: it is part of the document and of undo, and of no saved file until it
+    /// is keyed. What was pending of these channels there is replaced.
+    Pend {
+        /// Which take.
+        take: TakeRef,
+        /// Seconds.
+        time: f32,
+        /// The poses wanted; one for each bone.
+        poses: Vec<BonePose>,
+    },
+    /// Puts copied poses on. Bones that this model has not are passed over.
+    Paste {
+        /// Which take.
+        take: TakeRef,
+        /// Seconds.
+        time: f32,
+        /// The poses that were copied; one for each bone.
+        poses: Vec<BonePose>,
+        /// On the other side: which bone that is is guessed from names, and the pose is mirrored.
+        #[serde(default)]
+        mirrored: bool,
+        /// As pending poses instead of keys.
+        #[serde(default)]
+        pending: bool,
+    },
+    /// Turns pending poses into keys.
+    KeyPending {
+        /// Which take.
+        take: TakeRef,
+        /// Seconds; all times where none.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        time: Option<f32>,
+        /// Which bones; all where empty.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        bones: Vec<BoneRef>,
+    },
+    /// Gives pending poses up.
+    DropPending {
+        /// Which take.
+        take: TakeRef,
+        /// Seconds; all times where none.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        time: Option<f32>,
+        /// Which bones; all where empty.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        bones: Vec<BoneRef>,
+    },
     /// Adds keys at a time, in the channels that have keys or, where bones are named, in the named ones.
     AddKeys {
         /// Which take.
@@ -288,6 +335,10 @@ impl Edit {
             Self::Set { take, .. }
             | Self::Offset { take, .. }
             | Self::Reset { take, .. }
+            | Self::Pend { take, .. }
+            | Self::Paste { take, .. }
+            | Self::KeyPending { take, .. }
+            | Self::DropPending { take, .. }
             | Self::AddKeys { take, .. }
             | Self::DeleteKeys { take, .. }
             | Self::MoveKeys { take, .. }
@@ -313,6 +364,11 @@ impl Edit {
             Self::Set { poses, .. } | Self::Offset { poses, .. } => pose_label(poses),
             Self::Reset { to: ResetTo::Original, .. } => "Reset to original",
             Self::Reset { to: ResetTo::Rest, .. } => "Reset to rest pose",
+            Self::Pend { poses, .. } => pending_label(poses),
+            Self::Paste { mirrored: false, .. } => "Paste pose",
+            Self::Paste { mirrored: true, .. } => "Paste pose mirrored",
+            Self::KeyPending { .. } => "Key pending poses",
+            Self::DropPending { .. } => "Drop pending poses",
             Self::AddKeys { .. } => "Add keys",
             Self::DeleteKeys { .. } => "Delete keys",
             Self::MoveKeys { .. } => "Move keys",
@@ -332,6 +388,16 @@ impl Edit {
             Self::ReverseTake { .. } => "Reverse take",
             Self::RetimeTake { .. } => "Retime take",
         }
+    }
+}
+
+/// The same for poses that wait to be keyed.
+fn pending_label(poses: &[BonePose]) -> &'static str {
+    match pose_label(poses) {
+        "Move" => "Move (pending)",
+        "Rotate" => "Rotate (pending)",
+        "Scale" => "Scale (pending)",
+        _ => "Pose (pending)",
     }
 }
 

@@ -6,6 +6,7 @@
 pub enum Category {
     File,
     Edit,
+    Pose,
     Playback,
     Takes,
     Selection,
@@ -20,6 +21,7 @@ impl Category {
     pub const ALL: &[Self] = &[
         Self::File,
         Self::Edit,
+        Self::Pose,
         Self::Playback,
         Self::Takes,
         Self::Selection,
@@ -34,6 +36,7 @@ impl Category {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
+            Self::Pose => "Pose",
             Self::Playback => "Playback",
             Self::Takes => "Takes",
             Self::Selection => "Selection",

@@ -1,17 +1,38 @@
 //! The names of all commands.
 
 /// Names a command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)] // The table below says what each does.
 pub enum Id {
     Open,
     OpenPath,
     OpenBuiltIn,
     CancelLoading,
+    Save,
+    SaveAs,
+    SaveCopy,
+    Revert,
+    WhatWillBeSaved,
+    ToggleShowChanges,
+    UnsavedWork,
     Quit,
 
     Undo,
     Redo,
+
+    AutoKey,
+    Key,
+    KeyAllPending,
+    DropPending,
+    CopyPose,
+    PastePose,
+    PasteMirrored,
+    ResetPose,
+    RestTranslation,
+    RestRotation,
+    RestScale,
+    ResetToRest,
+    MirrorPairs,
 
     PlayPause,
     PlayBackwards,
@@ -73,4 +94,16 @@ pub enum Id {
     Palette,
     Shortcuts,
     About,
+}
+
+impl Id {
+    /// Its name in settings; never changes.
+    pub fn name(self) -> String {
+        format!("{self:?}")
+    }
+
+    /// The command of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        super::all().map(|command| command.id).find(|id| id.name() == name)
+    }
 }

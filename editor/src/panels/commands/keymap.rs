@@ -1,30 +1,119 @@
-//! Which keys give which command.
+//! Which keys give which command: those of a preset, and on top what the person chose.
 
-use super::Id;
-use egui::KeyboardShortcut;
+use super::{Id, Preset, parse, text};
+use egui::{Key, KeyboardShortcut, Modifiers};
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
+/// What is remembered of the keys.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct KeySettings {
+    /// The keys to begin with.
+    pub preset: Preset,
+    /// Names of commands with the keys that the person gave them, as [`text`] writes them; none: no key at all.
+    /// What is no name or no key (any more) is passed over.
+    pub own: BTreeMap<String, Vec<String>>,
+}
+
+impl KeySettings {
+    /// Gives a command these keys.
+    pub fn set(&mut self, id: Id, shortcuts: &[KeyboardShortcut]) {
+        self.own.insert(id.name(), shortcuts.iter().map(text).collect());
+    }
+
+    /// Gives a command the keys of the preset again.
+    pub fn reset(&mut self, id: Id) {
+        self.own.remove(&id.name());
+    }
+
+    /// Has the person given this command other keys?
+    pub fn is_own(&self, id: Id) -> bool {
+        self.own.contains_key(&id.name())
+    }
+}
+
 /// Which keys give which command. The one in use lies in the memory of egui, so that every tooltip can name its keys.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Keymap {}
+#[derive(Clone, Debug, Default)]
+pub struct Keymap {
+    settings: KeySettings,
+    /// Only where they differ from the table.
+    other: HashMap<Id, Vec<KeyboardShortcut>>,
+}
 
 impl Keymap {
+    /// What `settings` say. A key that is named for one command is taken from all that only have it by the layer below:
+    /// the preset takes from the table, the person from the preset.
+    pub fn new(settings: KeySettings) -> Self {
+        let mut keymap = Self { other: HashMap::new(), settings };
+        for (id, shortcuts) in keymap.settings.preset.table() {
+            keymap.give(*id, shortcuts.to_vec());
+        }
+        let own = keymap.settings.own.clone();
+        for (name, shortcuts) in &own {
+            if let Some(id) = Id::named(name) {
+                keymap.give(id, shortcuts.iter().filter_map(|text| parse(text)).collect());
+            }
+        }
+        keymap
+    }
+
+    fn give(&mut self, id: Id, shortcuts: Vec<KeyboardShortcut>) {
+        for shortcut in &shortcuts {
+            let losers: Vec<Id> = super::all()
+                .map(|command| command.id)
+                .filter(|other| *other != id && self.shortcuts(*other).contains(shortcut))
+                .collect();
+            for loser in losers {
+                let kept = self.shortcuts(loser).iter().filter(|other| *other != shortcut).copied().collect();
+                self.other.insert(loser, kept);
+            }
+        }
+        self.other.insert(id, shortcuts);
+    }
+
     /// The one in use; the usual one before any was put there.
     pub fn of(context: &egui::Context) -> Arc<Self> {
         context.data(|data| data.get_temp::<Arc<Self>>(Self::place())).unwrap_or_default()
     }
 
-    /// Uses this one from now on.
-    pub fn install(self: Arc<Self>, context: &egui::Context) {
-        context.data_mut(|data| data.insert_temp(Self::place(), self));
+    /// Uses what these settings say from now on; free where they are in use already.
+    pub fn install(settings: &KeySettings, context: &egui::Context) {
+        if Self::of(context).settings != *settings {
+            let keymap = Arc::new(Self::new(settings.clone()));
+            context.data_mut(|data| data.insert_temp(Self::place(), keymap));
+        }
     }
 
     /// The keys of a command; the first is the one that tooltips name.
     pub fn shortcuts(&self, id: Id) -> &[KeyboardShortcut] {
-        super::get(id).shortcuts
+        self.other.get(&id).map_or(super::get(id).shortcuts, Vec::as_slice)
+    }
+
+    /// The command that these keys give.
+    pub fn command_of(&self, key: Key, modifiers: Modifiers) -> Option<Id> {
+        let gives = |shortcut: &KeyboardShortcut| {
+            shortcut.logical_key == key && modifiers.matches_exact(shortcut.modifiers)
+        };
+        super::all().map(|command| command.id).find(|id| self.shortcuts(*id).iter().any(gives))
+    }
+
+    /// Is a key being chosen for a command, so that it must not do what it usually does?
+    pub fn is_asking(context: &egui::Context) -> bool {
+        context.data(|data| data.get_temp::<bool>(Self::asking())).unwrap_or_default()
+    }
+
+    /// See [`Self::is_asking`].
+    pub fn set_asking(context: &egui::Context, asking: bool) {
+        context.data_mut(|data| data.insert_temp(Self::asking(), asking));
     }
 
     fn place() -> egui::Id {
         egui::Id::unique("keymap")
+    }
+
+    fn asking() -> egui::Id {
+        egui::Id::unique("keymap asks")
     }
 }

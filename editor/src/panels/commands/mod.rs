@@ -3,16 +3,20 @@
 mod category;
 mod id;
 mod keymap;
+mod preset;
+mod shortcut;
 mod table;
 mod when;
 
 pub use category::Category;
 pub use id::Id;
-pub use keymap::Keymap;
+pub use keymap::{KeySettings, Keymap};
+pub use preset::Preset;
+pub use shortcut::{parse, text};
 pub use table::TABLE;
 pub use when::When;
 
-use egui::{Key, KeyboardShortcut};
+use egui::{Key, KeyboardShortcut, Modifiers};
 
 /// One thing the program can be told to do.
 #[derive(Clone, Copy, Debug)]
@@ -78,41 +82,14 @@ pub fn tooltip(context: &egui::Context, id: Id) -> String {
     if command.help == command.title { title } else { format!("{title}\n{}", command.help) }
 }
 
-/// `Ctrl+Shift+O`, with arrows and brackets as signs on keys.
-pub fn text(shortcut: &KeyboardShortcut) -> String {
-    let mut out = String::new();
-    let modifiers = shortcut.modifiers;
-    for (held, name) in [(modifiers.command, "Ctrl+"), (modifiers.alt, "Alt+"), (modifiers.shift, "Shift+")] {
-        if held {
-            out.push_str(name);
-        }
-    }
-    out.push_str(match shortcut.logical_key {
-        Key::ArrowLeft => "Left",
-        Key::ArrowRight => "Right",
-        Key::ArrowUp => "Up",
-        Key::ArrowDown => "Down",
-        Key::Escape => "Esc",
-        Key::PageUp => "Page up",
-        Key::PageDown => "Page down",
-        Key::OpenBracket => "[",
-        Key::CloseBracket => "]",
-        Key::Comma => ",",
-        Key::Period => ".",
-        Key::Plus => "+",
-        Key::Minus => "-",
-        Key::Equals => "=",
-        Key::Slash => "/",
-        Key::Questionmark => "?",
-        other => other.name(),
-    });
-    out
-}
-
 /// Commands whose keys were pressed in this frame, in order; what text fields need is left to them.
 ///
 /// Held keys repeat only where that is wanted: stepping through time.
 pub fn pressed(context: &egui::Context) -> Vec<Id> {
+    // A key that is being chosen for a command gives none.
+    if Keymap::is_asking(context) {
+        return Vec::new();
+    }
     // Escape closes what is open first, and takes back what is dragged.
     let open = context.any_popup_open() || context.input(|input| input.pointer.any_down());
     let typing = context.text_edit_focused();
@@ -121,28 +98,18 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     let mut found = Vec::new();
     context.input_mut(|input| {
         input.events.retain(|event| {
-            let egui::Event::Key { key, pressed: true, repeat, modifiers, .. } = event else { return true };
+            let Some((key, repeat, modifiers)) = key_of(event) else { return true };
             // Keys that move or type inside a field, or press the button that has the focus, are not ours.
             let plain = !modifiers.command && !modifiers.alt;
-            let function = matches!(key, Key::F1 | Key::F3 | Key::F11);
-            if (typing
-                && !(function
-                    || modifiers.command && matches!(key, Key::O | Key::P | Key::Q | Key::F | Key::S)))
+            if (typing && belongs_to_text(key, modifiers))
                 || (focused && plain && matches!(key, Key::Space | Key::Enter | Key::Tab | Key::Escape))
+                || (open && key == Key::Escape)
             {
                 return true;
             }
-            if open && *key == Key::Escape {
-                return true;
-            }
-            let hit = all().find(|command| {
-                keymap.shortcuts(command.id).iter().any(|shortcut| {
-                    shortcut.logical_key == *key && modifiers.matches_exact(shortcut.modifiers)
-                })
-            });
-            match hit {
-                Some(command) if !*repeat || repeats(command.id) => {
-                    found.push(command.id);
+            match keymap.command_of(key, modifiers) {
+                Some(id) if !repeat || repeats(id) => {
+                    found.push(id);
                     false
                 }
                 Some(_) => false,
@@ -151,6 +118,46 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
         });
     });
     found
+}
+
+/// Is this key for the text field that has the focus? All are but function keys and those with Ctrl that mean nothing in
+/// a text.
+fn belongs_to_text(key: Key, modifiers: Modifiers) -> bool {
+    use Key::{
+        A, ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Backspace, C, Delete, End, Home, U, V, W, X, Y, Z,
+    };
+    let function = key >= Key::F1 && key <= Key::F35;
+    let edits = matches!(
+        key,
+        A | C
+            | V
+            | X
+            | Y
+            | Z
+            | U
+            | W
+            | Backspace
+            | Delete
+            | Home
+            | End
+            | ArrowLeft
+            | ArrowRight
+            | ArrowUp
+            | ArrowDown
+    );
+    !function && (!modifiers.command || edits)
+}
+
+/// The key of an event. Copy, cut and paste come from the window system as such, not as keys; the text that is pasted is
+/// asked for by who wants it.
+fn key_of(event: &egui::Event) -> Option<(Key, bool, Modifiers)> {
+    match event {
+        egui::Event::Key { key, pressed: true, repeat, modifiers, .. } => Some((*key, *repeat, *modifiers)),
+        egui::Event::Copy => Some((Key::C, false, Modifiers::COMMAND)),
+        egui::Event::Cut => Some((Key::X, false, Modifiers::COMMAND)),
+        egui::Event::Paste(_) => Some((Key::V, false, Modifiers::COMMAND)),
+        _ => None,
+    }
 }
 
 fn repeats(id: Id) -> bool {

@@ -18,10 +18,14 @@ pub enum When {
     Bone,
     /// A bone is selected and a take is shown.
     BoneInTake,
+    /// Poses of the take that is shown are pending.
+    Pending,
     /// Something was done.
     Undo,
     /// Something was undone.
     Redo,
+    /// Something is not saved.
+    Unsaved,
     /// A model is on its way.
     Loading,
     /// The picture stands still because the device failed.
@@ -39,8 +43,10 @@ impl When {
             Self::OtherTakes => state.take().is_some() && state.digest.takes.len() > 1,
             Self::Bone => state.selected().is_some(),
             Self::BoneInTake => state.selected().is_some() && state.take().is_some(),
+            Self::Pending => state.pending_times().next().is_some(),
             Self::Undo => history.is_some_and(|history| history.done > 0),
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
+            Self::Unsaved => history.is_some_and(|history| !history.saved),
             Self::Loading => state.loading.is_some(),
             Self::Paused => matches!(state.device, Device::Paused { .. }),
         }
@@ -55,8 +61,10 @@ impl When {
             Self::OtherTakes => "There is no other take, and a model keeps one",
             Self::Bone => "No bone is selected",
             Self::BoneInTake => "It takes a selected bone and a take",
+            Self::Pending => "No pose is pending in this take",
             Self::Undo => "Nothing was done yet",
             Self::Redo => "Nothing was undone",
+            Self::Unsaved => "Everything is saved",
             Self::Loading => "No model is being opened",
             Self::Paused => "The viewport is not paused",
         }

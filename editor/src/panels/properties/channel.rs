@@ -43,7 +43,11 @@ pub(super) fn columns(left: f32, width: f32) -> Vec<(Column, egui::Rangef)> {
     let count = shown.len() as f32;
     let each = ((width - LETTER - gap * (count - 1.0)) / count).max(8.0);
     let place = |index: usize| left + LETTER + index as f32 * (each + gap);
-    shown.iter().enumerate().map(|(at, &column)| (column, egui::Rangef::new(place(at), place(at) + each))).collect()
+    shown
+        .iter()
+        .enumerate()
+        .map(|(at, &column)| (column, egui::Rangef::new(place(at), place(at) + each)))
+        .collect()
 }
 
 /// The heads of the columns.
@@ -75,7 +79,8 @@ impl Table<'_> {
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let theme = Theme::of(ui);
         let row = |index: usize| rect.top() + index as f32 * step;
-        let letters = ["X", "Y", "Z", "W"].into_iter().zip([theme.axes[0], theme.axes[1], theme.axes[2], theme.weak]);
+        let letters =
+            ["X", "Y", "Z", "W"].into_iter().zip([theme.axes[0], theme.axes[1], theme.axes[2], theme.weak]);
         for (index, (letter, color)) in letters.take(count).enumerate() {
             let at = pos2(rect.left(), row(index) + FIELD / 2.0);
             ui.painter().text(at, Align2::LEFT_CENTER, letter, FontId::proportional(11.0), color);

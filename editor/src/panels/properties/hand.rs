@@ -100,7 +100,11 @@ enum Way {
 impl Hand {
     /// Begins a frame: forgets what is over. `in_use`: has a field of the panel the focus, or is it dragged?
     pub(super) fn begin(&mut self, state: &State, in_use: bool) {
-        if self.sent.as_ref().is_some_and(|sent| !sent.counts(state) || (self.held.is_none() && sent.came(state))) {
+        if self
+            .sent
+            .as_ref()
+            .is_some_and(|sent| !sent.counts(state) || (self.held.is_none() && sent.came(state)))
+        {
             self.sent = None;
         }
         let active = state.selected();
@@ -125,19 +129,28 @@ impl Hand {
             spot.property == Property::Rotation
                 && (typed.bone, typed.column, typed.form) == (bone, spot.column, spot.form)
         });
-        let fits = |typed: &&Typed| turn_of(spot.form, now).is_some_and(|now| is_same_turn(typed.rotation, now));
+        let fits =
+            |typed: &&Typed| turn_of(spot.form, now).is_some_and(|now| is_same_turn(typed.rotation, now));
         Some(typed.filter(fits).map_or(now, |typed| typed.numbers))
     }
 
     /// The numbers that all selected bones have at `spot`; `None` where they differ. The active one is `pair`.
-    pub(super) fn shared(&self, state: &State, active: BoneIndex, pair: &Pair, spot: Spot, grain: f64) -> [Option<f64>; 4] {
+    pub(super) fn shared(
+        &self,
+        state: &State,
+        active: BoneIndex,
+        pair: &Pair,
+        spot: Spot,
+        grain: f64,
+    ) -> [Option<f64>; 4] {
         let first = self.numbers(active, pair, spot);
         let mut shared = first.map_or([None; 4], |numbers| numbers.map(Some));
         for &bone in state.selection.bones().iter().filter(|&&bone| bone != active) {
             if shared == [None; 4] {
                 break;
             }
-            let other = self.pair(state, bone).and_then(|pair| numbers(&pair, spot.property, spot.column, spot.form));
+            let other =
+                self.pair(state, bone).and_then(|pair| numbers(&pair, spot.property, spot.column, spot.form));
             for (index, number) in shared.iter_mut().enumerate() {
                 let same = number.zip(other).is_some_and(|(a, other)| (a - other[index]).abs() <= grain);
                 *number = number.filter(|_| same);
@@ -236,11 +249,13 @@ impl Hand {
                 Way::Set(value) => value,
                 Way::Add(by) => numbers[component] + by,
             };
-            let Some(part) = part(&start.pair.original, spot.property, spot.column, spot.form, numbers) else {
+            let Some(part) = part(&start.pair.original, spot.property, spot.column, spot.form, numbers)
+            else {
                 return Err(reason(spot));
             };
             if Some(start.bone) == state.selected()
-                && let Some(rotation) = turn_of(spot.form, numbers).filter(|_| spot.property == Property::Rotation)
+                && let Some(rotation) =
+                    turn_of(spot.form, numbers).filter(|_| spot.property == Property::Rotation)
             {
                 let Spot { column, form, .. } = spot;
                 self.typed.retain(|typed| (typed.column, typed.form) != (column, form));

@@ -117,7 +117,13 @@ impl Properties {
     }
 
     /// Title and unit at the left, what can be done with the channel at the right.
-    fn channel_head(&mut self, ui: &mut Ui, table: &Table<'_>, property: Property, requests: &mut Vec<Request>) {
+    fn channel_head(
+        &mut self,
+        ui: &mut Ui,
+        table: &Table<'_>,
+        property: Property,
+        requests: &mut Vec<Request>,
+    ) {
         let (title, unit, at) = match property {
             Property::Translation => ("Translation", "m", 0),
             Property::Rotation => ("Rotation", "°", 1),
@@ -148,15 +154,19 @@ impl Properties {
                     (Icon::RestPose, ResetTo::Rest, "rest pose"),
                 ] {
                     let label = format!("Reset {} to the {name}", title.to_lowercase());
-                    let response =
-                        ui.add_enabled_ui(table.locked.is_none(), |ui| widgets::icon_button(ui, icon, &label, false));
+                    let response = ui.add_enabled_ui(table.locked.is_none(), |ui| {
+                        widgets::icon_button(ui, icon, &label, false)
+                    });
                     if response.inner.on_hover_text(&label).clicked() {
                         keys::reset(state, &mut self.hand, property, to, keyed == Keyed::Here, requests);
                     }
                 }
                 let mut look = state.settings.properties;
                 let label = format!("Sliders for {}", title.to_lowercase());
-                if widgets::icon_button(ui, Icon::Sliders, &label, look.sliders[at]).on_hover_text(&label).clicked() {
+                if widgets::icon_button(ui, Icon::Sliders, &label, look.sliders[at])
+                    .on_hover_text(&label)
+                    .clicked()
+                {
                     look.sliders[at] = !look.sliders[at];
                     requests.push(Request::PropertiesLook(look));
                 }

@@ -128,7 +128,8 @@ pub fn part(
             let vanishes =
                 property == Property::Scale && (0..3).any(|axis| from[axis] == 0.0 && numbers[axis] != 1.0);
             let stuck = vanishes && column == Column::Change;
-            Some(Part::Vector(Vec3::from_array(value))).filter(|_| !stuck && value.iter().all(|x| x.is_finite()))
+            Some(Part::Vector(Vec3::from_array(value)))
+                .filter(|_| !stuck && value.iter().all(|x| x.is_finite()))
         }
     }
 }
@@ -153,7 +154,8 @@ impl Part {
 
     /// As an edit names it.
     pub fn pose(self, bone: BoneIndex, property: Property) -> BonePose {
-        let mut pose = BonePose { bone: BoneRef::Index(bone), translation: None, rotation: None, scale: None };
+        let mut pose =
+            BonePose { bone: BoneRef::Index(bone), translation: None, rotation: None, scale: None };
         match (self, property) {
             (Self::Vector(value), Property::Scale) => pose.scale = Some(value.to_array()),
             (Self::Vector(value), _) => pose.translation = Some(value.to_array()),
@@ -178,9 +180,7 @@ impl Part {
                 let grain = 4.0 * f32::EPSILON * a.abs().max_element().max(b.abs().max_element());
                 (a - b).abs().max_element() <= grain
             }
-            (Self::Turn(a), Self::Turn(b)) => {
-                is_same_turn(a.as_dquat(), b.as_dquat())
-            }
+            (Self::Turn(a), Self::Turn(b)) => is_same_turn(a.as_dquat(), b.as_dquat()),
             _ => false,
         }
     }

@@ -5,7 +5,7 @@ use super::super::op::{Op, Place};
 use super::super::slot::{Key, TakeId};
 use super::keys::current;
 use super::remap::{Clock, apply};
-use super::{EditError, Work, finite, morph};
+use super::{EditError, Work, finite, morph, pending};
 use crate::document::edit::{SAME_TIME, TakeRef};
 use std::sync::Arc;
 
@@ -46,6 +46,8 @@ fn cut(work: &mut Work, take: TakeId, from: f32, to: f32) -> Result<(), EditErro
     for place in work.channels(take, (&[], &[]))? {
         with_kind!(place.property, channel::<K>(work, place, from, to));
     }
+    let inside = |time: f32| time >= from - SAME_TIME && time <= to + SAME_TIME;
+    pending::moved(work, take, |time| inside(time).then_some(time));
     let slot = work.slot(take);
     if !slot.original.morphs.is_empty() {
         let morphs = slot.original.morphs.iter().map(|track| morph::between(track, from, to)).collect();

@@ -65,7 +65,7 @@ pub(super) fn current<K: Kind>(work: &Work, slot: &Slot, place: Place, time: f32
     let rest = rest::<K>(work, place.bone);
     let shown = |channel: &Channel<K::Value>| -> Triple {
         let [arrive, leave] = slopes::<K>(channel, time);
-        [arrive, K::numbers(sample_channel(channel, rest, time)), leave]
+        [arrive, K::numbers(K::as_key(sample_channel(channel, rest, time))), leave]
     };
     let (original, result) =
         (&slot.original.tracks[place.bone as usize], &slot.result.tracks[place.bone as usize]);

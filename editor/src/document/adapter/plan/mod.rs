@@ -4,6 +4,8 @@ mod arrange;
 mod cut;
 mod keys;
 mod morph;
+mod paste;
+mod pending;
 mod pose;
 mod remap;
 mod spline;
@@ -35,6 +37,12 @@ pub(super) fn run(work: &mut Work, edit: &Edit) -> Result<(), EditError> {
         Edit::Reset { take, time, bones, properties, to } => {
             pose::reset(work, take, *time, (bones, properties), *to)
         }
+        Edit::Pend { take, time, poses } => pending::pend(work, take, *time, poses),
+        Edit::Paste { take, time, poses, mirrored, pending } => {
+            paste::paste(work, take, *time, poses, *mirrored, *pending)
+        }
+        Edit::KeyPending { take, time, bones } => pending::key(work, take, *time, bones),
+        Edit::DropPending { take, time, bones } => pending::drop(work, take, *time, bones),
         Edit::AddKeys { take, time, bones, properties, value } => {
             keys::add(work, take, *time, (bones, properties), *value)
         }

@@ -4,6 +4,7 @@ use super::super::change::KeyChange;
 use super::super::kind::{Kind, Numbers, Rotation, Scale, Translation, with_kind};
 use super::super::op::{Op, Place};
 use super::keys::insert;
+use super::pending::overwritten;
 use super::{EditError, Named, Work, finite, key_at, key_time, rest};
 use crate::document::edit::{BonePose, NewKey, Property, ResetTo, TakeRef};
 use glam::{Quat, Vec3};
@@ -30,8 +31,10 @@ pub(super) fn reset(
 ) -> Result<(), EditError> {
     let take = work.take(take)?;
     finite("a time", time)?;
-    let mut met = false;
-    for place in work.channels(take, named)? {
+    let places = work.channels(take, named)?;
+    let channels: Vec<_> = places.iter().map(|place| (place.bone, place.property)).collect();
+    let mut met = overwritten(work, take, time, &channels);
+    for place in places {
         let Ok(key) = key_at(work.slot(take).times(place.bone, place.property), time) else { continue };
         met = true;
         match to {
@@ -51,7 +54,7 @@ fn to_rest<K: Kind>(work: &mut Work, place: Place, key: usize) -> Result<(), Edi
 
 /// What becomes of the value that is there.
 #[derive(Clone, Copy)]
-enum Way {
+pub(super) enum Way {
     Set,
     Offset,
 }
@@ -59,7 +62,7 @@ enum Way {
 fn each(work: &mut Work, take: &TakeRef, time: f32, poses: &[BonePose], way: Way) -> Result<(), EditError> {
     let take = work.take(take)?;
     key_time(time, work.slot(take))?;
-    let mut met = false;
+    let mut touched = Vec::new();
     for pose in poses {
         let bone = work.bone(&pose.bone)?;
         if bone as usize >= work.slot(take).original.tracks.len() {
@@ -76,25 +79,32 @@ fn each(work: &mut Work, take: &TakeRef, time: f32, poses: &[BonePose], way: Way
         if let Some(scale) = pose.scale {
             one::<Scale>(work, place(Property::Scale), time, vector("a scale", scale)?, way)?;
         }
-        met |= pose.translation.is_some() || pose.rotation.is_some() || pose.scale.is_some();
+        let given = [pose.translation.is_some(), pose.rotation.is_some(), pose.scale.is_some()];
+        let given = Property::ALL.into_iter().zip(given).filter(|(_, given)| *given);
+        touched.extend(given.map(|(property, _)| (bone, property)));
     }
-    if met { Ok(()) } else { Err(EditError::Nothing("no pose is given")) }
+    overwritten(work, take, time, &touched);
+    if !touched.is_empty() { Ok(()) } else { Err(EditError::Nothing("no pose is given")) }
 }
 
-fn one<K: Kind>(
+/// Gives a channel a pose at a time, where need be with a key that is added.
+pub(super) fn one<K: Kind>(
     work: &mut Work,
     place: Place,
     time: f32,
     wanted: K::Value,
     way: Way,
 ) -> Result<(), EditError> {
+    // On top of what is shown there.
+    let pending =
+        work.slot(place.take).pending_at(time).and_then(|at| at.of(place.bone)?.get(place.property));
     let key = match key_at(work.slot(place.take).times(place.bone, place.property), time) {
         Ok(key) => key,
         Err(_) => insert::<K>(work, place, time, NewKey::Current),
     };
     change_key::<K>(work, place, key, |now| match way {
         Way::Set => wanted,
-        Way::Offset => K::offset(now, wanted),
+        Way::Offset => K::offset(pending.map_or(now, K::value), wanted),
     })
 }
 
@@ -131,14 +141,14 @@ fn near<K: Kind>(wanted: K::Value, now: Numbers) -> K::Value {
     if turn && dot < 0.0 { K::value(numbers.map(|number| -number)) } else { wanted }
 }
 
-fn vector(what: &'static str, numbers: [f32; 3]) -> Result<Vec3, EditError> {
+pub(super) fn vector(what: &'static str, numbers: [f32; 3]) -> Result<Vec3, EditError> {
     for number in numbers {
         finite(what, number)?;
     }
     Ok(Vec3::from_array(numbers))
 }
 
-fn rotation(numbers: [f32; 4]) -> Result<Quat, EditError> {
+pub(super) fn rotation(numbers: [f32; 4]) -> Result<Quat, EditError> {
     for number in numbers {
         finite("a rotation", number)?;
     }

@@ -4,7 +4,7 @@ use super::super::kind::{Held, Kind, with_kind};
 use super::super::op::{Op, Place};
 use super::super::slot::{Content, TakeId};
 use super::arrange::stretched;
-use super::{EditError, Work, finite, morph};
+use super::{EditError, Work, finite, morph, pending};
 use crate::document::edit::{SAME_TIME, TakeRef};
 use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::Value;
@@ -20,7 +20,9 @@ pub(super) struct Clock {
 
 impl Clock {
     fn at(&self, time: f32) -> f32 {
-        self.about + (time - self.from) * self.stretch
+        let new = self.about + (time - self.from) * self.stretch;
+        // Rounding, and a key that counts as lying on a cut, must not lead before the begin of time.
+        if time >= 0.0 && new < 0.0 && new >= -SAME_TIME { 0.0 } else { new }
     }
 }
 
@@ -59,6 +61,10 @@ pub(super) fn apply(work: &mut Work, take: TakeId, clock: Clock) -> Result<(), E
     for place in work.channels(take, (&[], &[]))? {
         with_kind!(place.property, channel::<K>(work, place, clock))?;
     }
+    for at in work.slot(take).pending() {
+        finite("a time", clock.at(at.time))?;
+    }
+    pending::moved(work, take, |time| Some(clock.at(time)));
     let slot = work.slot(take);
     if slot.original.morphs.is_empty() {
         return Ok(());

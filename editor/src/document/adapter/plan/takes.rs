@@ -17,7 +17,12 @@ pub(super) fn create(
     let source = copy.map(|take| work.take(take)).transpose()?;
     let id = work.adapter.new_id();
     let (slot, behind) = match source {
-        Some(source) => (work.slot(source).copied(id), work.index(source) + 1),
+        Some(source) => {
+            let mut slot = work.slot(source).copied(id);
+            // What is pending is so in one take only.
+            slot.forget_pending();
+            (slot, work.index(source) + 1)
+        }
         None => {
             let take = Arc::new(rest(&work.adapter.skeleton));
             if take.keys() == 0 {

@@ -4,7 +4,7 @@ use super::super::kind::with_kind;
 use super::super::op::{Op, Place};
 use super::super::slot::TakeId;
 use super::arrange::{Moving, arrange};
-use super::{EditError, Work, finite, key_time, morph};
+use super::{EditError, Work, finite, key_time, morph, pending};
 use crate::document::edit::{KeySet, SAME_TIME, TakeRef};
 
 pub(super) fn shift(work: &mut Work, take: &TakeRef, sets: &[KeySet], by: f32) -> Result<(), EditError> {
@@ -95,8 +95,22 @@ pub(super) fn ripple(work: &mut Work, take: &TakeRef, from: f32, by: f32) -> Res
             put(work, place, &chosen, Moving::WHOLE);
         }
     }
+    let to = |time: f32| rippled(time, from, by);
+    for at in work.slot(take).pending() {
+        key_time(to(at.time).unwrap_or_default(), work.slot(take))?;
+    }
+    pending::moved(work, take, to);
     met |= ripple_morphs(work, take, from, by)?;
     if met { Ok(()) } else { Err(EditError::Nothing("no key lies there or later")) }
+}
+
+/// Where a time goes: what lies at `from` or later moves, and a gap that is closed takes away what is in it.
+fn rippled(time: f32, from: f32, by: f32) -> Option<f32> {
+    match time {
+        _ if time >= from - SAME_TIME => Some(time + by),
+        _ if time >= from + by - SAME_TIME => None,
+        _ => Some(time),
+    }
 }
 
 /// The same for morph weights, which have no channel of a bone.
@@ -106,11 +120,11 @@ fn ripple_morphs(work: &mut Work, take: TakeId, from: f32, by: f32) -> Result<bo
     if !slot.original.morphs.iter().any(|morph| late(&morph.times)) {
         return Ok(false);
     }
-    let to = |time: f32| match time {
-        _ if time >= from - SAME_TIME => Some(time + by),
-        _ if time >= from + by - SAME_TIME => None,
-        _ => Some(time),
-    };
+    let times = slot.original.morphs.iter().flat_map(|morph| morph.times.iter());
+    for &time in times.filter(|&&time| time >= from - SAME_TIME) {
+        key_time(time + by, slot)?;
+    }
+    let to = |time: f32| rippled(time, from, by);
     let morphs = slot.original.morphs.iter().map(|track| morph::mapped(track, to, 1.0)).collect();
     work.perform(Op::Morphs(take, morphs));
     Ok(true)

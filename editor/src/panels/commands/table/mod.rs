@@ -7,6 +7,7 @@ mod file;
 mod help;
 mod look;
 mod playback;
+mod pose;
 mod selection;
 mod takes;
 mod window;
@@ -37,6 +38,7 @@ const fn command(
 pub const TABLE: &[(Category, &[Command])] = &[
     (Category::File, file::COMMANDS),
     (Category::Edit, edit::COMMANDS),
+    (Category::Pose, pose::COMMANDS),
     (Category::Playback, playback::COMMANDS),
     (Category::Takes, takes::COMMANDS),
     (Category::Selection, selection::COMMANDS),

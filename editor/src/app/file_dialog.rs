@@ -1,0 +1,65 @@
+//! The system's dialogs for files, asked in a thread of their own: they may take minutes to answer.
+
+use crate::document::Then;
+use dragonfly_anim::format::FORMATS;
+use dragonfly_runtime::Address;
+use std::path::PathBuf;
+
+/// What a file is wanted for.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Purpose {
+    /// To open it.
+    Open,
+    /// To save there.
+    Save {
+        /// Does the document stay that of its own file?
+        copy: bool,
+        /// What comes after.
+        then: Option<Then>,
+        /// The name that is proposed.
+        name: String,
+    },
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub(super) struct Answer {
+    /// What it was wanted for.
+    pub purpose: Purpose,
+    /// The file; none where the person changed their mind, or where there is no such dialog: the system does not tell
+    /// which.
+    pub file: Option<PathBuf>,
+    /// The answer came faster than a person can act: probably there is no dialog at all.
+    pub quick: bool,
+}
+
+/// No person closes a dialog in less time than this, seconds.
+const HUMAN: f32 = 0.25;
+
+/// Asks; the answer goes to `to`.
+pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>) -> std::io::Result<()> {
+    std::thread::Builder::new().name("file dialog".to_owned()).spawn(move || {
+        let begun = std::time::Instant::now();
+        let mut dialog = rfd::AsyncFileDialog::new();
+        if let Some(folder) = folder {
+            dialog = dialog.set_directory(folder);
+        }
+        let file = match &purpose {
+            Purpose::Open => {
+                let models: Vec<&str> =
+                    FORMATS.iter().flat_map(|format| format.extensions).copied().collect();
+                let dialog = dialog.set_title("Open a model").add_filter("Models", &models);
+                pollster::block_on(dialog.add_filter("All files", &["*"]).pick_file())
+            }
+            Purpose::Save { copy, name, .. } => {
+                let title = if *copy { "Save a copy" } else { "Save as" };
+                pollster::block_on(dialog.set_title(title).set_file_name(name).save_file())
+            }
+        };
+        let file = file.map(|file| file.path().to_owned());
+        let quick = file.is_none() && begun.elapsed().as_secs_f32() < HUMAN;
+        // The window may be closed by now.
+        let _ = to.send(Answer { purpose, file, quick });
+    })?;
+    Ok(())
+}

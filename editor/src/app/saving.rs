@@ -1,0 +1,204 @@
+//! Carries out what has to do with files: saving, leaving, bringing back.
+
+use super::file_dialog::{self, Purpose};
+use super::interface::Interface;
+use crate::document::{DocumentMessage, DocumentReply, SaveOrder, Source, Then};
+use crate::panels::Effect;
+use crate::panels::saving::{Deed, Question};
+use crate::panels::state::Overlay;
+use crate::panels::status::{Level, Status};
+use std::path::Path;
+use std::sync::Arc;
+
+use super::editor_runtime::Running;
+
+impl Running {
+    /// Does a deed; `true` when the program is to end.
+    pub(super) fn deed(&mut self, deed: Deed) -> bool {
+        match deed {
+            Deed::Save(order) => self.tell(DocumentMessage::Save(order)),
+            Deed::Plan(order) => self.tell(DocumentMessage::Plan(order)),
+            Deed::Revert => self.tell(DocumentMessage::Revert),
+            Deed::Decide(offer, decision) => self.tell(DocumentMessage::Decide(offer, decision)),
+            Deed::Search => self.tell(DocumentMessage::Search),
+            Deed::LookAtFile => self.tell(DocumentMessage::LookAtFile),
+            Deed::Where { copy, then } => {
+                self.ask_where(copy, then);
+                true
+            }
+            Deed::Reload => {
+                let path = self.state_path();
+                path.is_none_or(|path| {
+                    self.tell(DocumentMessage::DoNotSave)
+                        && self.tell(DocumentMessage::Open(Source::File(path)))
+                })
+            }
+            Deed::Leave(then) => return self.leave(then),
+            Deed::DoNotSave(then) => {
+                self.tell(DocumentMessage::DoNotSave);
+                return self.proceed(then);
+            }
+            Deed::Proceed(then) => return self.proceed(then),
+        };
+        false
+    }
+
+    fn state_path(&self) -> Option<std::path::PathBuf> {
+        let interface = self.parts.interface.borrow();
+        interface.state.view.as_ref().and_then(|view| view.file.path.clone())
+    }
+
+    /// Tells the document; `false` when there is none.
+    fn tell(&self, message: DocumentMessage) -> bool {
+        self.document.as_ref().is_some_and(|document| document.send(message))
+    }
+
+    /// Asks the document whether something unsaved is in the way. Who asks a second time before the answer is there, or
+    /// where nobody can answer, goes at once: what was recorded is offered at the next start.
+    fn leave(&mut self, then: Then) -> bool {
+        let waits = then == Then::Quit && std::mem::replace(&mut self.leaving, true);
+        if !waits && self.tell(DocumentMessage::Leave(then.clone())) {
+            return false;
+        }
+        self.proceed(then)
+    }
+
+    fn proceed(&mut self, then: Then) -> bool {
+        match then {
+            Then::Quit => return true,
+            Then::Open(source) => self.tell(DocumentMessage::Open(source)),
+        };
+        false
+    }
+
+    fn ask_where(&mut self, copy: bool, then: Option<Then>) {
+        let mut interface = self.parts.interface.borrow_mut();
+        if interface.asking {
+            return interface.state.status.say(Level::Info, "A dialog for files is open already");
+        }
+        let Some(view) = &interface.state.view else { return };
+        let near = view.file.path.as_deref().or(view.loaded.path.as_deref());
+        let folder = near.and_then(Path::parent).map(Path::to_owned);
+        let ending = match view.loaded.format.as_str() {
+            "dragonfly" | "" => "glb",
+            format => format,
+        };
+        let name = match (&view.file.path, copy) {
+            (Some(_), false) => view.file.title.clone(),
+            _ => {
+                let stem = Path::new(&view.loaded.title).file_stem().unwrap_or_default().to_string_lossy();
+                format!("{stem}{}.{ending}", if copy { " copy" } else { "" })
+            }
+        };
+        let purpose = Purpose::Save { copy, then, name };
+        match file_dialog::ask(purpose, folder, self.answers.clone()) {
+            Ok(()) => interface.asking = true,
+            Err(error) => {
+                interface.state.status.say(Level::Error, format!("No dialog could be opened: {error}"));
+            }
+        }
+    }
+}
+
+/// Takes what came of a dialog for files.
+pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
+    interface.asking = false;
+    let file_dialog::Answer { purpose, file, quick } = answer;
+    match (purpose, file) {
+        (Purpose::Open, Some(path)) => interface.effects.push(Effect::Open(Source::File(path))),
+        (Purpose::Save { copy, then, .. }, Some(path)) => {
+            use crate::document::SaveTo::{As, Copy};
+            let to = if copy { Copy(path) } else { As(path) };
+            // The dialog asked before it gave the name of a file that is there.
+            let order = SaveOrder { to, anyway: true, then };
+            interface.effects.push(Effect::Deed(Deed::Save(order)));
+        }
+        (Purpose::Open, None) if quick => {
+            let text = "This desktop has no dialog for opening files; type the path instead";
+            interface.state.status.say(Level::Warning, text);
+            interface.state.overlay = Some(Overlay::OpenPath);
+        }
+        (Purpose::Save { copy, then, .. }, None) if quick => {
+            let text = "This desktop has no dialog for saving files; type the path instead";
+            interface.state.status.say(Level::Warning, text);
+            interface.state.ask(Question::Where { copy, then });
+        }
+        // Also where the dialog failed slowly, which looks the same from here.
+        (Purpose::Open, None) => interface.state.status.say(Level::Info, "No file was chosen"),
+        (Purpose::Save { .. }, None) => interface.state.status.say(Level::Info, "Nothing was saved"),
+    }
+}
+
+/// Shows what the document says of saving; gives back what is said of something else.
+pub(super) fn heard(interface: &mut Interface, reply: DocumentReply) -> Option<DocumentReply> {
+    let state = &mut interface.state;
+    match reply {
+        DocumentReply::Saved(saved) => {
+            let name = saved.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            if !saved.copy {
+                state.settings.remember(&saved.path);
+            }
+            for notice in &saved.notices {
+                state.status.say(Level::Warning, format!("{name}: {notice}"));
+            }
+            say_saved(&mut state.status, &name, &saved);
+            if let Some(then) = saved.then {
+                interface.effects.push(Effect::Deed(Deed::Leave(then)));
+            }
+        }
+        DocumentReply::NotSaved(order, reason) => {
+            let effect = state.not_saved(order, reason);
+            interface.effects.extend(effect);
+        }
+        DocumentReply::Plan(Ok(text), order) => {
+            let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+            state.ask(Question::Plan(Arc::from(lines), order));
+        }
+        DocumentReply::Plan(Err(reason), _) => {
+            state.status.say(Level::Error, format!("It cannot be saved: {reason}"));
+        }
+        DocumentReply::Leave(then, true) => {
+            state.ask(Question::Unsaved(then));
+            interface.effects.push(Effect::Stays);
+        }
+        DocumentReply::Leave(then, false) => interface.effects.push(Effect::Deed(Deed::Proceed(then))),
+        DocumentReply::FileChanged(file) => state.ask(Question::Changed(file, None)),
+        DocumentReply::Offers(offers) => offer(state, offers),
+        DocumentReply::NothingToOffer => {
+            state.status.say(Level::Info, "There is no unsaved work of an earlier time")
+        }
+        DocumentReply::Told(text) => state.status.say(Level::Info, text),
+        DocumentReply::Warned(text) => state.status.say(Level::Warning, text),
+        DocumentReply::Lost => {
+            state.lost = true;
+            state.status.say(Level::Error, "A mistake in the program closed the document");
+        }
+        other => return Some(other),
+    }
+    None
+}
+
+/// Asks about unsaved work; what was asked already and not answered stays asked.
+fn offer(state: &mut crate::panels::State, mut offers: Vec<crate::document::Offer>) {
+    if let Some(Question::Recover { offers: before, .. }) =
+        state.questions.iter().find(|question| matches!(question, Question::Recover { .. }))
+    {
+        let new = |other: &&crate::document::Offer| {
+            !offers.iter().any(|offer| offer.found.journal == other.found.journal)
+        };
+        let before: Vec<_> = before.iter().filter(new).cloned().collect();
+        offers.extend(before);
+    }
+    let lost = std::mem::take(&mut state.lost);
+    state.ask(Question::Recover { offers, lost });
+}
+
+fn say_saved(status: &mut Status, name: &str, saved: &crate::document::SavedFile) {
+    let what = if saved.copy { "Saved a copy as" } else { "Saved" };
+    let beside = match saved.beside {
+        0 => String::new(),
+        1 => " and a file beside it".to_owned(),
+        files => format!(" and {files} files beside it"),
+    };
+    status.say(Level::Info, format!("{what} {name}{beside}"));
+}

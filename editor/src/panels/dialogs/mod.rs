@@ -1,0 +1,143 @@
+//! What a person is asked, a file a question. A question lies over everything and waits.
+
+mod changed;
+mod exists;
+mod place;
+mod plan;
+mod recover;
+mod unsaved;
+
+use super::saving::Question;
+use super::state::{Request, State};
+use super::style::{GRID, RADIUS};
+use super::theme::Theme;
+use egui::{Button, CornerRadius, Id, Modal, Response, RichText, Ui, vec2};
+
+/// What is typed and chosen in questions.
+#[derive(Debug, Default)]
+pub(super) struct Dialogs {
+    path: String,
+    chosen: usize,
+    shown: Option<std::mem::Discriminant<Question>>,
+}
+
+impl Dialogs {
+    /// Draws the question that the state asks.
+    pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        let kind = state.question().map(std::mem::discriminant);
+        let fresh = self.shown != kind;
+        self.shown = kind;
+        let Some(question) = state.question() else { return };
+        if fresh {
+            self.chosen = 0;
+            self.path = place::proposal(state, matches!(question, Question::Where { copy: true, .. }));
+        }
+        let modal = Modal::new(Id::unique(("question", format!("{:?}", std::mem::discriminant(question)))))
+            .backdrop_color(Theme::of(ui).backdrop)
+            .frame(egui::Frame::popup(ui.style()).inner_margin(20));
+        let response = modal.show(ui.ctx(), |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0 * GRID;
+            let mut ask = Ask { ui, state, fresh, requests };
+            match question {
+                Question::Unsaved(then) => unsaved::show(&mut ask, then),
+                Question::Changed(file, order) => changed::show(&mut ask, *file, order.as_ref()),
+                Question::Exists(path, order) => exists::show(&mut ask, path, order),
+                Question::Plan(lines, order) => plan::show(&mut ask, lines, order.as_ref()),
+                Question::Recover { offers, lost } => {
+                    recover::show(&mut ask, offers, *lost, &mut self.chosen)
+                }
+                Question::Where { copy, then } => place::show(&mut ask, *copy, then.as_ref(), &mut self.path),
+            }
+        });
+        if response.should_close() {
+            requests.push(Request::Dismiss);
+        }
+    }
+}
+
+/// A question being drawn.
+struct Ask<'a> {
+    ui: &'a mut Ui,
+    state: &'a State,
+    /// Is this its first frame? The keyboard goes to what is meant most often.
+    fresh: bool,
+    requests: &'a mut Vec<Request>,
+}
+
+/// How a button looks.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Tone {
+    /// What is meant most often, and what Enter does.
+    First,
+    Plain,
+    /// Something is lost by it, or put where it is hard to find.
+    Loses,
+}
+
+impl Ask<'_> {
+    fn title(&mut self, text: &str) {
+        self.ui.label(RichText::new(text).heading());
+    }
+
+    /// A sentence.
+    fn says(&mut self, text: impl Into<String>) {
+        self.ui.label(text.into());
+    }
+
+    /// A sentence that is read second.
+    fn adds(&mut self, text: impl Into<String>) {
+        let weak = Theme::of(self.ui).weak;
+        self.ui.label(RichText::new(text).color(weak));
+    }
+
+    /// A sentence that warns.
+    fn warns(&mut self, text: impl Into<String>) {
+        let warning = Theme::of(self.ui).warning;
+        self.ui.label(RichText::new(text).color(warning));
+    }
+
+    /// The row of buttons: what loses something stands left, the others right, the first of them last. Which was
+    /// pressed?
+    fn buttons<T: Copy>(&mut self, choices: &[(&str, &str, Tone, T)]) -> Option<T> {
+        self.ui.add_space(GRID);
+        let mut pressed = None;
+        let fresh = self.fresh;
+        self.ui.horizontal(|ui| {
+            for (title, help, tone, choice) in choices.iter().filter(|(_, _, tone, _)| *tone == Tone::Loses) {
+                if button(ui, title, *tone, true).on_hover_text(*help).clicked() {
+                    pressed = Some(*choice);
+                }
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let rest = choices.iter().filter(|(_, _, tone, _)| *tone != Tone::Loses);
+                for (title, help, tone, choice) in rest {
+                    let response = button(ui, title, *tone, true).on_hover_text(*help);
+                    if fresh && *tone == Tone::First {
+                        response.request_focus();
+                    }
+                    if response.clicked() {
+                        pressed = Some(*choice);
+                    }
+                }
+            });
+        });
+        pressed
+    }
+}
+
+/// A button of a question.
+fn button(ui: &mut Ui, title: &str, tone: Tone, able: bool) -> Response {
+    let theme = Theme::of(ui);
+    let text = match tone {
+        Tone::First => RichText::new(title).color(theme.on_accent),
+        Tone::Plain => RichText::new(title),
+        Tone::Loses => RichText::new(title).color(theme.error),
+    };
+    let mut button = Button::new(text).min_size(vec2(88.0, 28.0)).corner_radius(CornerRadius::same(RADIUS));
+    if tone == Tone::First {
+        button = button.fill(theme.accent);
+    }
+    let response = ui.add_enabled(able, button);
+    super::widgets::focus_ring(ui, &response, response.rect.expand(2.0));
+    response
+}

@@ -1,0 +1,57 @@
+//! Where to save, typed: for desktops without a dialog for files.
+
+use super::{Ask, Tone};
+use crate::document::{SaveOrder, SaveTo, Then};
+use crate::panels::saving::Deed;
+use crate::panels::state::{Request, State};
+use egui::{Key, TextEdit, TextStyle};
+use std::path::{Path, PathBuf};
+
+/// The name that stands in the field at first.
+pub(super) fn proposal(state: &State, copy: bool) -> String {
+    let Some(view) = &state.view else { return String::new() };
+    let read = view.loaded.path.as_deref();
+    let own = view.file.path.as_deref();
+    let beside = |path: &Path, what: &str| {
+        let part = |part: Option<&std::ffi::OsStr>| {
+            part.map_or_else(String::new, |part| part.to_string_lossy().into_owned())
+        };
+        let name = format!("{} {what}.{}", part(path.file_stem()), part(path.extension()));
+        path.with_file_name(name).display().to_string()
+    };
+    match (own, read) {
+        (Some(path), _) if copy => beside(path, "copy"),
+        (Some(path), _) => path.display().to_string(),
+        (None, Some(path)) => beside(path, "recovered"),
+        (None, None) => {
+            let folder = std::env::home_dir().unwrap_or_default();
+            folder.join("Dragonfly.glb").display().to_string()
+        }
+    }
+}
+
+pub(super) fn show(ask: &mut Ask<'_>, copy: bool, then: Option<&Then>, path: &mut String) {
+    ask.ui.set_width(520.0);
+    ask.title(if copy { "Save a copy" } else { "Save as" });
+    let field = TextEdit::singleline(path).desired_width(f32::INFINITY).font(TextStyle::Monospace);
+    let response = ask.ui.add(field.margin(egui::Margin::symmetric(10, 7)));
+    let response = response.accessible_name("Path to save at");
+    if ask.fresh {
+        response.request_focus();
+    }
+    let entered = response.lost_focus() && ask.ui.input(|input| input.key_pressed(Key::Enter));
+    let fresh = std::mem::replace(&mut ask.fresh, false);
+    let save = ("Save", "Writes the file", Tone::First, true);
+    let cancel = ("Cancel", "Writes nothing", Tone::Plain, false);
+    let pressed = ask.buttons(&[save, cancel]);
+    ask.fresh = fresh;
+    let typed = path.trim().trim_matches('"');
+    if (entered || pressed == Some(true)) && !typed.is_empty() {
+        let path = PathBuf::from(typed);
+        let to = if copy { SaveTo::Copy(path) } else { SaveTo::As(path) };
+        let order = SaveOrder { to, anyway: false, then: then.cloned() };
+        ask.requests.push(Request::Deed(Deed::Save(order)));
+    } else if pressed == Some(false) {
+        ask.requests.push(Request::Dismiss);
+    }
+}

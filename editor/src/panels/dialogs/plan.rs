@@ -1,0 +1,51 @@
+//! What a save will change, before it is written.
+
+use super::{Ask, Tone};
+use crate::document::SaveOrder;
+use crate::panels::saving::Deed;
+use crate::panels::state::Request;
+use crate::panels::style::{self, GRID};
+use crate::panels::theme::Theme;
+use egui::{Frame, Label, RichText, ScrollArea};
+
+/// Height of a line of the list, in points.
+const LINE: f32 = 18.0;
+
+pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder>) {
+    ask.ui.set_width(620.0);
+    ask.title("What will be saved");
+    let nothing = lines.is_empty() || lines.iter().any(|line| line == "nothing changes");
+    if nothing {
+        ask.says("Nothing: the file will be the same, byte for byte.");
+    } else {
+        ask.says("Everything that is not in this list keeps its bytes.");
+        let theme = Theme::of(ask.ui);
+        Frame::NONE.fill(theme.sunken).corner_radius(style::RADIUS).inner_margin(2.0 * GRID).show(
+            ask.ui,
+            |ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                let height = (lines.len() as f32 * LINE).min(320.0);
+                ScrollArea::both().max_height(height).auto_shrink([false, true]).show_rows(
+                    ui,
+                    LINE,
+                    lines.len(),
+                    |ui, range| {
+                        for line in &lines[range] {
+                            let text = RichText::new(line).monospace().size(style::SMALL);
+                            ui.add_sized([0.0, LINE], Label::new(text).extend());
+                        }
+                    },
+                );
+            },
+        );
+    }
+    let close = ("Close", "Writes nothing", Tone::First, false);
+    let cancel = ("Cancel", "Writes nothing", Tone::Plain, false);
+    let save = ("Save", "Writes exactly this", Tone::First, true);
+    let pressed = if order.is_some() { ask.buttons(&[save, cancel]) } else { ask.buttons(&[close]) };
+    match (pressed, order) {
+        (Some(true), Some(order)) => ask.requests.push(Request::Deed(Deed::Save(order.clone()))),
+        (Some(_), _) => ask.requests.push(Request::Dismiss),
+        (None, _) => {}
+    }
+}

@@ -1,0 +1,115 @@
+//! Unsaved work of an earlier time: what it is, and what becomes of it.
+
+use super::{Ask, Tone};
+use crate::document::{Decision, Offer};
+use crate::panels::saving::Deed;
+use crate::panels::state::Request;
+use crate::panels::style::{GRID, ROW};
+use crate::panels::theme::Theme;
+use crate::panels::widgets;
+use egui::{Rect, RichText, ScrollArea, TextStyle, pos2};
+use std::time::Duration;
+
+pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut usize) {
+    ask.ui.set_width(520.0);
+    *chosen = (*chosen).min(offers.len().saturating_sub(1));
+    ask.title(if lost { "The document was lost, its work was not" } else { "Unsaved work" });
+    if lost {
+        ask.says("A mistake in the program closed the document. All that you did is in its journal.");
+    } else {
+        ask.says("The program ended before this was saved. You can go on where you were.");
+    }
+    if offers.len() > 1 {
+        list(ask, offers, chosen);
+    }
+    let Some(offer) = offers.get(*chosen) else { return };
+    about(ask, offer);
+    let keep =
+        ("Keep", "Opens it as it was, with everything that can be undone", Tone::First, Decision::Keep);
+    let beside = (
+        "Open beside",
+        "Opens it as a document of its own; nothing becomes of the file",
+        Tone::Plain,
+        Decision::Beside,
+    );
+    let later = ("Later", "Leaves it where it is, and asks another time", Tone::Plain, Decision::Later);
+    let discard = ("Discard", "Puts it into the bin of the autosave folder", Tone::Loses, Decision::Discard);
+    let pressed = if offer.can_be_kept() {
+        ask.buttons(&[keep, beside, later, discard])
+    } else {
+        let later = (later.0, later.1, Tone::First, later.3);
+        ask.buttons(&[later, discard])
+    };
+    if let Some(decision) = pressed {
+        ask.requests.push(Request::Deed(Deed::Decide(Box::new(offer.clone()), decision)));
+    }
+}
+
+fn list(ask: &mut Ask<'_>, offers: &[Offer], chosen: &mut usize) {
+    let height = (offers.len() as f32 * ROW).min(6.0 * ROW);
+    ScrollArea::vertical().max_height(height).show(ask.ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for (index, offer) in offers.iter().enumerate() {
+            let (rect, response) = widgets::row(ui, &offer.title, index == *chosen, false);
+            let theme = Theme::of(ui);
+            let inside = rect.shrink2(egui::vec2(3.0 * GRID, 0.0));
+            let right =
+                widgets::number_at(ui, inside.right(), inside.center().y, &ago(offer.age()), theme.weak);
+            let name = Rect::from_min_max(inside.min, pos2(right - 2.0 * GRID, inside.max.y));
+            widgets::text_in(ui, name, &offer.title, &TextStyle::Body, theme.text);
+            if response.clicked() || response.has_focus() {
+                *chosen = index;
+            }
+        }
+    });
+}
+
+fn about(ask: &mut Ask<'_>, offer: &Offer) {
+    let theme = Theme::of(ask.ui);
+    egui::Frame::NONE.fill(theme.sunken).corner_radius(4.0).inner_margin(3.0 * GRID).show(ask.ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.spacing_mut().item_spacing.y = GRID;
+        ui.label(RichText::new(&offer.title).strong());
+        let place = match &offer.found.document {
+            Some(path) => path.display().to_string(),
+            None => "never saved".to_owned(),
+        };
+        ui.label(RichText::new(place).small().color(theme.weak));
+        let facts = [widgets::count(offer.steps, "step", "steps"), ago(offer.age())];
+        ui.label(widgets::dot_separated(&facts));
+        if !offer.labels.is_empty() {
+            let last = format!("Last: {}", offer.labels.join(", "));
+            ui.label(RichText::new(last).color(theme.weak));
+        }
+    });
+    for warning in offer.warnings() {
+        ask.warns(warning);
+    }
+}
+
+/// `3 minutes ago`.
+fn ago(age: Option<Duration>) -> String {
+    let Some(age) = age.map(|age| age.as_secs()) else { return "a while ago".to_owned() };
+    let (number, unit) = match age {
+        0..60 => return "just now".to_owned(),
+        60..3600 => (age / 60, "minute"),
+        3600..86_400 => (age / 3600, "hour"),
+        _ => (age / 86_400, "day"),
+    };
+    format!("{number} {unit}{} ago", if number == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ages_are_said_in_words() {
+        let said = |seconds| ago(Some(Duration::from_secs(seconds)));
+        assert_eq!(said(59), "just now");
+        assert_eq!(said(60), "1 minute ago");
+        assert_eq!(said(7200), "2 hours ago");
+        assert_eq!(said(86_400 * 3), "3 days ago");
+        assert_eq!(ago(None), "a while ago");
+    }
+}

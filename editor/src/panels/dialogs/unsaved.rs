@@ -1,0 +1,48 @@
+//! Something is not saved, and the person wants to leave it.
+
+use super::{Ask, Tone};
+use crate::document::{SaveOrder, Then};
+use crate::panels::saving::Deed;
+use crate::panels::state::Request;
+
+#[derive(Clone, Copy)]
+enum Choice {
+    Save,
+    DoNotSave,
+    Cancel,
+}
+
+pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
+    ask.ui.set_width(440.0);
+    let (title, steps) = ask.state.view.as_ref().map_or((String::new(), 0), |view| {
+        let history = &view.history;
+        (view.file.title.clone(), history.done)
+    });
+    ask.title(&format!("Save {title}?"));
+    ask.says(match then {
+        Then::Quit => "It has changes that are in no file yet, and the program is about to end.".to_owned(),
+        Then::Open(source) => {
+            format!("It has changes that are in no file yet, and {} is about to be opened.", source.title())
+        }
+    });
+    let last =
+        ask.state.view.as_ref().and_then(|view| view.history.steps.get(steps.wrapping_sub(1)).copied());
+    if let Some(last) = last {
+        ask.adds(format!("The last one: {last}"));
+    }
+    let save = ("Save", "Saves, then goes on", Tone::First, Choice::Save);
+    let cancel = ("Cancel", "Goes back to work", Tone::Plain, Choice::Cancel);
+    let lose = (
+        "Don't save",
+        "Goes on without saving; the changes lie in the bin of the autosave folder for a while",
+        Tone::Loses,
+        Choice::DoNotSave,
+    );
+    let request = match ask.buttons(&[save, cancel, lose]) {
+        Some(Choice::Save) => Request::Deed(Deed::Save(SaveOrder::own(Some(then.clone())))),
+        Some(Choice::DoNotSave) => Request::Deed(Deed::DoNotSave(then.clone())),
+        Some(Choice::Cancel) => Request::Dismiss,
+        None => return,
+    };
+    ask.requests.push(request);
+}

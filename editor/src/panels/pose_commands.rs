@@ -1,0 +1,146 @@
+//! What commands do to the pose at the time shown: key, drop, copy, paste, reset.
+
+use super::state::{Effect, State};
+use super::status::Level;
+use crate::document::Change;
+use crate::document::edit::{BonePose, BoneRef, Edit, NewKey, Property, ResetTo};
+use crate::posing::clipboard;
+use dragonfly_anim::data::{BoneIndex, Take, Transform};
+use dragonfly_anim::sample::{rest_pose, sample_track};
+
+impl State {
+    /// Turns auto-key on or off, and says what that means.
+    pub(super) fn toggle_auto_key(&mut self) {
+        self.settings.auto_key = !self.settings.auto_key;
+        self.status.say(
+            Level::Info,
+            if self.settings.auto_key {
+                "Auto-key is on: a changed pose becomes a key"
+            } else {
+                "Auto-key is off: a changed pose is pending until it is keyed"
+            },
+        );
+    }
+
+    /// Keys what is pending at the time shown; where nothing is, adds keys there that keep the motion, of the selected
+    /// bones or of all.
+    pub(super) fn key_here(&mut self) -> Option<Effect> {
+        let (take, time) = (self.take_ref()?, self.time());
+        Some(done(if self.pending_here().is_some() {
+            Edit::KeyPending { take, time: Some(time), bones: Vec::new() }
+        } else {
+            let bones = self.selected_refs();
+            Edit::AddKeys { take, time, bones, properties: Vec::new(), value: NewKey::Current }
+        }))
+    }
+
+    /// Keys what is pending anywhere in the take.
+    pub(super) fn key_pending(&mut self) -> Option<Effect> {
+        Some(done(Edit::KeyPending { take: self.take_ref()?, time: None, bones: Vec::new() }))
+    }
+
+    /// Gives up what is pending in the take.
+    pub(super) fn drop_pending(&mut self) -> Option<Effect> {
+        Some(done(Edit::DropPending { take: self.take_ref()?, time: None, bones: Vec::new() }))
+    }
+
+    /// The poses of the selected bones, or of all, as text for the clipboard.
+    pub(super) fn copy_pose(&mut self) -> Option<Effect> {
+        let view = self.view.clone()?;
+        let bones = self.selected_or_all();
+        let (take, time) = (self.playback.take, self.time());
+        let poses = self.posed.update(&view, take, time).poses();
+        let names = &view.loaded.model.animation.skeleton;
+        let copied: Vec<BonePose> = bones
+            .iter()
+            .filter_map(|&bone| {
+                let pose = poses.get(bone as usize)?;
+                Some(BonePose { bone: named(names, bone), ..whole(bone, pose) })
+            })
+            .collect();
+        let bones = super::widgets::count(copied.len(), "bone", "bones");
+        self.status.say(Level::Info, format!("Copied the pose of {bones}"));
+        Some(Effect::Copy(clipboard::to_text(&copied)))
+    }
+
+    /// The edit that puts on what the clipboard holds; anything but a pose is refused quietly.
+    pub(super) fn paste_pose(&mut self, text: &str, mirrored: bool) -> Option<Effect> {
+        let Some(poses) = clipboard::from_text(text) else {
+            self.status.say(Level::Info, "There is no pose in the clipboard");
+            return None;
+        };
+        let Some(take) = self.take_ref() else {
+            self.status.say(Level::Info, "The rest pose is not edited; show a take first");
+            return None;
+        };
+        let (time, pending) = (self.time(), !self.settings.auto_key);
+        Some(done(Edit::Paste { take, time, poses, mirrored, pending }))
+    }
+
+    /// Takes the selected bones back to the pose that was read, or to the rest pose; these channels of them.
+    pub(super) fn reset_pose(&mut self, properties: &[Property], to: ResetTo) -> Option<Effect> {
+        let (take, time) = (self.take_ref()?, self.time());
+        let slot = self.slot()?;
+        let bones = self.selection.bones().to_vec();
+        let keyed =
+            |bone: BoneIndex| properties.iter().any(|&property| slot.key_at(bone, property, time).is_some());
+        // On keys, to the bit and with its tangents.
+        if to == ResetTo::Original && self.settings.auto_key && bones.iter().any(|&bone| keyed(bone)) {
+            let (bones, properties) = (self.selected_refs(), properties.to_vec());
+            return Some(done(Edit::Reset { take, time, bones, properties, to }));
+        }
+        let rules = &self.loaded()?.model.animation.skeleton.bones;
+        let original = &slot.original;
+        let poses = bones
+            .iter()
+            .filter_map(|&bone| {
+                let rest = rules.get(bone as usize)?;
+                let pose = match to {
+                    ResetTo::Rest => rest_pose(rest),
+                    ResetTo::Original => sampled(original, bone, rest, time),
+                };
+                Some(only(whole(bone, &pose), properties))
+            })
+            .collect();
+        self.pose_edit(poses).map(done)
+    }
+}
+
+/// The edit as something done by itself.
+fn done(edit: Edit) -> Effect {
+    Effect::Change(Change::Edit(edit, None))
+}
+
+fn sampled(take: &Take, bone: BoneIndex, rules: &dragonfly_anim::data::Bone, time: f32) -> Transform {
+    take.tracks.get(bone as usize).map_or(rest_pose(rules), |track| sample_track(track, rules, time))
+}
+
+/// All three channels of a pose.
+fn whole(bone: BoneIndex, pose: &Transform) -> BonePose {
+    BonePose {
+        bone: BoneRef::Index(bone),
+        translation: Some(pose.translation.to_array()),
+        rotation: Some(pose.rotation.to_array()),
+        scale: Some(pose.scale.to_array()),
+    }
+}
+
+fn only(pose: BonePose, properties: &[Property]) -> BonePose {
+    let has = |property| properties.contains(&property);
+    BonePose {
+        translation: pose.translation.filter(|_| has(Property::Translation)),
+        rotation: pose.rotation.filter(|_| has(Property::Rotation)),
+        scale: pose.scale.filter(|_| has(Property::Scale)),
+        ..pose
+    }
+}
+
+/// By its name, so that the text means the same in another model; by its number where it shares its name.
+fn named(skeleton: &dragonfly_anim::data::Skeleton, bone: BoneIndex) -> BoneRef {
+    match skeleton.bones.get(bone as usize) {
+        Some(rules) if !rules.name.is_empty() && skeleton.find(&rules.name) == Some(bone) => {
+            BoneRef::Name(rules.name.clone())
+        }
+        _ => BoneRef::Index(bone),
+    }
+}

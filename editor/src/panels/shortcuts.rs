@@ -1,0 +1,245 @@
+//! The sheet of keys and mouse, in which keys can be chosen anew.
+
+use super::commands::{self, Category, Command, Id, KeySettings, Keymap, MOUSE, Preset};
+use super::icons::Icon;
+use super::state::{Request, State};
+use super::style::{self, GRID};
+use super::theme::Theme;
+use super::widgets;
+use egui::{Button, Event, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+
+/// What is being done in the sheet.
+#[derive(Debug, Default)]
+pub(super) struct ShortcutSheet {
+    query: String,
+    /// The command whose key is being chosen, and which of its keys: one more than it has for a new one.
+    asks: Option<(Id, usize)>,
+    /// What became of the last choice.
+    note: String,
+}
+
+impl ShortcutSheet {
+    /// As when it is opened.
+    pub(super) fn begin(&mut self, ui: &Ui) {
+        *self = Self::default();
+        Keymap::set_asking(ui.ctx(), false);
+    }
+
+    pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        let room = ui.ctx().content_rect();
+        ui.set_width((room.width() - 96.0).clamp(320.0, 860.0));
+        super::overlays::title(ui, "Keys and mouse", requests);
+        self.listen(ui, &state.settings.keys, requests);
+        self.head(ui, &state.settings.keys, requests);
+        let height = (room.height() - 220.0).max(120.0);
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+            let columns = if ui.available_width() > 700.0 { 2 } else { 1 };
+            ui.columns(columns, |columns| {
+                let half = commands::all().count().div_ceil(columns.len());
+                let mut before = 0;
+                for category in Category::ALL {
+                    let column = (before / half.max(1)).min(columns.len() - 1);
+                    before += commands::of(*category).len();
+                    self.sheet(&mut columns[column], *category, &state.settings.keys, requests);
+                }
+                if self.query.is_empty() {
+                    mouse(&mut columns[0]);
+                }
+            });
+        });
+        let hint = if self.note.is_empty() { "Click a key to choose another one" } else { &self.note };
+        ui.label(RichText::new(hint).size(style::SMALL).color(Theme::of(ui).weak));
+    }
+
+    /// The search field, and whose keys these are.
+    fn head(&mut self, ui: &mut Ui, keys: &KeySettings, requests: &mut Vec<Request>) {
+        ui.horizontal(|ui| {
+            let field = TextEdit::singleline(&mut self.query).hint_text("Find a command or a key");
+            ui.add(field.desired_width(200.0)).accessible_name("Find a command or a key");
+            ui.add_space(2.0 * GRID);
+            ui.label(RichText::new("Keys as in").color(Theme::of(ui).weak));
+            for preset in Preset::ALL {
+                if ui.selectable_label(keys.preset == *preset, preset.title()).clicked() {
+                    requests.push(Request::Keys(KeySettings { preset: *preset, ..keys.clone() }));
+                }
+            }
+            if !keys.own.is_empty() && ui.button("Forget my own").clicked() {
+                let preset = keys.preset;
+                requests.push(Request::Keys(KeySettings { preset, ..KeySettings::default() }));
+            }
+        });
+    }
+
+    /// Takes the key that was pressed while one is asked for.
+    fn listen(&mut self, ui: &Ui, keys: &KeySettings, requests: &mut Vec<Request>) {
+        let Some((id, place)) = self.asks else { return };
+        let Some((key, modifiers)) = ui.input_mut(|input| take_key(&mut input.events)) else { return };
+        self.ask(ui, None);
+        let keymap = Keymap::of(ui.ctx());
+        let mut shortcuts = keymap.shortcuts(id).to_vec();
+        match key {
+            Key::Escape => return,
+            Key::Delete | Key::Backspace if modifiers.is_none() => {
+                if place < shortcuts.len() {
+                    shortcuts.remove(place);
+                }
+                self.note = format!("“{}” lost a key", commands::get(id).title);
+            }
+            _ => {
+                let chosen = KeyboardShortcut::new(modifiers, key);
+                let loser = keymap.command_of(key, modifiers).filter(|other| *other != id);
+                self.note = match loser {
+                    Some(other) => format!(
+                        "{} gives “{}” now, and not “{}” any more",
+                        commands::text(&chosen),
+                        commands::get(id).title,
+                        commands::get(other).title
+                    ),
+                    None => format!("{} gives “{}” now", commands::text(&chosen), commands::get(id).title),
+                };
+                shortcuts.retain(|other| *other != chosen);
+                let place = place.min(shortcuts.len());
+                if place < shortcuts.len() {
+                    shortcuts[place] = chosen;
+                } else {
+                    shortcuts.push(chosen);
+                }
+            }
+        }
+        let mut keys = keys.clone();
+        // What another command got by hand is taken from it by hand as well.
+        for other in commands::all().map(|command| command.id).filter(|other| *other != id) {
+            let left: Vec<_> =
+                keymap.shortcuts(other).iter().filter(|taken| !shortcuts.contains(taken)).copied().collect();
+            if keys.is_own(other) && left.len() < keymap.shortcuts(other).len() {
+                keys.set(other, &left);
+            }
+        }
+        keys.set(id, &shortcuts);
+        requests.push(Request::Keys(keys));
+    }
+
+    fn ask(&mut self, ui: &Ui, asks: Option<(Id, usize)>) {
+        self.asks = asks;
+        Keymap::set_asking(ui.ctx(), asks.is_some());
+        if asks.is_some() {
+            self.note = "Press the key · Esc keeps the old one · Delete takes it away".to_owned();
+        }
+    }
+
+    fn sheet(&mut self, ui: &mut Ui, category: Category, keys: &KeySettings, requests: &mut Vec<Request>) {
+        let keymap = Keymap::of(ui.ctx());
+        let found = commands::of(category).iter().filter(|command| self.finds(command, &keymap));
+        let found: Vec<&Command> = found.collect();
+        if found.is_empty() {
+            return;
+        }
+        heading(ui, category.title());
+        for command in found {
+            let id = command.id;
+            let asked = self.asks.filter(|(asked, _)| *asked == id).map(|(_, place)| place);
+            let shortcuts = keymap.shortcuts(id);
+            let mut asks = None;
+            let row = line(ui, command.title, |ui| {
+                if keys.is_own(id) {
+                    let name = format!("Usual keys of {}", command.title);
+                    if widgets::icon_button(ui, Icon::Close, &name, false).on_hover_text(&name).clicked() {
+                        let mut keys = keys.clone();
+                        keys.reset(id);
+                        requests.push(Request::Keys(keys));
+                    }
+                }
+                // Right to left, so that the first stands first.
+                let places = shortcuts.len().max(1) + usize::from(asked == Some(shortcuts.len().max(1)));
+                for place in (0..places.min(4)).rev() {
+                    let text = match shortcuts.get(place) {
+                        _ if asked == Some(place) => "Press a key".to_owned(),
+                        Some(shortcut) => commands::text(shortcut),
+                        None => "–".to_owned(),
+                    };
+                    if cap(ui, command.title, &text, asked == Some(place)).clicked() {
+                        asks = Some((id, place));
+                    }
+                }
+            });
+            row.context_menu(|ui| {
+                if ui.button("One more key").clicked() {
+                    asks = Some((id, shortcuts.len()));
+                }
+                if ui.button("No key").clicked() {
+                    let mut keys = keys.clone();
+                    keys.set(id, &[]);
+                    requests.push(Request::Keys(keys));
+                }
+            });
+            if asks.is_some() {
+                self.ask(ui, asks);
+            }
+        }
+    }
+
+    fn finds(&self, command: &Command, keymap: &Keymap) -> bool {
+        let query = self.query.trim().to_lowercase();
+        let has = |text: &str| text.to_lowercase().contains(&query);
+        has(command.title)
+            || keymap.shortcuts(command.id).iter().any(|shortcut| has(&commands::text(shortcut)))
+    }
+}
+
+/// The first key pressed, and what was held with it.
+fn take_key(events: &mut Vec<Event>) -> Option<(Key, Modifiers)> {
+    let place = events.iter().position(|event| {
+        matches!(event, Event::Key { pressed: true, .. } | Event::Copy | Event::Cut | Event::Paste(_))
+    })?;
+    let found = match events.remove(place) {
+        Event::Key { key, modifiers, .. } => (key, plain(modifiers)),
+        Event::Copy => (Key::C, Modifiers::COMMAND),
+        Event::Cut => (Key::X, Modifiers::COMMAND),
+        _ => (Key::V, Modifiers::COMMAND),
+    };
+    // Its letter must not go into the search field.
+    events.retain(|event| !matches!(event, Event::Text(_)));
+    Some(found)
+}
+
+/// The modifiers as tables name them.
+fn plain(held: Modifiers) -> Modifiers {
+    Modifiers { alt: held.alt, shift: held.shift, command: held.command || held.ctrl, ..Modifiers::NONE }
+}
+
+fn cap(ui: &mut Ui, title: &str, text: &str, asked: bool) -> egui::Response {
+    let theme = Theme::of(ui);
+    let color = if asked { theme.accent } else { theme.weak };
+    let button = Button::new(RichText::new(text).size(style::SMALL).color(color)).small();
+    let response = ui.add(button);
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("{title}: {text}"))
+    });
+    response
+}
+
+fn mouse(ui: &mut Ui) {
+    heading(ui, "Mouse");
+    for (gesture, deed) in MOUSE {
+        line(ui, deed, |ui| {
+            ui.label(RichText::new(*gesture).small().color(Theme::of(ui).weak));
+        });
+    }
+}
+
+fn heading(ui: &mut Ui, text: &str) {
+    ui.add_space(2.0 * GRID);
+    ui.label(RichText::new(text).color(Theme::of(ui).accent));
+}
+
+fn line(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) -> egui::Response {
+    ui.horizontal(|ui| {
+        ui.label(title);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = GRID;
+            ui.add_space(3.0 * GRID);
+            add(ui);
+        });
+    })
+    .response
+}

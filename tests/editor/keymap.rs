@@ -1,0 +1,124 @@
+//! Keys can be those of another program, and be chosen anew; no key gives two commands.
+
+use crate::fixture;
+use crate::panels::{Bench, harness_of};
+use dragonfly::panels::Settings;
+use dragonfly::panels::commands::{self, Id, KeySettings, Keymap, Preset, parse, text};
+use dragonfly::panels::state::Overlay;
+use egui::{Key, KeyboardShortcut, Modifiers};
+use egui_kittest::kittest::Queryable;
+use std::collections::HashMap;
+
+fn of(preset: Preset) -> Keymap {
+    Keymap::new(KeySettings { preset, ..KeySettings::default() })
+}
+
+#[test]
+fn no_key_gives_two_commands_in_any_preset() {
+    for preset in Preset::ALL {
+        let keymap = of(*preset);
+        let mut seen = HashMap::new();
+        for command in commands::all() {
+            for shortcut in keymap.shortcuts(command.id) {
+                let text = text(shortcut);
+                if let Some(other) = seen.insert(text.clone(), command.title) {
+                    panic!("{}: {text} belongs to {other:?} and {:?}", preset.title(), command.title);
+                }
+                assert_eq!(
+                    keymap.command_of(shortcut.logical_key, shortcut.modifiers),
+                    Some(command.id),
+                    "{text}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_every_program_needs_has_a_key_in_every_preset() {
+    for preset in Preset::ALL {
+        let keymap = of(*preset);
+        for id in [Id::Open, Id::Undo, Id::Redo, Id::PlayPause, Id::PreviousFrame, Id::NextFrame, Id::Palette]
+        {
+            assert!(!keymap.shortcuts(id).is_empty(), "{}: {id:?}", preset.title());
+        }
+    }
+}
+
+#[test]
+fn every_shortcut_reads_back_from_its_text() {
+    for preset in Preset::ALL {
+        for command in commands::all() {
+            for shortcut in of(*preset).shortcuts(command.id) {
+                let written = text(shortcut);
+                let read = parse(&written).unwrap_or_else(|| panic!("{written}"));
+                assert_eq!((read.logical_key, text(&read)), (shortcut.logical_key, written));
+            }
+        }
+    }
+    for wrong in ["", "Ctrl+", "Hyper+K", "Ctrl+Ctrl+", "nothing", "🦊"] {
+        assert_eq!(parse(wrong), None, "{wrong}");
+    }
+}
+
+#[test]
+fn a_chosen_key_is_taken_from_who_had_it_and_survives_the_settings_file() {
+    let mut settings = Settings::default();
+    settings.keys.set(Id::FrameAll, &[KeyboardShortcut::new(Modifiers::COMMAND, Key::Z)]);
+    let settings = Settings::parse(&settings.to_text());
+    let keymap = Keymap::new(settings.keys.clone());
+    assert_eq!(keymap.command_of(Key::Z, Modifiers::COMMAND), Some(Id::FrameAll));
+    assert!(keymap.shortcuts(Id::Undo).is_empty());
+    let mut keys = settings.keys;
+    keys.reset(Id::FrameAll);
+    assert_eq!(Keymap::new(keys).command_of(Key::Z, Modifiers::COMMAND), Some(Id::Undo));
+}
+
+#[test]
+fn unknown_names_and_keys_in_the_settings_are_passed_over() {
+    let text =
+        r#"{"keys": {"preset": "Maya", "own": {"Nonsense": ["Ctrl+Z"], "Undo": ["Ctrl+U", "no key"]}}}"#;
+    let keymap = Keymap::new(Settings::parse(text).keys);
+    assert_eq!(keymap.shortcuts(Id::Undo).len(), 1);
+    assert_eq!(keymap.command_of(Key::U, Modifiers::COMMAND), Some(Id::Undo));
+}
+
+#[test]
+fn a_key_is_chosen_in_the_sheet_by_pressing_it() {
+    let mut bench = Bench::new(Some(fixture::full()));
+    bench.state.overlay = Some(Overlay::Shortcuts);
+    let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+    harness.run_steps(4);
+    harness.get_by_label("Undo: Ctrl+Z").click();
+    harness.run_steps(3);
+    harness.key_press(Key::Space);
+    harness.run_steps(3);
+    let state = &harness.state().state;
+    assert!(!state.playback.playing, "the key that is chosen does nothing else");
+    let keymap = Keymap::new(state.settings.keys.clone());
+    assert_eq!(keymap.command_of(Key::Space, Modifiers::NONE), Some(Id::Undo));
+    assert!(!keymap.shortcuts(Id::PlayPause).contains(&KeyboardShortcut::new(Modifiers::NONE, Key::Space)));
+
+    // Escape keeps the old key and the sheet.
+    harness.get_by_label("Redo: Ctrl+Shift+Z").click();
+    harness.run_steps(3);
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert_eq!(harness.state().state.overlay, Some(Overlay::Shortcuts));
+    harness.get_by_label("Redo: Ctrl+Shift+Z");
+
+    harness.get_by_label("Blender").click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().state.settings.keys.preset, Preset::Blender);
+    harness.get_by_label("Forget my own").click();
+    harness.run_steps(3);
+    harness.get_by_label("Undo: Ctrl+Z");
+}
+
+#[test]
+fn the_palette_says_why_a_command_cannot_be_given() {
+    let mut bench = Bench::new(Some(fixture::full()));
+    bench.state.execute(dragonfly::panels::Request::Command(Id::Undo));
+    let line = bench.state.status.lines().last().map(|line| line.text.clone());
+    assert_eq!(line.as_deref(), Some("Nothing was done yet"));
+}

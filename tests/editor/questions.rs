@@ -1,0 +1,193 @@
+//! What a person is asked: each question is drawn whole in every window, answered by keyboard, and left by Escape.
+
+use crate::fixture;
+use crate::panels::{Bench, harness_of};
+use dragonfly::document::{Decision, Offer, SaveOrder, SaveTo, Source, Then};
+use dragonfly::panels::saving::{Deed, Question};
+use dragonfly::panels::{Effect, Request, style};
+use dragonfly::store::{Fate, FileState, Life, Owner, Reading, Recoverable};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+fn offer(name: &str, steps: usize, ago: u64, file: Fate, reading: Reading, life: Life) -> Offer {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_nanos() as i64;
+    let document = PathBuf::from(format!("/home/mara/models/animals/{name}"));
+    Offer {
+        title: name.to_owned(),
+        source: Some(Source::File(document.clone())),
+        steps,
+        labels: vec!["Pose", "Move keys", "Rename take", "Pose", "Add keys"],
+        found: Recoverable {
+            journal: format!("/home/mara/.local/state/dragonfly/journals/{name}.journal").into(),
+            document: Some(document),
+            when: now - ago as i64 * 1_000_000_000,
+            work: steps as u64,
+            unsaved: steps as u64,
+            bytes: 4000,
+            reading,
+            file,
+            owner: Some(Owner { process: 4242, host: "attic".to_owned() }),
+            life,
+        },
+    }
+}
+
+fn questions() -> Vec<(&'static str, Question)> {
+    let fox = |file, reading, life| offer("Fox.glb", 12, 250, file, reading, life);
+    let whole = || fox(Fate::Same, Reading::Whole, Life::Gone);
+    let lines = |count: usize| -> Arc<[String]> {
+        let first = "take \"Survey\", \"b_Head_05\" (node 7), rotation: changed".to_owned();
+        let more = (0..count).map(|at| format!("/animations/0/samplers/{at}/output: 21 → 93"));
+        std::iter::once(first).chain(more).collect()
+    };
+    let recover = |offers, lost| Question::Recover { offers, lost };
+    let bear = offer(
+        "A bear with a rather long name that goes on.gltf",
+        1,
+        90_000,
+        Fate::Same,
+        Reading::Whole,
+        Life::Gone,
+    );
+    let own = || Some(SaveOrder::own(None));
+    vec![
+        ("unsaved", Question::Unsaved(Then::Quit)),
+        ("unsaved_open", Question::Unsaved(Then::Open(Source::File("/models/Bear.glb".into())))),
+        ("changed_save", Question::Changed(FileState::Changed, own())),
+        ("changed_focus", Question::Changed(FileState::Changed, None)),
+        ("gone", Question::Changed(FileState::Missing, None)),
+        ("exists", Question::Exists("/home/mara/models/Fox 2.glb".into(), SaveOrder::own(None))),
+        ("plan", Question::Plan(lines(6), own())),
+        ("plan_long", Question::Plan(lines(100_000), None)),
+        ("plan_nothing", Question::Plan(Arc::from(["nothing changes".to_owned()]), own())),
+        ("recover", recover(vec![whole()], false)),
+        ("recover_lost", recover(vec![whole()], true)),
+        ("recover_several", recover(vec![whole(), bear], false)),
+        ("recover_warned", recover(vec![fox(Fate::Changed, Reading::Cut(17), Life::Elsewhere)], false)),
+        ("recover_missing", recover(vec![fox(Fate::Missing, Reading::Whole, Life::Gone)], false)),
+        ("where", Question::Where { copy: false, then: None }),
+        ("where_copy", Question::Where { copy: true, then: None }),
+    ]
+}
+
+fn bench(question: Question) -> Bench {
+    let mut bench = Bench::new(Some(fixture::full()));
+    bench.state.ask(question);
+    bench
+}
+
+/// Writes pictures of the questions to `$DRAGONFLY_SHOTS`, to be looked at; does nothing without it.
+#[test]
+fn pictures_of_the_questions() {
+    let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(PathBuf::from) else { return };
+    std::fs::create_dir_all(&folder).unwrap();
+    for (name, question) in questions() {
+        for theme in [egui::Theme::Dark, egui::Theme::Light] {
+            let light = theme == egui::Theme::Light;
+            if light && !matches!(name, "unsaved" | "recover_several" | "plan") {
+                continue;
+            }
+            let mut harness = Harness::builder()
+                .with_size(egui::vec2(800.0, 520.0))
+                .with_theme(theme)
+                .with_max_steps(20)
+                .with_context_setup(style::install)
+                .wgpu()
+                .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench(question.clone()));
+            harness.run_steps(6);
+            let name = if light { format!("{name}_light") } else { name.to_owned() };
+            harness.render().unwrap().save(folder.join(format!("question_{name}.png"))).unwrap();
+        }
+    }
+}
+
+#[test]
+fn every_question_is_drawn_in_every_window_and_left_by_escape_without_a_deed() {
+    for (name, question) in questions() {
+        for size in [egui::vec2(1280.0, 720.0), egui::vec2(480.0, 320.0), egui::vec2(40.0, 30.0)] {
+            let mut harness = harness_of(bench(question.clone()), size, 1.0, egui::Theme::Dark);
+            harness.run_steps(4);
+            assert!(harness.state().state.question().is_some(), "{name}");
+            harness.key_press(egui::Key::Escape);
+            harness.run_steps(4);
+            let bench = harness.state();
+            assert!(bench.state.question().is_none() || name == "recover_several", "{name} at {size}");
+            let later = |effect: &Effect| matches!(effect, Effect::Deed(Deed::Decide(_, Decision::Later)));
+            assert!(bench.effects.iter().all(later), "{name}: {:?}", bench.effects);
+        }
+    }
+}
+
+#[test]
+fn enter_does_what_is_meant_most_often() {
+    let size = egui::vec2(1280.0, 720.0);
+    for (name, question) in questions() {
+        let mut harness = harness_of(bench(question), size, 1.0, egui::Theme::Dark);
+        harness.run_steps(4);
+        harness.key_press(egui::Key::Enter);
+        harness.run_steps(4);
+        let effects = &harness.state().effects;
+        let expected = match name {
+            "unsaved" => Some(Deed::Save(SaveOrder::own(Some(Then::Quit)))),
+            "changed_save" => Some(Deed::Where { copy: false, then: None }),
+            "changed_focus" => Some(Deed::Reload),
+            "gone" => Some(Deed::Save(SaveOrder { anyway: true, ..SaveOrder::own(None) })),
+            "plan" => Some(Deed::Save(SaveOrder::own(None))),
+            "exists" | "plan_long" => None,
+            "where_copy" => Some(Deed::Save(SaveOrder {
+                to: SaveTo::Copy("Fox copy.glb".into()),
+                anyway: false,
+                then: None,
+            })),
+            _ => continue,
+        };
+        let expected: Vec<Effect> = expected.map(Effect::Deed).into_iter().collect();
+        assert_eq!(*effects, expected, "{name}");
+        assert!(harness.state().state.question().is_none(), "{name}");
+    }
+}
+
+#[test]
+fn each_button_of_the_unsaved_work_decides_about_the_one_that_is_shown() {
+    for (button, decision) in [
+        ("Keep", Decision::Keep),
+        ("Open beside", Decision::Beside),
+        ("Later", Decision::Later),
+        ("Discard", Decision::Discard),
+    ] {
+        let (_, question) = questions().into_iter().find(|(name, _)| *name == "recover_several").unwrap();
+        let mut harness = harness_of(bench(question), egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+        harness.run_steps(4);
+        harness.get_by_label_contains("A bear").click();
+        harness.run_steps(2);
+        harness.get_by_label(button).click();
+        harness.run_steps(4);
+        let [Effect::Deed(Deed::Decide(offer, decided))] = &harness.state().effects[..] else {
+            panic!("{button}: {:?}", harness.state().effects)
+        };
+        assert!(offer.title.starts_with("A bear") && *decided == decision, "{button}");
+        // What was put aside leaves the others to be decided about; what is opened comes first.
+        let left = match harness.state().state.question() {
+            Some(Question::Recover { offers, .. }) => offers.len(),
+            _ => 0,
+        };
+        let aside = matches!(decision, Decision::Later | Decision::Discard);
+        assert_eq!(left, usize::from(aside), "{button}");
+    }
+}
+
+#[test]
+fn a_question_keeps_the_keys_to_itself_and_the_next_one_follows() {
+    let mut state = bench(Question::Unsaved(Then::Quit)).state;
+    state.ask(Question::Changed(FileState::Changed, None));
+    // The same is not asked twice.
+    state.ask(Question::Unsaved(Then::Quit));
+    assert_eq!(state.questions.len(), 2);
+    assert_eq!(state.execute(Request::Dismiss), None);
+    assert_eq!(state.execute(Request::Dismiss), None);
+    assert_eq!(state.question(), None);
+    assert_eq!(state.execute(Request::Dismiss), None);
+}

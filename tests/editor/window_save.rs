@@ -1,0 +1,260 @@
+//! Saving, leaving and coming back in the real window: nothing is lost, and nothing is overwritten unasked.
+
+use crate::keeping_desk::fox;
+use crate::mounted::{Mounted, may_mount};
+use crate::program::{Folder, data, run};
+use crate::screen::{Screen, key};
+use crate::window::{Editor, SOON, alone};
+use dragonfly::document::adapter::ModelAdapter;
+use dragonfly::document::{Cancel, Editable, Source};
+use dragonfly_kit::eventually;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const EDITS: &str = r#"{"edit":"set","take":0,"time":0.5,"poses":[{"bone":"b_Head_05","rotation":[0,0,0.26,0.97]}]}
+{"edit":"rename_take","take":1,"name":"Stroll"}
+{"edit":"add_keys","take":0,"time":0.77,"bones":["b_Head_05"]}
+"#;
+
+/// A copy of Fox, edits for it, and a folder for what is not saved.
+struct Bench {
+    folder: Folder,
+    file: PathBuf,
+    edits: String,
+    autosave: String,
+}
+
+impl Bench {
+    fn new(name: &str) -> Self {
+        let folder = Folder::new(name);
+        let edits = folder.join("edits.jsonl");
+        fs::write(&edits, EDITS).unwrap();
+        let [edits, autosave] = [edits, folder.join("autosave")].map(|path| path.display().to_string());
+        Self { file: fox(&folder), folder, edits, autosave }
+    }
+
+    /// The window with the file, unedited.
+    fn open(&self, screen: &mut Screen) -> Editor {
+        self.start(screen, &[])
+    }
+
+    /// The window after the edits were done in it.
+    fn edit(&self, screen: &mut Screen, more: &[&str]) -> Editor {
+        let mut editor = self.start(screen, &[&["--edits", self.edits.as_str()], more].concat());
+        editor.window = screen.window("• Fox.glb", SOON);
+        editor
+    }
+
+    fn start(&self, screen: &mut Screen, more: &[&str]) -> Editor {
+        let arguments = [&["--autosave", self.autosave.as_str()], more].concat();
+        // No dialogs for files, so that paths are typed.
+        let environment = [
+            ("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nonexistent"),
+            ("PATH", "/nonexistent"),
+            ("HOME", self.folder.path().to_str().unwrap()),
+        ];
+        let mut editor = Editor::open_file(screen, &self.file, &arguments, &environment);
+        let name = self.file.file_name().unwrap().to_str().unwrap();
+        let name = if name == "demo:" { "Dragonfly" } else { name };
+        if more.is_empty() {
+            editor.window = screen.window(name, SOON);
+            screen.focus(editor.window);
+        } else {
+            // A dot comes before it as soon as something is done.
+            editor.window = screen.any_window(&[name, &format!("• {name}")], SOON);
+            screen.focus(editor.window);
+        }
+        screen.point(i16::MAX, i16::MAX);
+        editor
+    }
+
+    /// What `dragonfly edit` makes of the file as it is now.
+    fn expected(&self) -> Vec<u8> {
+        let out = self.folder.join("expected.glb");
+        let arguments =
+            ["edit", self.file.to_str().unwrap(), "--edits", &self.edits, "-o", out.to_str().unwrap()];
+        run(arguments).expect(0);
+        fs::read(out).unwrap()
+    }
+}
+
+/// Presses Ctrl and a key.
+fn control(screen: &mut Screen, key: u8) {
+    screen.press_with(key::CONTROL, key);
+}
+
+fn takes(path: &Path) -> ModelAdapter {
+    let editable = Editable::open(&Source::File(path.to_owned()), &Cancel::default()).unwrap();
+    ModelAdapter::new(&editable.model.animation)
+}
+
+#[test]
+fn a_window_that_was_killed_gives_its_work_back_and_saves_what_the_command_line_would() {
+    let _one = alone();
+    let bench = Bench::new("window-killed");
+    let original = takes(&bench.file);
+    let expected = bench.expected();
+    let mut screen = Screen::new("killed", 1280, 800);
+    let mut editor = bench.edit(&mut screen, &[]);
+    editor.kill();
+    drop(editor);
+    assert_eq!(fs::read(&bench.file).unwrap(), fs::read(data("gltf/Fox.glb")).unwrap());
+
+    let mut editor = bench.open(&mut screen);
+    editor.hears("offered unsaved work", 1, SOON);
+    screen.press(key::ENTER);
+    editor.hears("Brought back the unsaved work of Fox.glb: 3 steps", 1, SOON);
+    screen.window("• Fox.glb", SOON);
+    control(&mut screen, key::S);
+    editor.hears("Saved Fox.glb", 1, SOON);
+    screen.window("Fox.glb", SOON);
+    assert!(fs::read(&bench.file).unwrap() == expected, "the same bytes as `dragonfly edit` writes");
+    // Closed and opened again, everything can still be undone.
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+    drop(editor);
+    let mut editor = bench.open(&mut screen);
+    for _ in 0..3 {
+        control(&mut screen, key::Z);
+    }
+    screen.window("• Fox.glb", SOON);
+    control(&mut screen, key::S);
+    editor.hears("Saved Fox.glb", 1, SOON);
+    let now = takes(&bench.file);
+    assert!(now.results().eq(original.results()), "the takes of the beginning");
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+}
+
+#[test]
+fn closing_with_unsaved_work_asks_and_every_answer_is_done() {
+    let _one = alone();
+    let bench = Bench::new("window-closing");
+    let before = fs::read(&bench.file).unwrap();
+    let expected = bench.expected();
+    let mut screen = Screen::new("closing", 1280, 800);
+    // Cancel: the window stays.
+    let mut editor = bench.edit(&mut screen, &[]);
+    screen.close(editor.window);
+    editor.hears("asked what becomes of unsaved work", 1, SOON);
+    screen.press(key::ESCAPE);
+    // Don't save: the file stays as it is.
+    control(&mut screen, key::Q);
+    editor.hears("asked what becomes of unsaved work", 2, SOON);
+    screen.press_with(key::SHIFT, key::TAB);
+    screen.press(key::ENTER);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+    drop(editor);
+    assert!(fs::read(&bench.file).unwrap() == before);
+    // What was not to be saved is not offered again. Save: it is in the file.
+    let mut editor = bench.edit(&mut screen, &[]);
+    screen.close(editor.window);
+    editor.hears("asked what becomes of unsaved work", 1, SOON);
+    screen.press(key::ENTER);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+    assert!(!editor.log().contains("offered unsaved work"), "{}", editor.log());
+    assert!(fs::read(&bench.file).unwrap() == expected);
+}
+
+#[test]
+fn a_file_that_somebody_else_changed_is_noticed_and_not_overwritten() {
+    let _one = alone();
+    let bench = Bench::new("window-changed");
+    let mut screen = Screen::new("changed", 1280, 800);
+    let mut editor = bench.edit(&mut screen, &[]);
+    let other = fs::read(data("gltf/Fox_skeleton.glb")).unwrap();
+    fs::write(&bench.file, &other).unwrap();
+    control(&mut screen, key::S);
+    editor.hears("asked what becomes of a changed file", 1, SOON);
+    screen.press(key::ESCAPE);
+    assert!(fs::read(&bench.file).unwrap() == other, "it is as the other program wrote it");
+    // Noticed as soon as the window is looked at again, once.
+    fs::write(&bench.file, fs::read(data("gltf/Fox.glb")).unwrap()).unwrap();
+    screen.leave();
+    screen.focus(editor.window);
+    fs::remove_file(&bench.file).unwrap();
+    screen.leave();
+    screen.focus(editor.window);
+    editor.hears("asked what becomes of a changed file", 2, SOON);
+    screen.press(key::ENTER);
+    editor.hears("Saved Fox.glb", 1, SOON);
+    assert!(takes(&bench.file).results().any(|take| take.name == "Stroll"));
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+}
+
+#[test]
+fn a_disk_that_is_full_or_read_only_is_said_and_nothing_is_lost() {
+    let _one = alone();
+    if !may_mount("a_disk_that_is_full_or_read_only_is_said_and_nothing_is_lost") {
+        return;
+    }
+    let mut bench = Bench::new("window-full");
+    let size = fs::metadata(&bench.file).unwrap().len() as usize;
+    let Some(disk) = Mounted::in_memory(&bench.folder.join("disk"), size * 3) else { return };
+    bench.file = disk.path().join("Fox.glb");
+    fs::copy(data("gltf/Fox.glb"), &bench.file).unwrap();
+    let before = fs::read(&bench.file).unwrap();
+    let expected = bench.expected();
+    let mut screen = Screen::new("full", 1280, 800);
+    let mut editor = bench.edit(&mut screen, &[]);
+    let filling = disk.path().join("filling");
+    // As large as it can be.
+    let _ = fs::write(&filling, vec![1; size * 3]);
+    control(&mut screen, key::S);
+    editor.hears("Not saved", 1, SOON);
+    editor.hears("the disk is full", 1, SOON);
+    assert!(fs::read(&bench.file).unwrap() == before);
+    fs::remove_file(&filling).unwrap();
+    disk.read_only(true);
+    control(&mut screen, key::S);
+    editor.hears("the disk is read-only", 1, SOON);
+    // Who wants to close is asked, and asked again when it could not be saved.
+    screen.close(editor.window);
+    editor.hears("asked what becomes of unsaved work", 1, SOON);
+    screen.press(key::ENTER);
+    editor.hears("asked what becomes of unsaved work", 2, SOON);
+    disk.read_only(false);
+    screen.press(key::ENTER);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+    assert!(fs::read(&bench.file).unwrap() == expected);
+    assert_eq!(fs::read_dir(disk.path()).unwrap().count(), 1, "nothing is left beside it");
+}
+
+#[test]
+fn a_mistake_in_the_program_costs_no_work_and_the_window_goes_on() {
+    let _one = alone();
+    let bench = Bench::new("window-mistake");
+    let mut screen = Screen::new("mistake", 1280, 800);
+    let mut editor = bench.start(&mut screen, &["--edits", bench.edits.as_str(), "--fail-at", "3"]);
+    editor.hears("A mistake in the program closed the document", 1, SOON);
+    editor.hears("offered unsaved work", 1, SOON);
+    screen.press(key::ENTER);
+    editor.hears("Brought back the unsaved work of Fox.glb: 2 steps", 1, SOON);
+    control(&mut screen, key::S);
+    editor.hears("Saved Fox.glb", 1, SOON);
+    assert!(takes(&bench.file).results().any(|take| take.name == "Stroll"));
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+}
+
+#[test]
+fn what_never_had_a_file_is_saved_where_the_person_says() {
+    let _one = alone();
+    let mut bench = Bench::new("window-where");
+    bench.file = "demo:".into();
+    fs::write(&bench.edits, r#"{"edit":"rename_take","take":0,"name":"Hover"}"#).unwrap();
+    let mut screen = Screen::new("where", 1280, 800);
+    let mut editor = bench.start(&mut screen, &["--edits", bench.edits.as_str()]);
+    screen.window("• Dragonfly", SOON);
+    control(&mut screen, key::S);
+    editor.hears("asked where to save", 1, SOON);
+    screen.press(key::ENTER);
+    editor.hears("Saved Dragonfly.glb", 1, SOON);
+    let path = bench.folder.join("Dragonfly.glb");
+    eventually(SOON, || path.is_file());
+    assert!(takes(&path).results().any(|take| take.name == "Hover"));
+    screen.window("Dragonfly.glb", SOON);
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+}
