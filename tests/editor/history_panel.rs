@@ -24,12 +24,18 @@ const SCALE: &str = "Scale, rib_00_left_middle  ·  Survey";
 fn the_list_says_what_was_done_to_what() {
     let mut window = window();
     assert_eq!(window.query_all_by_label(MOVE).count(), 2);
-    assert!(window.get_by_label(SCALE).accesskit_node().is_selected() == Some(true) || window.get_by_label(SCALE).accesskit_node().toggled().is_some());
+    assert!(
+        window.get_by_label(SCALE).accesskit_node().is_selected() == Some(true)
+            || window.get_by_label(SCALE).accesskit_node().toggled().is_some()
+    );
     assert!(window.query_by_label("3 of 3 steps").is_some());
     window.get_by_label("As it was opened").click();
     window.run_steps(4);
     assert_eq!(window.state().steps(), (0, 3));
-    assert!(window.query_by_label(&format!("{SCALE}, undone")).is_some(), "what can be done again is still there");
+    assert!(
+        window.query_by_label(&format!("{SCALE}, undone")).is_some(),
+        "what can be done again is still there"
+    );
     window.get_by_label(&format!("{SCALE}, undone")).click();
     window.run_steps(4);
     assert_eq!(window.state().steps(), (3, 3));
@@ -84,6 +90,6 @@ fn the_menu_says_what_it_would_undo() {
     window.run_steps(2);
     window.get_by_label("Edit").click();
     window.run_steps(4);
-    assert!(window.query_by_label("Undo Move").is_some());
-    assert!(window.query_by_label("Redo Scale").is_some());
+    assert!(window.query_by_label_contains("Undo Move").is_some());
+    assert!(window.query_by_label_contains("Redo Scale").is_some());
 }

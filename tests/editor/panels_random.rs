@@ -50,8 +50,24 @@ fn any_text_in_any_field() {
 
 fn some_event(random: &mut Random, at: egui::Pos2, texts: &[String]) -> Event {
     const KEYS: &[Key] = &[
-        Key::Enter, Key::Tab, Key::Escape, Key::Space, Key::Delete, Key::Backspace, Key::F2, Key::Z, Key::Y, Key::ArrowUp,
-        Key::ArrowDown, Key::ArrowLeft, Key::PageUp, Key::PageDown, Key::A, Key::Home, Key::End, Key::F3,
+        Key::Enter,
+        Key::Tab,
+        Key::Escape,
+        Key::Space,
+        Key::Delete,
+        Key::Backspace,
+        Key::F2,
+        Key::Z,
+        Key::Y,
+        Key::ArrowUp,
+        Key::ArrowDown,
+        Key::ArrowLeft,
+        Key::PageUp,
+        Key::PageDown,
+        Key::A,
+        Key::Home,
+        Key::End,
+        Key::F3,
     ];
     let modifiers = random.choice(&[Modifiers::NONE, Modifiers::NONE, Modifiers::SHIFT, Modifiers::COMMAND]);
     match random.below(10) {

@@ -88,7 +88,8 @@ fn a_drag_is_finer_with_shift_and_snaps_with_ctrl() {
         drag(&mut window, "Rotation result X", vec2(80.0, 0.0), modifiers);
         value(&window, "Rotation result X").unwrap()
     };
-    let (plain, fine, snapped) = (turned(Modifiers::NONE), turned(Modifiers::SHIFT), turned(Modifiers::COMMAND));
+    let (plain, fine, snapped) =
+        (turned(Modifiers::NONE), turned(Modifiers::SHIFT), turned(Modifiers::COMMAND));
     assert!((plain - 40.0).abs() < 1e-3, "{plain}");
     assert!((fine - 4.0).abs() < 1e-3, "{fine}");
     assert!((snapped - 45.0).abs() < 1e-3, "{snapped}");
@@ -135,7 +136,9 @@ fn time_stands_while_numbers_are_changed() {
 fn a_wrong_number_is_refused_where_it_stands() {
     for wrong in ["", "abc", "1..2", "1/0", "(((", "45m", "1e99", "🦊", "שלום", "1,234"] {
         for key in [Key::Enter, Key::Tab] {
-            let mut window = window();
+            let mut bench = Workbench::full();
+            bench.state.select(Some(3));
+            let mut window = bench.window_of_any_text();
             let before = window.state().pose(3);
             window.get_by_label("Rotation result Y").click();
             window.run_steps(2);
@@ -251,19 +254,20 @@ fn a_number_goes_to_all_selected_bones() {
     }
     assert_eq!((value(&window, "Translation result Y"), window.state().steps()), (Some(0.5), (1, 1)));
     drag(&mut window, "Translation result X", vec2(50.0, 0.0), Modifiers::NONE);
-    let by = [1, 2, 3].map(|bone| {
-        window.state().pose(bone).translation.x - before[bone as usize - 1].translation.x
-    });
-    assert!(by[0] > 0.0 && by.iter().all(|other| (other - by[0]).abs() < 1e-6), "{by:?}: each from where it was");
+    let by = [1, 2, 3]
+        .map(|bone| window.state().pose(bone).translation.x - before[bone as usize - 1].translation.x);
+    assert!(
+        by[0] > 0.0 && by.iter().all(|other| (other - by[0]).abs() < 1e-6),
+        "{by:?}: each from where it was"
+    );
     assert_eq!(window.state().steps(), (2, 2));
 }
 
 #[test]
 fn keys_are_shown_added_and_deleted() {
     let mut window = window();
-    let keys = |window: &Window| {
-        window.state().state.view.as_ref().unwrap().takes[0].tracks[3].rotation.times.len()
-    };
+    let keys =
+        |window: &Window| window.state().state.view.as_ref().unwrap().takes[0].tracks[3].rotation.times.len();
     assert_eq!(keys(&window), 41);
     window.state_mut().state.execute(Request::Seek(0.05));
     window.run_steps(2);
@@ -277,6 +281,26 @@ fn keys_are_shown_added_and_deleted() {
     window.get_by_label("Add a scale key").click();
     window.run_steps(3);
     assert!(window.query_by_label("Delete the scale key").is_some());
+}
+
+#[test]
+fn without_auto_key_a_number_is_pending_until_it_is_keyed() {
+    let mut window = window();
+    window.state_mut().state.settings.auto_key = false;
+    let before = window.state().pose(3);
+    type_into(&mut window, "Scale result X", "2", Key::Enter);
+    assert_eq!(value(&window, "Scale result X"), Some(2.0), "it is shown");
+    assert_eq!(window.state().pose(3), before, "and no key");
+    type_into(&mut window, "Scale change X", "3", Key::Enter);
+    window.get_by_label("Reset scale to the original").click();
+    window.run_steps(3);
+    assert_eq!(value(&window, "Scale result X"), Some(1.0));
+    type_into(&mut window, "Scale result X", "4", Key::Enter);
+    window.get_by_label("Key the pending scale").click();
+    window.run_steps(3);
+    assert_eq!(window.state().pose(3).scale.x, 4.0);
+    assert!(window.query_by_label("Delete the scale key").is_some());
+    assert_eq!(window.state().refused, [""; 0]);
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Whatever is typed in any column, in any order of angles, gives the pose that the rules of the document say.
 
 use crate::workbench::{Window, Workbench, type_into};
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use dragonfly::document::Change;
+use dragonfly::document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use dragonfly::panels::Request;
 use dragonfly::panels::properties::PropertiesLook;
 use dragonfly::panels::properties::turn;
@@ -45,7 +45,7 @@ fn what_is_typed_is_the_pose_that_the_rules_say() {
     let mut random = Random::new(seed);
     let mut bench = Workbench::full();
     bench.state.select(Some(3));
-    let mut window = bench.window();
+    let mut window = bench.window_of(egui::vec2(1280.0, 1000.0), egui::Theme::Light);
     for round in 0..60 {
         let order = random.choice(&EulerOrder::ALL);
         let look = PropertiesLook { euler: order, quaternion: true, ..PropertiesLook::default() };
@@ -71,8 +71,7 @@ fn what_is_typed_is_the_pose_that_the_rules_say() {
         match channel {
             "Rotation" => {
                 let typed = product(order, numbers);
-                let wanted =
-                    if column == "change" { typed * original.rotation.as_dquat() } else { typed };
+                let wanted = if column == "change" { typed * original.rotation.as_dquat() } else { typed };
                 let is = pose.rotation.as_dquat();
                 let apart = (wanted - is).length().min((wanted + is).length());
                 assert!(apart < NEAR, "{told}: {wanted} {is}");

@@ -59,28 +59,40 @@ fn long_names() -> Workbench {
 fn pictures_of_the_panels_that_edit() {
     let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(std::path::PathBuf::from) else { return };
     std::fs::create_dir_all(&folder).unwrap();
-    let shoot = |name: &str, bench: Workbench, dark: bool, size: [f32; 2], act: &dyn Fn(&mut workbench::Window)| {
-        let theme = if dark { egui::Theme::Dark } else { egui::Theme::Light };
-        let mut window = Harness::builder()
-            .with_size(egui::Vec2::from(size))
-            .with_pixels_per_point(if size[0] < 600.0 { 2.0 } else { 1.0 })
-            .with_theme(theme)
-            .with_max_steps(20)
-            .with_context_setup(style::install)
-            .wgpu()
-            .build_ui_state(|ui, bench: &mut Workbench| bench.frame(ui), bench);
-        window.run_steps(4);
-        act(&mut window);
-        window.run_steps(4);
-        window.render().unwrap().save(folder.join(format!("{name}.png"))).unwrap();
-    };
+    let shoot =
+        |name: &str, bench: Workbench, dark: bool, size: [f32; 2], act: &dyn Fn(&mut workbench::Window)| {
+            let theme = if dark { egui::Theme::Dark } else { egui::Theme::Light };
+            let mut window = Harness::builder()
+                .with_size(egui::Vec2::from(size))
+                .with_pixels_per_point(if size[0] < 600.0 { 2.0 } else { 1.0 })
+                .with_theme(theme)
+                .with_max_steps(20)
+                .with_context_setup(style::install)
+                .wgpu()
+                .build_ui_state(|ui, bench: &mut Workbench| bench.frame(ui), bench);
+            window.run_steps(4);
+            act(&mut window);
+            window.run_steps(4);
+            window.render().unwrap().save(folder.join(format!("{name}.png"))).unwrap();
+        };
     let laptop = [1280.0, 720.0];
-    let click = |label: &'static str| move |window: &mut workbench::Window| window.get_by_label(label).click();
+    let click =
+        |label: &'static str| move |window: &mut workbench::Window| window.get_by_label(label).click();
     shoot("p_dark", edited(), true, laptop, &|_| {});
     shoot("p_light", edited(), false, laptop, &|_| {});
     shoot("p_wide", edited(), true, [2560.0, 1440.0], &|_| {});
     shoot("p_long", long_names(), true, laptop, &|_| {});
-    shoot("p_rest", { let mut bench = bench(); bench.state.execute(Request::ShowTake(None)); bench }, true, laptop, &|_| {});
+    shoot(
+        "p_rest",
+        {
+            let mut bench = bench();
+            bench.state.execute(Request::ShowTake(None));
+            bench
+        },
+        true,
+        laptop,
+        &|_| {},
+    );
     shoot("p_history_dark", edited(), true, laptop, &click("History"));
     shoot("p_history_light", edited(), false, laptop, &click("History"));
     shoot("p_times", edited(), true, laptop, &click("Start and length"));
@@ -95,5 +107,15 @@ fn pictures_of_the_panels_that_edit() {
         workbench::type_into(window, "Walk", "", egui::Key::F2);
         workbench::type_into(window, "Name of the take", " ", egui::Key::Enter);
     });
-    shoot("p_several", { let mut bench = edited(); bench.state.selection.choose(&[1, 2, 3], Default::default()); bench }, true, laptop, &click("Show the quaternion"));
+    shoot(
+        "p_several",
+        {
+            let mut bench = edited();
+            bench.state.selection.choose(&[1, 2, 3], Default::default());
+            bench
+        },
+        true,
+        laptop,
+        &click("Show the quaternion"),
+    );
 }

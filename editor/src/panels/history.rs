@@ -68,7 +68,9 @@ fn buttons(ui: &mut Ui, state: &State, history: &HistoryView, requests: &mut Vec
         ui.add_space(2.0 * GRID);
         let text = match history.steps.len() {
             0 => "Nothing was done yet".to_owned(),
-            steps => format!("{} of {}", widgets::grouped(history.done), widgets::count(steps, "step", "steps")),
+            steps => {
+                format!("{} of {}", widgets::grouped(history.done), widgets::count(steps, "step", "steps"))
+            }
         };
         let text = egui::RichText::new(text).small().color(Theme::of(ui).weak);
         ui.add(egui::Label::new(text).truncate());

@@ -42,7 +42,11 @@ pub(super) fn item(ui: &mut Ui, state: &State, id: Id, on: bool, requests: &mut 
     let command = commands::get(id);
     let shortcut =
         RichText::new(commands::shortcut_text(ui.ctx(), id)).size(style::SMALL).color(Theme::of(ui).faint);
-    let title = RichText::new(super::history::title(state, id)).color(if on { Theme::of(ui).accent } else { Theme::of(ui).text });
+    let title = RichText::new(super::history::title(state, id)).color(if on {
+        Theme::of(ui).accent
+    } else {
+        Theme::of(ui).text
+    });
     let button = Button::new(title).shortcut_text(shortcut).frame_when_inactive(false);
     let response = ui.add_enabled(command.when.holds(state), button);
     if response.on_hover_text(command.help).on_disabled_hover_text(command.when.reason()).clicked() {

@@ -111,7 +111,9 @@ fn part_of(name: &str) -> String {
 
 fn without_number(name: &str) -> &str {
     match name.rsplit_once(' ') {
-        Some((bare, number)) if !bare.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()) => bare,
+        Some((bare, number)) if !bare.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()) => {
+            bare
+        }
         _ => name,
     }
 }

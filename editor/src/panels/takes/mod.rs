@@ -16,8 +16,8 @@ use crate::document::Change;
 use crate::document::edit::{Edit, TakeRef};
 use egui::accesskit::Role;
 use egui::{
-    Color32, CornerRadius, CursorIcon, Key, PointerButton, Rect, Response, ScrollArea, Sense, Stroke, TextStyle,
-    Ui, WidgetInfo, pos2, vec2,
+    Color32, CornerRadius, CursorIcon, Key, PointerButton, Rect, Response, ScrollArea, Sense, Stroke,
+    TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 use rename::Rename;
 use time::Times;

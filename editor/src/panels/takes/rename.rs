@@ -14,9 +14,18 @@ const LONGEST: usize = 10_000;
 #[derive(Debug, Default)]
 pub(super) struct Rename {
     text: String,
-    /// Has the cursor been put into it?
-    begun: bool,
+    stage: Stage,
     refused: bool,
+}
+
+/// How far it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Stage {
+    #[default]
+    Fresh,
+    /// The cursor is on its way into the field.
+    Asked,
+    Typing,
 }
 
 impl Rename {
@@ -31,15 +40,17 @@ impl Rename {
     ) -> bool {
         let Some(take) = state.view.as_ref().and_then(|view| view.takes.get(index)) else { return false };
         let id = Id::unique("name of a take");
-        let first = !self.begun;
+        let has_focus = ui.memory(|memory| memory.has_focus(id));
+        let first = self.stage == Stage::Fresh;
         if first {
             self.text.clone_from(&take.name);
-            self.begun = true;
+            self.stage = Stage::Asked;
+        } else if self.stage == Stage::Asked && has_focus {
+            self.stage = Stage::Typing;
             let mut cursor = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
             cursor.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(&self.text)));
             cursor.store(ui.ctx(), id);
         }
-        let has_focus = ui.memory(|memory| memory.has_focus(id));
         let (enter, escape) = ui.input_mut(|input| {
             let enter = has_focus && input.consume_key(Modifiers::NONE, Key::Enter);
             (enter, input.key_pressed(Key::Escape))

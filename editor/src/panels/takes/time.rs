@@ -42,16 +42,25 @@ impl Times {
         ui.label(RichText::new("Keys move along with these").small().color(Theme::of(ui).weak));
         let heard = number(ui, "Start", start, 0.0..=LONGEST, None);
         let retime = take.clone();
-        self.edit(state, start, heard, requests, |start| {
-            Edit::RetimeTake { take: retime.clone(), start: Some(start), length: None }
+        self.edit(state, start, heard, requests, |start| Edit::RetimeTake {
+            take: retime.clone(),
+            start: Some(start),
+            length: None,
         });
         let heard = number(ui, "Length", length, SHORTEST..=LONGEST, locked);
-        self.edit(state, length, heard, requests, |length| {
-            Edit::RetimeTake { take: take.clone(), start: None, length: Some(length) }
+        self.edit(state, length, heard, requests, |length| Edit::RetimeTake {
+            take: take.clone(),
+            start: None,
+            length: Some(length),
         });
         ui.separator();
         ui.label(RichText::new("Only what lies between stays").small().color(Theme::of(ui).weak));
-        let id = state.view.as_ref().zip(state.playback.take).and_then(|(view, take)| view.slots.get(take)).map(|slot| slot.id);
+        let id = state
+            .view
+            .as_ref()
+            .zip(state.playback.take)
+            .and_then(|(view, take)| view.slots.get(take))
+            .map(|slot| slot.id);
         let Some(id) = id else { return };
         let mut range = match self.trim {
             Some((of, range)) if of == id => range,
