@@ -1,8 +1,10 @@
 //! Numbers of the selected bones are dragged and typed, and the pose becomes what they say.
 
 use crate::workbench::{Window, Workbench, drag, move_to, press, release, type_into};
+use dragonfly::document::Change;
+use dragonfly::panels::Request;
 use egui::{Key, Modifiers, vec2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{Quat, Vec3};
 
 /// Bone 3 at a key of the first take.
@@ -10,6 +12,17 @@ fn window() -> Window {
     let mut bench = Workbench::full();
     bench.state.select(Some(3));
     bench.window()
+}
+
+/// What a field shows.
+fn value(window: &Window, field: &str) -> Option<f64> {
+    window.get_by_label(field).accesskit_node().numeric_value()
+}
+
+/// Is it said that the text is no number, and why?
+fn is_marked(field: &egui_kittest::Node<'_>) -> bool {
+    let node = field.accesskit_node();
+    node.data().invalid().is_some() && node.has_description()
 }
 
 #[test]
@@ -66,4 +79,302 @@ fn a_drag_is_one_step() {
     release(&mut window, from + vec2(60.0, 0.0));
     assert_eq!(window.state().pose(3), after);
     assert_eq!(window.state().steps(), (1, 1));
+}
+
+#[test]
+fn a_drag_is_finer_with_shift_and_snaps_with_ctrl() {
+    let turned = |modifiers| {
+        let mut window = window();
+        drag(&mut window, "Rotation result X", vec2(80.0, 0.0), modifiers);
+        value(&window, "Rotation result X").unwrap()
+    };
+    let (plain, fine, snapped) =
+        (turned(Modifiers::NONE), turned(Modifiers::SHIFT), turned(Modifiers::COMMAND));
+    assert!((plain - 40.0).abs() < 1e-3, "{plain}");
+    assert!((fine - 4.0).abs() < 1e-3, "{fine}");
+    assert!((snapped - 45.0).abs() < 1e-3, "{snapped}");
+}
+
+#[test]
+fn a_drag_that_comes_back_leaves_no_step() {
+    let mut window = window();
+    let before = window.state().pose(3);
+    let from = window.get_by_label("Translation result Z").rect().center();
+    press(&mut window, from);
+    for by in [20.0, 40.0, 20.0, 0.0] {
+        move_to(&mut window, from + vec2(by, 0.0), Modifiers::NONE);
+    }
+    release(&mut window, from);
+    assert_eq!((window.state().pose(3), window.state().steps()), (before, (0, 0)));
+}
+
+#[test]
+fn a_drag_ends_where_something_else_is_shown() {
+    let mut window = window();
+    let from = window.get_by_label("Translation result Z").rect().center();
+    press(&mut window, from);
+    move_to(&mut window, from + vec2(20.0, 0.0), Modifiers::NONE);
+    let (sent, time) = (window.state().changes.len(), window.state().state.time());
+    window.state_mut().state.execute(Request::Seek(time + 0.5));
+    move_to(&mut window, from + vec2(80.0, 0.0), Modifiers::NONE);
+    release(&mut window, from + vec2(80.0, 0.0));
+    assert_eq!(window.state().changes.len(), sent, "nothing is keyed at another time");
+}
+
+#[test]
+fn time_stands_while_numbers_are_changed() {
+    let mut window = window();
+    window.key_press(Key::Space);
+    window.run_steps(2);
+    assert!(window.state().state.playback.playing);
+    type_into(&mut window, "Translation result X", "1", Key::Enter);
+    assert!(!window.state().state.playback.playing);
+    assert_eq!(window.state().steps(), (1, 1));
+}
+
+#[test]
+fn a_wrong_number_is_refused_where_it_stands() {
+    for wrong in ["", "abc", "1..2", "1/0", "(((", "45m", "1e99", "🦊", "שלום", "1,234"] {
+        for key in [Key::Enter, Key::Tab] {
+            let mut bench = Workbench::full();
+            bench.state.select(Some(3));
+            let mut window = bench.window_of_any_text();
+            let before = window.state().pose(3);
+            window.get_by_label("Rotation result Y").click();
+            window.run_steps(2);
+            window.key_press(Key::Delete);
+            window.event(egui::Event::Text(wrong.to_owned()));
+            window.run_steps(1);
+            window.key_press(key);
+            window.run_steps(2);
+            let field = window.get_by_label("Rotation result Y");
+            assert!(field.is_focused(), "{wrong:?}: the cursor stays");
+            assert!(is_marked(&field), "{wrong:?}: it is marked");
+            assert_eq!((window.state().pose(3), window.state().changes.len()), (before, 0));
+            window.key_press(Key::Escape);
+            window.run_steps(3);
+            let field = window.get_by_label("Rotation result Y");
+            assert!(!field.is_focused() && !is_marked(&field), "Escape takes it back");
+            assert_eq!(value(&window, "Rotation result Y"), Some(0.0));
+            assert_eq!(window.state().state.selected(), Some(3), "and nothing else");
+        }
+    }
+}
+
+#[test]
+fn a_wrong_number_that_is_left_with_a_click_is_forgotten_and_says_so() {
+    let mut window = window();
+    window.get_by_label("Scale result Y").click();
+    window.run_steps(2);
+    window.event(egui::Event::Text("2 +".to_owned()));
+    window.run_steps(1);
+    window.get_by_label("Rest pose").click();
+    window.run_steps(1);
+    window.get_by_label("Survey").click();
+    window.run_steps(3);
+    let field = window.get_by_label("Scale result Y");
+    assert!(is_marked(&field));
+    assert_eq!(value(&window, "Scale result Y"), Some(1.0));
+    assert_eq!(window.state().changes, []);
+    type_into(&mut window, "Scale result Y", "2", Key::Enter);
+    assert!(!is_marked(&window.get_by_label("Scale result Y")));
+}
+
+#[test]
+fn what_no_number_can_do_is_refused() {
+    let mut window = window();
+    window.get_by_label("Show the quaternion").click();
+    window.run_steps(3);
+    type_into(&mut window, "Scale result X", "0", Key::Enter);
+    for axis in ["X", "Y", "Z"] {
+        type_into(&mut window, &format!("Quaternion result {axis}"), "0", Key::Tab);
+    }
+    let before = window.state().pose(3);
+    type_into(&mut window, "Quaternion result W", "0", Key::Enter);
+    assert!(is_marked(&window.get_by_label("Quaternion result W")));
+    assert_eq!(window.state().pose(3), before);
+}
+
+#[test]
+fn a_quaternion_is_typed_number_by_number() {
+    let mut window = window();
+    window.get_by_label("Show the quaternion").click();
+    window.run_steps(3);
+    window.get_by_label("Quaternion result X").click();
+    window.run_steps(2);
+    for text in ["1", "2", "3", "4"] {
+        window.event(egui::Event::Text(text.to_owned()));
+        window.run_steps(1);
+        window.key_press(Key::Tab);
+        window.run_steps(1);
+    }
+    let wanted = Quat::from_xyzw(1.0, 2.0, 3.0, 4.0).normalize();
+    let rotation = window.state().pose(3).rotation;
+    assert!((rotation - wanted).length() < 1e-6, "{rotation}");
+}
+
+/// Near 90° of the second turn many angles say the same rotation; those that were typed are the ones that stay.
+#[test]
+fn typed_angles_stay_as_they_were_typed() {
+    let mut window = window();
+    window.get_by_label("Rotation result X").click();
+    window.run_steps(2);
+    for text in ["30", "90", "-45", ""] {
+        if !text.is_empty() {
+            window.event(egui::Event::Text(text.to_owned()));
+            window.run_steps(1);
+        }
+        window.key_press(Key::Tab);
+        window.run_steps(2);
+    }
+    let shown = ["X", "Y", "Z"].map(|axis| value(&window, &format!("Rotation result {axis}")).unwrap());
+    assert_eq!(shown, [30.0, 90.0, -45.0]);
+    drag(&mut window, "Rotation result Y", vec2(40.0, 0.0), Modifiers::NONE);
+    let shown = ["X", "Y", "Z"].map(|axis| value(&window, &format!("Rotation result {axis}")).unwrap());
+    assert_eq!(shown, [30.0, 110.0, -45.0], "a drag through 90° turns no other angle");
+    window.state_mut().state.select(Some(4));
+    window.run_steps(2);
+    window.state_mut().state.select(Some(3));
+    window.run_steps(3);
+    assert!(value(&window, "Rotation result Y").unwrap() <= 90.0, "later it is the usual form");
+}
+
+#[test]
+fn a_number_goes_to_all_selected_bones() {
+    let mut bench = Workbench::full();
+    bench.state.selection.choose(&[1, 2, 3], Default::default());
+    let mut window = bench.window();
+    assert_eq!(value(&window, "Translation result Y"), None, "they differ");
+    assert_eq!(value(&window, "Translation change Y"), Some(0.0), "none is changed");
+    let before = [1, 2, 3].map(|bone| window.state().pose(bone));
+    type_into(&mut window, "Translation result Y", "0.5", Key::Enter);
+    for bone in [1, 2, 3] {
+        assert_eq!(window.state().pose(bone).translation.y, 0.5);
+        assert_eq!(window.state().pose(bone).translation.x, before[bone as usize - 1].translation.x);
+    }
+    assert_eq!((value(&window, "Translation result Y"), window.state().steps()), (Some(0.5), (1, 1)));
+    drag(&mut window, "Translation result X", vec2(50.0, 0.0), Modifiers::NONE);
+    let by = [1, 2, 3]
+        .map(|bone| window.state().pose(bone).translation.x - before[bone as usize - 1].translation.x);
+    assert!(
+        by[0] > 0.0 && by.iter().all(|other| (other - by[0]).abs() < 1e-6),
+        "{by:?}: each from where it was"
+    );
+    assert_eq!(window.state().steps(), (2, 2));
+}
+
+#[test]
+fn keys_are_shown_added_and_deleted() {
+    let mut window = window();
+    let keys =
+        |window: &Window| window.state().state.view.as_ref().unwrap().takes[0].tracks[3].rotation.times.len();
+    assert_eq!(keys(&window), 41);
+    window.state_mut().state.execute(Request::Seek(0.05));
+    window.run_steps(2);
+    let before = window.state().pose(3);
+    window.get_by_label("Add a rotation key").click();
+    window.run_steps(3);
+    assert_eq!((keys(&window), window.state().pose(3)), (42, before), "the motion stays");
+    window.get_by_label("Delete the rotation key").click();
+    window.run_steps(3);
+    assert_eq!(keys(&window), 41);
+    window.get_by_label("Add a scale key").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Delete the scale key").is_some());
+}
+
+#[test]
+fn without_auto_key_a_number_is_pending_until_it_is_keyed() {
+    let mut window = window();
+    window.state_mut().state.settings.auto_key = false;
+    let before = window.state().pose(3);
+    type_into(&mut window, "Scale result X", "2", Key::Enter);
+    assert_eq!(value(&window, "Scale result X"), Some(2.0), "it is shown");
+    assert_eq!(window.state().pose(3), before, "and no key");
+    type_into(&mut window, "Scale change X", "3", Key::Enter);
+    window.get_by_label("Reset scale to the original").click();
+    window.run_steps(3);
+    assert_eq!(value(&window, "Scale result X"), Some(1.0));
+    type_into(&mut window, "Scale result X", "4", Key::Enter);
+    window.get_by_label("Key the pending scale").click();
+    window.run_steps(3);
+    assert_eq!(window.state().pose(3).scale.x, 4.0);
+    assert!(window.query_by_label("Delete the scale key").is_some());
+    assert_eq!(window.state().refused, [""; 0]);
+}
+
+#[test]
+fn a_channel_goes_back_to_the_original_or_to_the_rest_pose() {
+    for time in [0.0, 0.05] {
+        let mut window = window();
+        window.state_mut().state.execute(Request::Seek(time));
+        window.run_steps(2);
+        let before = window.state().pose(3);
+        type_into(&mut window, "Rotation result X", "77", Key::Enter);
+        window.get_by_label("Reset rotation to the original").click();
+        window.run_steps(3);
+        assert!(window.state().pose(3).rotation.angle_between(before.rotation) < 1e-3);
+        window.get_by_label("Reset rotation to the rest pose").click();
+        window.run_steps(3);
+        assert!(window.state().pose(3).rotation.angle_between(Quat::IDENTITY) < 1e-3);
+        type_into(&mut window, "Translation result X", "7", Key::Enter);
+        window.get_by_label("Translation original X: \u{2212}0.080").click();
+        window.run_steps(3);
+        assert_eq!(window.state().pose(3).translation, before.translation, "a click takes over the original");
+        assert_eq!(window.state().refused, [""; 0]);
+    }
+}
+
+#[test]
+fn the_rest_pose_is_shown_and_not_changed() {
+    let mut window = window();
+    window.state_mut().state.execute(Request::ShowTake(None));
+    window.run_steps(3);
+    assert!(window.query_by_label("The rest pose cannot be changed: show a take").is_some());
+    for key in [Key::Enter, Key::Tab] {
+        type_into(&mut window, "Translation result X", "5", key);
+    }
+    drag(&mut window, "Rotation change X", vec2(50.0, 0.0), Modifiers::NONE);
+    drag(&mut window, "Rotation change X slider", vec2(50.0, 0.0), Modifiers::NONE);
+    assert_eq!(window.state().changes, []);
+    assert_eq!(value(&window, "Translation result X"), Some(f64::from(-0.08_f32)));
+}
+
+#[test]
+fn a_slider_turns_and_is_taken_back() {
+    let mut window = window();
+    let before = window.state().pose(3);
+    let slider = window.get_by_label("Rotation change Y slider").rect();
+    drag(&mut window, "Rotation change Y slider", vec2(slider.width() / 4.0, 0.0), Modifiers::NONE);
+    let turned = value(&window, "Rotation change Y").unwrap();
+    assert!((turned - 90.0).abs() < 2.0, "{turned}");
+    assert_eq!(window.state().steps(), (1, 1));
+    let knob = slider.center() + vec2(slider.width() / 4.0, 0.0);
+    press(&mut window, knob);
+    move_to(&mut window, knob - vec2(60.0, 0.0), Modifiers::NONE);
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    release(&mut window, knob);
+    assert!((value(&window, "Rotation change Y").unwrap() - turned).abs() < 1e-3);
+    window.state_mut().change(Change::Undo);
+    assert_eq!(window.state().pose(3), before);
+    window.get_by_label("Sliders for scale").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Scale change X slider").is_some());
+}
+
+#[test]
+fn the_order_of_the_angles_is_chosen_and_remembered() {
+    let mut window = window();
+    window.get_by_label("Order of rotation: XYZ").click();
+    window.run_steps(3);
+    window.get_by_label("ZXY").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Order of rotation: ZXY").is_some());
+    let text = window.state().state.settings.to_text();
+    assert!(text.contains("\"ZXY\""), "{text}");
+    let read = dragonfly::panels::Settings::parse(&text);
+    assert_eq!(read.properties, window.state().state.settings.properties);
+    let unknown = dragonfly::panels::Settings::parse(&text.replace("ZXY", "ABC"));
+    assert_eq!(unknown.properties.euler, Default::default());
 }

@@ -54,7 +54,7 @@ fn panel_places_come_back_and_damaged_ones_do_not() {
     hidden.toggle("takes");
     assert!(!Layout::parse(&hidden.to_text(), &panels).is_shown("takes"));
     let foreign = text.replace("\"takes\"", "\"unknown\"");
-    let newer = text.replace("\"version\":1", "\"version\":9");
+    let newer = text.replace("\"version\":2", "\"version\":9");
     for text in ["", "{}", "{\"version\":1}", &text[..text.len() / 3], &foreign, &newer] {
         let layout = Layout::parse(text, &panels);
         assert_eq!(layout.to_text(), usual.to_text());

@@ -46,6 +46,18 @@ impl Workbench {
         self.window_of(egui::vec2(1280.0, 720.0), egui::Theme::Dark)
     }
 
+    /// One that draws a box for letters that no font has, as the program does.
+    pub(crate) fn window_of_any_text(self) -> Window {
+        let builder = Harness::builder()
+            .with_size(egui::vec2(1280.0, 720.0))
+            .with_max_steps(20)
+            .allow_missing_glyphs()
+            .with_context_setup(style::install);
+        let mut window = builder.build_ui_state(|ui, bench: &mut Self| bench.frame(ui), self);
+        window.run_steps(4);
+        window
+    }
+
     pub(crate) fn window_of(self, size: egui::Vec2, theme: egui::Theme) -> Window {
         let builder = Harness::builder()
             .with_size(size)
@@ -121,6 +133,8 @@ impl Workbench {
 pub(crate) fn type_into(window: &mut Window, field: &str, text: &str, then: egui::Key) {
     window.get_by_label(field).click();
     window.run_steps(2);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    window.run_steps(1);
     window.event(egui::Event::Text(text.to_owned()));
     window.run_steps(2);
     window.key_press(then);
@@ -155,7 +169,7 @@ pub(crate) fn release(window: &mut Window, at: egui::Pos2) {
     window.run_steps(2);
 }
 
-fn button(window: &mut Window, pos: egui::Pos2, pressed: bool) {
+pub(crate) fn button(window: &mut Window, pos: egui::Pos2, pressed: bool) {
     let modifiers = egui::Modifiers::NONE;
     window.event(egui::Event::PointerButton {
         pos,

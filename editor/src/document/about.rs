@@ -25,10 +25,15 @@ pub(super) fn about(adapter: &ModelAdapter, edit: &Edit) -> Arc<str> {
 
 fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
     let named: Vec<&BoneRef> = match edit {
-        Edit::Set { poses, .. } | Edit::Offset { poses, .. } => poses.iter().map(|pose| &pose.bone).collect(),
-        Edit::Reset { bones, .. } | Edit::AddKeys { bones, .. } | Edit::SetInterpolation { bones, .. } => {
-            bones.iter().collect()
-        }
+        Edit::Set { poses, .. }
+        | Edit::Offset { poses, .. }
+        | Edit::Pend { poses, .. }
+        | Edit::Paste { poses, .. } => poses.iter().map(|pose| &pose.bone).collect(),
+        Edit::KeyPending { bones, .. }
+        | Edit::DropPending { bones, .. }
+        | Edit::Reset { bones, .. }
+        | Edit::AddKeys { bones, .. }
+        | Edit::SetInterpolation { bones, .. } => bones.iter().collect(),
         Edit::SetTangents { bone, .. } => vec![bone],
         Edit::DeleteKeys { keys, .. }
         | Edit::MoveKeys { keys, .. }

@@ -46,6 +46,7 @@ impl State {
             Request::Open(source) => return Some(Effect::Open(source)),
             Request::Overlay(overlay) => self.overlay = overlay,
             Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
+            Request::RenameTake(index) => self.rename_take(index),
             Request::Deed(deed) => return self.answered(deed),
             Request::Dismiss => return self.dismiss(),
             Request::PropertiesLook(look) => self.settings.properties = look,
@@ -154,6 +155,16 @@ impl State {
             Id::RangeWhole => return self.keys_request(KeysRequest::Range(None)),
 
             Id::ClearSelection if self.keys.drag().is_some() => return self.cancel_keys(),
+            Id::NewTake
+            | Id::DuplicateTake
+            | Id::RenameTake
+            | Id::DeleteTake
+            | Id::MoveTakeUp
+            | Id::MoveTakeDown
+            | Id::SplitTake
+            | Id::TrimTake
+            | Id::ReverseTake => return self.take_command(id),
+
             Id::ClearSelection => {
                 if self.overlay.take().is_none() {
                     self.selection.clear();

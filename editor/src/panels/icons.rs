@@ -72,6 +72,9 @@ pub enum Icon {
     PivotIndividual,
     PivotMedian,
     PivotActive,
+    Redo,
+    Saved,
+    Flip,
 }
 
 impl Icon {
@@ -143,6 +146,9 @@ impl Icon {
         Self::PivotIndividual,
         Self::PivotMedian,
         Self::PivotActive,
+        Self::Redo,
+        Self::Saved,
+        Self::Flip,
     ];
 
     /// Draws it into the middle of `rect`, 16 points large.
@@ -403,6 +409,25 @@ impl Icon {
                     (6.0, 13.0),
                 ]);
             }
+            Self::Redo => {
+                pen.line(&[(10.0, 2.5), (13.0, 5.5), (10.0, 8.5)]);
+                pen.line(&[
+                    (13.0, 5.5),
+                    (6.5, 5.5),
+                    (4.2, 6.3),
+                    (3.0, 8.5),
+                    (3.4, 11.0),
+                    (5.4, 12.7),
+                    (10.0, 13.0),
+                ]);
+            }
+            Self::Flip => {
+                pen.line(&[(2.5, 5.0), (13.0, 5.0)]);
+                pen.line(&[(5.5, 2.2), (2.5, 5.0), (5.5, 7.8)]);
+                pen.line(&[(3.0, 11.0), (13.5, 11.0)]);
+                pen.line(&[(10.5, 8.2), (13.5, 11.0), (10.5, 13.8)]);
+            }
+            Self::Saved => pen.line(&[(3.5, 8.5), (6.5, 11.5), (12.5, 4.5)]),
             Self::RestPose => {
                 pen.ring(8.0, 3.6, 1.7);
                 pen.line(&[(2.5, 6.8), (13.5, 6.8)]);

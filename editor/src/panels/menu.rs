@@ -24,6 +24,7 @@ pub fn show(
         ui.menu_button("Tools", |ui| list(ui, state, &[Category::Tools], requests));
         ui.menu_button("Play", |ui| list(ui, state, &[Category::Playback], requests));
         ui.menu_button("Keys", |ui| list(ui, state, &[Category::Keys], requests));
+        ui.menu_button("Take", |ui| list(ui, state, &[Category::Takes], requests));
         ui.menu_button("View", |ui| view(ui, state, panels, requests));
         ui.menu_button("Help", |ui| list(ui, state, &[Category::Help], requests));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -43,8 +44,11 @@ pub(super) fn item(ui: &mut Ui, state: &State, id: Id, on: bool, requests: &mut 
     let command = commands::get(id);
     let shortcut =
         RichText::new(commands::shortcut_text(ui.ctx(), id)).size(style::SMALL).color(Theme::of(ui).faint);
-    let title =
-        RichText::new(command.title).color(if on { Theme::of(ui).accent } else { Theme::of(ui).text });
+    let title = RichText::new(super::history::title(state, id)).color(if on {
+        Theme::of(ui).accent
+    } else {
+        Theme::of(ui).text
+    });
     let button = Button::new(title).shortcut_text(shortcut).frame_when_inactive(false);
     let response = ui.add_enabled(command.when.holds(state), button);
     if response.on_hover_text(command.help).on_disabled_hover_text(command.when.reason()).clicked() {

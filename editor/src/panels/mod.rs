@@ -10,6 +10,7 @@ mod dope;
 mod execute;
 pub mod hands;
 pub mod hierarchy;
+pub mod history;
 pub mod icons;
 pub mod keys;
 mod ik;
@@ -87,6 +88,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<takes::Takes>::default(),
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
+        Box::<history::History>::default(),
         Box::<timeline::Timeline>::default(),
         Box::<curves::Curves>::default(),
     ]

@@ -45,6 +45,8 @@ pub struct NumberField<'a> {
     pub locked: Option<&'a str>,
     /// A sentence for the tooltip; empty for none.
     pub help: &'a str,
+    /// Shown weaker: it is what it is where nobody did anything.
+    pub quiet: bool,
 }
 
 /// What a person does to a field.
@@ -82,7 +84,6 @@ struct Drag {
     raw: f64,
     /// What was told last.
     told: f64,
-    cancelled: bool,
 }
 
 /// What was refused when the cursor left the field, as long as the number stays the same.
@@ -257,7 +258,7 @@ impl NumberField<'_> {
         let id = self.id;
         if response.drag_started_by(PointerButton::Primary) {
             let start = self.value.unwrap_or(0.0);
-            let mut drag = Drag { start, raw: 0.0, told: 0.0, cancelled: false };
+            let mut drag = Drag { start, raw: 0.0, told: 0.0 };
             self.pull(ui, response, &mut drag);
             ui.data_mut(|data| data.insert_temp(id, drag));
             ui.data_mut(|data| data.remove::<Refused>(id));
@@ -267,22 +268,16 @@ impl NumberField<'_> {
         let mut drag = ui.data(|data| data.get_temp::<Drag>(id))?;
         if !response.dragged_by(PointerButton::Primary) {
             ui.data_mut(|data| data.remove::<Drag>(id));
-            return (!drag.cancelled).then_some(Heard::Released);
+            // Escape ends a drag.
+            let escape = ui.input(|input| input.key_pressed(Key::Escape));
+            return Some(if escape { Heard::Cancelled } else { Heard::Released });
         }
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
-        if drag.cancelled {
-            return None;
-        }
-        drag.cancelled = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
         let by = self.pull(ui, response, &mut drag);
         let news = by != drag.told;
         drag.told = by;
         ui.data_mut(|data| data.insert_temp(id, drag));
-        Some(match () {
-            () if drag.cancelled => Heard::Cancelled,
-            () if news => Heard::Dragged(by),
-            () => Heard::Nothing,
-        })
+        Some(if news { Heard::Dragged(by) } else { Heard::Nothing })
     }
 
     /// Moves the drag on by what the hand did in this frame; how far it is from its start.
@@ -357,7 +352,7 @@ impl NumberField<'_> {
             ui.painter().rect_stroke(rect, radius, Stroke::new(1.0, edge), StrokeKind::Inside);
         }
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-        let color = if open { theme.text } else { theme.weak };
+        let color = if open && !self.quiet { theme.text } else { theme.weak };
         let text = self.value.map_or("–".to_owned(), |value| self.digits.text(value));
         let mut right = rect.right() - 5.0;
         if !self.unit.is_empty() && rect.width() > 64.0 + 7.0 * self.unit.chars().count() as f32 {

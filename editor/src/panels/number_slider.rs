@@ -67,7 +67,6 @@ struct Grip {
     place: f64,
     /// How far beside the knob it was taken.
     beside: f64,
-    cancelled: bool,
 }
 
 impl NumberSlider<'_> {
@@ -119,20 +118,18 @@ impl NumberSlider<'_> {
         {
             let start = self.value.unwrap_or(self.scale.value(0.0));
             let place = self.scale.place(start);
-            let grip = Grip { start, place, beside: at(pointer.x) - place, cancelled: false };
+            let grip = Grip { start, place, beside: at(pointer.x) - place };
             ui.data_mut(|data| data.insert_temp(id, grip));
             return Heard::Touched;
         }
         let Some(mut grip) = ui.data(|data| data.get_temp::<Grip>(id)) else { return Heard::Nothing };
         if !response.dragged_by(PointerButton::Primary) {
             ui.data_mut(|data| data.remove::<Grip>(id));
-            return if grip.cancelled { Heard::Nothing } else { Heard::Released };
+            // Escape ends a drag.
+            let escape = ui.input(|input| input.key_pressed(Key::Escape));
+            return if escape { Heard::Cancelled } else { Heard::Released };
         }
-        if grip.cancelled {
-            return Heard::Nothing;
-        }
-        let (escape, modifiers) =
-            ui.input_mut(|input| (input.consume_key(Modifiers::NONE, Key::Escape), input.modifiers));
+        let modifiers = ui.input(|input| input.modifiers);
         let by = f64::from(response.drag_delta().x / (rect.width() / 2.0).max(1.0));
         grip.place = match pointer {
             // The knob jumps to the hand where it was taken far from it, and stays under it where it was near.
@@ -141,11 +138,7 @@ impl NumberSlider<'_> {
             }
             _ => grip.place + by * 0.1,
         };
-        grip.cancelled = escape;
         ui.data_mut(|data| data.insert_temp(id, grip));
-        if escape {
-            return Heard::Cancelled;
-        }
         let mut to = self.scale.value(grip.place);
         if modifiers.command && self.snap > 0.0 {
             to = (to / self.snap).round() * self.snap;

@@ -117,6 +117,8 @@ pub enum Request {
     Overlay(Option<Overlay>),
     /// Shows or hides the panel of this name.
     TogglePanel(&'static str),
+    /// Begins to rename a take, or ends it.
+    RenameTake(Option<usize>),
     /// Answers a question.
     Deed(Deed),
     /// Leaves a question without an answer.
@@ -277,6 +279,8 @@ pub struct State {
     pub trail: Trail,
     /// Repeated clicks go through what lies behind.
     pub cycle: ClickCycle,
+    /// What the list of takes is about to do.
+    pub takes: super::takes::TakesState,
     /// Names of gestures given so far.
     gestures: Cell<u64>,
     /// Does the window fill the screen?
@@ -321,6 +325,7 @@ impl State {
             hold: Hold::default(),
             trail: Trail::default(),
             cycle: ClickCycle::default(),
+            takes: super::takes::TakesState::default(),
             gestures: Cell::new(0),
             full_screen: false,
             now,
@@ -355,7 +360,10 @@ impl State {
     pub fn show(&mut self, view: View) {
         let fresh = self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.loaded, &view.loaded));
         self.view = Some(view);
+        let fresh = self.view.as_ref().is_none_or(|old| !std::sync::Arc::ptr_eq(&old.loaded, &view.loaded));
+        let before = self.view.replace(view);
         if !fresh {
+            self.follow_take(before.as_ref().map_or(&[], |view| &view.slots));
             return self.keep_take();
         }
         let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());

@@ -157,17 +157,18 @@ pub(super) fn shortened(text: &str) -> String {
     }
 }
 
-/// A quiet button: a small icon, then a small text. `name` is what a screen reader says.
-pub(super) fn quiet_button(ui: &mut Ui, icon: Icon, text: &str, name: &str) -> Response {
+/// A quiet button: a small icon before or after a small text. `name` is what a screen reader says.
+pub(super) fn quiet_button(ui: &mut Ui, icon: Icon, before: bool, text: &str, name: &str) -> Response {
     let font = TextStyle::Small.resolve(ui.style());
     let theme = Theme::of(ui);
     let galley = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
     let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 24.0, 20.0), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
     let color = if response.hovered() { theme.text } else { theme.weak };
-    let mark = Rect::from_center_size(pos2(rect.left() + 8.0, rect.center().y), vec2(16.0, 16.0));
+    let (mark, left) = if before { (rect.left() + 5.0, 16.0) } else { (rect.right() - 10.0, 6.0) };
+    let mark = Rect::from_center_size(pos2(mark, rect.center().y), vec2(16.0, 16.0));
     icon.paint(ui.painter(), mark, color);
-    let at = pos2(rect.left() + 18.0, rect.center().y - galley.size().y / 2.0);
+    let at = pos2(rect.left() + left, rect.center().y - galley.size().y / 2.0);
     ui.painter().galley(at, galley, color);
     focus_ring(ui, &response, rect);
     response

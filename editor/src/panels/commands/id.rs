@@ -78,6 +78,17 @@ pub enum Id {
     RangeFromHere,
     RangeToHere,
     RangeWhole,
+
+    NewTake,
+    DuplicateTake,
+    RenameTake,
+    DeleteTake,
+    MoveTakeUp,
+    MoveTakeDown,
+    SplitTake,
+    TrimTake,
+    ReverseTake,
+
     ClearSelection,
     SelectParent,
     SelectChild,

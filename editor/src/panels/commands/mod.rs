@@ -91,9 +91,13 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
         return Vec::new();
     }
     // Escape closes what is open first, and takes back what is dragged.
-    let open = context.any_popup_open() || context.dragged_id().is_some();
+    let open = context.any_popup_open() || context.input(|input| input.pointer.any_down());
     let typing = context.text_edit_focused();
     let focused = context.memory(|memory| memory.focused().is_some());
+    // A field has lost the focus by its Escape when this is asked, and is the one that was meant all the same.
+    let place = egui::Id::unique("focused before");
+    let open = open || context.data(|data| data.get_temp::<bool>(place)).unwrap_or_default();
+    context.data_mut(|data| data.insert_temp(place, focused));
     let keymap = Keymap::of(context);
     let mut found = Vec::new();
     context.input_mut(|input| {

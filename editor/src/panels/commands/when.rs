@@ -12,6 +12,8 @@ pub enum When {
     Model,
     /// A take is shown, not the rest pose.
     Take,
+    /// A take is shown, and there are others.
+    OtherTakes,
     /// A bone is selected.
     Bone,
     /// A bone is selected and a take is shown.
@@ -42,6 +44,7 @@ impl When {
             Self::Always => true,
             Self::Model => state.view.is_some(),
             Self::Take => state.take().is_some(),
+            Self::OtherTakes => state.take().is_some() && state.digest.takes.len() > 1,
             Self::Bone => state.selected().is_some(),
             Self::BoneInTake => state.selected().is_some() && state.take().is_some(),
             Self::Keys => state.take().is_some() && !state.keys.selection.is_empty(),
@@ -61,6 +64,7 @@ impl When {
             Self::Always => "",
             Self::Model => "No model is open",
             Self::Take => "No take is shown",
+            Self::OtherTakes => "There is no other take, and a model keeps one",
             Self::Bone => "No bone is selected",
             Self::BoneInTake => "It takes a selected bone and a take",
             Self::Keys => "No key is selected",

@@ -187,6 +187,7 @@ impl Table<'_> {
             range: f64::from(f32::MIN)..=f64::from(f32::MAX),
             locked: self.locked,
             help: "",
+            quiet: spot.column == Column::Change && value == Some(unchanged(spot, index)),
         };
         let (heard, response) = field.show(ui, rect);
         if let Err(reason) = hand.hear(self.state, spot, index, heard, requests) {
@@ -276,6 +277,15 @@ pub(super) fn unit(spot: Spot) -> &'static str {
         (_, Form::Euler(_), _) => "°",
         (Property::Scale, _, Column::Change) => "×",
         _ => "",
+    }
+}
+
+/// What stands there where nothing is changed.
+fn unchanged(spot: Spot, index: usize) -> f64 {
+    match (spot.property, spot.form) {
+        (Property::Scale, _) => 1.0,
+        (_, Form::Quaternion) if index == 3 => 1.0,
+        _ => 0.0,
     }
 }
 

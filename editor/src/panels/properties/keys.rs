@@ -21,23 +21,36 @@ pub(super) enum Keyed {
     Elsewhere,
     /// No key at all: the rest value.
     Never,
+    /// A pose that waits to be keyed.
+    Pending,
 }
 
 /// Of all selected bones: a key only where all of them have one.
 pub(super) fn at_time(state: &State, property: Property) -> Keyed {
     let bones = state.selection.bones();
+    if bones.iter().any(|&bone| is_pending(state, bone, property)) {
+        return Keyed::Pending;
+    }
     let (mut here, mut any) = (true, false);
     for &bone in bones {
         match of(state, bone, property) {
             Keyed::Here => any = true,
             Keyed::Elsewhere => (here, any) = (false, true),
-            Keyed::Never => here = false,
+            Keyed::Never | Keyed::Pending => here = false,
         }
         if !here && any {
             return Keyed::Elsewhere;
         }
     }
     if any { Keyed::Here } else { Keyed::Never }
+}
+
+fn is_pending(state: &State, bone: BoneIndex, property: Property) -> bool {
+    state.pending_here().and_then(|at| at.of(bone)).is_some_and(|pose| match property {
+        Property::Translation => pose.translation.is_some(),
+        Property::Rotation => pose.rotation.is_some(),
+        Property::Scale => pose.scale.is_some(),
+    })
 }
 
 fn of(state: &State, bone: BoneIndex, property: Property) -> Keyed {
@@ -69,10 +82,12 @@ pub(super) fn button(
         Keyed::Here => (Icon::KeyHere, "a key at this time", "Delete it"),
         Keyed::Elsewhere => (Icon::KeyElsewhere, "no key at this time", "Add one"),
         Keyed::Never => (Icon::KeyNever, "no keys", "Add one"),
+        Keyed::Pending => (Icon::KeyElsewhere, "a pose that is not keyed", "Key the pose of the bone"),
     };
     let name = property.name();
     let label = match keyed {
         Keyed::Here => format!("Delete the {name} key"),
+        Keyed::Pending => format!("Key the pending {name}"),
         _ => format!("Add a {name} key"),
     };
     let response = ui
@@ -100,6 +115,7 @@ fn toggled(state: &State, property: Property, keyed: Keyed) -> Option<Edit> {
             let keys = vec![KeySet { bones, properties, at: Some(vec![time]), ..KeySet::default() }];
             Edit::DeleteKeys { take, keys }
         }
+        Keyed::Pending => Edit::KeyPending { take, time: Some(time), bones },
         _ => Edit::AddKeys { take, time, bones, properties, value: NewKey::Current },
     })
 }

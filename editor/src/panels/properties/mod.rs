@@ -87,7 +87,7 @@ impl Properties {
     fn bone(&mut self, ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
         let (Some(loaded), Some(pair)) = (state.loaded(), self.hand.pair(state, bone)) else { return };
         head(ui, state, bone, requests);
-        let locked = state.take_ref().is_none().then_some("The rest pose is not edited; a take is");
+        let locked = state.take_ref().is_none().then_some("The rest pose cannot be changed: show a take");
         if let Some(why) = locked {
             ui.add_space(GRID);
             ui.label(RichText::new(why).small().color(Theme::of(ui).warning));
@@ -213,7 +213,7 @@ fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>
 /// The order of the three turns.
 fn order(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
     let name = turn::name(look.euler);
-    let button = widgets::quiet_button(ui, Icon::Down, name, &format!("Order of rotation: {name}"));
+    let button = widgets::quiet_button(ui, Icon::Down, false, name, &format!("Order of rotation: {name}"));
     let help = "The order of the three turns, each about an axis that the turns before it have moved.\n\
                 Blender and Maya write the same order from its end: their XYZ is ZYX here.";
     let button = button.on_hover_text(help);
@@ -232,7 +232,7 @@ fn order(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
 fn quaternion_head(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
     let mark = if look.quaternion { Icon::Down } else { Icon::Right };
     let name = if look.quaternion { "Hide the quaternion" } else { "Show the quaternion" };
-    let button = widgets::quiet_button(ui, mark, "Quaternion", name).on_hover_text(name);
+    let button = widgets::quiet_button(ui, mark, true, "Quaternion", name).on_hover_text(name);
     if button.clicked() {
         requests.push(Request::PropertiesLook(PropertiesLook { quaternion: !look.quaternion, ..look }));
     }

@@ -78,7 +78,7 @@ pub fn numbers(pair: &Pair, property: Property, column: Column, form: Form) -> O
                 Column::Change if pair.original.rotation == pair.result.rotation => DQuat::IDENTITY,
                 Column::Change => result * original.conjugate(),
             };
-            Some(turn_numbers(form, rotation)).filter(|numbers| finite(numbers))
+            Some(turn_numbers(form, rotation)).filter(finite)
         }
         Property::Translation | Property::Scale => {
             let [original, result] =

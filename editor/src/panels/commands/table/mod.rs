@@ -11,6 +11,7 @@ mod playback;
 mod pose;
 mod selection;
 mod tools;
+mod takes;
 mod window;
 
 use super::{Category, Command, Id, When};
@@ -42,6 +43,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::Pose, pose::COMMANDS),
     (Category::Playback, playback::COMMANDS),
     (Category::Keys, keys::COMMANDS),
+    (Category::Takes, takes::COMMANDS),
     (Category::Selection, selection::COMMANDS),
     (Category::Tools, tools::COMMANDS),
     (Category::Camera, camera::COMMANDS),

@@ -1,0 +1,16 @@
+//! Takes: made, named, cut, put in order.
+
+use super::*;
+
+#[rustfmt::skip] // A table is read in columns.
+pub(super) const COMMANDS: &[Command] = &[
+    command(Id::NewTake, When::Model, "New take", &[], "Makes a take that holds the rest pose"),
+    command(Id::DuplicateTake, When::Take, "Duplicate take", &[], "Makes a copy of the take that is shown"),
+    command(Id::RenameTake, When::Take, "Rename take", &[key(NONE, Key::F2)], "Gives the take another name"),
+    command(Id::DeleteTake, When::OtherTakes, "Delete take", &[], "Takes the take out of the model; the last one stays"),
+    command(Id::MoveTakeUp, When::OtherTakes, "Move take up", &[key(CTRL, Key::PageUp)], "Puts the take one place earlier in the list"),
+    command(Id::MoveTakeDown, When::OtherTakes, "Move take down", &[key(CTRL, Key::PageDown)], "Puts the take one place later in the list"),
+    command(Id::SplitTake, When::Take, "Split take here", &[], "Cuts the take in two at the time shown"),
+    command(Id::TrimTake, When::Take, "Trim take to what plays", &[], "Takes away what lies outside of the part that plays"),
+    command(Id::ReverseTake, When::Take, "Reverse take", &[], "Lets the take run from its end to its start"),
+];

@@ -1,0 +1,137 @@
+//! The list of everything that was done: a click goes there, back or forth.
+
+use super::commands::Id;
+use super::icons::Icon;
+use super::state::{Request, State};
+use super::style::{GRID, ROW};
+use super::theme::Theme;
+use super::{Panel, Place, widgets};
+use crate::document::{Change, HistoryView};
+use egui::{Rect, ScrollArea, TextStyle, Ui, pos2, vec2};
+use std::borrow::Cow;
+
+/// The list of steps.
+#[derive(Debug, Default)]
+pub struct History {
+    /// The place that was scrolled to last.
+    followed: Option<(usize, usize)>,
+}
+
+impl Panel for History {
+    fn id(&self) -> &'static str {
+        "history"
+    }
+
+    fn title(&self) -> &'static str {
+        "History"
+    }
+
+    fn place(&self) -> Place {
+        Place::Right
+    }
+
+    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        let Some(view) = &state.view else { return widgets::empty(ui, "", "What was done appears here") };
+        let history = &view.history;
+        buttons(ui, state, history, requests);
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let here = (history.done, history.steps.len());
+        let follow = self.followed.replace(here) != Some(here);
+        let mut area = ScrollArea::vertical().auto_shrink(false);
+        if follow {
+            // So that what comes before and after is seen as well.
+            let middle = (ui.available_height() - ROW) / 2.0;
+            area = area.vertical_scroll_offset((history.done as f32 * ROW - middle).max(0.0));
+        }
+        area.show_rows(ui, ROW, history.steps.len() + 1, |ui, range| {
+            for done in range {
+                if row(ui, history, done).clicked() && done != history.done {
+                    requests.push(Request::Change(Change::GoTo(done)));
+                }
+            }
+        });
+    }
+}
+
+fn buttons(ui: &mut Ui, state: &State, history: &HistoryView, requests: &mut Vec<Request>) {
+    ui.add_space(GRID);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        ui.add_space(2.0 * GRID);
+        for (icon, id) in [(Icon::Revert, Id::Undo), (Icon::Redo, Id::Redo)] {
+            let when = super::commands::get(id).when;
+            ui.add_enabled_ui(when.holds(state), |ui| {
+                let _ = widgets::command_button(ui, icon, id, false, requests)
+                    .on_disabled_hover_text(when.reason());
+            });
+        }
+        ui.add_space(2.0 * GRID);
+        let text = match history.steps.len() {
+            0 => "Nothing was done yet".to_owned(),
+            steps => {
+                format!("{} of {}", widgets::grouped(history.done), widgets::count(steps, "step", "steps"))
+            }
+        };
+        let text = egui::RichText::new(text).small().color(Theme::of(ui).weak);
+        ui.add(egui::Label::new(text).truncate());
+    });
+    ui.add_space(GRID);
+}
+
+/// The state after `done` steps.
+fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
+    let theme = Theme::of(ui);
+    let (label, about) = match done.checked_sub(1) {
+        None => ("As it was opened", ""),
+        Some(step) => (
+            history.steps.get(step).copied().unwrap_or_default(),
+            history.about.get(step).map_or("", |about| &**about),
+        ),
+    };
+    let (here, ahead, saved) = (done == history.done, done > history.done, history.saved_at == Some(done));
+    let mut name = label.to_owned();
+    for (is, word) in [(!about.is_empty(), about), (ahead, "undone"), (saved && done > 0, "saved")] {
+        if is {
+            name.push_str(", ");
+            name.push_str(word);
+        }
+    }
+    let (rect, response) = widgets::row(ui, &name, here, false);
+    let [color, weak] = match () {
+        () if here => [theme.accent, theme.accent],
+        () if ahead => [theme.faint, theme.faint],
+        () => [theme.text, theme.weak],
+    };
+    let mut right = rect.right() - 12.0;
+    if saved && done > 0 {
+        let mark = Rect::from_center_size(pos2(right - 4.0, rect.center().y), vec2(16.0, 16.0));
+        Icon::Saved.paint(ui.painter(), mark, weak);
+        right -= 20.0;
+    }
+    let text = Rect::from_min_max(pos2(rect.left() + 12.0, rect.top()), pos2(right, rect.bottom()));
+    let end = widgets::text_in(ui, text, label, &TextStyle::Body, color);
+    if !about.is_empty() && right - end > 40.0 {
+        let text = Rect::from_min_max(pos2(end + 8.0, rect.top()), pos2(right, rect.bottom()));
+        widgets::text_in(ui, text, about, &TextStyle::Small, weak);
+    }
+    let deed = match () {
+        () if here => "It is like this now",
+        () if ahead => "Click to do again everything up to here",
+        () => "Click to undo everything after this",
+    };
+    let saved = if saved && done > 0 { "\nSaved like this" } else { "" };
+    let about = if about.is_empty() { String::new() } else { format!("\n{about}") };
+    response.on_hover_text(format!("{label}{about}\n{deed}{saved}"))
+}
+
+/// What a command is called now: undo and redo say what they would do.
+pub(super) fn title(state: &State, id: Id) -> Cow<'static, str> {
+    let title = super::commands::get(id).title;
+    let labels = state.view.as_ref().map_or([None, None], |view| view.history.labels());
+    let label = match id {
+        Id::Undo => labels[0],
+        Id::Redo => labels[1],
+        _ => None,
+    };
+    label.map_or(Cow::Borrowed(title), |label| Cow::Owned(format!("{title} {label}")))
+}

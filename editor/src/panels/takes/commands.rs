@@ -1,0 +1,135 @@
+//! What the commands for takes do: edits of the take that is shown.
+
+use super::super::commands::Id;
+use super::super::state::{Effect, State};
+use crate::document::Change;
+use crate::document::adapter::{Slot, TakeId};
+use crate::document::edit::{Edit, TakeRef};
+use std::sync::Arc;
+
+/// What the list of takes is about to do.
+#[derive(Clone, Debug, Default)]
+pub struct TakesState {
+    /// The take whose name is being typed.
+    pub renaming: Option<TakeId>,
+    /// Is the next take that appears to be shown?
+    show_new: bool,
+}
+
+impl State {
+    /// Does a command for takes.
+    pub(in super::super) fn take_command(&mut self, id: Id) -> Option<Effect> {
+        if id == Id::NewTake {
+            return self.create_take(None);
+        }
+        let take = self.take_ref()?;
+        let (index, name) = (self.playback.take?, self.take()?.name.clone());
+        let edit = match id {
+            Id::DuplicateTake => return self.create_take(Some((take, name))),
+            Id::RenameTake => {
+                self.rename_take(Some(index));
+                return None;
+            }
+            Id::DeleteTake => Edit::DeleteTake { take },
+            Id::MoveTakeUp => Edit::MoveTake { take, to: index.saturating_sub(1) },
+            Id::MoveTakeDown => Edit::MoveTake { take, to: index + 1 },
+            Id::SplitTake => {
+                let name = self.unused_name(&part_of(&name), 2);
+                Edit::SplitTake { take, time: self.time(), name }
+            }
+            Id::TrimTake => {
+                let [from, to] = self.trim_range();
+                Edit::TrimTake { take, from, to }
+            }
+            Id::ReverseTake => Edit::ReverseTake { take },
+            _ => return None,
+        };
+        Some(Effect::Change(Change::Edit(edit, None)))
+    }
+
+    /// Begins or ends the renaming of a take.
+    pub(in super::super) fn rename_take(&mut self, index: Option<usize>) {
+        self.takes.renaming = index.and_then(|index| Some(self.view.as_ref()?.slots.get(index)?.id));
+    }
+
+    /// Seconds: the part of the take that plays, which is what trimming leaves.
+    pub(in super::super) fn trim_range(&self) -> [f32; 2] {
+        [self.playback.start, self.playback.start + self.playback.length]
+    }
+
+    fn create_take(&mut self, copy: Option<(TakeRef, String)>) -> Option<Effect> {
+        self.takes.show_new = true;
+        let (name, copy) = match copy {
+            None => (self.unused_name("New take", 1), None),
+            Some((take, name)) => (self.unused_name(&format!("{} copy", without_copy(&name)), 1), Some(take)),
+        };
+        Some(Effect::Change(Change::Edit(Edit::CreateTake { name, copy, at: None }, None)))
+    }
+
+    /// `base`, or with the first number behind it that makes it a name that no take has.
+    fn unused_name(&self, base: &str, first: usize) -> String {
+        let takes = self.view.as_ref().map_or(&[][..], |view| &view.takes);
+        let numbered = |number| if number == 1 { base.to_owned() } else { format!("{base} {number}") };
+        let unused = |name: &String| !takes.iter().any(|take| take.name == *name);
+        (first..first + takes.len() + 1).map(numbered).find(unused).unwrap_or_else(|| base.to_owned())
+    }
+
+    /// The take that was shown stays shown, wherever it stands in the list now; where it is gone, its neighbour.
+    pub(in super::super) fn follow_take(&mut self, before: &[Arc<Slot>]) {
+        let Some(view) = &self.view else { return };
+        let slots = Arc::clone(&view.slots);
+        let place = |id: TakeId| slots.iter().position(|slot| slot.id == id);
+        if self.takes.renaming.is_some_and(|id| place(id).is_none()) {
+            self.takes.renaming = None;
+        }
+        let is_new = |slot: &Arc<Slot>| !before.iter().any(|old| old.id == slot.id);
+        if self.takes.show_new
+            && let Some(index) = slots.iter().position(is_new)
+        {
+            self.takes.show_new = false;
+            self.show_take(Some(index));
+            return;
+        }
+        let Some(index) = self.playback.take else { return };
+        match before.get(index).and_then(|slot| place(slot.id)) {
+            Some(now) => self.playback.take = Some(now),
+            None => self.show_take(index.min(slots.len().saturating_sub(1)).into()),
+        }
+    }
+}
+
+/// `Walk copy 2` and `Walk copy` are copies of `Walk`.
+fn without_copy(name: &str) -> &str {
+    let bare = without_number(name);
+    bare.strip_suffix(" copy").or(name.strip_suffix(" copy")).filter(|bare| !bare.is_empty()).unwrap_or(name)
+}
+
+/// What the second part of a take is called, without its number.
+fn part_of(name: &str) -> String {
+    without_number(name).to_owned()
+}
+
+fn without_number(name: &str) -> &str {
+    match name.rsplit_once(' ') {
+        Some((bare, number)) if !bare.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()) => {
+            bare
+        }
+        _ => name,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_copy_of_a_copy_is_called_like_the_first() {
+        assert_eq!(without_copy("Walk"), "Walk");
+        assert_eq!(without_copy("Walk copy"), "Walk");
+        assert_eq!(without_copy("Walk copy 12"), "Walk");
+        assert_eq!(without_copy(" copy"), " copy");
+        assert_eq!(without_copy("Take 001"), "Take 001");
+        assert_eq!(part_of("Walk 2"), "Walk");
+        assert_eq!(part_of("42"), "42");
+    }
+}

@@ -1,0 +1,231 @@
+//! The list of takes: shown by a click, named, put in order by hand, made, cut and deleted.
+
+mod commands;
+mod rename;
+mod time;
+
+pub use commands::TakesState;
+
+use super::commands::Id;
+use super::icons::Icon;
+use super::state::{Request, State};
+use super::style::{GRID, RADIUS, ROW};
+use super::theme::Theme;
+use super::{Panel, Place, menu, widgets};
+use crate::document::Change;
+use crate::document::edit::{Edit, TakeRef};
+use egui::accesskit::Role;
+use egui::{
+    Color32, CornerRadius, CursorIcon, Key, PointerButton, Rect, Response, ScrollArea, Sense, Stroke,
+    TextStyle, Ui, WidgetInfo, pos2, vec2,
+};
+use rename::Rename;
+use time::Times;
+
+/// The list of takes.
+#[derive(Debug, Default)]
+pub struct Takes {
+    times: Times,
+    rename: Option<(crate::document::adapter::TakeId, Rename)>,
+    /// The take that is dragged to another place.
+    moving: Option<usize>,
+}
+
+/// What can be done with a take, in the order of the context menu.
+const MENU: &[&[Id]] = &[
+    &[Id::NewTake, Id::DuplicateTake, Id::RenameTake],
+    &[Id::MoveTakeUp, Id::MoveTakeDown],
+    &[Id::SplitTake, Id::TrimTake, Id::ReverseTake],
+    &[Id::DeleteTake],
+];
+
+impl Panel for Takes {
+    fn id(&self) -> &'static str {
+        "takes"
+    }
+
+    fn title(&self) -> &'static str {
+        "Takes"
+    }
+
+    fn place(&self) -> Place {
+        Place::LeftBelow
+    }
+
+    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        if state.view.is_none() {
+            return widgets::empty(ui, "", "Takes appear here");
+        }
+        self.buttons(ui, state, requests);
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let count = state.digest.takes.len();
+        // The rest pose stands first: it is always there.
+        ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, count + 1, |ui, range| {
+            let top = ui.cursor().top() - range.start as f32 * ROW;
+            for index in range {
+                match index.checked_sub(1) {
+                    None => {
+                        let selected = state.playback.take.is_none();
+                        let response = row(ui, "Rest pose", "", "", selected, Sense::click());
+                        if response.clicked() {
+                            requests.push(Request::ShowTake(None));
+                        }
+                    }
+                    Some(take) => self.take(ui, state, take, requests),
+                }
+            }
+            self.drop_line(ui, top, count, requests);
+        });
+    }
+}
+
+impl Takes {
+    fn buttons(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+        ui.add_space(GRID);
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+            ui.add_space(2.0 * GRID);
+            for (icon, id) in [
+                (Icon::Add, Id::NewTake),
+                (Icon::Duplicate, Id::DuplicateTake),
+                (Icon::Rename, Id::RenameTake),
+                (Icon::Split, Id::SplitTake),
+                (Icon::Flip, Id::ReverseTake),
+            ] {
+                command(ui, state, icon, id, requests);
+            }
+            let response = ui
+                .add_enabled_ui(state.take().is_some(), |ui| {
+                    widgets::icon_button(ui, Icon::Clock, "Start and length", false)
+                })
+                .inner
+                .on_hover_text("Start and length of the take, and what is left of it when it is trimmed");
+            egui::Popup::menu(&response)
+                .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
+                .show(|ui| self.times.show(ui, state, requests));
+            command(ui, state, Icon::Trash, Id::DeleteTake, requests);
+        });
+    }
+
+    fn take(&mut self, ui: &mut Ui, state: &State, index: usize, requests: &mut Vec<Request>) {
+        let Some(take) = state.digest.takes.get(index) else { return };
+        let id = state.view.as_ref().and_then(|view| view.slots.get(index)).map(|slot| slot.id);
+        if state.takes.renaming.is_some() && state.takes.renaming == id {
+            return self.rename(ui, state, index, requests);
+        }
+        let (keys, length) = (widgets::grouped(take.keys), format!("{:.2} s", take.length));
+        let selected = state.playback.take == Some(index);
+        let response = row(ui, &take.name, &keys, &length, selected, Sense::click_and_drag());
+        if response.clicked() || response.secondary_clicked() {
+            requests.push(Request::ShowTake(Some(index)));
+        }
+        if response.double_clicked() {
+            requests.push(Request::RenameTake(Some(index)));
+        }
+        if response.drag_started_by(PointerButton::Primary) {
+            self.moving = Some(index);
+        }
+        response.context_menu(|ui| {
+            for (at, group) in MENU.iter().enumerate() {
+                if at > 0 {
+                    ui.separator();
+                }
+                for &id in *group {
+                    menu::item(ui, state, id, false, requests);
+                }
+            }
+        });
+        if self.moving.is_none() {
+            response.on_hover_text(format!(
+                "{}\n{}",
+                widgets::shortened(&take.name),
+                widgets::dot_separated(&[
+                    length,
+                    widgets::count(take.keys, "key", "keys"),
+                    widgets::count(take.tracks, "track", "tracks"),
+                ])
+            ));
+        }
+    }
+
+    fn rename(&mut self, ui: &mut Ui, state: &State, index: usize, requests: &mut Vec<Request>) {
+        let Some(id) = state.takes.renaming else { return };
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+        if self.rename.as_ref().is_none_or(|(of, _)| *of != id) {
+            self.rename = Some((id, Rename::default()));
+            ui.scroll_to_rect(rect, None);
+        }
+        let Some((_, rename)) = &mut self.rename else { return };
+        if !rename.show(ui, rect.shrink2(vec2(GRID, 1.0)), state, index, requests) {
+            self.rename = None;
+            requests.push(Request::RenameTake(None));
+        }
+    }
+
+    /// Where the take that is dragged would come; moves it when it is let go.
+    fn drop_line(&mut self, ui: &Ui, top: f32, count: usize, requests: &mut Vec<Request>) {
+        let Some(from) = self.moving else { return };
+        let (pointer, released, escape) = ui.input(|input| {
+            (input.pointer.interact_pos(), !input.pointer.primary_down(), input.key_pressed(Key::Escape))
+        });
+        let Some(pointer) = pointer.filter(|_| !escape && from < count) else {
+            self.moving = None;
+            return;
+        };
+        // Rows below the one of the rest pose.
+        let gap = (((pointer.y - top) / ROW).round() as isize - 1).clamp(0, count as isize) as usize;
+        let to = if gap > from { gap - 1 } else { gap };
+        if released {
+            self.moving = None;
+            if to != from {
+                let edit = Edit::MoveTake { take: TakeRef::Index(from), to };
+                requests.push(Request::Change(Change::Edit(edit, None)));
+            }
+            return;
+        }
+        ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
+        let y = ui.painter().round_to_pixel_center(top + (gap + 1) as f32 * ROW);
+        let x = ui.max_rect().x_range().shrink(2.0 * GRID);
+        ui.painter().hline(x, y, Stroke::new(2.0, Theme::of(ui).accent));
+    }
+}
+
+/// A button for a command that is grey where it cannot be given.
+fn command(ui: &mut Ui, state: &State, icon: Icon, id: Id, requests: &mut Vec<Request>) {
+    let when = super::commands::get(id).when;
+    ui.add_enabled_ui(when.holds(state), |ui| {
+        let _ = widgets::command_button(ui, icon, id, false, requests).on_disabled_hover_text(when.reason());
+    });
+}
+
+/// Name at the left, number of keys and length at the right.
+fn row(ui: &mut Ui, name: &str, keys: &str, length: &str, selected: bool, sense: Sense) -> Response {
+    let theme = Theme::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), sense);
+    response.widget_info(|| WidgetInfo::selected(Role::ListItem, ui.is_enabled(), selected, name));
+    if !ui.is_rect_visible(rect) {
+        return response;
+    }
+    let inside = rect.shrink2(vec2(GRID, 1.0));
+    let fill = match () {
+        () if selected => theme.accent_soft,
+        () if response.hovered() => theme.hover,
+        () => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(inside, CornerRadius::same(RADIUS), fill);
+    widgets::focus_ring(ui, &response, inside);
+    let color = if selected { theme.accent } else { theme.text };
+    let y = rect.center().y;
+    let numbers = if selected { theme.accent } else { theme.weak };
+    let mut right = rect.right() - 12.0;
+    // The name is what a narrow list is for.
+    if rect.width() > 130.0 {
+        right = widgets::number_at(ui, right, y, length, numbers) - 8.0;
+    }
+    if rect.width() > 200.0 && !keys.is_empty() {
+        right = widgets::number_at(ui, (rect.right() - 76.0).min(right), y, keys, theme.faint) - 8.0;
+    }
+    let text = Rect::from_min_max(pos2(rect.left() + 12.0, rect.top()), pos2(right, rect.bottom()));
+    widgets::text_in(ui, text, name, &TextStyle::Body, color);
+    response
+}

@@ -1,0 +1,94 @@
+//! The name of a take, typed where it stands.
+
+use super::super::state::{Request, State};
+use super::super::style::RADIUS;
+use super::super::theme::Theme;
+use crate::document::Change;
+use crate::document::edit::{Edit, TakeRef};
+use egui::{CornerRadius, Frame, Id, Key, Margin, Modifiers, Rect, Stroke, StrokeKind, TextEdit, Ui};
+
+/// Longest name that can be typed, letters.
+const LONGEST: usize = 10_000;
+
+/// A name that is being typed.
+#[derive(Debug, Default)]
+pub(super) struct Rename {
+    text: String,
+    stage: Stage,
+    refused: bool,
+}
+
+/// How far it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Stage {
+    #[default]
+    Fresh,
+    /// The cursor is on its way into the field.
+    Asked,
+    Typing,
+}
+
+impl Rename {
+    /// The field; `false` when it is done.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        state: &State,
+        index: usize,
+        requests: &mut Vec<Request>,
+    ) -> bool {
+        let Some(take) = state.view.as_ref().and_then(|view| view.takes.get(index)) else { return false };
+        let id = Id::unique("name of a take");
+        let has_focus = ui.memory(|memory| memory.has_focus(id));
+        let first = self.stage == Stage::Fresh;
+        if first {
+            self.text.clone_from(&take.name);
+            self.stage = Stage::Asked;
+        } else if self.stage == Stage::Asked && has_focus {
+            self.stage = Stage::Typing;
+            let mut cursor = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+            cursor.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(&self.text)));
+            cursor.store(ui.ctx(), id);
+        }
+        let (enter, escape) = ui.input_mut(|input| {
+            let enter = has_focus && input.consume_key(Modifiers::NONE, Key::Enter);
+            (enter, input.key_pressed(Key::Escape))
+        });
+        let theme = Theme::of(ui);
+        ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.sunken);
+        let field = TextEdit::singleline(&mut self.text)
+            .id(id)
+            .frame(Frame::NONE)
+            .margin(Margin::symmetric(8, 0))
+            .align(egui::Align2::LEFT_CENTER)
+            .char_limit(LONGEST)
+            .desired_width(rect.width());
+        let response = ui.place(rect, field).accessible_name("Name of the take");
+        if first {
+            response.request_focus();
+        }
+        if response.changed() {
+            self.refused = false;
+        }
+        let edge = if self.refused { theme.error } else { theme.accent };
+        let edge = Stroke::new(1.0, edge);
+        ui.painter().rect_stroke(rect, CornerRadius::same(RADIUS), edge, StrokeKind::Inside);
+        if self.refused {
+            let anchor = response.rect;
+            egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id.with("hint"), anchor)
+                .show(|ui| ui.colored_label(theme.error, "A take needs a name"));
+        }
+        let empty = self.text.trim().is_empty();
+        if enter && empty {
+            self.refused = true;
+            return true;
+        }
+        let left = !first && !response.has_focus();
+        if (enter || left) && !escape && !empty && self.text != take.name {
+            let edit = Edit::RenameTake { take: TakeRef::Index(index), name: std::mem::take(&mut self.text) };
+            requests.push(Request::Change(Change::Edit(edit, None)));
+        }
+        !(enter || left || escape)
+    }
+}

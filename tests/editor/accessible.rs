@@ -1,0 +1,73 @@
+//! Who cannot see the window hears what is in it: every control of the whole desk has a name.
+
+use crate::workbench::{Window, Workbench};
+use dragonfly::document::{Source, View, load_model};
+use egui::accesskit::Role;
+use egui_kittest::kittest::{NodeT, Queryable};
+use std::sync::Arc;
+
+/// Roles of things that are used.
+fn is_control(role: Role) -> bool {
+    matches!(
+        role,
+        Role::Button
+            | Role::CheckBox
+            | Role::ComboBox
+            | Role::Link
+            | Role::ListItem
+            | Role::MenuItem
+            | Role::RadioButton
+            | Role::Slider
+            | Role::SpinButton
+            | Role::Switch
+            | Role::Tab
+            | Role::TextInput
+            | Role::TreeItem
+    )
+}
+
+fn nameless(window: &Window) -> Vec<String> {
+    window
+        .root()
+        .children_recursive()
+        .filter(|node| is_control(node.accesskit_node().role()))
+        .filter(|node| {
+            let node = node.accesskit_node();
+            node.label().is_none_or(|label| label.trim().is_empty())
+                && node.placeholder().is_none_or(str::is_empty)
+        })
+        .map(|node| format!("{:?} at {:?}", node.accesskit_node().role(), node.rect()))
+        .collect()
+}
+
+fn fox() -> View {
+    let source = Source::File(crate::program::data("gltf/Fox.glb"));
+    let loaded = load_model(&source, &mut |_| {}, &Default::default()).expect("the fox");
+    View::opened(1, Arc::new(loaded))
+}
+
+#[test]
+fn every_control_of_the_whole_desk_has_a_name() {
+    let mut bench = Workbench::new(Some(fox()));
+    bench.state.select(Some(5));
+    let mut window = bench.window_of(egui::vec2(1600.0, 1000.0), egui::Theme::Dark);
+    assert_eq!(nameless(&window), [""; 0]);
+    window.get_by_label("Show the quaternion").click();
+    for channel in ["translation", "scale"] {
+        window.get_by_label(&format!("Sliders for {channel}")).click();
+        window.run_steps(2);
+    }
+    window.run_steps(2);
+    assert_eq!(nameless(&window), [""; 0]);
+    window.get_by_label("Start and length").click();
+    window.run_steps(3);
+    assert_eq!(nameless(&window), [""; 0]);
+    window.key_press(egui::Key::Escape);
+    window.run_steps(2);
+    window.get_by_label("History").click();
+    window.run_steps(3);
+    assert_eq!(nameless(&window), [""; 0]);
+    window.key_press(egui::Key::F2);
+    window.run_steps(3);
+    assert_eq!(nameless(&window), [""; 0]);
+}

@@ -1,0 +1,95 @@
+//! Everything that was done stands in a list, and a click goes there.
+
+use crate::workbench::{Window, Workbench, type_into};
+use egui::Key;
+use egui_kittest::kittest::{NodeT, Queryable};
+
+/// Three steps with bone 3, the history in front.
+fn window() -> Window {
+    let mut bench = Workbench::full();
+    bench.state.select(Some(3));
+    let mut window = bench.window();
+    type_into(&mut window, "Translation result X", "1", Key::Enter);
+    type_into(&mut window, "Translation result Y", "2", Key::Enter);
+    type_into(&mut window, "Scale result X", "3", Key::Enter);
+    window.get_by_label("History").click();
+    window.run_steps(4);
+    window
+}
+
+const MOVE: &str = "Move, rib_00_left_middle  ·  Survey";
+const SCALE: &str = "Scale, rib_00_left_middle  ·  Survey";
+
+#[test]
+fn the_list_says_what_was_done_to_what() {
+    let mut window = window();
+    assert_eq!(window.query_all_by_label(MOVE).count(), 2);
+    assert!(
+        window.get_by_label(SCALE).accesskit_node().is_selected() == Some(true)
+            || window.get_by_label(SCALE).accesskit_node().toggled().is_some()
+    );
+    assert!(window.query_by_label("3 of 3 steps").is_some());
+    window.get_by_label("As it was opened").click();
+    window.run_steps(4);
+    assert_eq!(window.state().steps(), (0, 3));
+    assert!(
+        window.query_by_label(&format!("{SCALE}, undone")).is_some(),
+        "what can be done again is still there"
+    );
+    window.get_by_label(&format!("{SCALE}, undone")).click();
+    window.run_steps(4);
+    assert_eq!(window.state().steps(), (3, 3));
+    assert_eq!(window.state().pose(3).scale.x, 3.0);
+}
+
+#[test]
+fn the_saved_place_is_marked() {
+    let mut window = window();
+    window.state_mut().edited.as_mut().unwrap().mark_saved();
+    window.state_mut().change(dragonfly::document::Change::Undo);
+    window.run_steps(4);
+    assert!(window.query_by_label(&format!("{SCALE}, undone, saved")).is_some());
+}
+
+#[test]
+fn the_list_is_used_with_the_keyboard() {
+    let mut window = window();
+    window.get_by_label("As it was opened").focus();
+    window.run_steps(2);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert_eq!(window.state().steps(), (0, 3));
+    window.get_by_label("Redo").click();
+    window.run_steps(3);
+    assert_eq!(window.state().steps(), (1, 3));
+}
+
+#[test]
+fn the_list_follows_and_draws_only_what_is_seen() {
+    let mut window = window();
+    for step in 0..3000 {
+        let name = format!("Take {step}");
+        let edit = dragonfly::document::edit::Edit::RenameTake {
+            take: dragonfly::document::edit::TakeRef::Index(0),
+            name,
+        };
+        // Without a frame in between, as a script does it.
+        window.state_mut().edited.as_mut().unwrap().apply(edit, None).unwrap();
+    }
+    window.state_mut().change(dragonfly::document::Change::Undo);
+    window.run_steps(4);
+    assert!(window.query_by_label("Rename take, Take 2997 → Take 2998").is_some(), "the place is in sight");
+    assert!(window.query_by_label("As it was opened").is_none());
+    assert!(window.query_all_by_label_contains("Rename take").count() < 40);
+}
+
+#[test]
+fn the_menu_says_what_it_would_undo() {
+    let mut window = window();
+    window.state_mut().change(dragonfly::document::Change::Undo);
+    window.run_steps(2);
+    window.get_by_label("Edit").click();
+    window.run_steps(4);
+    assert!(window.query_by_label_contains("Undo Move").is_some());
+    assert!(window.query_by_label_contains("Redo Scale").is_some());
+}

@@ -1,0 +1,146 @@
+//! Nothing that is typed, pressed or dragged anywhere in the window breaks it.
+
+use crate::workbench::{Window, Workbench, button};
+use crate::{fixture, nasty};
+use dragonfly_kit::random::{Random, seed};
+use egui::{Event, Key, Modifiers, MouseWheelUnit, pos2, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+fn bench() -> Workbench {
+    let mut bench = Workbench::full();
+    bench.state.select(Some(3));
+    bench
+}
+
+/// Every field into which something can be typed takes every text; where it is no number nothing happens.
+#[test]
+fn any_text_in_any_field() {
+    let mut window = bench().window_of_any_text();
+    window.get_by_label("Show the quaternion").click();
+    window.run_steps(3);
+    let fields: Vec<String> = window
+        .root()
+        .children_recursive()
+        .filter(|node| node.accesskit_node().role() == egui::accesskit::Role::SpinButton)
+        .filter_map(|node| node.accesskit_node().label())
+        .collect();
+    assert!(fields.len() > 20, "{fields:?}");
+    let texts = nasty::texts();
+    for (at, text) in texts.iter().enumerate() {
+        // Each text in three fields, so that each field sees several.
+        for more in 0..3 {
+            let field = &fields[(at * 3 + more) % fields.len()];
+            let Some(node) = window.query_by_label(field) else { continue };
+            node.click();
+            window.run_steps(1);
+            window.event(Event::Text(text.clone()));
+            window.run_steps(1);
+            window.key_press([Key::Enter, Key::Tab, Key::Escape][more]);
+            window.run_steps(1);
+            window.key_press(Key::Escape);
+            window.run_steps(1);
+        }
+    }
+    let bench = window.state();
+    for bone in 0..bench.state.selection.bone_count() as u32 {
+        let pose = bench.pose(bone);
+        assert!(pose.translation.is_finite() && pose.rotation.is_finite() && pose.scale.is_finite());
+    }
+}
+
+fn some_event(random: &mut Random, at: egui::Pos2, texts: &[String]) -> Event {
+    const KEYS: &[Key] = &[
+        Key::Enter,
+        Key::Tab,
+        Key::Escape,
+        Key::Space,
+        Key::Delete,
+        Key::Backspace,
+        Key::F2,
+        Key::Z,
+        Key::Y,
+        Key::ArrowUp,
+        Key::ArrowDown,
+        Key::ArrowLeft,
+        Key::PageUp,
+        Key::PageDown,
+        Key::A,
+        Key::Home,
+        Key::End,
+        Key::F3,
+    ];
+    let modifiers = random.choice(&[Modifiers::NONE, Modifiers::NONE, Modifiers::SHIFT, Modifiers::COMMAND]);
+    match random.below(10) {
+        0..4 => Event::PointerMoved(at),
+        4 => Event::Text(texts[random.below(texts.len())].clone()),
+        5 => Event::Text(random.choice(&["1", "45/2", "-3", "abc"]).to_owned()),
+        6 => Event::MouseWheel {
+            unit: MouseWheelUnit::Point,
+            delta: vec2(0.0, random.between(-200.0, 200.0)),
+            phase: egui::TouchPhase::Move,
+            modifiers,
+            source: egui::MouseWheelSource::Wheel,
+        },
+        7 => Event::PointerButton {
+            pos: at,
+            button: random.choice(&[egui::PointerButton::Secondary, egui::PointerButton::Middle]),
+            pressed: random.below(2) == 0,
+            modifiers,
+        },
+        8 => Event::ModifiersChanged(modifiers),
+        _ => {
+            let key = random.choice(KEYS);
+            Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
+        }
+    }
+}
+
+fn run(window: &mut Window, random: &mut Random, events: usize, texts: &[String]) {
+    let mut down = false;
+    for _ in 0..events {
+        let at = pos2(random.between(-20.0, 1300.0), random.between(-20.0, 740.0));
+        // Half of the time where the panels are that this is about.
+        let at = match random.below(4) {
+            0 => pos2(random.between(1020.0, 1275.0), random.between(40.0, 530.0)),
+            1 => pos2(random.between(5.0, 245.0), random.between(370.0, 530.0)),
+            _ => at,
+        };
+        if random.below(4) == 0 {
+            down = !down;
+            window.event(Event::PointerMoved(at));
+            button(window, at, down);
+        } else {
+            window.event(some_event(random, at, texts));
+            window.run_steps(1);
+        }
+    }
+    button(window, pos2(0.0, 0.0), false);
+}
+
+#[test]
+fn random_events_break_nothing() {
+    let seed = seed(0xDA);
+    println!("seed {seed}");
+    let mut random = Random::new(seed);
+    let texts = nasty::texts();
+    for round in 0..4 {
+        let bench = match round {
+            0 => Workbench::new(None),
+            1 => Workbench::new(Some(fixture::empty())),
+            _ => bench(),
+        };
+        let mut window = bench.window_of_any_text();
+        run(&mut window, &mut random, if round < 2 { 100 } else { 500 }, &texts);
+        let Some(edited) = &window.state().edited else { continue };
+        assert_eq!(edited.adapter().check(), Ok(()), "seed {seed}");
+        // All of it can be undone.
+        let mut edited = edited.clone();
+        edited.go_to(0);
+        let view = fixture::full();
+        if round >= 2 {
+            for (now, then) in edited.adapter().results().zip(view.takes.iter()) {
+                assert_eq!(now, then, "seed {seed}");
+            }
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! Takes are made, named, cut, put in order and deleted in their list.
+
+use crate::workbench::{Window, Workbench, button, drag, move_to, press, type_into};
+use crate::{fixture, nasty};
+use dragonfly::panels::Request;
+use dragonfly::panels::commands::Id;
+use egui::{Key, Modifiers, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+fn names(window: &Window) -> Vec<String> {
+    window.state().state.view.as_ref().unwrap().takes.iter().map(|take| take.name.clone()).collect()
+}
+
+fn shown(window: &Window) -> Option<usize> {
+    window.state().state.playback.take
+}
+
+fn give(window: &mut Window, id: Id) {
+    let request = Request::Command(id);
+    if let Some(dragonfly::panels::Effect::Change(change)) = window.state_mut().state.execute(request) {
+        window.state_mut().change(change);
+    }
+    window.run_steps(3);
+}
+
+#[test]
+fn takes_are_made_copied_and_deleted_but_the_last_one_stays() {
+    let mut window = Workbench::full().window();
+    window.get_by_label("New take").click();
+    window.run_steps(3);
+    assert_eq!(
+        (names(&window), shown(&window)),
+        (vec!["Survey".into(), "Walk".into(), "Run".into(), "New take".into()], Some(3))
+    );
+    window.get_by_label("Walk").click();
+    window.run_steps(2);
+    for wanted in ["Walk copy", "Walk copy 2"] {
+        window.get_by_label("Duplicate take").click();
+        window.run_steps(3);
+        assert_eq!(names(&window)[shown(&window).unwrap()], wanted, "the copy is shown");
+    }
+    for left in (0..5).rev() {
+        window.get_by_label("Delete take").click();
+        window.run_steps(3);
+        assert_eq!(names(&window).len(), left.max(0) + 1);
+        assert!(shown(&window).is_some(), "a neighbour is shown");
+    }
+    assert!(window.get_by_label("Delete take").accesskit_node().is_disabled());
+    give(&mut window, Id::DeleteTake);
+    assert_eq!(names(&window).len(), 1);
+    assert_eq!(window.state().refused, [""; 0]);
+}
+
+#[test]
+fn a_take_is_renamed_where_it_stands() {
+    let mut window = Workbench::full().window();
+    window.get_by_label("Walk").click();
+    window.run_steps(2);
+    let rename = |window: &mut Window, text: &str, key: Key| {
+        window.key_press(Key::F2);
+        window.run_steps(3);
+        if text.is_empty() {
+            window.key_press(Key::Delete);
+        } else {
+            window.event(egui::Event::Text(text.to_owned()));
+        }
+        window.run_steps(1);
+        window.key_press(key);
+        window.run_steps(3);
+    };
+    rename(&mut window, "Stroll", Key::Enter);
+    assert_eq!(names(&window)[1], "Stroll");
+    rename(&mut window, "No", Key::Escape);
+    assert_eq!(names(&window)[1], "Stroll", "Escape takes it back");
+    assert!(window.query_by_label("Name of the take").is_none());
+    rename(&mut window, "", Key::Enter);
+    assert_eq!(names(&window)[1], "Stroll");
+    assert!(window.query_by_label("Name of the take").is_some(), "an empty name is refused where it stands");
+    assert!(window.query_by_label("A take needs a name").is_some());
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    assert!(window.query_by_label("Name of the take").is_none());
+    assert_eq!(window.state().steps(), (1, 1));
+    let row = window.get_by_label("Run").rect().center();
+    window.event(egui::Event::PointerMoved(row));
+    // Both clicks in one frame, since a frame of a test lasts longer than a double click may.
+    for pressed in [true, false, true, false] {
+        let (button, modifiers) = (egui::PointerButton::Primary, Modifiers::NONE);
+        window.event(egui::Event::PointerButton { pos: row, button, pressed, modifiers });
+    }
+    window.run_steps(3);
+    assert!(window.query_by_label("Name of the take").is_some(), "a double click renames");
+    window.event(egui::Event::Text("Gallop".to_owned()));
+    window.run_steps(2);
+    window.get_by_label("Stroll").click();
+    window.run_steps(3);
+    assert_eq!(names(&window)[2], "Gallop", "a click elsewhere accepts");
+}
+
+#[test]
+fn any_text_is_a_name() {
+    let mut window = Workbench::full().window_of_any_text();
+    window.get_by_label("Walk").click();
+    window.run_steps(2);
+    for text in nasty::texts() {
+        window.key_press(Key::F2);
+        window.run_steps(3);
+        window.event(egui::Event::Text(text.clone()));
+        window.run_steps(2);
+        window.key_press(Key::Enter);
+        window.run_steps(3);
+        let kept = names(&window)[1].clone();
+        let wanted: String =
+            text.chars().filter(|letter| !matches!(letter, '\n' | '\r')).take(10_000).collect();
+        if wanted.trim().is_empty() {
+            window.key_press(Key::Escape);
+            window.run_steps(2);
+        } else {
+            assert!(window.query_by_label("Name of the take").is_none());
+            let plain =
+                |text: &str| text.chars().filter(|letter| !letter.is_whitespace()).collect::<String>();
+            assert_eq!(plain(&kept), plain(&wanted));
+        }
+        window.state_mut().change(dragonfly::document::Change::GoTo(0));
+        window.run_steps(2);
+        assert_eq!(names(&window)[1], "Walk");
+    }
+}
+
+#[test]
+fn a_take_is_dragged_to_another_place_and_stays_shown() {
+    let mut window = Workbench::full().window();
+    window.get_by_label("Run").click();
+    window.run_steps(2);
+    drag(&mut window, "Run", vec2(0.0, -50.0), Modifiers::NONE);
+    assert_eq!(names(&window), ["Run", "Survey", "Walk"]);
+    assert_eq!(shown(&window), Some(0));
+    let from = window.get_by_label("Survey").rect().center();
+    press(&mut window, from);
+    move_to(&mut window, from + vec2(0.0, 20.0), Modifiers::NONE);
+    move_to(&mut window, from + vec2(0.0, 60.0), Modifiers::NONE);
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    button(&mut window, from + vec2(0.0, 60.0), false);
+    window.run_steps(2);
+    assert_eq!(names(&window), ["Run", "Survey", "Walk"], "Escape takes it back");
+    give(&mut window, Id::MoveTakeDown);
+    assert_eq!(
+        (names(&window), shown(&window)),
+        (vec!["Survey".into(), "Run".into(), "Walk".into()], Some(1))
+    );
+    give(&mut window, Id::MoveTakeUp);
+    assert_eq!(shown(&window), Some(0));
+    window.state_mut().change(dragonfly::document::Change::Undo);
+    window.run_steps(2);
+    assert_eq!(shown(&window), Some(1), "undone, it is still the same take");
+}
+
+#[test]
+fn a_take_is_split_reversed_and_trimmed() {
+    let mut window = Workbench::full().window();
+    window.state_mut().state.execute(Request::Seek(1.0));
+    window.run_steps(2);
+    window.get_by_label("Split take here").click();
+    window.run_steps(3);
+    assert_eq!(names(&window), ["Survey", "Survey 2", "Walk", "Run"]);
+    assert_eq!(shown(&window), Some(0));
+    let takes = window.state().state.view.as_ref().unwrap().takes.clone();
+    assert!((takes[0].length - 1.0).abs() < 1e-5 && (takes[1].length - 2.417).abs() < 1e-5);
+    let first = takes[0].tracks[3].rotation.values[0];
+    window.get_by_label("Reverse take").click();
+    window.run_steps(3);
+    let last = window.state().state.view.as_ref().unwrap().takes[0].tracks[3].rotation.values.last().copied();
+    assert_eq!(last, Some(first));
+    window.get_by_label("Start and length").click();
+    window.run_steps(3);
+    assert!(window.get_by_label("Trim").accesskit_node().is_disabled(), "all of it lies between");
+    type_into(&mut window, "From", "0.25", Key::Enter);
+    type_into(&mut window, "To", "3/4", Key::Enter);
+    window.get_by_label("Trim").click();
+    window.run_steps(3);
+    let take = window.state().state.take().unwrap();
+    assert!(
+        (take.start - 0.25).abs() < 1e-6 && (take.length - 0.5).abs() < 1e-6,
+        "{} {}",
+        take.start,
+        take.length
+    );
+    type_into(&mut window, "Start", "0", Key::Enter);
+    type_into(&mut window, "Length", "2", Key::Enter);
+    let take = window.state().state.take().unwrap();
+    assert!(take.start == 0.0 && (take.length - 2.0).abs() < 1e-5);
+    let steps = window.state().steps();
+    drag(&mut window, "Length", vec2(50.0, 0.0), Modifiers::NONE);
+    assert!((window.state().state.take().unwrap().length - 2.5).abs() < 1e-3);
+    assert_eq!(window.state().steps(), (steps.0 + 1, steps.1 + 1), "a drag is one step");
+    type_into(&mut window, "Length", "-1", Key::Enter);
+    assert!((window.state().state.take().unwrap().length - 2.5).abs() < 1e-3);
+    assert_eq!(window.state().refused, [""; 0], "what cannot be is not even asked for");
+}
+
+#[test]
+fn the_list_is_there_without_takes() {
+    let empty = Workbench::new(Some(fixture::empty())).window();
+    assert!(empty.query_by_label("Rest pose").is_some());
+    let nothing = Workbench::new(None).window();
+    assert!(nothing.query_by_label("Rest pose").is_none());
+    let mut still = Workbench::new(Some(fixture::view("Still", fixture::skeleton(2), &[]))).window();
+    still.get_by_label("New take").click();
+    still.run_steps(3);
+    assert_eq!((names(&still), shown(&still)), (vec!["New take".to_owned()], Some(0)));
+}
