@@ -30,6 +30,8 @@ mod gizmo_rig;
 mod gizmo_several;
 mod graphics_thread;
 mod hands;
+mod hands_fuzz;
+mod hands_path;
 mod hands_rig;
 mod hover;
 mod images;

@@ -2,7 +2,7 @@
 
 use super::digest::Digest;
 use super::hands::{Hold, Trail};
-use super::settings::Settings;
+use super::settings::{GhostSettings, Settings};
 use super::status::Status;
 use crate::camera::Camera;
 use crate::control::Hands;
@@ -90,6 +90,8 @@ pub enum Request {
     Viewport(egui::Rect),
     /// Tools that lie over the picture, in points.
     Shields(Vec<egui::Rect>),
+    /// How ghosts are shown.
+    Ghosts(GhostSettings),
     /// The wheel was turned over the picture: points, positive is nearer.
     Wheel(f32),
     /// The pointer is here over the picture, in points, and does nothing else; or it is not.
@@ -284,6 +286,7 @@ impl State {
             self.posed.update(view, self.playback.take, self.playback.time_at(now));
         }
         self.grasp();
+        self.follow_path();
     }
 
     /// Shows another document: its first take, playing from the start.

@@ -61,6 +61,8 @@ pub enum Id {
     ToggleCurl,
     BoxSelect,
     LassoSelect,
+    ToggleGhosts,
+    TogglePath,
     FrameSelected,
     FrameAll,
     ViewFront,
