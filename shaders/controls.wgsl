@@ -2,7 +2,7 @@
 
 // Rust twin: graphics::pass::controls::Style
 struct Style {
-    colors: array<vec4f, 6>,
+    colors: array<vec4f, 8>,
     // Pixels.
     half_width: f32,
 }
@@ -23,7 +23,7 @@ struct Face {
 }
 
 fn color_of(role: u32) -> vec3f {
-    return style.colors[min(role, 5u)].rgb;
+    return style.colors[min(role, 7u)].rgb;
 }
 
 // Where a place appears; never cut off by the near and far plane, because handles may be nearer than all there is.

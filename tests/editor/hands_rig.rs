@@ -109,6 +109,25 @@ impl Hand {
         self.turn();
     }
 
+    /// The same, for a list that is used again.
+    pub(crate) fn carry_some(&mut self, effects: &mut Vec<Effect>) {
+        if !effects.is_empty() {
+            let effects = std::mem::take(effects);
+            self.carry(effects);
+            self.effects.clear();
+        }
+    }
+
+    /// Where the active bone's joint appears, or the middle of the picture where it does not.
+    pub(crate) fn joint_or_middle(&self) -> Vec2 {
+        let middle = Vec2::new(PICTURE[2], PICTURE[3]) / 2.0;
+        let bone = self.state.selected().unwrap_or_default();
+        let Some(animation) = self.state.posed.animation() else { return middle };
+        let joint = animation.to_root()[bone as usize].w_axis;
+        let view = GizmoView::new(&self.state.camera, middle * 2.0);
+        view.to_screen(joint.truncate().as_dvec3()).map_or(middle, |at| at.as_vec2())
+    }
+
     pub(crate) fn command(&mut self, id: Id) {
         let effect = self.state.execute(Request::Command(id));
         self.carry(effect.into_iter().collect());

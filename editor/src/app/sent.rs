@@ -4,7 +4,7 @@ use super::interface::Interface;
 use crate::camera::Camera;
 use crate::control::bones::HiddenBones;
 use crate::control::gizmo::GizmoShape;
-use crate::graphics::{Appearance, GizmoLook, GraphicsHandle, Look};
+use crate::graphics::{Appearance, GizmoLook, GraphicsHandle, Look, PathLook};
 use crate::panels::State;
 use crate::panels::theme::{Theme, linear};
 use crate::playback::Playback;
@@ -25,6 +25,10 @@ pub(super) struct Sent {
     revision: u64,
     /// Version of the marks of bones.
     flags: u64,
+    path: Option<Arc<PathLook>>,
+    path_hovered: Option<f32>,
+    ghosts: Vec<(f32, i32)>,
+    spare_times: Vec<(f32, i32)>,
     /// Room for the list of selected bones.
     spare: Vec<BoneIndex>,
 }
@@ -86,6 +90,21 @@ impl Sent {
             }
         } else if self.drags {
             graphics.show_control(Appearance::Drag(None));
+        }
+        let (path, hovered) = (state.trail.look(), state.hands.path().hovered());
+        let same = match (path, &self.path) {
+            (Some(path), Some(sent)) => Arc::ptr_eq(path, sent),
+            (path, sent) => path.is_none() && sent.is_none(),
+        };
+        if !same || self.path_hovered != hovered {
+            self.path = path.cloned();
+            self.path_hovered = hovered;
+            graphics.show_control(Appearance::Path(self.path.clone(), hovered));
+        }
+        state.ghost_times(&mut self.spare_times);
+        if self.ghosts != self.spare_times {
+            self.ghosts.clone_from(&self.spare_times);
+            graphics.show_control(Appearance::Ghosts(self.ghosts.clone()));
         }
         (self.drags, self.revision) = (gizmo.is_dragging(), revision);
     }

@@ -6,6 +6,7 @@ use crate::control::gizmo::{GizmoSettings, GizmoShape, Handle, Tool};
 use crate::document::View;
 use crate::playback::Playback;
 use dragonfly_anim::data::BoneIndex;
+use glam::Vec3;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -28,6 +29,19 @@ pub enum Appearance {
     Gizmo(Option<GizmoLook>),
     /// The gizmo while it is dragged; none: it waits again.
     Drag(Option<GizmoShape>),
+    /// Where the selected bone moves along, and the time of the key under the pointer; none: it is not shown.
+    Path(Option<Arc<PathLook>>, Option<f32>),
+    /// The skeleton at other times of the take that is shown: seconds, and how far from now, before now negative.
+    Ghosts(Vec<(f32, i32)>),
+}
+
+/// A motion path: seconds, and where the joint is then in scene space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathLook {
+    /// Frame by frame.
+    pub points: Vec<(f32, Vec3)>,
+    /// At keys.
+    pub keys: Vec<(f32, Vec3)>,
 }
 
 /// A gizmo that waits to be taken hold of.
@@ -86,8 +100,9 @@ pub struct Look {
     pub accent: [f32; 3],
     /// Not drawn and not picked.
     pub hidden: Arc<HiddenBones>,
-    /// Linear RGB of handles: along x, y, z; in the plane of the picture; under the pointer; being dragged.
-    pub handles: [[f32; 3]; 6],
+    /// Linear RGB of handles: along x, y, z; in the plane of the picture; under the pointer; being dragged; and of what was
+    /// before and comes after.
+    pub handles: [[f32; 3]; 8],
 }
 
 impl Default for Look {
@@ -116,6 +131,8 @@ impl Default for Look {
                 [0.70, 0.72, 0.74],
                 [1.0, 0.86, 0.35],
                 [1.0, 0.86, 0.35],
+                [0.85, 0.25, 0.16],
+                [0.12, 0.55, 0.60],
             ],
         }
     }

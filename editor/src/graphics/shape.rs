@@ -192,6 +192,11 @@ impl SkeletonShape {
         &self.owners[position(body)]
     }
 
+    /// Does a bone move a surface? What only steers others does not.
+    pub fn is_joint(&self, bone: BoneIndex) -> bool {
+        self.joints.get(bone as usize) == Some(&true)
+    }
+
     /// Most instances that a pose can have.
     pub fn capacity(&self) -> usize {
         self.links.len() + self.joints.len()

@@ -60,6 +60,7 @@ pub struct Digest {
     /// Keys shown in the timeline.
     pub lanes: Lanes,
     generation: Option<u64>,
+    loaded: Option<Arc<LoadedModel>>,
     lanes_of: Option<(u64, Option<usize>, Option<BoneIndex>)>,
 }
 
@@ -72,13 +73,14 @@ impl Digest {
         };
         if self.generation != Some(view.generation) {
             let loaded = &view.loaded;
-            *self = Self {
-                rows: rows(loaded),
-                takes: takes(&view.takes),
-                totals: totals(loaded),
-                generation: Some(view.generation),
-                ..Self::default()
-            };
+            if self.loaded.as_ref().is_none_or(|known| !Arc::ptr_eq(known, loaded)) {
+                // What no edit changes.
+                (self.rows, self.totals) = (rows(loaded), totals(loaded));
+                self.loaded = Some(Arc::clone(loaded));
+            }
+            self.takes = takes(&view.takes);
+            self.lanes_of = None;
+            self.generation = Some(view.generation);
         }
         let key = (view.generation, take, bone);
         if self.lanes_of != Some(key) {

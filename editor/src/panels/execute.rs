@@ -40,6 +40,7 @@ impl State {
             Request::Keys(keys) => self.settings.keys = keys,
             Request::Camera(camera) => self.camera = camera,
             Request::Viewport(rect) => self.set_viewport(rect),
+            Request::Ghosts(ghosts) => self.settings.hand.ghosts = ghosts.mended(),
             Request::Shields(shields) => self.set_shields(shields),
             Request::Wheel(by) => self.wheel(by),
             Request::Point(pointer) => self.point(pointer),
@@ -203,7 +204,9 @@ impl State {
             | Id::PivotActive
             | Id::ToggleCurl
             | Id::BoxSelect
-            | Id::LassoSelect => return self.tool_command(id),
+            | Id::LassoSelect
+            | Id::ToggleGhosts
+            | Id::TogglePath => return self.tool_command(id),
 
             Id::FrameSelected => self.frame_selected(),
             Id::FrameAll => self.frame_all(),

@@ -6,6 +6,7 @@ use super::state::{Request, State};
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
+use crate::control::bones::Choice;
 use dragonfly_anim::data::BoneIndex;
 use egui::{Rect, ScrollArea, Sense, TextEdit, TextStyle, Ui, pos2, vec2};
 use std::collections::HashSet;
@@ -133,13 +134,17 @@ impl Hierarchy {
         }
         area.show_rows(ui, ROW, rows.len(), |ui, range| {
             for &(row, hit) in &rows[range] {
-                self.row(ui, state, row, hit, requests);
+                if self.row(ui, state, row, hit, requests) {
+                    choose(ui, state, rows, row.bone, requests);
+                }
             }
         });
     }
 
-    fn row(&mut self, ui: &mut Ui, state: &State, row: Row, hit: bool, requests: &mut Vec<Request>) {
+    /// Draws a row; was it clicked?
+    fn row(&mut self, ui: &mut Ui, state: &State, row: Row, hit: bool, requests: &mut Vec<Request>) -> bool {
         let theme = Theme::of(ui);
+        let hidden = state.hidden.is_hidden(row.bone);
         let name = state.bone_name(row.bone);
         let selected = state.selection.contains(row.bone);
         let (rect, response) = widgets::row(ui, &name, selected, state.bright() == Some(row.bone));
@@ -147,6 +152,7 @@ impl Hierarchy {
         let indent = 10.0 + (row.depth as f32 * 12.0).min(rect.width() * 0.5);
         let color = match (selected, hit) {
             (true, _) => theme.accent,
+            (false, _) if hidden => theme.faint,
             (false, true) => theme.text,
             (false, false) => theme.faint,
         };
@@ -167,17 +173,26 @@ impl Hierarchy {
         }
         let text =
             Rect::from_min_max(pos2(left + 18.0, rect.top()), pos2(rect.right() - 12.0, rect.bottom()));
-        widgets::text_in(ui, text, &name, &TextStyle::Body, color);
+        let end = widgets::text_in(ui, text, &name, &TextStyle::Body, color);
+        if hidden {
+            let mark = Rect::from_center_size(pos2(end + 14.0, rect.center().y), vec2(16.0, 16.0));
+            let response = ui.interact(mark, response.id.with("hidden"), Sense::hover());
+            response.widget_info(|| {
+                egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, format!("{name} is hidden"))
+            });
+            Icon::Hidden.paint(ui.painter(), mark, theme.faint);
+            response.on_hover_text(super::commands::tooltip(ui.ctx(), super::commands::Id::ShowAll));
+        }
         if response.hovered() {
             requests.push(Request::Hover(row.bone));
         }
         if response.clicked() {
             self.followed = Some(row.bone);
-            requests.push(Request::Select(Some(row.bone)));
         }
         if response.double_clicked() {
             requests.push(Request::Command(super::commands::Id::FrameSelected));
         }
+        response.clicked()
     }
 
     /// Folds or unfolds one bone; with `all`, everything below it too.
@@ -193,6 +208,25 @@ impl Hierarchy {
             }
         }
     }
+}
+
+/// What a click on a row selects: with Ctrl it toggles, with Shift everything from the active bone to here is added.
+fn choose(ui: &Ui, state: &State, rows: &[(Row, bool)], bone: BoneIndex, requests: &mut Vec<Request>) {
+    let modifiers = ui.input(|input| input.modifiers);
+    let place = |bone: BoneIndex| rows.iter().position(|(row, _)| row.bone == bone);
+    let from = state.selected().and_then(place).zip(place(bone)).filter(|_| modifiers.shift);
+    requests.push(match from {
+        _ if modifiers.command => Request::SelectBones(vec![bone], Choice::Toggle),
+        Some((from, to)) => {
+            let between = rows[from.min(to)..=from.max(to)].iter().map(|(row, _)| row.bone);
+            // The one that was clicked becomes the active one.
+            let mut bones: Vec<BoneIndex> = between.filter(|&other| other != bone).collect();
+            bones.push(bone);
+            Request::SelectBones(bones, Choice::Add)
+        }
+        None if modifiers.shift => Request::SelectBones(vec![bone], Choice::Add),
+        None => Request::Select(Some(bone)),
+    });
 }
 
 /// A small triangle: to the right when folded, down when not.

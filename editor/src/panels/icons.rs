@@ -75,6 +75,9 @@ pub enum Icon {
     Redo,
     Saved,
     Flip,
+    Hidden,
+    Ghosts,
+    Path,
 }
 
 impl Icon {
@@ -149,6 +152,9 @@ impl Icon {
         Self::Redo,
         Self::Saved,
         Self::Flip,
+        Self::Hidden,
+        Self::Ghosts,
+        Self::Path,
     ];
 
     /// Draws it into the middle of `rect`, 16 points large.
@@ -375,6 +381,23 @@ impl Icon {
             Self::PivotActive => {
                 pen.ring(4.2, 11.4, 2.0);
                 pen.dot(11.2, 5.0, 3.0);
+            }
+            Self::Hidden => {
+                pen.line(&[(2.5, 7.0), (5.0, 9.5), (8.0, 10.3), (11.0, 9.5), (13.5, 7.0)]);
+                pen.line(&[(5.0, 9.5), (4.0, 11.6)]);
+                pen.line(&[(8.0, 10.3), (8.0, 12.6)]);
+                pen.line(&[(11.0, 9.5), (12.0, 11.6)]);
+            }
+            Self::Ghosts => {
+                pen.ring(4.6, 8.0, 2.4);
+                pen.ring(8.0, 8.0, 2.4);
+                pen.ring(11.4, 8.0, 2.4);
+            }
+            Self::Path => {
+                pen.line(&[(3.0, 12.5), (5.0, 7.0), (8.0, 5.0), (11.0, 6.6), (13.0, 3.4)]);
+                pen.dot(3.0, 12.5, 1.6);
+                pen.dot(8.0, 5.0, 1.6);
+                pen.dot(13.0, 3.4, 1.6);
             }
             Self::Open => {
                 pen.outline(&[(2.0, 12.5), (2.0, 3.5), (6.0, 3.5), (7.5, 5.5), (14.0, 5.5), (14.0, 12.5)]);

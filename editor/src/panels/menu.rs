@@ -1,7 +1,7 @@
 //! The menu bar.
 
 use super::commands::{self, Category, Id};
-use super::settings::{SCALES, ThemeChoice};
+use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::state::{Request, State};
 use super::style::{self, GRID};
 use super::theme::Theme;
@@ -142,6 +142,9 @@ fn view(
         item(ui, state, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
         item(ui, state, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
     });
+    let hand = &state.settings.hand;
+    item(ui, state, Id::TogglePath, hand.path, requests);
+    ui.menu_button("Ghosts", |ui| ghosts(ui, state, requests));
     ui.menu_button("Shading", |ui| {
         item(ui, state, Id::ShadeMaterial, look.shading == Shading::Material, requests);
         item(ui, state, Id::ShadeClay, look.shading == Shading::Clay, requests);
@@ -169,5 +172,27 @@ fn view(
     item(ui, state, Id::FullScreen, state.full_screen, requests);
     if matches!(state.device, super::state::Device::Paused { .. }) {
         item(ui, state, Id::RetryDevice, false, requests);
+    }
+}
+
+/// How the skeleton is shown before and after.
+fn ghosts(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let mut ghosts = state.settings.hand.ghosts;
+    item(ui, state, Id::ToggleGhosts, ghosts.shown, requests);
+    let number = |ui: &mut Ui, title: &str, value: &mut u32, range: std::ops::RangeInclusive<u32>| {
+        ui.horizontal(|ui| {
+            let field = ui.add(egui::DragValue::new(value).range(range).speed(0.1));
+            let label = ui.label(title);
+            field.labelled_by(label.id);
+        });
+    };
+    number(ui, "before", &mut ghosts.count[0], 0..=GhostSettings::MOST[0]);
+    number(ui, "after", &mut ghosts.count[1], 0..=GhostSettings::MOST[0]);
+    ui.add_enabled_ui(!ghosts.keys, |ui| {
+        number(ui, "frames apart", &mut ghosts.step, 1..=GhostSettings::MOST[1]);
+    });
+    ui.checkbox(&mut ghosts.keys, "at keys");
+    if ghosts != state.settings.hand.ghosts {
+        requests.push(Request::Ghosts(ghosts));
     }
 }

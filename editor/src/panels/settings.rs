@@ -64,11 +64,54 @@ pub struct HandSettings {
     pub pivot: Pivot,
     /// Does every bone of a selected chain turn by the whole amount?
     pub curl: bool,
+    /// The skeleton before and after.
+    pub ghosts: GhostSettings,
+    /// Is the motion path of the selected bone shown?
+    pub path: bool,
+}
+
+/// How the skeleton is shown at other times than the one shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct GhostSettings {
+    /// Is it?
+    pub shown: bool,
+    /// How many before, and after.
+    pub count: [u32; 2],
+    /// Frames from one to the next.
+    pub step: u32,
+    /// At keys of the selected bone (or of all), in place of frames.
+    pub keys: bool,
+}
+
+impl Default for GhostSettings {
+    fn default() -> Self {
+        Self { shown: false, count: [3, 3], step: 2, keys: false }
+    }
+}
+
+impl GhostSettings {
+    /// Most ghosts on either side, and most frames between two.
+    pub const MOST: [u32; 2] = [10, 60];
+
+    /// The nearest right numbers.
+    pub fn mended(mut self) -> Self {
+        self.count = self.count.map(|count| count.min(Self::MOST[0]));
+        self.step = self.step.clamp(1, Self::MOST[1]);
+        self
+    }
 }
 
 impl Default for HandSettings {
     fn default() -> Self {
-        Self { tool: Some(Tool::Rotate), space: Space::default(), pivot: Pivot::default(), curl: false }
+        Self {
+            tool: Some(Tool::Rotate),
+            space: Space::default(),
+            pivot: Pivot::default(),
+            curl: false,
+            ghosts: GhostSettings::default(),
+            path: false,
+        }
     }
 }
 
@@ -150,6 +193,7 @@ impl Settings {
         if !FRAME_RATES.contains(&self.frame_rate) {
             self.frame_rate = 30;
         }
+        self.hand.ghosts = self.hand.ghosts.mended();
         self.recent.truncate(RECENT);
         self
     }

@@ -4,7 +4,7 @@ use super::digest::Digest;
 use super::hands::{Hold, Trail};
 use super::keys::{Keys, KeysRequest};
 use super::saving::{Deed, Question};
-use super::settings::Settings;
+use super::settings::{GhostSettings, Settings};
 use super::status::Status;
 use crate::camera::Camera;
 use crate::control::Hands;
@@ -107,6 +107,8 @@ pub enum Request {
     Viewport(egui::Rect),
     /// Tools that lie over the picture, in points.
     Shields(Vec<egui::Rect>),
+    /// How ghosts are shown.
+    Ghosts(GhostSettings),
     /// The wheel was turned over the picture: points, positive is nearer.
     Wheel(f32),
     /// The pointer is here over the picture, in points, and does nothing else; or it is not.
@@ -354,13 +356,12 @@ impl State {
             self.posed.update(view, self.playback.take, self.playback.time_at(now));
         }
         self.grasp();
+        self.follow_path();
     }
 
     /// Shows another document: its first take, playing from the start.
     pub fn show(&mut self, view: View) {
         let fresh = self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.loaded, &view.loaded));
-        self.view = Some(view);
-        let fresh = self.view.as_ref().is_none_or(|old| !std::sync::Arc::ptr_eq(&old.loaded, &view.loaded));
         let before = self.view.replace(view);
         if !fresh {
             self.follow_take(before.as_ref().map_or(&[], |view| &view.slots));

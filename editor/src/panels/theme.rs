@@ -134,11 +134,17 @@ impl Theme {
         if self.dark { Color32::from_rgb(20, 24, 25) } else { Color32::from_rgb(255, 255, 255) }
     }
 
-    /// Handles of a gizmo: along x, y, z; in the plane of the picture; under the pointer; being dragged.
-    pub fn handles(&self) -> [Color32; 6] {
+    /// Handles of a gizmo: along x, y, z; in the plane of the picture; under the pointer; being dragged; and what was before
+    /// and comes after.
+    pub fn handles(&self) -> [Color32; 8] {
         let [x, y, z] = self.axes;
         let hot = if self.dark { Color32::from_rgb(255, 226, 138) } else { Color32::from_rgb(214, 132, 0) };
-        [x, y, z, self.key, hot, hot]
+        let (past, future) = if self.dark {
+            (Color32::from_rgb(236, 138, 112), Color32::from_rgb(104, 196, 204))
+        } else {
+            (Color32::from_rgb(186, 78, 52), Color32::from_rgb(20, 120, 134))
+        };
+        [x, y, z, self.key, hot, hot, past, future]
     }
 
     /// The dark or the light one.

@@ -23,6 +23,10 @@ pub enum GizmoRole {
     Hover = 4,
     /// Being dragged.
     Active = 5,
+    /// What was before the time shown.
+    Past = 6,
+    /// What comes after it.
+    Future = 7,
 }
 
 impl GizmoRole {
@@ -70,6 +74,18 @@ impl GizmoShape {
     pub fn clear(&mut self) {
         self.lines.clear();
         self.triangles.clear();
+    }
+
+    /// A line from place to place, scene space; opacity 0 to 1.
+    pub fn add_line(&mut self, from: Vec3, to: Vec3, role: GizmoRole, opacity: f32) {
+        self.lines.extend([from, to].map(|position| GizmoVertex { position, role: role as u32, opacity }));
+    }
+
+    /// A square that stands on its corner, in the plane of the picture: `right` and `up` reach to its corners.
+    pub fn add_diamond(&mut self, at: Vec3, right: Vec3, up: Vec3, role: GizmoRole, opacity: f32) {
+        let [a, b, c, d] = [at + up, at + right, at - up, at - right];
+        let corner = |position| GizmoVertex { position, role: role as u32, opacity };
+        self.triangles.extend([a, b, c, a, c, d].map(corner));
     }
 
     /// All of another one too.

@@ -19,6 +19,7 @@ impl GraphicComponent for GizmoGraphic {
         match appearance {
             Appearance::Gizmo(look) => self.look = *look,
             Appearance::Drag(drag) => self.drag.clone_from(drag),
+            _ => return false,
         }
         true
     }

@@ -1,13 +1,17 @@
 //! What controls of the scene look like (thesis §3.2.9.2, §3.2.9.4): each is a component that hears of its appearance and
 //! presents itself with every frame, in the pose of that frame; one pass draws them all.
 
+mod ghosts;
 mod gizmo;
+mod path;
 
 use super::message::{Appearance, Look};
 use super::posed::PosedModel;
 use crate::camera::Camera;
 use crate::control::gizmo::GizmoShape;
+use ghosts::GhostsGraphic;
 use gizmo::GizmoGraphic;
+use path::PathGraphic;
 
 /// What a component may look at when it presents itself.
 pub struct Frame<'a> {
@@ -36,7 +40,13 @@ pub struct Controls {
 
 impl Default for Controls {
     fn default() -> Self {
-        Self { list: vec![Box::<GizmoGraphic>::default()], shape: GizmoShape::default() }
+        // The later over the earlier.
+        let list: Vec<Box<dyn GraphicComponent>> = vec![
+            Box::<GhostsGraphic>::default(),
+            Box::<PathGraphic>::default(),
+            Box::<GizmoGraphic>::default(),
+        ];
+        Self { list, shape: GizmoShape::default() }
     }
 }
 

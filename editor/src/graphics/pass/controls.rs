@@ -138,7 +138,7 @@ impl Pass for ControlRender {
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 struct Style {
     /// Linear RGB by role.
-    colors: [[f32; 4]; 6],
+    colors: [[f32; 4]; 8],
     /// Half the width of a line, pixels.
     half_width: f32,
     pad: [f32; 3],

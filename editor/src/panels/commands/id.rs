@@ -123,6 +123,8 @@ pub enum Id {
     ToggleCurl,
     BoxSelect,
     LassoSelect,
+    ToggleGhosts,
+    TogglePath,
     FrameSelected,
     FrameAll,
     ViewFront,

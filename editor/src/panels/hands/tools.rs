@@ -33,6 +33,8 @@ impl State {
             Id::PivotMedian => hand.pivot = Pivot::Median,
             Id::PivotActive => hand.pivot = Pivot::Active,
             Id::ToggleCurl => hand.curl = !hand.curl,
+            Id::ToggleGhosts => hand.ghosts.shown = !hand.ghosts.shown,
+            Id::TogglePath => hand.path = !hand.path,
             Id::BoxSelect => self.hands.picture_mut().arm(Catch::Box),
             Id::LassoSelect => self.hands.picture_mut().arm(Catch::Lasso),
             _ => {}

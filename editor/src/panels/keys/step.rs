@@ -10,7 +10,12 @@ const NEAR: f32 = 1e-4;
 impl State {
     /// The next key after the time shown, or the last before it: of the selected bones, or of all.
     pub(in crate::panels) fn key_beside(&self, forward: bool) -> Option<f32> {
-        let (take, now) = (self.take()?, self.time());
+        self.key_beside_of(self.time(), forward)
+    }
+
+    /// The same, beside another time than the one shown.
+    pub(in crate::panels) fn key_beside_of(&self, now: f32, forward: bool) -> Option<f32> {
+        let take = self.take()?;
         let beside = |times: &[f32]| {
             if forward {
                 times.get(times.partition_point(|&key| key <= now + NEAR)).copied()

@@ -12,7 +12,7 @@ use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 /// Draws them; tells where they are. Not in a picture that is too low for them: keys and menus have them all.
 pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
     let hand = &state.settings.hand;
-    let height = 6.0 * 26.0 + 9.0 + 2.0 * GRID - 2.0;
+    let height = 8.0 * 26.0 + 2.0 * 9.0 + 2.0 * GRID - 2.0;
     let top = rect.top() + 52.0;
     if rect.bottom() - top < height + 90.0 || rect.width() < 240.0 {
         return None;
@@ -35,6 +35,9 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
     divider_across(ui);
     choice(ui, state, space_icon(hand.space), space_name(hand.space), &SPACES, requests);
     choice(ui, state, pivot_icon(hand.pivot), pivot_name(hand.pivot), &PIVOTS, requests);
+    divider_across(ui);
+    command_button(ui, Icon::Ghosts, Id::ToggleGhosts, hand.ghosts.shown, requests);
+    command_button(ui, Icon::Path, Id::TogglePath, hand.path, requests);
     Some(at)
 }
 

@@ -10,8 +10,8 @@ mod look;
 mod playback;
 mod pose;
 mod selection;
-mod tools;
 mod takes;
+mod tools;
 mod window;
 
 use super::{Category, Command, Id, When};

@@ -1,0 +1,233 @@
+//! From a move of the mouse to the graphics thread having the new pose: `cargo bench -p dragonfly --bench drag`.
+//!
+//! The three threads are those of the program, and so is what happens in them: the window's event is heard, the pose is
+//! computed and becomes an edit, the document does it and shows its state, the scene takes it and is computed for it. What
+//! follows is drawing. The end of the way is read from the runtime's trace of the graphics thread.
+
+use dragonfly::document::{
+    Cancel, Document, DocumentReply, LoadError, LoadedModel, Opened, Progress, Setup, Source, View,
+    open_model,
+};
+use dragonfly::graphics::Look;
+use dragonfly::graphics::scene::Scene;
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::{Effect, Request, Settings, State, hands};
+use dragonfly_anim::bounds::bounds_of_pose;
+use dragonfly_anim::data::{
+    AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
+};
+use dragonfly_runtime::{Address, Context, Event, Receiver, Record, Thread, TraceSnapshot};
+use glam::{Mat4, Quat, Vec3};
+use std::cell::RefCell;
+use std::path::Path;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Moves of the mouse that are measured.
+const MOVES: usize = 2000;
+/// Between two moves: an ordinary mouse.
+const PAUSE: Duration = Duration::from_millis(4);
+/// What may be, at the 99th percentile.
+const LIMIT: Duration = Duration::from_millis(4);
+
+fn main() {
+    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    let cases: [(&str, Load, &str); 2] =
+        [("editor/drag/fox", fox, "b_Head_05"), ("editor/drag/thousand_bones", thousand, "bone 500")];
+    let mut late = false;
+    for (name, load, bone) in cases {
+        if wanted.as_deref().is_none_or(|part| name.contains(part)) {
+            late |= measure(name, load, bone) > LIMIT;
+        }
+    }
+    std::process::exit(i32::from(late));
+}
+
+type Load = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
+
+fn fox(_: &Source, tell: &mut dyn FnMut(Progress), cancel: &Cancel) -> Result<Opened, LoadError> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/gltf/Fox.glb");
+    open_model(&Source::File(path), tell, cancel)
+}
+
+/// A tree of a thousand bones, each with two keys a frame for two seconds.
+fn thousand(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+    let bone = |index: u32| Bone {
+        name: format!("bone {index}"),
+        parent: index.checked_sub(1).map(|before| before / 2),
+        rest: Transform { translation: Vec3::new((index % 2) as f32 - 0.5, 1.0, 0.1), ..Transform::IDENTITY },
+        rest_matrix: None,
+        offset: Mat4::IDENTITY,
+        node: None,
+    };
+    let times: Arc<[f32]> = (0..121).map(|key| key as f32 / 60.0).collect();
+    let track = |bone: u32| {
+        let turn = |time: &f32| Quat::from_rotation_z((time * 3.0 + bone as f32).sin() * 0.2);
+        let values = times.iter().map(turn).collect::<Vec<_>>();
+        Track {
+            bone,
+            rotation: Channel::new(Arc::clone(&times), values, Interpolation::Linear),
+            ..Track::default()
+        }
+    };
+    let tracks = (0..1000).map(track).collect();
+    let take = Take { name: "Sway".to_owned(), start: 0.0, length: 2.0, tracks, morphs: Vec::new() };
+    let skeleton = Arc::new(Skeleton { bones: (0..1000).map(bone).collect() });
+    let model = Arc::new(ModelData {
+        animation: AnimationData { skeleton, takes: vec![Arc::new(take)] },
+        ..ModelData::default()
+    });
+    Ok(LoadedModel {
+        bounds: bounds_of_pose(&model, None, 0.0),
+        title: "Thousand".to_owned(),
+        path: None,
+        format: "code".to_owned(),
+        model,
+        images: Vec::new(),
+        warnings: Vec::new(),
+    }
+    .into())
+}
+
+/// What the graphics thread does before it draws.
+struct Picture(Scene);
+
+impl Receiver for Picture {
+    type Message = View;
+
+    fn receive(&mut self, view: View, thread: &mut Context) {
+        self.0.show(&view);
+        self.0.prepare(thread.now());
+    }
+
+    fn name(&self) -> &str {
+        "picture"
+    }
+}
+
+#[derive(Clone, Default)]
+struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+
+impl Receiver for Heard {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
+        self.0.borrow_mut().push(reply);
+    }
+}
+
+struct Traces(Rc<RefCell<Option<TraceSnapshot>>>);
+
+impl Receiver for Traces {
+    type Message = TraceSnapshot;
+
+    fn receive(&mut self, trace: TraceSnapshot, _: &mut Context) {
+        *self.0.borrow_mut() = Some(trace);
+    }
+}
+
+/// Measures a drag; tells the 99th percentile.
+fn measure(name: &str, load: Load, bone: &str) -> Duration {
+    let heard = Heard::default();
+    let traced = Rc::new(RefCell::new(None));
+    let mut main = Thread::capture("main", || {});
+    let graphics = Thread::start("graphics").expect("a thread");
+    let replies = main.context().register_receiver(heard.clone());
+    let traces: Address<TraceSnapshot> = main.context().register_receiver(Traces(Rc::clone(&traced)));
+    let pictures = graphics.handle().reserve_address();
+    let own = pictures.clone();
+    graphics
+        .handle()
+        .run(move |context: &mut Context| {
+            let mut scene = Scene::new(Instant::now());
+            scene.look = Look { viewport: [0, 0, 1280, 720], skeleton: true, ..Look::default() };
+            context.register_receiver_at(&own, Picture(scene));
+            context.set_trace(MOVES * 8);
+        })
+        .expect("it runs");
+    let document =
+        Document::start_with(Setup { load, ..Setup::default() }, replies, pictures).expect("a thread");
+    let mut state = State::new(Settings::default(), Instant::now());
+    let rect = egui::Rect::from_min_size(egui::pos2(240.0, 30.0), egui::vec2(800.0, 500.0));
+    state.execute(Request::Viewport(rect));
+    document.open(Source::BuiltIn);
+    let mut turn = |state: &mut State| {
+        main.iterate();
+        let mut came = 0;
+        for reply in heard.0.take() {
+            match reply {
+                DocumentReply::View(view) => {
+                    state.show(view);
+                    came += 1;
+                }
+                DocumentReply::Refused(reason) | DocumentReply::Failed { reason, .. } => panic!("{reason}"),
+                _ => {}
+            }
+        }
+        came
+    };
+    while turn(&mut state) == 0 {
+        std::thread::park_timeout(Duration::from_millis(1));
+    }
+    let bones = &state.loaded().expect("open").model.animation.skeleton.bones;
+    let bone = bones.iter().position(|other| other.name == bone).expect("there is such a bone");
+    state.playback.playing = false;
+    state.select(Some(bone as u32));
+    state.begin(Instant::now());
+    state.execute(Request::Command(Id::RotateNow));
+
+    let context = egui::Context::default();
+    let mut effects = Vec::new();
+    let mut moved = Vec::with_capacity(MOVES);
+    for index in 0..MOVES {
+        let (sin, cos) = (index as f32 * 0.03).sin_cos();
+        let at = rect.center() + egui::vec2(cos, sin) * 150.0;
+        let mut input = egui::RawInput { events: vec![egui::Event::PointerMoved(at)], ..Default::default() };
+        moved.push(Instant::now());
+        hands::feed(&context, &mut state, &mut input, 0, &mut effects);
+        for effect in effects.drain(..) {
+            if let Effect::Change(change) = effect {
+                document.change(change);
+            }
+        }
+        // The next move only when this one went all the way, so that each has a state of its own.
+        while turn(&mut state) == 0 {
+            std::hint::spin_loop();
+        }
+        // The panels are drawn meanwhile in the program; here the hands find out where the bone is now.
+        state.begin(Instant::now());
+        let end = moved[index] + PAUSE;
+        while let Some(left) = end.checked_duration_since(Instant::now()) {
+            std::thread::park_timeout(left);
+        }
+    }
+    graphics.handle().request_trace(&traces);
+    while traced.borrow().is_none() {
+        turn(&mut state);
+    }
+    let trace = traced.borrow_mut().take().expect("told");
+    let ends: Vec<Instant> = trace.records.iter().filter_map(arrived).collect();
+    assert!(ends.len() >= MOVES, "{} views came for {MOVES} moves", ends.len());
+    let ways = moved.iter().zip(&ends[ends.len() - MOVES..]);
+    let mut took: Vec<Duration> = ways.map(|(from, to)| to.saturating_duration_since(*from)).collect();
+    took.sort_unstable();
+    let at = |share: usize| took[(took.len() * share / 100).min(took.len() - 1)];
+    let show = |time: Duration| time.as_secs_f64() * 1000.0;
+    println!(
+        "{name:<32} median {:.3} ms   p99 {:.3} ms   worst {:.3} ms   of {MOVES} moves",
+        show(at(50)),
+        show(at(99)),
+        show(at(100)),
+    );
+    document.stop();
+    at(99)
+}
+
+/// When a view was taken and the scene computed for it.
+fn arrived(record: &Record) -> Option<Instant> {
+    match &record.event {
+        Event::Message { to, .. } if &**to == "picture" => Some(record.at + record.took),
+        _ => None,
+    }
+}

@@ -1,0 +1,100 @@
+//! The motion path of the selected bone, its keys that can be dragged, and ghosts.
+
+use crate::arm;
+use crate::hands_rig::{Hand, PICTURE};
+use dragonfly::control::Key;
+use dragonfly::control::gizmo::GizmoView;
+use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
+use dragonfly::panels::Request;
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::settings::GhostSettings;
+use glam::{Vec2, Vec3};
+use std::sync::Arc;
+
+fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+    Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
+}
+
+/// The tip of the arm is selected, and its path shown.
+fn tip() -> Hand {
+    let mut hand = Hand::new(load);
+    hand.state.select(Some(2));
+    hand.command(Id::TogglePath);
+    hand
+}
+
+/// Where in the window a place of the scene is.
+fn seen(hand: &Hand, place: Vec3) -> Vec2 {
+    let view = GizmoView::new(&hand.state.camera, Vec2::new(PICTURE[2], PICTURE[3]));
+    view.to_screen(place.as_dvec3()).expect("before the eye").as_vec2() + Vec2::new(PICTURE[0], PICTURE[1])
+}
+
+#[test]
+fn the_path_goes_where_the_joint_goes() {
+    let mut hand = tip();
+    let path = Arc::clone(hand.state.trail.look().expect("a path"));
+    assert_eq!(path.points.len(), 31, "a second at 30 frames");
+    for &(time, place) in path.points.iter().chain(&path.keys) {
+        hand.state.execute(Request::Seek(time));
+        hand.state.begin(hand.state.now);
+        let joint = hand.state.posed.animation().expect("posed").to_root()[2].w_axis.truncate();
+        assert!(joint.distance(place) < 1e-4, "at {time}: {place} is not {joint}");
+    }
+    let travelled: f32 = path.points.windows(2).map(|pair| pair[0].1.distance(pair[1].1)).sum();
+    assert!(travelled > 0.1, "it moves: {travelled}");
+    hand.command(Id::TogglePath);
+    assert!(hand.state.trail.look().is_none());
+}
+
+#[test]
+fn a_key_of_the_path_is_put_under_the_pointer_in_one_step() {
+    let mut hand = tip();
+    let (time, place) = *hand.state.trail.look().expect("a path").keys.last().expect("a key");
+    let from = seen(&hand, place);
+    let to = from + Vec2::new(37.0, -21.0);
+    hand.press(from);
+    assert!(hand.state.hands.edits());
+    hand.to(from + Vec2::new(10.0, 0.0));
+    hand.to(to);
+    hand.release();
+    assert!(hand.refused.is_empty(), "{:?}", hand.refused);
+    assert_eq!(hand.steps(), ["Move"]);
+    let keys = &hand.state.trail.look().expect("a path").keys;
+    let now = keys.iter().find(|key| key.0 == time).expect("the key is there").1;
+    assert!(seen(&hand, now).distance(to) < 0.1, "{} is not {to}", seen(&hand, now));
+    hand.command(Id::Undo);
+    let keys = &hand.state.trail.look().expect("a path").keys;
+    let now = keys.iter().find(|key| key.0 == time).expect("the key is there").1;
+    assert!(now.distance(place) < 1e-5);
+    // Escape takes a drag back.
+    hand.press(from);
+    hand.to(to);
+    assert_eq!(hand.steps(), ["Move"]);
+    hand.key(Key::Escape);
+    hand.release();
+    assert!(hand.steps().is_empty());
+}
+
+#[test]
+fn ghosts_stand_as_many_steps_before_and_after_as_the_take_has_room_for() {
+    let mut hand = tip();
+    hand.command(Id::ToggleGhosts);
+    let ghosts = GhostSettings { shown: true, count: [2, 3], step: 6, keys: false };
+    hand.state.execute(Request::Ghosts(ghosts));
+    hand.state.execute(Request::Seek(0.5));
+    hand.state.begin(hand.state.now);
+    let mut times = Vec::new();
+    hand.state.ghost_times(&mut times);
+    let places: Vec<i32> = times.iter().map(|time| time.1).collect();
+    assert_eq!(places, [-1, -2, 1, 2]);
+    for (time, place) in &times {
+        assert!((time - (0.5 + *place as f32 * 0.2)).abs() < 1e-4, "{time} {place}");
+    }
+    hand.command(Id::PlayPause);
+    hand.state.ghost_times(&mut times);
+    assert!(times.is_empty(), "not while time passes");
+    let odd = GhostSettings { count: [9999, 0], step: 0, ..ghosts };
+    hand.state.execute(Request::Ghosts(odd));
+    assert_eq!(hand.state.settings.hand.ghosts.count, [GhostSettings::MOST[0], 0]);
+    assert_eq!(hand.state.settings.hand.ghosts.step, 1);
+}
