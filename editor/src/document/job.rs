@@ -10,7 +10,7 @@ pub(super) enum JobNews {
     /// It goes on.
     Progress(Progress),
     /// It is over.
-    Done(Result<Opened, LoadError>),
+    Done(Result<Box<Opened>, LoadError>),
 }
 
 /// A model being loaded. Dropping it cancels the job and lets it end by itself.
@@ -40,7 +40,7 @@ impl LoadJob {
             };
             // Nothing of a failed job is kept, so nothing half done can be seen.
             let loaded = catch_unwind(AssertUnwindSafe(|| load(&source, &mut progress, &seen)));
-            tell(JobNews::Done(loaded.unwrap_or_else(|panic| {
+            tell(JobNews::Done(loaded.map(|loaded| loaded.map(Box::new)).unwrap_or_else(|panic| {
                 let reason = format!("the importer failed: {}", panic_text(&*panic));
                 Err(LoadError::Format { title, reason })
             })));

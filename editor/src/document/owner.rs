@@ -48,7 +48,7 @@ pub enum DocumentMessage {
 
 /// What a job says, opaque to others.
 #[derive(Debug)]
-pub struct NewsBox(JobNews);
+pub struct NewsBox(Box<JobNews>);
 
 /// What was found, opaque to others.
 #[derive(Debug)]
@@ -257,7 +257,7 @@ impl Document {
         let (ticket, own) = (self.tickets, self.own.clone());
         let tell = move |news| {
             // A document that has stopped does not want it any more.
-            let _ = own.send(DocumentMessage::News(ticket, NewsBox(news)));
+            let _ = own.send(DocumentMessage::News(ticket, NewsBox(Box::new(news))));
         };
         match LoadJob::start(source.clone(), self.load, tell) {
             Ok(job) => self.job = Some(Running { _job: job, ticket, source, offer }),
@@ -281,7 +281,7 @@ impl Document {
             }
             JobNews::Done(Ok(opened)) => {
                 self.close();
-                let open = Open::new(opened, self.autosave.clone());
+                let open = Open::new(*opened, self.autosave.clone());
                 let loaded = Arc::clone(&open.loaded);
                 self.open = Some(open);
                 self.reply(DocumentReply::Opened(loaded));
@@ -437,7 +437,7 @@ impl Receiver for Shared {
                 document.search();
             }
             DocumentMessage::Decide(offer, decision) => document.decide(*offer, decision),
-            DocumentMessage::News(ticket, NewsBox(news)) => document.hear(ticket, news),
+            DocumentMessage::News(ticket, NewsBox(news)) => document.hear(ticket, *news),
             DocumentMessage::Found(ScanBox(scan)) => document.offer(scan),
         }
     }
