@@ -16,6 +16,7 @@ mod device_loss;
 mod documents;
 mod drag;
 mod edit_command;
+mod edit_cost;
 mod edits;
 mod explain;
 mod faults;

@@ -207,6 +207,69 @@ fn all_edits_of_a_gesture_are_one_step_and_each_begins_where_the_gesture_began()
 }
 
 #[test]
+fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
+    let first = seed(930);
+    for number in first..first + 300 {
+        let mut random = Random::new(number);
+        let mut edited = Edited::new(ModelAdapter::new(&animation(&mut random)));
+        for _ in 0..random.below(4) {
+            let bones = BONES.map(|name| BoneRef::Name(name.to_owned()));
+            let edit = any_edit(&mut random, edited.adapter().slots().len(), &bones);
+            let _ = edited.apply(edit, None);
+        }
+        let start = edited.clone();
+        let take = TakeRef::Index(random.below(edited.adapter().slots().len()));
+        let time = random.choice(&[0.0, 0.125, 0.3, 0.41, 1.3]);
+        let names: Vec<&str> = BONES.into_iter().filter(|_| random.below(2) == 0).collect();
+        let parts: Vec<[bool; 3]> = names.iter().map(|_| [0; 3].map(|_| random.below(2) == 0)).collect();
+        let offset = random.below(3) == 0;
+        let mut shown = Vec::new();
+        for _ in 0..random.below(12) {
+            let three = |random: &mut Random| [0; 3].map(|_| random.between(-2.0, 2.0));
+            let poses: Vec<BonePose> = names
+                .iter()
+                .zip(&parts)
+                .map(|(name, parts)| BonePose {
+                    translation: parts[0].then(|| three(&mut random)),
+                    rotation: parts[1].then(|| [0; 4].map(|_| random.between(-1.0, 1.0))),
+                    scale: parts[2].then(|| three(&mut random)),
+                    ..pose(name)
+                })
+                .collect();
+            let take = take.clone();
+            let edit =
+                if offset { Edit::Offset { take, time, poses } } else { Edit::Set { take, time, poses } };
+            let mut alone = start.clone();
+            let before = edited.adapter().clone();
+            let done = edited.apply(edit.clone(), Some(Gesture(5)));
+            assert_eq!(done, alone.apply(edit, Some(Gesture(5))), "seed {number}");
+            let wanted = if done.is_ok() { alone.adapter() } else { &before };
+            assert!(same(wanted, edited.adapter()), "seed {number}");
+            assert_eq!(edited.adapter().check(), Ok(()), "seed {number}");
+            drop((before, alone));
+            // What is still shown stays as it was.
+            let now = edited.adapter().slots().to_vec();
+            let looks: Vec<Slot> = now.iter().map(|slot| Slot::clone(slot)).collect();
+            shown.push((now, looks));
+            if random.below(3) == 0 {
+                shown.clear();
+            }
+            for (slots, looks) in &shown {
+                assert!(slots.iter().zip(looks).all(|(slot, look)| same_slot(slot, look)), "seed {number}");
+            }
+        }
+        let end = edited.adapter().clone();
+        let steps = edited.steps().1;
+        if steps > start.steps().1 {
+            edited.undo();
+            assert!(same(start.adapter(), edited.adapter()), "seed {number}: undo");
+            edited.redo();
+            assert!(same(&end, edited.adapter()), "seed {number}: redo");
+        }
+    }
+}
+
+#[test]
 fn a_document_knows_whether_it_is_as_it_was_saved() {
     let mut edited = Edited::new(model(16));
     let name = |name: &str| Edit::RenameTake { take: TakeRef::Index(0), name: name.to_owned() };

@@ -1,7 +1,7 @@
 //! Undo and redo of everything, as a list in which one can go to any place.
 
 use super::about::about;
-use super::adapter::{EditError, Inverse, ModelAdapter};
+use super::adapter::{Drag, EditError, Inverse, ModelAdapter};
 use super::edit::Edit;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -43,12 +43,14 @@ pub struct Edited {
     bytes: usize,
     /// Were steps forgotten because there were too many?
     cut: bool,
+    /// Where the last step is a pose that may still be dragged.
+    drag: Option<Drag>,
 }
 
 impl Edited {
     /// Takes to which nothing was done yet.
     pub fn new(adapter: ModelAdapter) -> Self {
-        Self { adapter, steps: VecDeque::new(), done: 0, saved: Some(0), bytes: 0, cut: false }
+        Self { adapter, steps: VecDeque::new(), done: 0, saved: Some(0), bytes: 0, cut: false, drag: None }
     }
 
     /// The takes as they are now.
@@ -73,6 +75,18 @@ impl Edited {
         let goes_on = gesture.is_some()
             && self.done == self.steps.len()
             && self.steps.back().is_some_and(|step| step.gesture == gesture);
+        if goes_on
+            && let Some(drag) = &mut self.drag
+            && let Some(done) = drag.amend(&mut self.adapter, &edit)
+        {
+            done?;
+            if let Some(step) = self.steps.back_mut() {
+                step.edit = edit;
+            }
+            // As it was saved it is not any more.
+            self.saved = self.saved.filter(|&saved| saved < self.done);
+            return Ok(());
+        }
         let mut adapter = self.adapter.clone();
         if goes_on && let Some(step) = self.steps.back() {
             adapter.revert(step.inverse.clone());
@@ -88,6 +102,7 @@ impl Edited {
         if self.saved.is_some_and(|saved| saved > self.steps.len()) {
             self.saved = None;
         }
+        self.drag = gesture.and_then(|_| Drag::of(&self.adapter, &edit, &inverse));
         let bytes = inverse.bytes();
         self.bytes += bytes;
         self.steps.push_back(Step { edit, gesture, about, inverse, bytes });
@@ -122,6 +137,7 @@ impl Edited {
         if done > self.steps.len() {
             return false;
         }
+        self.drag = None;
         while self.done != done {
             let at = if done < self.done { self.done - 1 } else { self.done };
             let step = &mut self.steps[at];

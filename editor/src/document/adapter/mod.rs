@@ -18,6 +18,7 @@
 
 mod change;
 mod check;
+mod drag;
 mod error;
 mod kind;
 mod op;
@@ -28,6 +29,7 @@ mod times;
 
 pub use change::KeyChange;
 pub use check::Broken;
+pub(in crate::document) use drag::Drag;
 pub use error::EditError;
 pub use kind::Numbers;
 pub use pending::{Pending, PendingAt, PendingPose};

@@ -284,10 +284,14 @@ fn refresh<K: Kind>(
     // Only the keys that were touched differ from the last result, if there is one of its own.
     let (mut values, keys): (Arc<[K::Value]>, Vec<u32>) = match touched {
         Some(touched) if !Arc::ptr_eq(&result.values, &original.values) => {
-            (Arc::from(&*result.values), touched.iter().map(|(key, _)| *key).collect())
+            // A column that nobody else has is written over.
+            (std::mem::take(&mut result.values), touched.iter().map(|(key, _)| *key).collect())
         }
         _ => (Arc::from(&*original.values), changes.iter().map(|(key, _)| *key).collect()),
     };
+    if Arc::get_mut(&mut values).is_none() {
+        values = Arc::from(&*values);
+    }
     if let Some(values) = Arc::get_mut(&mut values) {
         for key in keys {
             let as_read = triple::<K>(&original, key as usize);

@@ -13,6 +13,8 @@ mod spline;
 mod takes;
 mod timing;
 
+pub(super) use pose::{Way, changed, rotation, vector};
+
 use super::kind::{Held, Kind};
 use super::op::{Op, Place};
 use super::slot::{Content, Slot, TakeId, key_at};

@@ -3,6 +3,7 @@
 use super::super::change::KeyChange;
 use super::super::kind::{Kind, Numbers, Rotation, Scale, Translation, with_kind};
 use super::super::op::{Op, Place};
+use super::super::slot::Key;
 use super::keys::insert;
 use super::pending::overwritten;
 use super::{EditError, Named, Work, finite, key_at, key_time, rest};
@@ -60,8 +61,8 @@ fn to_rest<K: Kind>(work: &mut Work, place: Place, key: usize) -> Result<(), Edi
 }
 
 /// What becomes of the value that is there.
-#[derive(Clone, Copy)]
-pub(super) enum Way {
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) enum Way {
     Set,
     Offset,
 }
@@ -124,20 +125,30 @@ fn change_key<K: Kind>(
 ) -> Result<(), EditError> {
     let found = work.slot(place.take).key::<K>(place.property, place.bone, key);
     let Some(found) = found else { return Ok(()) };
+    let change = changed::<K>(place.bone, &found, wanted)?;
+    work.perform(Op::Changes(place, vec![(key as u32, change)]));
+    Ok(())
+}
+
+/// The change that gives a key another value, and nothing else; none where it is the original then.
+pub(in super::super) fn changed<K: Kind>(
+    bone: u32,
+    found: &Key,
+    wanted: impl FnOnce(K::Value) -> K::Value,
+) -> Result<Option<KeyChange>, EditError> {
     let now = found.change.map_or(found.original, |change| change.result::<K>(&found.original))[1];
     let wanted = near::<K>(wanted(K::value(now)), now);
     let original = K::value(found.original[1]);
     let value = if wanted == original {
         K::IDENTITY
     } else {
-        K::change(original, wanted).ok_or(EditError::ZeroScale { bone: place.bone })?
+        K::change(original, wanted).ok_or(EditError::ZeroScale { bone })?
     };
     let change = KeyChange { value, ..found.change.unwrap_or(KeyChange::identity::<K>()) };
     let result = change.result::<K>(&found.original);
     let largest = result.iter().flatten().fold(0.0_f32, |largest, number| largest.max(number.abs()));
     finite("the result", largest)?;
-    work.perform(Op::Changes(place, vec![(key as u32, change.some::<K>())]));
-    Ok(())
+    Ok(change.some::<K>())
 }
 
 /// q and -q are the same rotation; the one that keeps a spline from turning the long way.
@@ -148,14 +159,14 @@ fn near<K: Kind>(wanted: K::Value, now: Numbers) -> K::Value {
     if turn && dot < 0.0 { K::value(numbers.map(|number| -number)) } else { wanted }
 }
 
-pub(super) fn vector(what: &'static str, numbers: [f32; 3]) -> Result<Vec3, EditError> {
+pub(in super::super) fn vector(what: &'static str, numbers: [f32; 3]) -> Result<Vec3, EditError> {
     for number in numbers {
         finite(what, number)?;
     }
     Ok(Vec3::from_array(numbers))
 }
 
-pub(super) fn rotation(numbers: [f32; 4]) -> Result<Quat, EditError> {
+pub(in super::super) fn rotation(numbers: [f32; 4]) -> Result<Quat, EditError> {
     for number in numbers {
         finite("a rotation", number)?;
     }
