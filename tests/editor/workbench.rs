@@ -91,17 +91,23 @@ impl Workbench {
     pub(crate) fn change(&mut self, change: Change) {
         self.changes.push(change.clone());
         let (Some(edited), Some(view)) = (&mut self.edited, self.state.view.clone()) else { return };
-        let done = match change {
-            Change::Edit(edit, gesture) => edited.apply(edit, gesture),
-            Change::Cancel(gesture) => Ok(drop(edited.cancel(gesture))),
-            Change::Undo => Ok(drop(edited.undo())),
-            Change::Redo => Ok(drop(edited.redo())),
-            Change::GoTo(done) => Ok(drop(edited.go_to(done))),
-            Change::Release(_) => Ok(edited.end_gesture()),
+        let _there_was_something_to_do = match change {
+            Change::Edit(edit, gesture) => match edited.apply(edit, gesture) {
+                Ok(()) => true,
+                Err(error) => {
+                    self.refused.push(error.to_string());
+                    false
+                }
+            },
+            Change::Cancel(gesture) => edited.cancel(gesture),
+            Change::Undo => edited.undo(),
+            Change::Redo => edited.redo(),
+            Change::GoTo(done) => edited.go_to(done),
+            Change::Release(_) => {
+                edited.end_gesture();
+                true
+            }
         };
-        if let Err(error) = done {
-            self.refused.push(error.to_string());
-        }
         assert_eq!(edited.adapter().check(), Ok(()));
         let history = Arc::new(HistoryView::of(edited));
         let adapter = edited.adapter();

@@ -46,11 +46,7 @@ pub(super) fn at_time(state: &State, property: Property) -> Keyed {
 }
 
 fn is_pending(state: &State, bone: BoneIndex, property: Property) -> bool {
-    state.pending_here().and_then(|at| at.of(bone)).is_some_and(|pose| match property {
-        Property::Translation => pose.translation.is_some(),
-        Property::Rotation => pose.rotation.is_some(),
-        Property::Scale => pose.scale.is_some(),
-    })
+    state.pending_here().and_then(|at| at.of(bone)).and_then(|pose| pose.get(property)).is_some()
 }
 
 fn of(state: &State, bone: BoneIndex, property: Property) -> Keyed {
