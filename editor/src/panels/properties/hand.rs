@@ -186,11 +186,10 @@ impl Hand {
                 self.drag(state, spot, component, by, requests);
             }
             Heard::Released => {
-                if let Some(held) = self.held.take()
-                    && held.by == 0.0
-                    && !held.over
-                {
-                    requests.push(Request::Change(Change::Cancel(held.gesture)));
+                if let Some(held) = self.held.take() {
+                    let came_back = held.by == 0.0 && !held.over;
+                    let end = if came_back { Change::Cancel } else { Change::Release };
+                    requests.push(Request::Change(end(held.gesture)));
                 }
             }
             Heard::Cancelled => {

@@ -117,7 +117,11 @@ impl Times {
                     requests.push(Request::Change(Change::Cancel(gesture)));
                 }
             }
-            Heard::Released => self.held = None,
+            Heard::Released => {
+                if let Some((gesture, _)) = self.held.take() {
+                    requests.push(Request::Change(Change::Release(gesture)));
+                }
+            }
             Heard::Nothing | Heard::Touched => {}
         }
     }
