@@ -61,6 +61,7 @@ mod paste;
 mod pending;
 mod picking;
 mod picking_many;
+mod picking_scene;
 mod picking_skin;
 mod picture;
 mod playback;

@@ -22,6 +22,7 @@ pub mod number_slider;
 pub mod number_text;
 pub mod overlays;
 mod pose_commands;
+mod posed;
 mod posing;
 pub mod properties;
 pub mod ruler;

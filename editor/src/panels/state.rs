@@ -4,6 +4,7 @@ use super::digest::Digest;
 use super::hands::{Hold, Trail};
 use super::keys::{Keys, KeysRequest};
 use super::saving::{Deed, Question};
+pub use super::posed::Posed;
 use super::settings::{GhostSettings, Settings};
 use super::status::Status;
 use crate::camera::Camera;
