@@ -43,7 +43,10 @@ pub(crate) fn skeleton(spine: u32) -> Skeleton {
 
 /// A take that turns every bone, with `keys` keys a bone.
 pub(crate) fn take(name: &str, skeleton: &Skeleton, length: f32, keys: usize) -> Take {
-    let times: Arc<[f32]> = (0..keys).map(|key| key as f32 * length / (keys - 1).max(1) as f32).collect();
+    // The last one lies exactly at the end: start and length are those of the keys.
+    let last = keys.saturating_sub(1).max(1);
+    let times: Arc<[f32]> =
+        (0..keys).map(|key| if key == last { length } else { key as f32 * length / last as f32 }).collect();
     let tracks = (0..skeleton.len() as u32).map(|bone| {
         let turn = |time: &f32| Quat::from_rotation_z((time * 3.0 + bone as f32).sin() * 0.2);
         let rotation = Channel::new(

@@ -155,7 +155,9 @@ impl Columns {
 
     /// Marks the column of a place that was found from column `next` on; `None` behind the last.
     fn hit(&mut self, at: f64, next: usize, grid: Grid) -> Option<usize> {
-        if !(at < self.x.len() as f64) {
+        // Also `None` for what is no number.
+        let inside = at < self.x.len() as f64;
+        if !inside {
             return None;
         }
         // What rounding puts before the column that was asked for is in it.
