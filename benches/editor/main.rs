@@ -1,6 +1,7 @@
-//! What opening a model and editing it cost: `cargo bench -p dragonfly`.
+//! What opening a model and editing it cost, and what a frame of the panels does: `cargo bench -p dragonfly`.
 
 mod edits;
+mod timeline;
 
 use dragonfly::document::{Cancel, Source, load_model};
 use dragonfly_kit::bench::measure;
@@ -13,4 +14,5 @@ fn main() {
     measure("editor/document/open_the_built_in_model", 1, || {
         load_model(&Source::BuiltIn, &mut |_| {}, &Cancel::default()).expect("part of the program")
     });
+    timeline::all();
 }

@@ -1,44 +1,53 @@
 //! Poses of what is open, computed when somebody reads them.
 
-use crate::document::View;
+use crate::document::{LoadedModel, View};
 use dragonfly_anim::animation::Animation;
 use std::sync::Arc;
 
 /// Poses at the time shown, computed when somebody reads them.
 #[derive(Debug, Default)]
 pub struct Posed {
-    animation: Option<(u64, Animation)>,
-    at: Option<(Option<usize>, f32)>,
+    animation: Option<(Arc<LoadedModel>, u64, Animation)>,
+    at: Option<(Option<usize>, f32, bool)>,
+    /// Does time run? Then the keys are seen, and not what is pending.
+    pub(super) running: bool,
 }
 
 impl Posed {
-    /// The poses of `view` in `take` at `time`.
+    /// The poses of `view` in `take` at `time`, with what is pending there. Of the model that was posed last only the takes
+    /// are exchanged.
     pub fn update(&mut self, view: &View, take: Option<usize>, time: f32) -> &Animation {
-        let skeleton = &view.loaded.model.animation.skeleton;
-        let fits = |animation: &Animation| {
-            let data = animation.data();
-            Arc::ptr_eq(&data.skeleton, skeleton) && data.takes.len() == view.takes.len()
-        };
-        self.animation = self.animation.take().filter(|(_, animation)| fits(animation));
-        let (generation, animation) =
-            self.animation.get_or_insert_with(|| (view.generation, Animation::new(view.animation())));
-        if *generation != view.generation {
-            // What was edited, and nothing else: a drag brings a view with every move of the mouse.
-            for (index, take) in view.takes.iter().enumerate() {
-                animation.replace_take(index, Arc::clone(take));
-            }
-            *generation = view.generation;
+        let is_same = |(loaded, ..): &(Arc<LoadedModel>, u64, Animation)| Arc::ptr_eq(loaded, &view.loaded);
+        if !self.animation.as_ref().is_some_and(is_same) {
+            self.animation = None;
             self.at = None;
         }
-        if self.at != Some((take, time)) {
+        let (_, generation, animation) = self.animation.get_or_insert_with(|| {
+            (Arc::clone(&view.loaded), view.generation, Animation::new(view.animation()))
+        });
+        if *generation != view.generation {
+            *generation = view.generation;
+            self.at = None;
+            if animation.data().takes.len() == view.takes.len() {
+                for (index, take) in view.takes.iter().enumerate() {
+                    animation.replace_take(index, Arc::clone(take));
+                }
+            } else {
+                *animation = Animation::new(view.animation());
+            }
+        }
+        if self.at != Some((take, time, self.running)) {
             animation.to_root_bone_poses(take, time);
-            self.at = Some((take, time));
+            if let Some(pending) = view.pending(take, time).filter(|_| !self.running) {
+                animation.to_root_bone_poses_with(|poses| pending.put_on(poses));
+            }
+            self.at = Some((take, time, self.running));
         }
         animation
     }
 
     /// The poses computed last, if there is a model.
     pub fn animation(&self) -> Option<&Animation> {
-        self.animation.as_ref().map(|(_, animation)| animation)
+        self.animation.as_ref().map(|(_, _, animation)| animation)
     }
 }

@@ -3,8 +3,8 @@
 use super::digest::Digest;
 use super::hands::{Hold, Trail};
 use super::keys::{Keys, KeysRequest};
-use super::saving::{Deed, Question};
 pub use super::posed::Posed;
+use super::saving::{Deed, Question};
 use super::settings::{GhostSettings, Settings};
 use super::status::Status;
 use crate::camera::Camera;
@@ -14,7 +14,6 @@ use crate::document::history::Gesture;
 use crate::document::{Change, LoadedModel, Progress, Source, View};
 use crate::playback::Playback;
 use crate::posing::IkMode;
-use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{BoneIndex, Take};
 use glam::Vec3;
 use std::cell::Cell;
@@ -168,54 +167,6 @@ pub enum Effect {
     Deed(Deed),
     /// The program does not end, since something is not saved.
     Stays,
-}
-
-/// Poses at the time shown, computed when somebody reads them.
-#[derive(Debug, Default)]
-pub struct Posed {
-    animation: Option<(Arc<LoadedModel>, u64, Animation)>,
-    at: Option<(Option<usize>, f32, bool)>,
-    /// Does time run? Then the keys are seen, and not what is pending.
-    running: bool,
-}
-
-impl Posed {
-    /// The poses of `view` in `take` at `time`, with what is pending there. Of the model that was posed last only the takes
-    /// are exchanged.
-    pub fn update(&mut self, view: &View, take: Option<usize>, time: f32) -> &Animation {
-        let is_same = |(loaded, ..): &(Arc<LoadedModel>, u64, Animation)| Arc::ptr_eq(loaded, &view.loaded);
-        if !self.animation.as_ref().is_some_and(is_same) {
-            self.animation = None;
-            self.at = None;
-        }
-        let (_, generation, animation) = self.animation.get_or_insert_with(|| {
-            (Arc::clone(&view.loaded), view.generation, Animation::new(view.animation()))
-        });
-        if *generation != view.generation {
-            *generation = view.generation;
-            self.at = None;
-            if animation.data().takes.len() == view.takes.len() {
-                for (index, take) in view.takes.iter().enumerate() {
-                    animation.replace_take(index, Arc::clone(take));
-                }
-            } else {
-                *animation = Animation::new(view.animation());
-            }
-        }
-        if self.at != Some((take, time, self.running)) {
-            animation.to_root_bone_poses(take, time);
-            if let Some(pending) = view.pending(take, time).filter(|_| !self.running) {
-                animation.to_root_bone_poses_with(|poses| pending.put_on(poses));
-            }
-            self.at = Some((take, time, self.running));
-        }
-        animation
-    }
-
-    /// The poses computed last, if there is a model.
-    pub fn animation(&self) -> Option<&Animation> {
-        self.animation.as_ref().map(|(_, _, animation)| animation)
-    }
 }
 
 /// Everything the panels show.

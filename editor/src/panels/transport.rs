@@ -82,7 +82,7 @@ fn speed(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         .suffix("×")
         .update_while_editing(false)
         .custom_parser(number);
-    let response = ui.add_sized(vec2(64.0, CONTROL), field).accessible_name("Speed");
+    let response = ui.add_sized(vec2(52.0, CONTROL), field).accessible_name("Speed");
     if response.on_hover_text("Speed\nDrag, or click to type").changed() {
         requests.push(Request::Speed(speed));
     }
@@ -115,12 +115,10 @@ fn time(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         .speed(0.2)
         .update_while_editing(false)
         .custom_parser(number);
-    let response = ui.add_sized(vec2(56.0, CONTROL), field).accessible_name("Frame");
+    let response = ui.add_sized(vec2(48.0, CONTROL), field).accessible_name("Frame");
     if response.on_hover_text("Frame\nDrag, or click to type; 3*30+12 is fine").changed() {
         requests.push(Request::Seek(ruler::time_of(frame, rate)));
     }
-    ui.label(RichText::new("frame").color(theme.weak));
-    ui.add_space(GRID);
     let mut seconds = state.time();
     let field = DragValue::new(&mut seconds)
         .range(start..=start + length)
@@ -129,7 +127,7 @@ fn time(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         .suffix(" s")
         .update_while_editing(false)
         .custom_parser(number);
-    let response = ui.add_sized(vec2(80.0, CONTROL), field).accessible_name("Time");
+    let response = ui.add_sized(vec2(72.0, CONTROL), field).accessible_name("Time");
     if response.on_hover_text("Time in seconds\nDrag, or click to type; 45/30 is fine").changed() {
         requests.push(Request::Seek(seconds));
     }

@@ -141,7 +141,9 @@ impl Curves {
         let right =
             painter.with_clip_rect(Rect::from_min_max(head.min, rect.max).intersect(painter.clip_rect()));
         dope::ticks(&right, head, rect.bottom(), &time, state, theme);
-        axis::paint(&painter, strip, &value, theme);
+        if self.shown.curves().next().is_some() {
+            axis::paint(&painter, strip, &value, theme);
+        }
         painter.vline(strip.right() - 0.5, rect.y_range(), Stroke::new(1.0, theme.line));
         dope::shade(&painter, canvas, &time, state, theme);
 

@@ -4,6 +4,7 @@ use super::axis::ValueScale;
 use super::curve::{Curve, Extent, Numbers};
 use super::shown::Shown;
 use crate::panels::dope::Pen;
+use crate::panels::keys::columns::gallop;
 use crate::panels::keys::intervals::{Intervals, keys_between};
 use crate::panels::keys::{Drawn, TimeScale};
 use crate::panels::theme::Theme;
@@ -215,9 +216,12 @@ impl Canvas<'_> {
         let rect = self.rect();
         let mut last: Option<Extent> = None;
         let mut x = rect.left();
+        let mut key = keys_between(curve.times(), [self.time.time_at(x), f32::INFINITY]).start;
         while x < rect.right() {
-            let keys = keys_between(curve.times(), [self.time.time_at(x), self.time.time_at(x + 1.0)]);
-            let extent = curve.extent(keys);
+            // Each column begins where the one before ended.
+            let end = gallop(curve.times(), key, self.time.time_at(x + 1.0));
+            let extent = curve.extent(key..end);
+            key = end;
             if extent.low[0] <= extent.high[0] {
                 let joined = last.map_or(extent, |last| joined(&extent, &last));
                 for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {

@@ -174,8 +174,9 @@ fn fields(
     }
     let Some((curve, key)) = only_key(curves, drawn) else { return };
     let angle = curve.id.1 == Property::Rotation && curve.form() != Form::Quaternion;
-    let component = (0..curve.width()).find(|at| chosen.components & (1 << at) != 0).unwrap_or(0);
-    let single = chosen.components.count_ones() == 1 || curve.width() == 1;
+    let mut shown = (0..curve.width()).filter(|at| chosen.components & (1 << at) != 0);
+    let component = shown.next().unwrap_or(0);
+    let single = shown.next().is_none();
     let numbers = curve.key(key);
     if single {
         let mut value = f64::from(numbers[component]);

@@ -11,7 +11,7 @@ use crate::panels::keys::{ChannelId, Deed, Drawn, KeysRequest, TimeScale, channe
 use crate::panels::state::{Request, State};
 use crate::panels::theme::Theme;
 use egui::{
-    Align2, CornerRadius, CursorIcon, FontId, Key, Modifiers, PointerButton, Pos2, Rect, Response, Stroke,
+    CornerRadius, CursorIcon, FontId, Key, Modifiers, PointerButton, Pos2, Rect, Response, Stroke,
     StrokeKind, Ui, pos2, vec2,
 };
 use std::sync::Arc;
@@ -52,7 +52,7 @@ struct OnKey {
 }
 
 /// Points: how near a key must be to be under the pointer.
-const REACH: f32 = 7.0;
+const REACH: f32 = 5.5;
 /// Points: how far the pointer goes before it is a drag.
 const DRAG: f32 = 4.0;
 
@@ -92,7 +92,7 @@ impl Hand {
             requests.push(select(rows, on.row, [on.time; 2], Choice::Replace));
         }
         if !input.primary_down {
-            self.let_go(rows, scale, drawn, *scrolled, places, pointer.or(input.pointer), state, requests);
+            self.let_go(rows, scale, *scrolled, places, pointer.or(input.pointer), requests);
             return;
         }
         let (true, Some(pointer)) = (canvas.is_pointer_button_down_on(), input.pointer) else {
@@ -212,21 +212,18 @@ impl Hand {
         requests.push(Request::Timeline(KeysRequest::Drag(deed)));
     }
 
-    #[allow(clippy::too_many_arguments, reason = "as above")]
     fn let_go(
         &mut self,
         rows: &Rows,
         scale: &TimeScale,
-        drawn: &Drawn,
         scrolled: f32,
         places: &Places,
         pointer: Option<Pos2>,
-        state: &State,
         requests: &mut Vec<Request>,
     ) {
         match std::mem::take(&mut self.doing) {
             Doing::Nothing | Doing::Spent => {}
-            Doing::Pressed { at, on, modifiers } => click(at, on, modifiers, rows, drawn, state, requests),
+            Doing::Pressed { on, modifiers, .. } => click(on, modifiers, rows, requests),
             Doing::Keys { .. } => requests.push(Request::Timeline(KeysRequest::Release)),
             Doing::Box { time, height, choice } => {
                 let Some(pointer) = pointer else { return };
@@ -239,9 +236,8 @@ impl Hand {
                     middle + REACH >= top && middle - REACH <= bottom
                 };
                 let mut channels: Vec<ChannelId> = Vec::new();
-                for (at, row) in rows.list().iter().enumerate().filter(|(at, _)| touched(*at)) {
-                    // Rows above others hold what they hold; named once is enough.
-                    let _ = at;
+                // Rows above others hold what those hold.
+                for (_, row) in rows.list().iter().enumerate().filter(|(at, _)| touched(*at)) {
                     channels.extend_from_slice(rows.of(row.kind));
                 }
                 channels.sort_unstable();
@@ -257,16 +253,7 @@ impl Hand {
 }
 
 /// A click on a key, or beside all.
-fn click(
-    at: Pos2,
-    on: Option<OnKey>,
-    modifiers: Modifiers,
-    rows: &Rows,
-    drawn: &Drawn,
-    _state: &State,
-    requests: &mut Vec<Request>,
-) {
-    let _ = (at, drawn);
+fn click(on: Option<OnKey>, modifiers: Modifiers, rows: &Rows, requests: &mut Vec<Request>) {
     match on {
         Some(on) if modifiers.alt => {
             // The whole column: every bone's keys at that time.
@@ -373,6 +360,5 @@ pub(in crate::panels) fn readout(ui: &Ui, pointer: Pos2, text: &str) {
     let rect = Rect::from_min_size(corner, size);
     painter.rect_filled(rect, CornerRadius::same(4), theme.raised);
     painter.rect_stroke(rect, CornerRadius::same(4), Stroke::new(1.0, theme.line), StrokeKind::Inside);
-    let _ = Align2::LEFT_TOP;
     painter.galley(rect.min + vec2(6.0, 3.0), galley, theme.text);
 }

@@ -23,6 +23,8 @@ pub(super) struct Head {
     scrub: Scrub,
     /// Scaling: what stays, and where the end was that is held.
     scaling: Option<Scaling>,
+    /// The first and the last selected key, found when the selection changed.
+    extent: Option<(Drawn, Option<[f32; 2]>)>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +36,7 @@ struct Scaling {
 
 /// Lines and numbers, behind everything.
 pub(super) fn back(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
-    let top = Rect::from_min_max(places.all.min, pos2(places.all.right(), places.head.bottom()));
+    let top = Rect::from_min_max(places.all.min, pos2(places.all.right(), places.bar.bottom()));
     painter.rect_filled(top, CornerRadius::ZERO, theme.bar);
     painter.hline(top.x_range(), top.bottom(), Stroke::new(1.0, theme.line));
     let right = painter
@@ -149,7 +151,14 @@ impl Head {
     ) {
         let theme = Theme::of(ui);
         let painter = ui.painter().with_clip_rect(places.bar);
-        let extent = drawn.selection.extent(&drawn.take).map(|extent| drawn.shift.stretch(extent));
+        let known = self.extent.as_ref().filter(|(of, _)| {
+            of.selection.same(&drawn.selection) && std::sync::Arc::ptr_eq(&of.take, &drawn.take)
+        });
+        let extent = match known {
+            Some((_, extent)) => *extent,
+            None => self.extent.insert((drawn.clone(), drawn.selection.extent(&drawn.take))).1,
+        };
+        let extent = extent.map(|extent| drawn.shift.stretch(extent));
         let Some([from, to]) = extent.filter(|[from, to]| to - from > scale.seconds(6.0)) else {
             self.scaling = None;
             return;

@@ -3,6 +3,7 @@
 use super::intervals::Intervals;
 use super::shift::Shift;
 use super::window::TimeScale;
+use crate::document::edit::SAME_TIME;
 
 /// Which columns of pixels have a key, and where in it the first one lies.
 ///
@@ -23,6 +24,28 @@ struct Grid {
     /// Columns a point.
     per_point: f64,
     scale: TimeScale,
+}
+
+/// column = first + slope · time
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    first: f64,
+    slope: f64,
+}
+
+impl Line {
+    fn place(self, time: f32) -> f64 {
+        self.first + self.slope * f64::from(time)
+    }
+
+    fn column(self, time: f32) -> usize {
+        self.place(time).max(0.0) as usize
+    }
+
+    /// Where a column begins.
+    fn time(self, column: usize) -> f32 {
+        ((column as f64 - self.first) / self.slope) as f32
+    }
 }
 
 /// A screen has no more columns than this.
@@ -53,7 +76,6 @@ impl Columns {
         }
         let (factor, offset) = shift.affine();
         let per_second = grid.scale.per_second();
-        // column = first + slope · time
         let slope = factor * per_second * grid.per_point;
         let first = (f64::from(grid.scale.left) + (offset - grid.scale.window.start) * per_second
             - grid.left)
@@ -61,42 +83,90 @@ impl Columns {
         if !(slope.is_finite() && first.is_finite()) || slope == 0.0 {
             return;
         }
-        let place = |time: f32| first + slope * f64::from(time);
-        let mut column = 0;
-        let mut index = if slope > 0.0 { 0 } else { times.len() - 1 };
+        let line = Line { first, slope };
+        if slope > 0.0 {
+            self.forwards(times, intervals, selected, line, grid);
+        } else {
+            self.backwards(times, intervals, selected, line, grid);
+        }
+    }
+
+    /// Channel and columns in the same order. What the stretches alone decide is decided without a look at the keys: of
+    /// many channels with the same selection, only the first is searched.
+    fn forwards(&mut self, times: &[f32], intervals: &Intervals, selected: bool, line: Line, grid: Grid) {
+        let (mut column, mut index) = (0, 0);
         while let Some(next) = self.next_free(column) {
-            let from = ((next as f64 - first) / slope) as f32;
-            let found = if slope > 0.0 {
-                index = gallop(times, index, from);
-                if index >= times.len() {
-                    break;
+            let from = line.time(next);
+            let (begin, end) = match intervals.at(from) {
+                None if selected => break,
+                Some([first, last]) if selected => {
+                    let (begin, end) = (from.max(first - SAME_TIME), last + SAME_TIME);
+                    let first = line.column(begin).max(next);
+                    // Free columns before the stretch stay free; within it, the first free one is where to look.
+                    if first > next {
+                        column = first;
+                        continue;
+                    }
+                    (begin, end)
                 }
-                if intervals.is_empty() { Some(index) } else { intervals.next(times, index, selected) }
-            } else {
-                let before = times.partition_point(|&time| time <= from);
-                let Some(last) = before.checked_sub(1) else { break };
-                if selected {
-                    intervals.previous(times, last)
-                } else {
-                    (0..=last).rev().find(|&at| !intervals.holds(times[at]))
+                Some([first, last]) if from >= first - SAME_TIME => {
+                    let after = line.column(last + SAME_TIME);
+                    if after > next {
+                        column = after;
+                        continue;
+                    }
+                    (last + SAME_TIME, f32::INFINITY)
                 }
+                _ => (from, f32::INFINITY),
+            };
+            index = gallop(times, index, begin);
+            let Some(&time) = times.get(index) else { break };
+            let found = match selected {
+                true if time > end => {
+                    column = line.column(end).max(next).saturating_add(1);
+                    continue;
+                }
+                true => Some(index),
+                false if intervals.is_empty() => Some(index),
+                false => intervals.next(times, index, false),
             };
             let Some(found) = found else { break };
-            let at = place(times[found]);
-            if !(at < self.x.len() as f64) {
-                break;
-            }
-            // What rounding puts before the column that was asked for is in it.
-            let hit = (at.max(0.0) as usize).max(next);
-            if self.x[hit].is_nan() {
-                self.x[hit] = (grid.left + at / grid.per_point) as f32;
-                self.free[hit] = hit as u32 + 1;
-            }
-            column = hit + 1;
-            if slope > 0.0 {
-                index = found;
-            }
+            let Some(hit) = self.hit(line.place(times[found]), next, grid) else { break };
+            (column, index) = (hit + 1, found);
         }
+    }
+
+    /// Channel and columns in opposite orders: keys that are turned round.
+    fn backwards(&mut self, times: &[f32], intervals: &Intervals, selected: bool, line: Line, grid: Grid) {
+        let mut column = 0;
+        while let Some(next) = self.next_free(column) {
+            let before = times.partition_point(|&time| time <= line.time(next));
+            let Some(last) = before.checked_sub(1) else { break };
+            let found = if selected {
+                intervals.previous(times, last)
+            } else {
+                (0..=last).rev().find(|&at| !intervals.holds(times[at]))
+            };
+            let Some(found) = found else { break };
+            let Some(hit) = self.hit(line.place(times[found]), next, grid) else { break };
+            column = hit + 1;
+        }
+    }
+
+    /// Marks the column of a place that was found from column `next` on; `None` behind the last.
+    fn hit(&mut self, at: f64, next: usize, grid: Grid) -> Option<usize> {
+        // Also `None` for what is no number.
+        let inside = at < self.x.len() as f64;
+        if !inside {
+            return None;
+        }
+        // What rounding puts before the column that was asked for is in it.
+        let hit = (at.max(0.0) as usize).max(next);
+        if self.x[hit].is_nan() {
+            self.x[hit] = (grid.left + at / grid.per_point) as f32;
+            self.free[hit] = hit as u32 + 1;
+        }
+        Some(hit)
     }
 
     /// The first column from `column` on without a key.
@@ -115,7 +185,7 @@ impl Columns {
 }
 
 /// The first position from `index` on whose time is not before `time`: near ones are found at once.
-fn gallop(times: &[f32], index: usize, time: f32) -> usize {
+pub fn gallop(times: &[f32], index: usize, time: f32) -> usize {
     let (mut low, mut step) = (index, 1);
     while times.get(low + step).is_some_and(|&at| at < time) {
         low += step;

@@ -27,10 +27,19 @@ impl State {
         if self.keys.drag.is_some() {
             return None;
         }
+        // A first edit is always sent at once; letting go only says that it is over.
         let first = self.drag_keys(deed);
-        // A first edit is always sent at once; letting go has nothing to add.
         let last = self.release_keys();
-        first.or(last)
+        let changes: Vec<Change> = [first, last]
+            .into_iter()
+            .flatten()
+            .flat_map(|effect| match effect {
+                Effect::Change(change) => vec![change],
+                Effect::Changes(changes) => changes,
+                _ => Vec::new(),
+            })
+            .collect();
+        (!changes.is_empty()).then_some(Effect::Changes(changes))
     }
 
     /// Copies the selected keys to the time shown; behind them where they begin there.

@@ -62,7 +62,7 @@ impl Intervals {
     }
 
     /// The first stretch that does not end before `time`.
-    fn at(&self, time: f32) -> Option<[f32; 2]> {
+    pub(super) fn at(&self, time: f32) -> Option<[f32; 2]> {
         self.0.get(self.0.partition_point(|[_, to]| to + SAME_TIME < time)).copied()
     }
 

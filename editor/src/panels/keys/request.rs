@@ -165,8 +165,10 @@ impl State {
         let drag = self.keys.drag.as_mut().filter(|drag| drag.held())?;
         let change = drag.send(generation, true, self.now);
         drag.release();
+        let over = drag.has_sent().then_some(Change::Release(drag.gesture));
         self.settle_keys();
-        change.map(Effect::Change)
+        let changes: Vec<Change> = change.into_iter().chain(over).collect();
+        (!changes.is_empty()).then_some(Effect::Changes(changes))
     }
 
     /// As if the drag had never been; nothing where there is none.

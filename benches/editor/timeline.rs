@@ -1,0 +1,286 @@
+//! A frame of the timeline and the curves, and of all other panels around them, with 200 bones × 10 minutes × 120 frames
+//! a second: some 43 million keys. What is measured is the time that the processor spends in the thread of the window:
+//! building the frame, tessellating it, and doing what it asked for, edits included.
+//!
+//! `DRAGONFLY_BENCH_KEYS` takes a part of the ten minutes, 0..1, for a machine with little memory.
+
+use dragonfly::document::adapter::ModelAdapter;
+use dragonfly::document::history::Edited;
+use dragonfly::document::{Change, LoadedModel, View};
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::keys::{ChannelId, Deed, KeysRequest, TimeWindow};
+use dragonfly::panels::{Desk, Effect, Request, Settings, State, style};
+use dragonfly_anim::bounds::Bounds;
+use dragonfly_anim::data::{
+    AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
+};
+use glam::{Mat4, Quat, Vec3};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
+
+const BONES: u32 = 200;
+const RATE: f32 = 120.0;
+const SECONDS: f32 = 600.0;
+const FRAMES: usize = 400;
+
+/// Every case.
+pub(crate) fn all() {
+    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    if wanted.is_some_and(|part| !"editor/timeline".contains(&part)) {
+        return;
+    }
+    let view = view();
+    let keys: usize = view.takes.iter().map(|take| take.keys()).sum();
+    println!("editor/timeline: {keys} keys, {BONES} bones, panels of 1920 × 1080 points");
+    let length = f64::from(view.takes[0].length);
+    let whole = TimeWindow { start: 0.0, length };
+    let middle = TimeWindow { start: length * 0.4, length: length / 60.0 };
+    for (name, bones) in
+        [("nothing selected", vec![]), ("one bone", vec![7]), ("eight bones", (3..11).collect())]
+    {
+        let mut window = Window::new(&view, &bones);
+        window.measure(&format!("whole zoom, {name}"), |_, _| {});
+        window.measure(&format!("zooming, {name}"), |at, state| {
+            let part = 1.0 - 0.5 * (at as f64 / FRAMES as f64);
+            show(state, TimeWindow { start: 0.0, length: whole.length * part });
+        });
+        window.measure(&format!("middle zoom, panning, {name}"), |at, state| {
+            show(state, middle.panned(at as f64 * 0.01));
+        });
+        show(&mut window.state, whole);
+        window.state.execute(Request::Command(Id::PlayPause));
+        window.measure(&format!("playing, {name}"), |_, _| {});
+        window.state.execute(Request::Command(Id::PlayPause));
+    }
+    drag(&view, whole, "whole zoom");
+    drag(&view, middle, "middle zoom");
+}
+
+/// 100,000 selected keys are dragged, and the document answers from a thread of its own.
+fn drag(view: &View, zoom: TimeWindow, name: &str) {
+    let (ask, asked) = channel::<Change>();
+    let (answer, answers) = channel::<View>();
+    let first = view.clone();
+    std::thread::scope(|scope| {
+        scope.spawn(move || document(first, &asked, &answer));
+        drag_keys(view, zoom, name, ask, &answers);
+    });
+}
+
+fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, answers: &Receiver<View>) {
+    let mut window = Window::new(view, &[3, 4, 5]);
+    let take = Arc::clone(&view.takes[0]);
+    show(&mut window.state, zoom);
+    window.state.execute(Request::Timeline(KeysRequest::OnlySelected(false)));
+    let channels: Arc<[ChannelId]> = take
+        .tracks
+        .iter()
+        .flat_map(|track| dragonfly::panels::keys::channel::channels(&take, track.bone))
+        .collect();
+    // As many frames of all channels as make 100,000 keys.
+    let frames = 100_000 / channels.len() as u32;
+    let from = (zoom.start + zoom.length * 0.3) as f32;
+    let stretch = [from, from + frames as f32 / RATE];
+    let choice = dragonfly::control::bones::Choice::Replace;
+    window.state.execute(Request::Timeline(KeysRequest::Select { channels, stretch, choice }));
+    let selected = window.state.keys.selection.count(&take);
+    let mut shown = Vec::new();
+    let mut edits = 0;
+    let label = format!("dragging {selected} keys, {name}");
+    window.measure_with(&label, |at, state, effects| {
+        for effect in effects.drain(..) {
+            if let Effect::Change(change) = effect {
+                edits += 1;
+                // The document ends with the bench.
+                let _ = ask.send(change);
+            }
+        }
+        if let Some(view) = newest(answers) {
+            let begin = cpu();
+            state.show(view);
+            shown.push((cpu() - begin).as_secs_f64() * 1e3);
+        }
+        let by = (at as f32 * 0.05).sin() * (zoom.length as f32 * 0.1) + at as f32 * 0.01;
+        Some(Request::Timeline(KeysRequest::Drag(Deed::Move(by))))
+    });
+    drop(ask);
+    let worst = shown.iter().copied().fold(0.0, f64::max);
+    println!("    {edits} edits sent, {} views shown, at most {worst:.2} ms each", shown.len());
+}
+
+fn newest(answers: &Receiver<View>) -> Option<View> {
+    answers.try_iter().last()
+}
+
+/// Answers edits until nobody asks any more.
+fn document(first: View, asked: &Receiver<Change>, answer: &Sender<View>) {
+    let mut edited = Edited::new(ModelAdapter::new(&first.loaded.model.animation));
+    let mut generation = first.generation;
+    while let Ok(change) = asked.recv() {
+        let done = match change {
+            Change::Edit(edit, gesture) => edited.apply(edit, gesture).is_ok(),
+            Change::Cancel(gesture) => edited.cancel(gesture),
+            _ => false,
+        };
+        generation += u64::from(done);
+        let view = View {
+            generation,
+            takes: edited.adapter().results().cloned().collect(),
+            slots: edited.adapter().slots().into(),
+            ..first.clone()
+        };
+        if answer.send(view).is_err() {
+            return;
+        }
+    }
+}
+
+fn show(state: &mut State, window: TimeWindow) {
+    state.execute(Request::Timeline(KeysRequest::Window(Some(window))));
+}
+
+/// The panels, without a window.
+struct Window {
+    context: egui::Context,
+    desk: Desk,
+    state: State,
+    begin: Instant,
+    frame: u64,
+}
+
+impl Window {
+    fn new(view: &View, bones: &[u32]) -> Self {
+        let context = egui::Context::default();
+        style::install(&context);
+        let mut state = State::new(Settings::default(), Instant::now());
+        state.show(view.clone());
+        state.playback.playing = false;
+        let choice = dragonfly::control::bones::Choice::Replace;
+        state.execute(Request::SelectBones(bones.to_vec(), choice));
+        let mut window = Self { context, desk: Desk::new(""), state, begin: Instant::now(), frame: 0 };
+        // Fonts, layout, and curves that are computed over several frames.
+        for _ in 0..60 {
+            window.frame(None);
+        }
+        window
+    }
+
+    /// One frame, with a pointer that rests on the keys.
+    fn frame(&mut self, more: Option<Request>) -> Vec<Effect> {
+        self.frame += 1;
+        let now = self.begin + Duration::from_micros(16_667 * self.frame);
+        let input = egui::RawInput {
+            screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(1920.0, 1080.0))),
+            time: Some(self.frame as f64 / 60.0),
+            events: vec![egui::Event::PointerMoved(egui::pos2(600.0 + (self.frame % 7) as f32, 900.0))],
+            ..egui::RawInput::default()
+        };
+        let mut requests = Vec::from_iter(more);
+        self.state.begin(now);
+        let (desk, state) = (&mut self.desk, &self.state);
+        let mut output = self.context.run_ui(input, |ui| desk.show(ui, state, &mut requests));
+        let shapes = std::mem::take(&mut output.shapes);
+        std::hint::black_box(self.context.tessellate(shapes, output.pixels_per_point));
+        output.textures_delta.clear();
+        self.state.hovered = None;
+        requests.into_iter().filter_map(|request| self.state.execute(request)).collect()
+    }
+
+    fn measure(&mut self, name: &str, mut before: impl FnMut(usize, &mut State)) {
+        self.measure_with(name, |at, state, _| {
+            before(at, state);
+            None
+        });
+    }
+
+    /// Measures frames; `before` each what comes between frames, and what is asked for in the next.
+    fn measure_with(
+        &mut self,
+        name: &str,
+        mut before: impl FnMut(usize, &mut State, &mut Vec<Effect>) -> Option<Request>,
+    ) {
+        let mut times = Vec::with_capacity(FRAMES);
+        let mut effects = Vec::new();
+        for at in 0..FRAMES {
+            let request = before(at, &mut self.state, &mut effects);
+            let begin = cpu();
+            effects.extend(self.frame(request));
+            times.push((cpu() - begin).as_secs_f64() * 1e3);
+        }
+        times.sort_by(f64::total_cmp);
+        let at = |part: usize| times[FRAMES * part / 100];
+        println!("editor/timeline/{name:<44} median {:>7.3} ms   p99 {:>7.3} ms", at(50), at(99));
+    }
+}
+
+/// The time that the processor has spent in this thread.
+#[cfg(unix)]
+fn cpu() -> Duration {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    Duration::new(time.tv_sec as u64, time.tv_nsec as u32)
+}
+
+/// Time on the clock, where there is no other.
+#[cfg(not(unix))]
+fn cpu() -> Duration {
+    static BEGIN: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
+    BEGIN.get_or_init(Instant::now).elapsed()
+}
+
+/// Bones in a chain, every channel with a column of times of its own.
+fn view() -> View {
+    let part = std::env::var("DRAGONFLY_BENCH_KEYS").ok().and_then(|part| part.parse::<f32>().ok());
+    let keys = (SECONDS * RATE * part.unwrap_or(1.0).clamp(0.001, 1.0)) as usize;
+    let bones = (0..BONES).map(|index| Bone {
+        name: format!("bone_{index:03}"),
+        parent: index.checked_sub(1),
+        rest: Transform { translation: Vec3::Y * 0.1, ..Transform::IDENTITY },
+        rest_matrix: None,
+        offset: Mat4::IDENTITY,
+        node: None,
+    });
+    let times = || (0..keys).map(|key| key as f32 / RATE).collect::<Arc<[f32]>>();
+    let wave = |key: usize, bone: u32| (key as f32 * 0.01 + bone as f32).sin();
+    let tracks = (0..BONES).map(|bone| Track {
+        bone,
+        translation: Channel {
+            times: times(),
+            values: (0..keys).map(|key| Vec3::new(wave(key, bone), 0.1, 0.0)).collect(),
+            interpolation: Interpolation::Linear,
+        },
+        rotation: Channel {
+            times: times(),
+            values: (0..keys).map(|key| Quat::from_rotation_x(wave(key, bone))).collect(),
+            interpolation: Interpolation::Linear,
+        },
+        scale: Channel {
+            times: times(),
+            values: (0..keys).map(|key| Vec3::ONE + 0.1 * wave(key, bone)).collect(),
+            interpolation: Interpolation::Linear,
+        },
+    });
+    let length = (keys - 1) as f32 / RATE;
+    let take = Take {
+        name: "motion capture".to_owned(),
+        start: 0.0,
+        length,
+        tracks: tracks.collect(),
+        morphs: Vec::new(),
+    };
+    let animation = AnimationData {
+        skeleton: Arc::new(Skeleton { bones: bones.collect() }),
+        takes: vec![Arc::new(take)],
+    };
+    let model = Arc::new(ModelData { animation, ..ModelData::default() });
+    let loaded = LoadedModel {
+        title: "large.glb".to_owned(),
+        path: None,
+        format: "glb".to_owned(),
+        bounds: Bounds { min: -Vec3::ONE, max: Vec3::ONE, ..Bounds::default() },
+        model,
+        images: Vec::new(),
+        warnings: Vec::new(),
+    };
+    View::opened(1, Arc::new(loaded))
+}

@@ -1,0 +1,141 @@
+//! What a hand does on the curves: values up and down, times sidewards, tangents by their ends.
+
+use crate::timeline_rig::Animator;
+use dragonfly::document::edit::{Between, Edit, Property};
+use dragonfly::panels::Request;
+use dragonfly::panels::commands::Id;
+use dragonfly_anim::data::Interpolation;
+use egui::{Key, Modifiers, Pos2, pos2, vec2};
+use egui_kittest::kittest::Queryable;
+use glam::EulerRot;
+
+/// The turn about z of a key of bone 3, degrees.
+fn angle(animator: &Animator, key: usize) -> f32 {
+    let rotation = animator.edited.adapter().slots()[0].result.tracks[3].rotation.value(key).unwrap();
+    rotation.to_euler(EulerRot::XYZ).2.to_degrees()
+}
+
+/// Where the key of the z curve is: all values of the bone fit the height of the panel.
+fn place(animator: &Animator, key: usize) -> Pos2 {
+    let curves = animator.curves();
+    let all: Vec<f32> = (0..41).map(|key| angle(animator, key)).collect();
+    let low = all.iter().copied().fold(0.0, f32::min);
+    let high = all.iter().copied().fold(0.0, f32::max);
+    let (middle, span) = ((low + high) / 2.0, (high - low) * 1.16);
+    let part = (all[key] - (middle - span / 2.0)) / span;
+    pos2(animator.x_in(curves, animator.key(key)), curves.bottom() - part * curves.height())
+}
+
+#[test]
+fn a_key_dragged_up_changes_one_angle_as_one_step() {
+    let mut animator = Animator::with_bone(3);
+    animator.steps(2);
+    let (before, at) = (angle(&animator, 8), place(&animator, 8));
+    animator.drag(at, at - vec2(0.0, 40.0));
+    animator.release(at - vec2(0.0, 40.0));
+    let after = angle(&animator, 8);
+    assert!(after > before + 3.0, "{before} → {after}");
+    assert!((angle(&animator, 7) - animator_angle(7)).abs() < 0.01, "the key beside stays");
+    assert!(matches!(animator.edits().last(), Some(Edit::Set { poses, .. }) if poses[0].rotation.is_some()));
+    assert_eq!(animator.edited.steps().0.len(), 1);
+    assert_eq!(animator.selected(), 1);
+}
+
+fn animator_angle(key: usize) -> f32 {
+    let animator = Animator::with_bone(3);
+    angle(&animator, key)
+}
+
+#[test]
+fn several_keys_are_dragged_up_together_and_escape_takes_it_back() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Command(Id::SelectAllKeys));
+    let before: Vec<f32> = (0..41).map(|key| angle(&animator, key)).collect();
+    let at = place(&animator, 8);
+    animator.drag(at, at - vec2(0.0, 30.0));
+    let by = angle(&animator, 8) - before[8];
+    assert!(by > 2.0);
+    for (key, before) in before.iter().enumerate() {
+        assert!((angle(&animator, key) - before - by).abs() < 0.02, "key {key}");
+    }
+    assert!(matches!(animator.edits().last(), Some(Edit::SetMany { at, .. }) if at.len() == 41));
+    animator.harness.key_down(Key::Escape);
+    animator.steps(3);
+    animator.release(at);
+    for (key, before) in before.iter().enumerate() {
+        assert!((angle(&animator, key) - before).abs() < 1e-4, "key {key}");
+    }
+}
+
+#[test]
+fn a_key_dragged_sidewards_changes_its_time() {
+    let mut animator = Animator::with_bone(3);
+    animator.steps(2);
+    let at = place(&animator, 8);
+    let by = animator.x_in(animator.curves(), 0.045) - animator.x_in(animator.curves(), 0.0);
+    animator.drag(at, at + vec2(by, 0.0));
+    animator.release(at + vec2(by, 0.0));
+    assert!(matches!(animator.edits().last(), Some(Edit::MoveKeys { .. })), "{:?}", animator.edits());
+    assert!((animator.times(3)[8] - animator.key(8)).abs() > 0.01);
+}
+
+#[test]
+fn a_tangent_is_dragged_by_its_end_and_alt_breaks_it() {
+    for broken in [false, true] {
+        let mut animator = Animator::with_bone(3);
+        let edit = Edit::SetInterpolation {
+            take: dragonfly::document::edit::TakeRef::Index(0),
+            bones: Vec::new(),
+            properties: vec![Property::Rotation],
+            interpolation: Between::CubicSpline,
+        };
+        animator.request(Request::Change(dragonfly::document::Change::Edit(edit, None)));
+        animator.steps(4);
+        let rotation = || animator.edited.adapter().slots()[0].result.tracks[3].rotation.clone();
+        assert_eq!(rotation().interpolation, Interpolation::CubicSpline);
+        // A key at a crest: its tangent is level, so its end lies 44 points to the right.
+        let crest = (9..30).max_by(|&a, &b| angle(&animator, a).total_cmp(&angle(&animator, b))).unwrap();
+        let at = place(&animator, crest);
+        let before = rotation();
+        animator.click(at);
+        assert_eq!(animator.selected(), 1);
+        let end = at + vec2(44.0, 0.0);
+        if broken {
+            animator.hold(Modifiers::ALT);
+        }
+        animator.drag(end, end - vec2(0.0, 25.0));
+        animator.release(end - vec2(0.0, 25.0));
+        let Some(Edit::SetTangents { arrive, leave, .. }) = animator.edits().last() else {
+            panic!("{:?}", animator.edits().last())
+        };
+        assert!(leave.is_some());
+        assert_eq!(arrive.is_none(), broken, "both sides, unless Alt breaks them");
+        let after = animator.edited.adapter().slots()[0].result.tracks[3].rotation.clone();
+        assert_ne!(after.values[crest * 3 + 2], before.values[crest * 3 + 2]);
+        assert_eq!(after.values[crest * 3] == before.values[crest * 3], broken);
+        assert_eq!(after.value(crest), before.value(crest), "the key itself stays");
+    }
+}
+
+#[test]
+fn the_fields_take_sums_and_refuse_what_is_no_number() {
+    let mut animator = Animator::with_bone(3);
+    animator.click(animator.at(animator.key(8), 2));
+    animator.harness.get_by_label("Component X").click();
+    animator.steps(2);
+    animator.harness.get_by_label("Component Y").click();
+    animator.steps(2);
+    for (text, wanted) in [("45/2", Some(22.5)), ("nonsense", None)] {
+        let before = angle(&animator, 8);
+        animator.harness.get_by_label("Value Z").click();
+        animator.steps(2);
+        animator.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        animator.steps(1);
+        animator.harness.event(egui::Event::Text(text.to_owned()));
+        animator.steps(1);
+        animator.harness.key_press(Key::Enter);
+        animator.steps(3);
+        let now = angle(&animator, 8);
+        assert!((now - wanted.unwrap_or(before)).abs() < 0.01, "{text}: {now}");
+    }
+}

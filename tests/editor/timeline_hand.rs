@@ -1,0 +1,306 @@
+//! What a hand does in the timeline: it selects, moves, copies, scales, and takes it back.
+
+use crate::timeline_rig::Animator;
+use dragonfly::document::Change;
+use dragonfly::document::edit::Edit;
+use dragonfly::panels::Request;
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::keys::{BoneFlag, Deed, KeysRequest};
+use egui::{Key, Modifiers, PointerButton, vec2};
+use egui_kittest::kittest::Queryable;
+
+const FRAME: f32 = 1.0 / 30.0;
+
+#[test]
+fn a_click_selects_a_key_and_a_click_beside_all_selects_none() {
+    let mut animator = Animator::with_bone(3);
+    let on = animator.at(animator.key(8), 2);
+    animator.click(on);
+    assert_eq!(animator.selected(), 1);
+    let other = animator.at(animator.key(12), 2);
+    animator.click(other);
+    assert_eq!(animator.selected(), 1, "the other one instead");
+    animator.hold(Modifiers::SHIFT);
+    animator.click(on);
+    assert_eq!(animator.selected(), 2, "Shift adds");
+    animator.hold(Modifiers::COMMAND);
+    animator.click(on);
+    assert_eq!(animator.selected(), 1, "Ctrl takes out what is selected");
+    animator.hold(Modifiers::NONE);
+    let beside = animator.at(animator.key(8), 5);
+    animator.click(beside);
+    assert_eq!(animator.selected(), 0);
+    assert!(animator.changes.is_empty(), "selecting is no edit");
+}
+
+#[test]
+fn a_box_selects_what_it_touches_in_its_rows() {
+    let mut animator = Animator::with_bone(3);
+    let (from, to) = (animator.at(animator.key(4) - 0.04, 4), animator.at(animator.key(9) + 0.04, 2));
+    animator.drag(from, to);
+    animator.release(to);
+    assert_eq!(animator.selected(), 6);
+    // Backwards, with Shift, further right.
+    animator.hold(Modifiers::SHIFT);
+    let (from, to) = (animator.at(animator.key(22) + 0.04, 4), animator.at(animator.key(20) - 0.04, 2));
+    animator.drag(from, to);
+    animator.release(to);
+    assert_eq!(animator.selected(), 9);
+}
+
+#[test]
+fn alt_click_selects_a_column_of_all_bones() {
+    let mut animator = Animator::new(crate::fixture::full());
+    animator.hold(Modifiers::ALT);
+    let on = animator.at(animator.key(8), 2);
+    animator.click(on);
+    // Bone 0 has no translation there; each of 64 bones turns.
+    assert_eq!(animator.selected(), 64);
+}
+
+#[test]
+fn a_dragged_key_goes_to_the_nearest_frame_as_one_step() {
+    let mut animator = Animator::with_bone(3);
+    let grabbed = animator.key(8);
+    let from = animator.at(grabbed, 2);
+    let to = animator.at(grabbed + 0.03, 2) + vec2(0.0, 30.0);
+    animator.drag(from, to);
+    let held = animator.edited.adapter().slots()[0].result.tracks[3].rotation.times[8];
+    assert!((held - grabbed).abs() > 1e-3, "the document follows while it is held");
+    animator.release(to);
+    let moved = animator.times(3)[8];
+    let frames = moved / FRAME;
+    assert!((frames - frames.round()).abs() < 1e-3, "{moved} is on a frame");
+    assert!((moved - grabbed - 0.03).abs() <= FRAME / 2.0 + 1e-3, "{moved}");
+    assert_eq!(animator.edited.steps().0.len(), 1, "one step, however many edits");
+    assert_eq!(animator.selected(), 1, "what was dragged is selected where it is now");
+    assert!(animator.edits().iter().all(|edit| matches!(edit, Edit::MoveKeys { .. })));
+    assert!(animator.harness.state().state.keys.drag().is_none());
+}
+
+#[test]
+fn ctrl_turns_snapping_round() {
+    let mut animator = Animator::with_bone(3);
+    let grabbed = animator.key(8);
+    animator.click(animator.at(grabbed, 2));
+    animator.press(animator.at(grabbed, 2));
+    animator.move_to(animator.at(grabbed + 0.04, 2));
+    animator.hold(Modifiers::COMMAND);
+    let to = animator.at(grabbed + 0.04, 2);
+    animator.move_to(to);
+    animator.release(to);
+    let moved = animator.times(3)[8];
+    assert!((moved - grabbed - 0.04).abs() < 4e-3, "{moved}");
+}
+
+#[test]
+fn escape_and_the_right_button_take_a_drag_back() {
+    for escape in [true, false] {
+        let mut animator = Animator::with_bone(3);
+        let before = animator.times(3);
+        let (from, to) = (animator.at(animator.key(8), 2), animator.at(animator.key(11) + 0.04, 2));
+        animator.drag(from, to);
+        assert_ne!(animator.times(3), before);
+        if escape {
+            animator.harness.key_down(Key::Escape);
+            animator.steps(2);
+            animator.harness.key_up(Key::Escape);
+        } else {
+            animator.button(to, PointerButton::Secondary, true);
+            animator.button(to, PointerButton::Secondary, false);
+        }
+        animator.steps(2);
+        assert_eq!(animator.times(3), before, "Escape: {escape}");
+        assert!(matches!(animator.changes.last(), Some(Change::Cancel(_))));
+        // What the hand still does counts for nothing.
+        let far = animator.at(animator.key(20), 2);
+        animator.move_to(far);
+        animator.release(far);
+        assert_eq!(animator.times(3), before);
+        assert_eq!(animator.edited.steps().0.len(), 0);
+        assert_eq!(animator.harness.state().state.selected(), Some(3), "the bone stays selected");
+        assert!(animator.harness.query_by_label("Duplicate keys").is_none(), "and no menu opens");
+    }
+}
+
+#[test]
+fn a_drag_that_comes_back_changes_nothing() {
+    let mut animator = Animator::with_bone(3);
+    let before = animator.times(3);
+    let from = animator.at(animator.key(8), 2);
+    animator.drag(from, animator.at(animator.key(12), 2));
+    animator.harness.state_mut().state.keys.snap = false;
+    animator.move_to(from);
+    animator.release(from);
+    assert_eq!(animator.times(3), before);
+    assert_eq!(animator.edited.steps().0.len(), 0);
+}
+
+#[test]
+fn alt_drags_a_copy_and_two_makes_room() {
+    let mut animator = Animator::with_bone(3);
+    animator.click(animator.at(animator.key(8), 2));
+    animator.hold(Modifiers::ALT);
+    let to = animator.at(animator.key(8) + 0.045, 2);
+    animator.drag(animator.at(animator.key(8), 2), to);
+    animator.release(to);
+    assert_eq!(animator.times(3).len(), 42);
+    assert!(matches!(animator.edits().last(), Some(Edit::DuplicateKeys { .. })));
+    assert_eq!(animator.selected(), 1, "the copy");
+
+    let mut animator = Animator::with_bone(3);
+    animator.harness.key_down(Key::Num2);
+    animator.steps(1);
+    let to = animator.at(animator.key(9), 2);
+    animator.drag(animator.at(animator.key(8), 2), to);
+    animator.release(to);
+    let Some(Edit::Ripple { from, by, .. }) = animator.edits().last() else {
+        panic!("{:?}", animator.edits())
+    };
+    assert!((from - animator.key(8)).abs() < 1e-4 && *by > 0.0);
+    assert!((animator.times(9)[40] - 3.417 - by).abs() < 1e-3, "other bones make room too");
+}
+
+#[test]
+fn the_end_of_the_bar_scales_about_the_playhead() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Seek(0.0));
+    let (from, to) = (animator.at(animator.key(1) - 0.04, 4), animator.at(animator.key(10) + 0.04, 2));
+    animator.drag(from, to);
+    animator.release(to);
+    assert_eq!(animator.selected(), 10);
+    let grip = animator.harness.get_by_label("Scale keys by their end").rect().center();
+    let end = grip + vec2(animator.at(2.0, 0).x - animator.at(1.0, 0).x, 0.0);
+    animator.drag(grip, end);
+    animator.release(end);
+    let Some(Edit::ScaleKeys { about, factor, .. }) = animator.edits().last() else {
+        panic!("{:?}", animator.edits())
+    };
+    assert_eq!(*about, 0.0);
+    let wanted = (animator.key(10) + 1.0) / animator.key(10);
+    assert!((factor - wanted).abs() < 0.05, "{factor} for {wanted}");
+    assert_eq!(animator.selected(), 10);
+}
+
+#[test]
+fn a_locked_bone_is_not_edited_and_says_so() {
+    let mut animator = Animator::with_bone(3);
+    animator.harness.get_by_label("Lock rib_00_left_middle").click();
+    animator.steps(2);
+    let before = animator.times(3);
+    let to = animator.at(animator.key(12), 2);
+    animator.drag(animator.at(animator.key(8), 2), to);
+    animator.release(to);
+    assert_eq!(animator.times(3), before);
+    assert_eq!(animator.selected(), 0);
+    let said = |animator: &Animator| {
+        let line = animator.harness.state().state.status.last().map(|line| line.text.clone());
+        line.unwrap_or_default()
+    };
+    assert!(said(&animator).contains("is locked"), "{}", said(&animator));
+    // Neither from elsewhere.
+    let poses = vec![dragonfly::document::edit::BonePose {
+        bone: dragonfly::document::edit::BoneRef::Index(3),
+        translation: Some([1.0, 0.0, 0.0]),
+        rotation: None,
+        scale: None,
+    }];
+    let edit = animator.harness.state().state.pose_edit(poses).unwrap();
+    animator.request(Request::Change(Change::Edit(edit, None)));
+    assert!(animator.changes.is_empty());
+}
+
+#[test]
+fn muted_bones_rest_in_the_picture_and_solo_rests_all_others() {
+    let mut animator = Animator::new(crate::fixture::full());
+    animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Mute, 3, true)));
+    assert_eq!(animator.harness.state().state.keys.flags.still(6), [3]);
+    animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Solo, 1, true)));
+    assert_eq!(animator.harness.state().state.keys.flags.still(6), [0, 2, 3, 4, 5]);
+    let view = animator.harness.state().state.view.clone().unwrap();
+    let takes = view.takes_without(&[3]);
+    assert!(takes[0].tracks[3].is_empty() && !takes[0].tracks[2].is_empty());
+    assert!(!view.takes[0].tracks[3].is_empty(), "what is saved stays");
+}
+
+#[test]
+fn commands_do_to_the_selected_keys_what_they_say() {
+    let mut animator = Animator::with_bone(3);
+    animator.harness.key_press(Key::Delete);
+    animator.steps(2);
+    assert!(animator.changes.is_empty(), "no key is selected");
+    animator.request(Request::Command(Id::SelectAllKeys));
+    assert_eq!(animator.selected(), 41, "of the bone that is listed");
+    animator.request(Request::Command(Id::InterpolateSpline));
+    assert!(matches!(animator.edits().last(), Some(Edit::SetInterpolation { .. })));
+    animator.request(Request::Command(Id::SnapKeys));
+    assert!(animator.times(3).iter().all(|time| (time * 30.0 - (time * 30.0).round()).abs() < 1e-3));
+    let left = animator.times(3).len();
+    assert_eq!(animator.selected(), left, "selected still");
+    animator.request(Request::Seek(1.0));
+    animator.request(Request::Command(Id::KeysFaster));
+    let (first, last) = (animator.times(3)[0], *animator.times(3).last().unwrap());
+    assert!((first - 0.5).abs() < 1e-3 && (last - 2.2).abs() < 0.02, "{first} {last}");
+    animator.request(Request::Command(Id::KeysLater));
+    assert!((animator.times(3)[0] - 0.5 - FRAME).abs() < 1e-3);
+    let steps = animator.edited.steps().0.len();
+    assert_eq!(steps, 4);
+    animator.harness.key_press(Key::Delete);
+    animator.steps(2);
+    assert!(animator.times(3).is_empty());
+    for _ in 0..5 {
+        animator.request(Request::Command(Id::Undo));
+    }
+    assert_eq!(animator.times(3).len(), 41);
+}
+
+#[test]
+fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
+    let mut animator = Animator::with_bone(3);
+    let time = animator.key(8);
+    let at = animator.at(time, 3);
+    animator.wheel(at, vec2(0.0, 80.0));
+    assert!((animator.at(time, 3).x - at.x).abs() < 1.0, "what is under the pointer stays");
+    let state = &animator.harness.state().state;
+    let zoomed = state.keys.window(state.take().unwrap());
+    assert!(zoomed.length < 3.0, "{zoomed:?}");
+    animator.move_to(at);
+    animator.button(at, PointerButton::Middle, true);
+    for part in 1..=4 {
+        animator.move_to(at + vec2(part as f32 * -10.0, 0.0));
+    }
+    animator.button(at + vec2(-40.0, 0.0), PointerButton::Middle, false);
+    assert!((animator.at(time, 3).x - at.x + 40.0).abs() < 1.5, "it follows the hand");
+    animator.request(Request::Command(Id::FitKeys));
+    let state = &animator.harness.state().state;
+    assert_eq!(state.keys.window(state.take().unwrap()).length, f64::from(3.417_f32));
+}
+
+#[test]
+fn the_range_plays_and_any_time_can_be_looked_at() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Timeline(KeysRequest::Range(Some([1.0, 0.5]))));
+    animator.request(Request::Seek(3.0));
+    assert_eq!(animator.harness.state().state.time(), 3.0, "outside of the range, too");
+    animator.request(Request::Command(Id::PlayPause));
+    let state = &animator.harness.state().state;
+    assert_eq!((state.playback.start, state.playback.length), (0.5, 0.5));
+    let later = state.now + std::time::Duration::from_millis(725);
+    assert!((state.playback.time_at(later) - 0.725).abs() < 1e-3, "{}", state.playback.time_at(later));
+    animator.request(Request::Command(Id::PlayPause));
+    animator.request(Request::Command(Id::RangeWhole));
+    let state = &animator.harness.state().state;
+    assert_eq!((state.playback.start, state.playback.length), (0.0, 3.417));
+}
+
+#[test]
+fn a_refused_drag_leaves_everything_as_it_was() {
+    let mut animator = Animator::with_bone(3);
+    let before = animator.times(3);
+    animator.click(animator.at(0.0, 2));
+    animator.request(Request::Timeline(KeysRequest::Drag(Deed::Move(-5.0))));
+    animator.request(Request::Timeline(KeysRequest::Release));
+    assert_eq!(animator.times(3), before);
+    assert!(animator.harness.state().state.keys.drag().is_none(), "nothing is waited for");
+    assert_eq!(animator.selected(), 1);
+}

@@ -1,0 +1,62 @@
+//! Markers are the program's own: beside the model, and never in its file.
+
+use crate::fixture;
+use crate::panels::Bench;
+use crate::timeline_rig::Animator;
+use dragonfly::panels::Request;
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::keys::{KeysRequest, MarkerDeed};
+use egui::vec2;
+use egui_kittest::kittest::Queryable;
+
+fn marker(animator: &mut Animator, deed: MarkerDeed) {
+    animator.request(Request::Timeline(KeysRequest::Marker(deed)));
+}
+
+fn names(animator: &Animator) -> Vec<(f32, String)> {
+    animator.harness.state().state.markers().iter().map(|marker| (marker.time, marker.name.clone())).collect()
+}
+
+#[test]
+fn markers_are_added_named_moved_jumped_to_and_deleted() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Seek(2.0));
+    animator.request(Request::Command(Id::AddMarker));
+    animator.request(Request::Command(Id::AddMarker));
+    assert_eq!(names(&animator).len(), 1, "one at a time is enough");
+    animator.request(Request::Seek(1.0));
+    animator.request(Request::Command(Id::AddMarker));
+    marker(&mut animator, MarkerDeed::Rename(0, "left contact".to_owned()));
+    assert_eq!(names(&animator)[0], (1.0, "left contact".to_owned()), "ascending");
+    animator.request(Request::Command(Id::NextMarker));
+    assert_eq!(animator.harness.state().state.time(), 2.0);
+    let place = animator.harness.get_by_label("Marker left contact").rect().left_center() + vec2(6.0, 0.0);
+    animator.click(place);
+    assert_eq!(animator.harness.state().state.time(), 1.0, "a click goes there");
+    animator.drag(place, place + vec2(60.0, 0.0));
+    animator.release(place + vec2(60.0, 0.0));
+    assert!(names(&animator)[0].0 > 1.2, "{:?}", names(&animator));
+    marker(&mut animator, MarkerDeed::Delete(7));
+    marker(&mut animator, MarkerDeed::Delete(0));
+    assert_eq!(names(&animator).len(), 1);
+    assert!(animator.changes.is_empty(), "the document knows nothing of it");
+}
+
+#[test]
+fn markers_come_back_with_the_file_and_a_damaged_text_brings_none() {
+    let mut animator = Animator::with_bone(3);
+    marker(&mut animator, MarkerDeed::Add(0.5));
+    let (file, text) = animator.harness.state_mut().state.unsaved_markers().unwrap();
+    assert!(file.starts_with("markers/") && file.ends_with(".json"));
+    assert_eq!(animator.harness.state_mut().state.unsaved_markers(), None, "said once");
+    let mut again = Bench::new(Some(fixture::full())).state;
+    assert_eq!(again.wanted_markers(), Some(file));
+    assert_eq!(again.wanted_markers(), None, "asked once");
+    again.read_markers(&text);
+    assert_eq!(again.markers().len(), 1);
+    for damaged in ["", "{", "[1,2]", &text.replace("0.5", "1e999"), &text[..text.len() / 2]] {
+        let mut other = Bench::new(Some(fixture::full())).state;
+        other.read_markers(damaged);
+        assert!(other.markers().len() <= 1);
+    }
+}

@@ -1,0 +1,204 @@
+//! A person at the timeline and the curves: the panels without a window, with a document that answers.
+
+use crate::fixture;
+use crate::panels::{Bench, harness_of};
+use dragonfly::document::adapter::ModelAdapter;
+use dragonfly::document::edit::Edit;
+use dragonfly::document::history::Edited;
+use dragonfly::document::{Change, View};
+use dragonfly::panels::{Effect, Request};
+use egui::{Event, Modifiers, PointerButton, Pos2, Rect, Vec2, pos2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+/// See the module.
+pub(crate) struct Animator {
+    pub(crate) harness: Harness<'static, Bench>,
+    pub(crate) edited: Edited,
+    first: View,
+    modifiers: Modifiers,
+    /// Every change that was asked for.
+    pub(crate) changes: Vec<Change>,
+}
+
+impl Animator {
+    pub(crate) fn new(view: View) -> Self {
+        let edited = Edited::new(ModelAdapter::new(&view.loaded.model.animation));
+        let bench = Bench::new(Some(view.clone()));
+        let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+        harness.run_steps(4);
+        Self { harness, edited, first: view, modifiers: Modifiers::NONE, changes: Vec::new() }
+    }
+
+    /// A model with a spine, each bone turned by 41 keys over 3.417 seconds; `bone` is selected.
+    pub(crate) fn with_bone(bone: u32) -> Self {
+        let mut animator = Self::new(fixture::full());
+        animator.harness.state_mut().state.select(Some(bone));
+        animator.steps(2);
+        animator
+    }
+
+    /// Draws, and lets the document answer what was asked.
+    pub(crate) fn steps(&mut self, steps: usize) {
+        for _ in 0..steps {
+            self.harness.run_steps(1);
+            self.answer();
+        }
+    }
+
+    fn answer(&mut self) {
+        let effects = std::mem::take(&mut self.harness.state_mut().effects);
+        let mut changes = Vec::new();
+        for effect in effects {
+            match effect {
+                Effect::Change(change) => changes.push(change),
+                Effect::Changes(more) => changes.extend(more),
+                other => self.harness.state_mut().effects.push(other),
+            }
+        }
+        for change in changes {
+            self.changes.push(change.clone());
+            let done = match change {
+                Change::Edit(edit, gesture) => match self.edited.apply(edit, gesture) {
+                    Ok(()) => true,
+                    Err(_) => {
+                        self.harness.state_mut().state.keys_refused();
+                        false
+                    }
+                },
+                Change::Cancel(gesture) => self.edited.cancel(gesture),
+                Change::Undo => self.edited.undo(),
+                Change::Redo => self.edited.redo(),
+                Change::GoTo(step) => self.edited.go_to(step),
+                _ => false,
+            };
+            assert_eq!(self.edited.adapter().check(), Ok(()));
+            let generation = self.view().generation + u64::from(done);
+            let adapter = self.edited.adapter();
+            let view = View {
+                generation,
+                takes: adapter.results().cloned().collect(),
+                slots: adapter.slots().into(),
+                ..self.first.clone()
+            };
+            self.harness.state_mut().state.show(view);
+        }
+    }
+
+    fn view(&self) -> View {
+        self.harness.state().state.view.clone().unwrap()
+    }
+
+    /// Does what a panel would ask for.
+    pub(crate) fn request(&mut self, request: Request) {
+        let bench = self.harness.state_mut();
+        let effect = bench.state.execute(request);
+        bench.effects.extend(effect);
+        self.steps(2);
+    }
+
+    /// Holds these keys from now on.
+    pub(crate) fn hold(&mut self, modifiers: Modifiers) {
+        self.modifiers = modifiers;
+        self.harness.event(Event::ModifiersChanged(modifiers));
+        self.steps(1);
+    }
+
+    fn event(&mut self, event: Event) {
+        self.harness.event(event);
+    }
+
+    pub(crate) fn move_to(&mut self, pos: Pos2) {
+        self.event(Event::PointerMoved(pos));
+        self.steps(1);
+    }
+
+    pub(crate) fn button(&mut self, pos: Pos2, button: PointerButton, pressed: bool) {
+        let modifiers = self.modifiers;
+        self.event(Event::PointerButton { pos, button, pressed, modifiers });
+        self.steps(1);
+    }
+
+    pub(crate) fn press(&mut self, pos: Pos2) {
+        self.move_to(pos);
+        self.button(pos, PointerButton::Primary, true);
+    }
+
+    pub(crate) fn release(&mut self, pos: Pos2) {
+        self.button(pos, PointerButton::Primary, false);
+        self.steps(2);
+    }
+
+    pub(crate) fn click(&mut self, pos: Pos2) {
+        self.press(pos);
+        self.release(pos);
+    }
+
+    /// From one place to the other, in several movements, without letting go.
+    pub(crate) fn drag(&mut self, from: Pos2, to: Pos2) {
+        self.press(from);
+        for part in 1..=4 {
+            self.move_to(from + (to - from) * (part as f32 / 4.0));
+        }
+    }
+
+    pub(crate) fn wheel(&mut self, pos: Pos2, delta: Vec2) {
+        self.move_to(pos);
+        let modifiers = self.modifiers;
+        self.event(Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            delta,
+            phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
+            modifiers,
+        });
+        self.steps(8);
+    }
+
+    /// Where the keys of the timeline are.
+    pub(crate) fn keys(&self) -> Rect {
+        self.harness.get_by_label_contains("Keys, ").rect()
+    }
+
+    /// Where the curves are.
+    pub(crate) fn curves(&self) -> Rect {
+        self.harness.get_by_label("Curves of keys").rect()
+    }
+
+    /// The place of a time in a row of the timeline, 0 for the uppermost.
+    pub(crate) fn at(&self, time: f32, row: usize) -> Pos2 {
+        let keys = self.keys();
+        pos2(self.x_in(keys, time), keys.top() + (row as f32 + 0.5) * 20.0)
+    }
+
+    /// Points of a time in a part that shows it.
+    pub(crate) fn x_in(&self, part: Rect, time: f32) -> f32 {
+        let state = &self.harness.state().state;
+        let window = state.keys.window(state.take().unwrap());
+        part.left() + 16.0 + (time - window.start as f32) / window.length as f32 * (part.width() - 36.0)
+    }
+
+    /// How many keys are selected.
+    pub(crate) fn selected(&self) -> usize {
+        let state = &self.harness.state().state;
+        state.keys.selection.count(state.take().unwrap())
+    }
+
+    /// The time of a key of the fixture.
+    pub(crate) fn key(&self, index: usize) -> f32 {
+        index as f32 * 3.417 / 40.0
+    }
+
+    /// Edits asked for so far.
+    pub(crate) fn edits(&self) -> Vec<&Edit> {
+        self.changes
+            .iter()
+            .filter_map(|change| if let Change::Edit(edit, _) = change { Some(edit) } else { None })
+            .collect()
+    }
+
+    /// Times of the keys of a bone's rotation, as the document has them.
+    pub(crate) fn times(&self, bone: usize) -> Vec<f32> {
+        self.edited.adapter().slots()[0].result.tracks[bone].rotation.times.to_vec()
+    }
+}
