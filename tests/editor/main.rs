@@ -50,6 +50,7 @@ mod no_allocation;
 mod panels;
 mod picking;
 mod picking_many;
+mod picking_scene;
 mod picking_skin;
 mod picture;
 mod playback;

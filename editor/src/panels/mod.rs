@@ -11,6 +11,7 @@ pub mod icons;
 pub mod layout;
 pub mod menu;
 pub mod overlays;
+mod posed;
 mod posing;
 pub mod properties;
 pub mod ruler;

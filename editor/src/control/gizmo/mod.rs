@@ -308,7 +308,11 @@ impl Gizmo {
     pub fn present_into(&self, shape: &mut GizmoShape) {
         match &self.going {
             Some(drag) => {
-                let Some(stand) = drag.stand() else { return };
+                let Some(mut stand) = drag.stand() else { return };
+                if let Some(GizmoDelta::Move(by)) = self.delta {
+                    // It goes where the bones go.
+                    stand.pivot += stand.frame.axes * by;
+                }
                 shape.dragging(&stand, drag.tool, drag.handle(), self.delta, drag.start());
             }
             None => {

@@ -201,9 +201,10 @@ impl GizmoShape {
     }
 
     fn disc(&mut self, stand: &Stand, radius: f64, role: GizmoRole, opacity: f32) {
-        for index in 0..SIDES * 2 {
-            let [from, to] =
-                [index, index + 1].map(|end| facing(stand, radius, end as f64 / (SIDES * 2) as f64));
+        // A large one as round as the rings around it.
+        let sides = if radius > CENTRE { PIECES } else { SIDES * 2 };
+        for index in 0..sides {
+            let [from, to] = [index, index + 1].map(|end| facing(stand, radius, end as f64 / sides as f64));
             self.triangle([stand.pivot, from, to], role, opacity);
         }
     }

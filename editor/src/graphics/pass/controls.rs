@@ -9,7 +9,7 @@ use crate::graphics::message::Look;
 use crate::graphics::shaders;
 
 /// Width of lines, points.
-const WIDTH: f32 = 2.0;
+const WIDTH: f32 = 2.4;
 
 /// Draws them.
 #[derive(Default)]

@@ -9,15 +9,18 @@ use crate::panels::widgets::{command_button, icon_button};
 use crate::panels::{Request, State, menu};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
-/// Draws them; tells where they are. Not in a picture that is too low for them: keys and menus have them all.
+/// Draws them; tells where they are. A low picture has the tools alone, a very low one nothing: keys and menus have it all.
 pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
     let hand = &state.settings.hand;
-    let height = 8.0 * 26.0 + 2.0 * 9.0 + 2.0 * GRID - 2.0;
     let top = rect.top() + 52.0;
-    if rect.bottom() - top < height + 90.0 || rect.width() < 240.0 {
-        return None;
-    }
-    let at = Rect::from_min_size(pos2(rect.left() + 10.0, top), vec2(32.0, height));
+    // The axes stand below.
+    let room = rect.bottom() - top - 92.0;
+    let height = |buttons: f32, dividers: f32| {
+        buttons * 24.0 + dividers * 7.0 + (buttons + dividers - 1.0) * 2.0 + 2.0 * GRID
+    };
+    let heights = [height(8.0, 2.0), height(6.0, 1.0), height(4.0, 0.0)];
+    let fits = heights.iter().position(|&height| height <= room).filter(|_| rect.width() >= 240.0)?;
+    let at = Rect::from_min_size(pos2(rect.left() + 10.0, top), vec2(32.0, heights[fits]));
     glass(ui, at);
     let mut ui = ui.new_child(
         UiBuilder::new().max_rect(at.shrink(GRID)).layout(Layout::top_down(Align::Center)).id_salt("hand"),
@@ -32,12 +35,16 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
     ] {
         command_button(ui, icon, id, hand.tool == tool, requests);
     }
-    divider_across(ui);
-    choice(ui, state, space_icon(hand.space), space_name(hand.space), &SPACES, requests);
-    choice(ui, state, pivot_icon(hand.pivot), pivot_name(hand.pivot), &PIVOTS, requests);
-    divider_across(ui);
-    command_button(ui, Icon::Ghosts, Id::ToggleGhosts, hand.ghosts.shown, requests);
-    command_button(ui, Icon::Path, Id::TogglePath, hand.path, requests);
+    if fits <= 1 {
+        divider_across(ui);
+        choice(ui, state, space_icon(hand.space), space_name(hand.space), &SPACES, requests);
+        choice(ui, state, pivot_icon(hand.pivot), pivot_name(hand.pivot), &PIVOTS, requests);
+    }
+    if fits == 0 {
+        divider_across(ui);
+        command_button(ui, Icon::Ghosts, Id::ToggleGhosts, hand.ghosts.shown, requests);
+        command_button(ui, Icon::Path, Id::TogglePath, hand.path, requests);
+    }
     Some(at)
 }
 
