@@ -96,6 +96,23 @@ fn pictures_of_the_panels() {
         bench.state.overlay = Some(overlay);
         shoot(&format!("overlay_{overlay:?}"), bench, egui::Theme::Dark, 1.0);
     }
+    // A model of the person who looks, with keys selected, a marker and a range.
+    if let Some(path) = std::env::var_os("DRAGONFLY_SHOTS_MODEL") {
+        let source = dragonfly::document::Source::File(path.into());
+        let cancel = dragonfly::document::Cancel::default();
+        let loaded = dragonfly::document::load_model(&source, &mut |_| {}, &cancel).unwrap();
+        let view = View::opened(1, std::sync::Arc::new(loaded));
+        for (name, bones) in [("model", vec![]), ("model_bone", vec![5]), ("model_bones", vec![4, 5, 6, 7])] {
+            let mut bench = Bench::new(Some(view.clone()));
+            bench.state.execute(Request::SelectBones(bones, dragonfly::control::bones::Choice::Replace));
+            let (start, length) = bench.state.take_bounds();
+            bench.state.execute(Request::Seek(start + length * 0.4));
+            bench.state.execute(Request::Command(dragonfly::panels::commands::Id::AddMarker));
+            bench.state.execute(Request::Command(dragonfly::panels::commands::Id::SelectAllKeys));
+            bench.state.execute(Request::Command(dragonfly::panels::commands::Id::RangeFromHere));
+            shoot(name, bench, egui::Theme::Dark, 1.0);
+        }
+    }
     let mut bench = Bench::new(None);
     bench.state.loading = Some(Loading {
         title: "Fox.glb".to_owned(),

@@ -249,7 +249,7 @@ fn commands_do_to_the_selected_keys_what_they_say() {
     animator.steps(2);
     assert!(animator.times(3).is_empty());
     for _ in 0..5 {
-        animator.request(Request::Command(Id::Undo));
+        animator.request(Request::Change(Change::Undo));
     }
     assert_eq!(animator.times(3).len(), 41);
 }
