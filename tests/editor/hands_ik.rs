@@ -1,15 +1,16 @@
 //! A bone that is dragged takes those above it along with IK on, and pinned bones stay where they are.
 
 use crate::arm;
-use crate::hands_rig::Hand;
-use dragonfly::control::gizmo::{Axis, Handle};
+use crate::hands_rig::{Hand, PICTURE};
+use dragonfly::control::gizmo::{Axis, GizmoView, Handle};
 use dragonfly::control::{InputEvent, Key};
 use dragonfly::document::edit::Property;
 use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
-use dragonfly::graphics::IkLook;
+use dragonfly::graphics::scene::Scene;
+use dragonfly::graphics::{Appearance, IkLook};
+use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::BoneFlag;
-use dragonfly::panels::Request;
 use dragonfly_anim::data::{BoneIndex, Transform};
 use glam::{Quat, Vec2, Vec3};
 use std::sync::Arc;
@@ -110,9 +111,11 @@ fn the_end_of_a_chain_comes_to_where_the_pointer_is() {
 
 #[test]
 fn a_pinned_tip_stays_while_the_root_is_moved_and_turned() {
-    for (tool, handle) in
-        [(Id::ToolMove, Handle::Centre), (Id::ToolRotate, Handle::Axis(Axis::Z)), (Id::ToolRotate, Handle::Axis(Axis::X))]
-    {
+    for (tool, handle) in [
+        (Id::ToolMove, Handle::Centre),
+        (Id::ToolRotate, Handle::Axis(Axis::Z)),
+        (Id::ToolRotate, Handle::Axis(Axis::X)),
+    ] {
         let mut hand = arm(2, tool);
         hand.command(Id::Pin);
         hand.state.select(Some(0));
@@ -121,7 +124,7 @@ fn a_pinned_tip_stays_while_the_root_is_moved_and_turned() {
         let from = hand.handle(handle);
         hand.press(from);
         for part in 1..=5 {
-            hand.to(from + Vec2::new(3.0, 4.0) * part as f32);
+            hand.to(from + Vec2::new(3.0, -4.0) * part as f32);
             let off = place(&hand, 2).distance(tip);
             assert!(off < 1e-4, "{tool:?}: {off} from where it was");
             assert!(facing(&hand, 2).angle_between(direction) < 1e-3);
@@ -160,7 +163,9 @@ fn escape_gives_chain_and_pins_back_bit_for_bit() {
         hand.state.select(Some(bone));
         hand.state.begin(hand.state.now);
         let (before, takes) = (poses(&hand), hand.state.view.clone().expect("open").takes);
-        for end in [InputEvent::KeyDown(Key::Escape), InputEvent::MouseDown(dragonfly::control::Button::Right)] {
+        for end in
+            [InputEvent::KeyDown(Key::Escape), InputEvent::MouseDown(dragonfly::control::Button::Right)]
+        {
             drag(&mut hand, Handle::Centre, Vec2::new(8.0, 20.0));
             assert_ne!(poses(&hand), before);
             assert_eq!(hand.steps().len(), 1);
@@ -240,7 +245,7 @@ fn a_key_of_the_path_is_pending_with_auto_key_off() {
     hand.state.execute(Request::Seek(0.0));
     hand.command(Id::AutoKey);
     let last = *hand.state.trail.look().expect("a path").keys.last().expect("a key");
-    let view = dragonfly::control::gizmo::GizmoView::new(&hand.state.camera, Vec2::new(800.0, 600.0));
+    let view = GizmoView::new(&hand.state.camera, Vec2::new(800.0, 600.0));
     let from = view.to_screen(last.1.as_dvec3()).expect("seen").as_vec2() + Vec2::new(200.0, 50.0);
     hand.press(from);
     hand.to(from + Vec2::new(30.0, -20.0));
@@ -252,3 +257,49 @@ fn a_key_of_the_path_is_pending_with_auto_key_off() {
     assert_eq!(hand.state.trail.look().expect("a path").keys.last(), Some(&last));
 }
 
+/// What the graphics thread has of the same, without bones drawn.
+fn scene(hand: &Hand) -> Scene {
+    let mut scene = Scene::new(hand.state.now);
+    let [_, _, width, height] = PICTURE.map(|number| number as u32);
+    scene.look.viewport = [0, 0, width, height];
+    scene.camera = hand.state.camera;
+    scene.playback = hand.state.playback;
+    scene.show(hand.state.view.as_ref().expect("open"));
+    scene.prepare(hand.state.now);
+    scene
+}
+
+#[test]
+fn pins_and_the_chain_are_drawn_where_the_bones_are() {
+    let hand = arm(2, Id::ToolMove);
+    let mut scene = scene(&hand);
+    let look = IkLook { pins: vec![2, 77], chain: Some((2, 9)), pole: Some(77) };
+    scene.controls.receive(Appearance::Ik(Some(look)));
+    scene.prepare(hand.state.now);
+    let shape = scene.controls.shape();
+    let lines: Vec<Vec3> = shape.lines().iter().map(|corner| corner.position).collect();
+    assert_eq!(lines[..4], [1, 2, 0, 1].map(|bone| place(&hand, bone)), "up the chain");
+    assert_eq!(lines.len(), 2 * 2 + 4 * 2, "and a frame around the pin");
+    let middle = lines[4..].iter().sum::<Vec3>() / 8.0;
+    assert!(middle.distance(place(&hand, 2)) < 1e-5);
+    assert_eq!(shape.triangles().len(), 2 * 6, "a dot at the root, and in the frame");
+    scene.controls.receive(Appearance::Ik(None));
+    scene.prepare(hand.state.now);
+    assert!(scene.controls.shape().lines().is_empty());
+}
+
+#[test]
+fn the_skin_is_clicked_where_a_pending_pose_shows_it() {
+    let mut hand = arm(0, Id::ToolMove);
+    hand.command(Id::AutoKey);
+    hand.command(Id::MoveNow);
+    hand.keys("x1.5");
+    hand.key(Key::Enter);
+    assert!(place(&hand, 0).distance(Vec3::X * 1.5) < 1e-4, "{}", place(&hand, 0));
+    let mut scene = scene(&hand);
+    let view = GizmoView::new(&scene.camera, Vec2::new(PICTURE[2], PICTURE[3]));
+    let at = |place: Vec3| view.to_screen(place.as_dvec3()).expect("seen").as_vec2().to_array();
+    let side = scene.camera.right() * 0.18;
+    assert_eq!(scene.pick_all(at(Vec3::new(1.5, 0.3, 0.0) + side)), [0]);
+    assert!(scene.pick_all(at(Vec3::new(0.0, 0.3, 0.0) - side)).is_empty(), "not where the keys have it");
+}

@@ -53,13 +53,7 @@ impl State {
             }
             return;
         };
-        let key = (
-            view.generation,
-            take,
-            bone,
-            self.settings.frame_rate,
-            self.keys.flags.version(),
-        );
+        let key = (view.generation, take, bone, self.settings.frame_rate, self.keys.flags.version());
         if self.trail.of == Some(key) {
             return;
         }

@@ -33,11 +33,11 @@ fn length(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         menu::item(ui, state, Id::Pin, false, requests);
         menu::item(ui, state, Id::FreePins, false, requests);
     });
-    let [longer, shorter] =
-        [Id::LongerIk, Id::ShorterIk].map(|id| commands::shortcut_text(ui.ctx(), id));
-    let pole = state.ik.pole.map_or(String::new(), |pole| {
-        format!("\nElbows and knees bend towards {}", state.bone_name(pole))
-    });
+    let [longer, shorter] = [Id::LongerIk, Id::ShorterIk].map(|id| commands::shortcut_text(ui.ctx(), id));
+    let pole = state
+        .ik
+        .pole
+        .map_or(String::new(), |pole| format!("\nElbows and knees bend towards {}", state.bone_name(pole)));
     let pins = match state.pins.len() {
         0 => String::new(),
         pins => format!("\n{} pinned", count(pins, "bone is", "bones are")),
