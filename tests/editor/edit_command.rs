@@ -159,12 +159,12 @@ fn the_list_of_edits_and_their_schema_can_be_read_by_programs() {
         .iter()
         .filter_map(|entry| entry["example"]["edit"].as_str())
         .collect();
-    assert!(names.len() == 24 && names.contains(&"split_take"), "{names:?}");
+    assert!(names.len() == 25 && names.contains(&"split_take"), "{names:?}");
     assert_eq!(list["version"], 1);
     let people = run(["edit", "--list"]).expect(0);
     assert!(people.text().contains("# Turns the head 30°"));
     let schema = run(["edit", "--schema"]).expect(0).json();
-    assert_eq!(schema["oneOf"].as_array().map(Vec::len), Some(24));
+    assert_eq!(schema["oneOf"].as_array().map(Vec::len), Some(25));
 }
 
 #[test]

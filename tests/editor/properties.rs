@@ -341,6 +341,9 @@ fn the_rest_pose_is_shown_and_not_changed() {
     drag(&mut window, "Rotation change X", vec2(50.0, 0.0), Modifiers::NONE);
     drag(&mut window, "Rotation change X slider", vec2(50.0, 0.0), Modifiers::NONE);
     assert_eq!(window.state().changes, []);
+    // Ctrl+A found no field to select in, and selected all bones.
+    window.state_mut().state.select(Some(3));
+    window.run_steps(2);
     assert_eq!(value(&window, "Translation result X"), Some(f64::from(-0.08_f32)));
 }
 

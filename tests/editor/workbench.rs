@@ -42,8 +42,9 @@ impl Workbench {
         Self::new(Some(fixture::full()))
     }
 
+    /// High enough to show everything without scrolling.
     pub(crate) fn window(self) -> Window {
-        self.window_of(egui::vec2(1280.0, 720.0), egui::Theme::Dark)
+        self.window_of(egui::vec2(1280.0, 1000.0), egui::Theme::Dark)
     }
 
     /// One that draws a box for letters that no font has, as the program does.

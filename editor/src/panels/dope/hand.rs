@@ -95,15 +95,18 @@ impl Hand {
             self.let_go(rows, scale, *scrolled, places, pointer.or(input.pointer), requests);
             return;
         }
-        let (true, Some(pointer)) = (canvas.is_pointer_button_down_on(), input.pointer) else {
-            return;
-        };
-        if (input.secondary_down || input.escape) && !matches!(self.doing, Doing::Spent) {
+        // Asked first: egui lets go of what is dragged by Escape itself.
+        let held = canvas.is_pointer_button_down_on();
+        let begun = held || !matches!(self.doing, Doing::Nothing);
+        if begun && (input.secondary_down || input.escape) && !matches!(self.doing, Doing::Spent) {
             if matches!(self.doing, Doing::Keys { .. }) {
                 requests.push(Request::Timeline(KeysRequest::Cancel));
             }
             self.doing = Doing::Spent;
         }
+        let (true, Some(pointer)) = (held, input.pointer) else {
+            return;
+        };
         match &mut self.doing {
             Doing::Nothing if input.pans => self.doing = Doing::Spent,
             Doing::Nothing => {

@@ -210,9 +210,9 @@ impl Head {
             self.scaling = Some(Scaling { about, grabbed: end, begun: false });
         }
         let Some(scaling) = &mut self.scaling else { return };
-        if response.dragged_by(PointerButton::Primary) {
-            let cancelled =
-                ui.input(|input| input.pointer.secondary_down() || input.key_down(egui::Key::Escape));
+        let cancelled = ui.input(|input| input.pointer.secondary_down() || input.key_down(egui::Key::Escape));
+        // By Escape egui ends the drag itself.
+        if cancelled || response.dragged_by(PointerButton::Primary) {
             let gone = scaling.begun && !state.keys.drag().is_some_and(|drag| drag.held());
             if cancelled || gone {
                 requests.push(Request::Timeline(KeysRequest::Cancel));

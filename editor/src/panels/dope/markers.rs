@@ -81,7 +81,12 @@ impl MarkerLane {
             if response.double_clicked() {
                 self.renaming = Some((index, marker.name.clone(), true));
             }
-            if response.dragged_by(PointerButton::Primary)
+            if self.held.is_some_and(|(held, _)| held == index)
+                && ui.input(|input| input.key_down(egui::Key::Escape))
+            {
+                // By Escape egui ends the drag itself.
+                self.held = None;
+            } else if response.dragged_by(PointerButton::Primary)
                 && let Some(pointer) = response.interact_pointer_pos()
             {
                 let snap = state.keys.snap != ui.input(|input| input.modifiers.command);
