@@ -23,8 +23,8 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::AddMarker, When::Take, "Add a marker", &[key(ALT, Key::M)], "Marks the time shown; markers stay out of the model's file"),
     command(Id::PreviousMarker, When::Take, "Previous marker", &[key(SHIFT, Key::PageUp)], "To the marker before"),
     command(Id::NextMarker, When::Take, "Next marker", &[key(SHIFT, Key::PageDown)], "To the marker after"),
-    command(Id::RangeOfKeys, When::Take, "Play range of the selection", &[key(ALT.plus(SHIFT), Key::Home)], "Plays between the selected keys, or what is in sight"),
+    command(Id::RangeOfKeys, When::Take, "Play range of the selection", &[key(NONE, Key::P)], "Plays between the selected keys, or what is in sight"),
     command(Id::RangeFromHere, When::Take, "Play range begins here", &[key(ALT, Key::Home)], "Plays from the playhead on"),
     command(Id::RangeToHere, When::Take, "Play range ends here", &[key(ALT, Key::End)], "Plays up to the playhead"),
-    command(Id::RangeWhole, When::Take, "Play the whole take", &[key(ALT.plus(SHIFT), Key::End)], "Takes the play range away"),
+    command(Id::RangeWhole, When::Take, "Play the whole take", &[key(ALT, Key::P)], "Takes the play range away"),
 ];

@@ -21,7 +21,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::PivotActive, When::Always, "All about the active bone", &[], "Several bones turn and grow about the joint of the one selected last"),
     command(Id::ToggleCurl, When::Always, "Curl chains", &[], "Every bone of a selected chain turns by the whole amount, as a finger does"),
     command(Id::BoxSelect, When::Model, "Select in a box", &[key(SHIFT, Key::B)], "The next drag draws a box, wherever it begins"),
-    command(Id::LassoSelect, When::Model, "Select in a lasso", &[key(CTRL, Key::L)], "The next drag draws a line around what is meant"),
+    command(Id::LassoSelect, When::Model, "Select in a lasso", &[key(SHIFT, Key::L)], "The next drag draws a line around what is meant"),
     command(Id::ToggleGhosts, When::Always, "Ghosts", &[key(SHIFT, Key::G)], "Shows the skeleton some frames before and after"),
     command(Id::TogglePath, When::Always, "Motion path", &[key(SHIFT, Key::P)], "Shows where the selected bone moves along; its keys can be dragged"),
 ];
