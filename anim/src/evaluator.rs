@@ -5,7 +5,7 @@
 
 use crate::animation::{Animation, final_poses};
 use crate::bounds::{Bounds, bounds_of_bones};
-use crate::data::{MeshInstance, ModelData, Primitive};
+use crate::data::{MeshInstance, ModelData, Primitive, Transform};
 use crate::sample::sample_morph_weights;
 use crate::skin::{Movement, skin_normals, skin_positions};
 use glam::{Mat4, Vec3};
@@ -38,6 +38,18 @@ impl Evaluator {
     /// past the end, is the rest pose. Allocates nothing.
     pub fn pose(&mut self, take: Option<usize>, time: f32) {
         self.animation.to_root_bone_poses(take, time);
+        self.pose_rest(take, time);
+    }
+
+    /// The same, but for bones: `change` gets the pose of every bone, parent space, and may give it another one.
+    pub fn pose_with(&mut self, take: Option<usize>, time: f32, change: impl FnOnce(&mut [Transform])) {
+        self.animation.to_root_bone_poses(take, time);
+        self.animation.to_root_bone_poses_with(change);
+        self.pose_rest(take, time);
+    }
+
+    /// What follows from the bones, and the morph weights.
+    fn pose_rest(&mut self, take: Option<usize>, time: f32) {
         for (skin, finals) in self.model.skins.iter().zip(&mut self.finals) {
             final_poses(skin, self.animation.to_root(), finals);
         }

@@ -33,6 +33,7 @@ mod gizmo_several;
 mod graphics_thread;
 mod hands;
 mod hands_fuzz;
+mod hands_ik;
 mod hands_path;
 mod hands_rig;
 mod history_panel;

@@ -4,7 +4,7 @@ use super::interface::Interface;
 use crate::camera::Camera;
 use crate::control::bones::HiddenBones;
 use crate::control::gizmo::GizmoShape;
-use crate::graphics::{Appearance, GizmoLook, GraphicsHandle, Look, PathLook};
+use crate::graphics::{Appearance, GizmoLook, GraphicsHandle, IkLook, Look, PathLook};
 use crate::panels::State;
 use crate::panels::theme::{Theme, linear};
 use crate::playback::Playback;
@@ -29,6 +29,7 @@ pub(super) struct Sent {
     path_hovered: Option<f32>,
     ghosts: Vec<(f32, i32)>,
     spare_times: Vec<(f32, i32)>,
+    ik: Option<IkLook>,
     /// Room for the list of selected bones.
     spare: Vec<BoneIndex>,
 }
@@ -105,6 +106,10 @@ impl Sent {
         if self.ghosts != self.spare_times {
             self.ghosts.clone_from(&self.spare_times);
             graphics.show_control(Appearance::Ghosts(self.ghosts.clone()));
+        }
+        if !state.shows_ik(self.ik.as_ref()) {
+            self.ik = state.ik_look();
+            graphics.show_control(Appearance::Ik(self.ik.clone()));
         }
         (self.drags, self.revision) = (gizmo.is_dragging(), revision);
     }

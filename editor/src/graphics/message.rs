@@ -33,6 +33,19 @@ pub enum Appearance {
     Path(Option<Arc<PathLook>>, Option<f32>),
     /// The skeleton at other times of the take that is shown: seconds, and how far from now, before now negative.
     Ghosts(Vec<(f32, i32)>),
+    /// Bones that are pinned, and the row that follows one that is moved; none: nothing of it is shown.
+    Ik(Option<IkLook>),
+}
+
+/// Pins and a row of bones that follows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IkLook {
+    /// Bones that stay.
+    pub pins: Vec<BoneIndex>,
+    /// The end of the row, which is moved, and how many bones above it follow.
+    pub chain: Option<(BoneIndex, u32)>,
+    /// The bone towards which the row bends.
+    pub pole: Option<BoneIndex>,
 }
 
 /// A motion path: seconds, and where the joint is then in scene space.

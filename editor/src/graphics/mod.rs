@@ -36,7 +36,8 @@ pub use device::{Device, DeviceListener, DeviceParameters, DeviceState, Graphics
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};
 pub use message::{
-    Appearance, BoneLook, GizmoLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, PathLook, Shading,
+    Appearance, BoneLook, GizmoLook, GraphicsMessage, GraphicsReply, IkLook, Look, PanelsFrame, PathLook,
+    Shading,
 };
 pub use surface::SurfaceSource;
 pub use worker::{Drawer, Graphics, Present};

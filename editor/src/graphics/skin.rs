@@ -39,7 +39,12 @@ impl SkinPicker {
                 evaluator.animation_mut().replace_take(index, Arc::clone(take));
             }
         }
-        evaluator.pose(take, time);
+        // As it is drawn: with what is pending, and bones held still.
+        evaluator.pose_with(take, time, |poses| {
+            for (pose, shown) in poses.iter_mut().zip(model.poses()) {
+                *pose = *shown;
+            }
+        });
         pose.refit(evaluator);
         pick_skin(pose, evaluator, ray, hidden, &mut self.hits);
         out.extend(self.hits.iter().map(|hit| hit.bone));

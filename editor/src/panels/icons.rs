@@ -78,6 +78,8 @@ pub enum Icon {
     Hidden,
     Ghosts,
     Path,
+    Ik,
+    Pin,
 }
 
 impl Icon {
@@ -155,6 +157,8 @@ impl Icon {
         Self::Hidden,
         Self::Ghosts,
         Self::Path,
+        Self::Ik,
+        Self::Pin,
     ];
 
     /// Draws it into the middle of `rect`, 16 points large.
@@ -241,6 +245,17 @@ impl Icon {
                 (11.5, 4.3),
                 (13.5, 4.0),
             ]),
+            Self::Ik => {
+                pen.dot(3.4, 12.4, 1.7);
+                pen.line(&[(3.4, 12.4), (5.4, 5.0), (10.6, 7.6)]);
+                pen.dot(5.4, 5.0, 1.7);
+                pen.ring(12.2, 8.6, 2.2);
+            }
+            Self::Pin => {
+                pen.line(&[(5.0, 2.8), (11.0, 2.8)]);
+                pen.outline(&[(6.2, 2.8), (9.8, 2.8), (9.8, 7.0), (11.8, 9.4), (4.2, 9.4), (6.2, 7.0)]);
+                pen.line(&[(8.0, 9.4), (8.0, 13.8)]);
+            }
             Self::Search => {
                 pen.ring(7.0, 7.0, 4.0);
                 pen.line(&[(10.0, 10.0), (13.5, 13.5)]);

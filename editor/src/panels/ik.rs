@@ -2,7 +2,9 @@
 
 use super::state::{Effect, State};
 use super::status::Level;
+use crate::control::gizmo::Tool;
 use crate::document::Change;
+use crate::graphics::IkLook;
 use crate::posing::{Hold, LONGEST_CHAIN, look_at};
 use dragonfly_anim::data::BoneIndex;
 use std::sync::Arc;
@@ -17,9 +19,43 @@ impl State {
         Some(Hold::new(skeleton, poses, &self.pins, self.ik, None))
     }
 
+    /// The same with the poses that were computed last, for numbers that are typed; none where no bone is pinned.
+    pub(super) fn hold_of_pins(&self) -> Option<Hold> {
+        let animation = self.posed.animation().filter(|_| !self.pins.is_empty())?;
+        let skeleton = Arc::clone(&self.loaded()?.model.animation.skeleton);
+        Some(Hold::new(skeleton, animation.poses(), &self.pins, self.ik, None))
+    }
+
     /// Is this bone held where it is while others move?
     pub fn is_pinned(&self, bone: BoneIndex) -> bool {
         self.pins.contains(&bone)
+    }
+
+    /// Pins, and the row of bones that follows the active one, as they are drawn; none where there is nothing of it.
+    pub fn ik_look(&self) -> Option<IkLook> {
+        let (pins, chain) = (self.pins.clone(), self.ik_chain());
+        let pole = self.ik.pole.filter(|_| chain.is_some());
+        (chain.is_some() || !pins.is_empty()).then_some(IkLook { pins, chain, pole })
+    }
+
+    /// Is this what [`Self::ik_look`] says? Asked every frame: nothing is copied for it.
+    pub fn shows_ik(&self, look: Option<&IkLook>) -> bool {
+        let chain = self.ik_chain();
+        match look {
+            None => chain.is_none() && self.pins.is_empty(),
+            Some(look) => {
+                let pole = self.ik.pole.filter(|_| chain.is_some());
+                let some = chain.is_some() || !self.pins.is_empty();
+                some && look.pins == self.pins && (look.chain, look.pole) == (chain, pole)
+            }
+        }
+    }
+
+    /// The active bone and how many above it follow, where it is moved with IK.
+    fn ik_chain(&self) -> Option<(BoneIndex, u32)> {
+        let moves = self.ik.on && self.settings.hand.tool == Some(Tool::Move);
+        let bone = self.selected().filter(|_| moves && self.playback.take.is_some())?;
+        Some((bone, self.ik.length))
     }
 
     /// Pins the selected bones, or frees them where all of them are pinned.

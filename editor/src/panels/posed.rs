@@ -1,7 +1,9 @@
 //! Poses of what is open, computed when somebody reads them.
 
+use super::keys::BoneFlags;
 use crate::document::{LoadedModel, View};
 use dragonfly_anim::animation::Animation;
+use dragonfly_anim::data::{AnimationData, BoneIndex, Take};
 use std::sync::Arc;
 
 /// Poses at the time shown, computed when somebody reads them.
@@ -11,9 +13,29 @@ pub struct Posed {
     at: Option<(Option<usize>, f32, bool)>,
     /// Does time run? Then the keys are seen, and not what is pending.
     pub(super) running: bool,
+    /// Bones that are seen at rest, and the version of the marks that say so.
+    still: (u64, Vec<BoneIndex>),
 }
 
 impl Posed {
+    /// Shows bones at rest that the picture shows so, from the next update on.
+    pub(super) fn hold_still(&mut self, flags: &BoneFlags, view: &View) {
+        if self.still.0 == flags.version() {
+            return;
+        }
+        let still = flags.still(view.loaded.model.animation.skeleton.len());
+        if still != self.still.1 {
+            self.animation = None;
+            self.at = None;
+        }
+        self.still = (flags.version(), still);
+    }
+
+    /// The takes of `view` as they are seen.
+    pub(super) fn takes(&self, view: &View) -> Arc<[Arc<Take>]> {
+        view.takes_without(&self.still.1)
+    }
+
     /// The poses of `view` in `take` at `time`, with what is pending there. Of the model that was posed last only the takes
     /// are exchanged.
     pub fn update(&mut self, view: &View, take: Option<usize>, time: f32) -> &Animation {
@@ -22,18 +44,20 @@ impl Posed {
             self.animation = None;
             self.at = None;
         }
-        let (_, generation, animation) = self.animation.get_or_insert_with(|| {
-            (Arc::clone(&view.loaded), view.generation, Animation::new(view.animation()))
-        });
+        let still = &self.still.1;
+        let data = || AnimationData { takes: view.takes_without(still).to_vec(), ..view.animation() };
+        let (_, generation, animation) = self
+            .animation
+            .get_or_insert_with(|| (Arc::clone(&view.loaded), view.generation, Animation::new(data())));
         if *generation != view.generation {
             *generation = view.generation;
             self.at = None;
             if animation.data().takes.len() == view.takes.len() {
-                for (index, take) in view.takes.iter().enumerate() {
+                for (index, take) in view.takes_without(still).iter().enumerate() {
                     animation.replace_take(index, Arc::clone(take));
                 }
             } else {
-                *animation = Animation::new(view.animation());
+                *animation = Animation::new(data());
             }
         }
         if self.at != Some((take, time, self.running)) {

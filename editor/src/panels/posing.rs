@@ -3,6 +3,7 @@
 use super::state::State;
 use crate::document::adapter::{PendingAt, Slot};
 use crate::document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use crate::posing::{Hold, poses_of_drag};
 use dragonfly_anim::data::BoneIndex;
 
 impl State {
@@ -15,12 +16,24 @@ impl State {
     /// with it off. `None` where the rest pose is shown, which is not edited, or no bone is named.
     pub fn pose_edit(&self, poses: Vec<BonePose>) -> Option<Edit> {
         let take = self.take_ref().filter(|_| !poses.is_empty())?;
-        let time = self.time();
-        Some(if self.settings.auto_key {
+        Some(self.edit_of(take, self.time(), poses))
+    }
+
+    /// The same at any time.
+    pub(super) fn edit_of(&self, take: TakeRef, time: f32, poses: Vec<BonePose>) -> Edit {
+        if self.settings.auto_key {
             Edit::Set { take, time, poses }
         } else {
             Edit::Pend { take, time, poses }
-        })
+        }
+    }
+
+    /// The poses with those of all that keeps pinned bones in place, where `hold` is of some.
+    pub(super) fn with_pins(hold: &mut Option<Hold>, poses: Vec<BonePose>) -> Vec<BonePose> {
+        match hold {
+            Some(hold) => poses_of_drag(hold, &poses, &[]),
+            None => poses,
+        }
     }
 
     /// The take that is shown, in its three forms.

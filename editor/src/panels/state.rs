@@ -302,6 +302,10 @@ impl State {
         self.settle_keys();
         self.posed.running = self.playback.moves(now);
         self.digest.update(self.view.as_ref(), self.playback.take, self.selection.active());
+        if let Some(view) = &self.view {
+            self.posed.hold_still(&self.keys.flags, view);
+            self.trail.hold_still(&self.keys.flags, view);
+        }
         if let Some(view) = &self.view
             && self.selection.active().is_some()
         {

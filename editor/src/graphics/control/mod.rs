@@ -3,6 +3,7 @@
 
 mod ghosts;
 mod gizmo;
+mod ik;
 mod path;
 
 use super::message::{Appearance, Look};
@@ -11,6 +12,7 @@ use crate::camera::Camera;
 use crate::control::gizmo::GizmoShape;
 use ghosts::GhostsGraphic;
 use gizmo::GizmoGraphic;
+use ik::IkGraphic;
 use path::PathGraphic;
 
 /// What a component may look at when it presents itself.
@@ -44,6 +46,7 @@ impl Default for Controls {
         let list: Vec<Box<dyn GraphicComponent>> = vec![
             Box::<GhostsGraphic>::default(),
             Box::<PathGraphic>::default(),
+            Box::<IkGraphic>::default(),
             Box::<GizmoGraphic>::default(),
         ];
         Self { list, shape: GizmoShape::default() }

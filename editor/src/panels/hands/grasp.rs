@@ -1,15 +1,18 @@
 //! Where the gizmo stands: at the selected bones, in the pose that is shown.
 
+use super::follow::Following;
 use crate::control::gizmo::{GizmoSettings, Tool};
 use crate::document::history::Gesture;
 use crate::panels::state::State;
 use dragonfly_anim::data::BoneIndex;
 
 /// What the hands hold on to between two inputs.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Hold {
     /// The drag that goes on, once it changed something.
     gesture: Option<Gesture>,
+    /// What follows the bones that it moves.
+    pub(super) following: Following,
     /// For what the gizmo was placed last.
     placed: Option<Placed>,
     /// The same, while it is compared: keeps its memory.
@@ -25,6 +28,8 @@ struct Placed {
     tool: Option<Tool>,
     settings: GizmoSettings,
     selected: Vec<BoneIndex>,
+    /// Version of the marks of bones: some are seen at rest.
+    flags: u64,
 }
 
 impl Hold {
@@ -38,6 +43,7 @@ impl Hold {
     }
 
     pub(super) fn end(&mut self) -> Option<Gesture> {
+        self.following = Following::Undecided;
         self.gesture.take()
     }
 }
@@ -58,7 +64,8 @@ impl State {
         selected.clear();
         selected.extend_from_slice(self.selection.bones());
         let (take, time) = (self.playback.take, self.playback.time_at(self.now));
-        let now = Placed { generation: view.generation, take, time, tool: hand.tool, settings, selected };
+        let (generation, flags) = (view.generation, self.keys.flags.version());
+        let now = Placed { generation, take, time, tool: hand.tool, settings, selected, flags };
         if self.hold.placed.as_ref() == Some(&now) || self.hands.edits() {
             self.hold.spare = now.selected;
             return;

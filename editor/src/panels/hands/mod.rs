@@ -1,6 +1,7 @@
 //! What the hands do to the state: inputs of the scene come in as they happen, and what follows goes out at once.
 
 mod feed;
+mod follow;
 mod grasp;
 mod path;
 mod tools;
@@ -12,11 +13,11 @@ pub use path::Trail;
 use super::state::{Effect, State};
 use super::status::Level;
 use crate::control::bones::Choice;
-use crate::control::gizmo::{BoneDrag, GizmoAnswer, GizmoTarget, Tool};
+use crate::control::gizmo::GizmoAnswer;
 use crate::control::path::PathAnswer;
 use crate::control::{Area, Button, InputEvent, Outcome};
 use crate::document::Change;
-use crate::document::edit::{BonePose, BoneRef};
+use crate::document::edit::BonePose;
 use crate::document::history::Gesture;
 use egui::{Pos2, Rect, pos2};
 use glam::Vec2;
@@ -88,6 +89,7 @@ impl State {
         match answer {
             GizmoAnswer::Ignored => {}
             GizmoAnswer::Changed => {
+                self.begin_following();
                 let idle = self.hands.gizmo().gizmo.is_identity();
                 // A press that changes nothing yet is no edit.
                 if !idle || self.hold.gesture().is_some() {
@@ -132,22 +134,6 @@ impl State {
         if let Some(gesture) = self.hold.end().filter(|_| cancel) {
             effects.push(Effect::Change(Change::Cancel(gesture)));
         }
-    }
-
-    /// The poses that the gizmo made: the channel it is for, and what follows from a pivot elsewhere.
-    fn dragged(&self) -> Vec<BonePose> {
-        let gizmo = &self.hands.gizmo().gizmo;
-        let of = |(drag, before): (&BoneDrag, &GizmoTarget)| {
-            let (now, was) = (drag.to_parent, before.to_parent);
-            let translation = gizmo.tool == Tool::Move || now.translation != was.translation;
-            BonePose {
-                bone: BoneRef::Index(drag.bone),
-                translation: translation.then(|| now.translation.to_array()),
-                rotation: (gizmo.tool == Tool::Rotate).then(|| now.rotation.to_array()),
-                scale: (gizmo.tool == Tool::Scale).then(|| now.scale.to_array()),
-            }
-        };
-        gizmo.drag().bones.iter().zip(gizmo.before()).map(of).collect()
     }
 }
 

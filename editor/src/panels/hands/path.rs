@@ -5,6 +5,7 @@ use crate::control::path::PathKey;
 use crate::document::View;
 use crate::document::edit::{BonePose, BoneRef, Edit};
 use crate::graphics::PathLook;
+use crate::panels::keys::BoneFlags;
 use crate::panels::state::{Posed, State};
 use dragonfly_anim::animation::to_parent;
 use dragonfly_anim::data::{BoneIndex, Take, Track};
@@ -15,12 +16,15 @@ use std::sync::Arc;
 /// Points of a path at most: a longer take is shown more coarsely.
 const MOST: usize = 2000;
 
+/// What a path follows from: generation of the view, take, bone, frame rate, version of the marks of bones.
+type Of = (u64, usize, BoneIndex, u32, u64);
+
 /// What is known of the path.
 #[derive(Debug, Default)]
 pub struct Trail {
     /// Poses at other times than the one shown.
     posed: Posed,
-    of: Option<(u64, usize, BoneIndex, u32)>,
+    of: Option<Of>,
     look: Option<Arc<PathLook>>,
     keys: Vec<PathKey>,
 }
@@ -29,6 +33,11 @@ impl Trail {
     /// The path to be drawn, where one is.
     pub fn look(&self) -> Option<&Arc<PathLook>> {
         self.look.as_ref()
+    }
+
+    /// Shows bones at rest that the picture shows so.
+    pub(in crate::panels) fn hold_still(&mut self, flags: &BoneFlags, view: &View) {
+        self.posed.hold_still(flags, view);
     }
 }
 
@@ -44,12 +53,13 @@ impl State {
             }
             return;
         };
-        let key = (view.generation, take, bone, self.settings.frame_rate);
+        let key = (view.generation, take, bone, self.settings.frame_rate, self.keys.flags.version());
         if self.trail.of == Some(key) {
             return;
         }
-        let Some(shown) = view.takes.get(take) else { return };
-        let chain = Chain::of(view, shown, bone);
+        let takes = self.trail.posed.takes(view);
+        let Some(shown) = takes.get(take) else { return };
+        let chain = Chain::of(view, take, shown, bone);
         let rate = self.settings.frame_rate.max(1) as f32;
         let frames = (shown.length * rate).max(0.0);
         let step = (frames / MOST as f32).ceil().max(1.0) / rate;
@@ -113,19 +123,21 @@ impl State {
             rotation: None,
             scale: None,
         };
-        Some(Edit::Set { take, time: key.time, poses: vec![pose] })
+        let (time, poses) = (key.time, vec![pose]);
+        Some(self.edit_of(take, time, poses))
     }
 }
 
 /// A bone and all above it, with their tracks: enough to know where its joint is.
 struct Chain<'a> {
     view: &'a View,
+    number: usize,
     /// From the root down.
     bones: Vec<(BoneIndex, Option<&'a Track>)>,
 }
 
 impl<'a> Chain<'a> {
-    fn of(view: &'a View, take: &'a Take, bone: BoneIndex) -> Self {
+    fn of(view: &'a View, number: usize, take: &'a Take, bone: BoneIndex) -> Self {
         let skeleton = &view.loaded.model.animation.skeleton.bones;
         let parent = |bone: &BoneIndex| {
             let parent = skeleton.get(*bone as usize)?.parent;
@@ -136,16 +148,20 @@ impl<'a> Chain<'a> {
         let mut bones: Vec<_> =
             std::iter::successors(Some(bone), parent).map(|bone| (bone, track(bone))).collect();
         bones.reverse();
-        Self { view, bones }
+        Self { view, number, bones }
     }
 
-    /// Where the joint is at a time, scene space.
+    /// Where the joint is at a time, with what is pending there, scene space.
     fn joint(&self, time: f32) -> Vec3 {
         let skeleton = &self.view.loaded.model.animation.skeleton.bones;
+        let pending = self.view.pending(Some(self.number), time);
         let mut to_root = Mat4::IDENTITY;
-        for &(bone, track) in &self.bones {
-            let Some(bone) = skeleton.get(bone as usize) else { continue };
-            let pose = track.map_or_else(|| rest_pose(bone), |track| sample_track(track, bone, time));
+        for &(index, track) in &self.bones {
+            let Some(bone) = skeleton.get(index as usize) else { continue };
+            let mut pose = track.map_or_else(|| rest_pose(bone), |track| sample_track(track, bone, time));
+            if let Some(pending) = pending.and_then(|pending| pending.of(index)) {
+                pending.put_on(&mut pose);
+            }
             to_root *= to_parent(bone, pose);
         }
         to_root.w_axis.truncate()

@@ -57,5 +57,8 @@ impl State {
         }
         // Nothing is changed before the mouse moves.
         self.hands.gizmo_mut().take_answer();
+        if self.hands.edits() {
+            self.begin_following();
+        }
     }
 }

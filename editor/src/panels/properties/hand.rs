@@ -9,8 +9,9 @@ use super::super::number_field::Heard;
 use super::super::state::{Request, State};
 use super::parts::{Column, Form, Numbers, Pair, Part, is_same_turn, numbers, part, turn_of};
 use crate::document::Change;
-use crate::document::edit::{BonePose, Property};
+use crate::document::edit::{BonePose, BoneRef, Property};
 use crate::document::history::Gesture;
+use crate::posing;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::{rest_pose, sample_track};
 use glam::DQuat;
@@ -47,7 +48,7 @@ struct Held {
     spot: Spot,
     component: usize,
     moment: Moment,
-    starts: Vec<Start>,
+    begun: Begun,
     /// How far it is from where it began.
     by: f64,
     /// Is it about something that is not shown any more?
@@ -60,6 +61,14 @@ struct Moment {
     take: Option<usize>,
     time: u32,
     bones: Vec<BoneIndex>,
+}
+
+/// How everything was when the drag began.
+#[derive(Debug)]
+struct Begun {
+    starts: Vec<Start>,
+    /// Of pinned bones, which stay.
+    hold: Option<posing::Hold>,
 }
 
 /// A bone as it was when the drag began.
@@ -178,7 +187,7 @@ impl Hand {
                         spot,
                         component,
                         moment: Moment::of(state),
-                        starts: self.starts(state, spot),
+                        begun: self.begun(state, spot),
                         by: 0.0,
                         over: false,
                     });
@@ -200,8 +209,8 @@ impl Hand {
             }
             Heard::Typed(value) => {
                 stop(state, requests);
-                let starts = self.starts(state, spot);
-                self.send(state, spot, component, &starts, Way::Set(value), None, requests)?;
+                let mut begun = self.begun(state, spot);
+                self.send(state, spot, component, &mut begun, Way::Set(value), None, requests)?;
             }
         }
         Ok(())
@@ -212,21 +221,22 @@ impl Hand {
         held.over |= (held.spot, held.component) != (spot, component) || held.moment != Moment::of(state);
         if !held.over {
             held.by = by;
-            let (starts, gesture) = (&held.starts, Some(held.gesture));
+            let (begun, gesture) = (&mut held.begun, Some(held.gesture));
             // A number that cannot be is left out on the way.
-            let _ = self.send(state, spot, component, starts, Way::Add(by), gesture, requests);
+            let _ = self.send(state, spot, component, begun, Way::Add(by), gesture, requests);
         }
         self.held = Some(held);
     }
 
-    fn starts(&self, state: &State, spot: Spot) -> Vec<Start> {
+    fn begun(&self, state: &State, spot: Spot) -> Begun {
         let bones = state.selection.bones().iter();
-        bones
+        let starts = bones
             .filter_map(|&bone| {
                 let pair = self.pair(state, bone)?;
                 Some(Start { bone, pair, numbers: self.numbers(bone, &pair, spot)? })
             })
-            .collect()
+            .collect();
+        Begun { starts, hold: state.hold_of_pins() }
     }
 
     #[expect(clippy::too_many_arguments, reason = "all of them say what is edited")]
@@ -235,14 +245,14 @@ impl Hand {
         state: &State,
         spot: Spot,
         component: usize,
-        starts: &[Start],
+        begun: &mut Begun,
         way: Way,
         gesture: Option<Gesture>,
         requests: &mut Vec<Request>,
     ) -> Result<(), &'static str> {
         let mut parts = HashMap::new();
         let mut poses: Vec<BonePose> = Vec::new();
-        for start in starts {
+        for start in &begun.starts {
             let mut numbers = start.numbers;
             numbers[component] = match way {
                 Way::Set(value) => value,
@@ -263,6 +273,8 @@ impl Hand {
             poses.push(part.pose(start.bone, spot.property));
             parts.insert(start.bone, part);
         }
+        let poses = State::with_pins(&mut begun.hold, poses);
+        turn_parts(&mut parts, &poses);
         if let Some(edit) = state.pose_edit(poses) {
             requests.push(Request::Change(Change::Edit(edit, gesture)));
             self.expect(state, spot.property, parts);
@@ -278,22 +290,36 @@ impl Hand {
         of: impl Fn(&Pair, BoneIndex) -> Option<Part>,
         requests: &mut Vec<Request>,
     ) {
-        let parts: Vec<(BoneIndex, Part)> = state
+        let mut parts: HashMap<BoneIndex, Part> = state
             .selection
             .bones()
             .iter()
             .filter_map(|&bone| Some((bone, of(&self.pair(state, bone)?, bone)?)))
             .collect();
-        let poses = parts.iter().map(|(bone, part)| part.pose(*bone, property)).collect();
+        let bones = state.selection.bones().iter();
+        let poses = bones.filter_map(|bone| Some(parts.get(bone)?.pose(*bone, property))).collect();
+        let poses = State::with_pins(&mut state.hold_of_pins(), poses);
+        turn_parts(&mut parts, &poses);
         if let Some(edit) = state.pose_edit(poses) {
             requests.push(Request::Change(Change::Edit(edit, None)));
-            self.expect(state, property, parts.into_iter().collect());
+            self.expect(state, property, parts);
         }
     }
 
     fn expect(&mut self, state: &State, property: Property, parts: HashMap<BoneIndex, Part>) {
         let (take, time) = (state.playback.take, state.time().to_bits());
         self.sent = Some(Sent { take, time, at: state.now, property, parts });
+    }
+}
+
+/// A bone between the hand and a pin may be turned otherwise than the hand said: that is then what is asked for.
+fn turn_parts(parts: &mut HashMap<BoneIndex, Part>, poses: &[BonePose]) {
+    for pose in poses {
+        if let (BoneRef::Index(bone), Some(rotation)) = (&pose.bone, pose.rotation)
+            && let Some(Part::Turn(turn)) = parts.get_mut(bone)
+        {
+            *turn = glam::Quat::from_array(rotation);
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The tools of the hand at the left of the picture: what the gizmo does, whose axes it has, what it turns about.
 
-use super::{divider_across, glass};
+use super::{divider_across, glass, ik};
 use crate::control::gizmo::{Pivot, Space, Tool};
 use crate::panels::commands::Id;
 use crate::panels::icons::Icon;
@@ -18,7 +18,7 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
     let height = |buttons: f32, dividers: f32| {
         buttons * 24.0 + dividers * 7.0 + (buttons + dividers - 1.0) * 2.0 + 2.0 * GRID
     };
-    let heights = [height(8.0, 2.0), height(6.0, 1.0), height(4.0, 0.0)];
+    let heights = [height(11.0, 3.0), height(9.0, 2.0), height(6.0, 1.0), height(4.0, 0.0)];
     let fits = heights.iter().position(|&height| height <= room).filter(|_| rect.width() >= 240.0)?;
     let at = Rect::from_min_size(pos2(rect.left() + 10.0, top), vec2(32.0, heights[fits]));
     glass(ui, at);
@@ -35,10 +35,14 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
     ] {
         command_button(ui, icon, id, hand.tool == tool, requests);
     }
-    if fits <= 1 {
+    if fits <= 2 {
         divider_across(ui);
         choice(ui, state, space_icon(hand.space), space_name(hand.space), &SPACES, requests);
         choice(ui, state, pivot_icon(hand.pivot), pivot_name(hand.pivot), &PIVOTS, requests);
+    }
+    if fits <= 1 {
+        divider_across(ui);
+        ik::tools(ui, state, requests);
     }
     if fits == 0 {
         divider_across(ui);

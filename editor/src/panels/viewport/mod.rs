@@ -3,6 +3,7 @@
 mod axes;
 mod cards;
 mod hand;
+mod ik;
 mod overlay;
 mod readout;
 mod toolbar;

@@ -4,10 +4,29 @@ use super::*;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const TABLE: Table = &[
-    (Id::FrameSelected, &[key(NONE, Key::F)]),
+    // What is dragged; Q is the tool that selects in Godot, and the hand in Unity.
+    (Id::ToolSelect, &[key(NONE, Key::Q)]),
+    (Id::ToolMove, &[key(NONE, Key::W)]),
+    (Id::ToolRotate, &[key(NONE, Key::E)]),
+    (Id::ToolScale, &[key(NONE, Key::R)]),
+    // Own axes in Godot, and the choice of axes in Unity.
+    (Id::NextSpace, &[key(NONE, Key::T), key(NONE, Key::X)]),
+    (Id::PivotMedian, &[key(NONE, Key::Z)]),
+    (Id::ToggleXRay, &[key(ALT, Key::Z)]),
+    // Keys.
+    (Id::Key, &[key(NONE, Key::K), key(NONE, Key::Insert)]),
+    (Id::KeyAllPending, &[key(SHIFT, Key::K)]),
+    (Id::DuplicateKeys, &[key(CTRL, Key::D)]),
+    (Id::DeleteKeys, &[key(NONE, Key::Delete), key(NONE, Key::Backspace)]),
+    (Id::RenameTake, &[key(NONE, Key::F2)]),
+    // Time.
     (Id::PreviousFrame, &[key(NONE, Key::Comma), key(NONE, Key::ArrowLeft)]),
     (Id::NextFrame, &[key(NONE, Key::Period), key(NONE, Key::ArrowRight)]),
     (Id::PreviousKey, &[key(ALT, Key::Comma)]),
     (Id::NextKey, &[key(ALT, Key::Period)]),
+    (Id::PlayPause, &[key(NONE, Key::Space), key(NONE, Key::D)]),
+    (Id::PlayBackwards, &[key(SHIFT, Key::Space), key(NONE, Key::A)]),
+    // The picture.
+    (Id::FrameSelected, &[key(NONE, Key::F)]),
     (Id::Palette, &[key(CTRL, Key::K), key(CTRL.plus(SHIFT), Key::P), key(NONE, Key::F3), key(CTRL, Key::P)]),
 ];

@@ -4,17 +4,34 @@ use super::*;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const TABLE: Table = &[
+    // What is dragged.
+    (Id::ToolSelect, &[key(NONE, Key::Q)]),
+    (Id::ToolMove, &[key(NONE, Key::W)]),
+    (Id::ToolRotate, &[key(NONE, Key::E)]),
+    (Id::ToolScale, &[key(NONE, Key::R)]),
+    // Keys.
+    (Id::Key, &[key(NONE, Key::S), key(NONE, Key::I)]),
+    (Id::SnapKeys, &[key(ALT.plus(SHIFT), Key::S)]),
+    (Id::DuplicateKeys, &[key(CTRL, Key::D)]),
+    // Time.
     (Id::PlayPause, &[key(ALT, Key::V), key(NONE, Key::Space)]),
     (Id::Start, &[key(ALT.plus(SHIFT), Key::V), key(NONE, Key::Home)]),
     (Id::PreviousFrame, &[key(ALT, Key::Comma), key(NONE, Key::ArrowLeft)]),
     (Id::NextFrame, &[key(ALT, Key::Period), key(NONE, Key::ArrowRight)]),
     (Id::PreviousKey, &[key(NONE, Key::Comma)]),
     (Id::NextKey, &[key(NONE, Key::Period)]),
+    // What is selected.
     (Id::SelectParent, &[key(NONE, Key::ArrowUp), key(NONE, Key::OpenBracket)]),
     (Id::SelectChild, &[key(NONE, Key::ArrowDown), key(NONE, Key::CloseBracket)]),
+    (Id::InvertSelection, &[key(CTRL.plus(SHIFT), Key::I), key(CTRL, Key::I)]),
+    (Id::HideSelected, &[key(CTRL, Key::H)]),
+    (Id::HideOthers, &[key(ALT, Key::H)]),
+    (Id::ShowAll, &[key(CTRL.plus(SHIFT), Key::H)]),
     (Id::Undo, &[key(CTRL, Key::Z), key(NONE, Key::Z)]),
     (Id::Redo, &[key(CTRL, Key::Y), key(SHIFT, Key::Z), key(CTRL.plus(SHIFT), Key::Z)]),
+    // The picture.
     (Id::FrameAll, &[key(NONE, Key::A)]),
+    (Id::FrameSelected, &[key(NONE, Key::F)]),
     (Id::ShadeUnlit, &[key(NONE, Key::Num4)]),
     (Id::ShadeClay, &[key(NONE, Key::Num5)]),
     (Id::ShadeMaterial, &[key(NONE, Key::Num6)]),

@@ -1,0 +1,67 @@
+//! What follows a bone that is moved, at the left of the picture: IK, how many bones it is about, pins.
+
+use crate::panels::commands::{self, Id};
+use crate::panels::icons::Icon;
+use crate::panels::style::{self, RADIUS};
+use crate::panels::theme::Theme;
+use crate::panels::widgets::{command_button, count, focus_ring};
+use crate::panels::{Request, State, menu};
+use egui::accesskit::Role;
+use egui::{Align2, Color32, CornerRadius, FontId, Response, Sense, Ui, WidgetInfo};
+
+/// Three buttons, one above the other.
+pub(super) fn tools(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    command_button(ui, Icon::Ik, Id::ToggleIk, state.ik.on, requests);
+    length(ui, state, requests);
+    let pinned = state.selected().is_some_and(|bone| state.is_pinned(bone));
+    command_button(ui, Icon::Pin, Id::Pin, pinned, requests);
+}
+
+/// How many bones follow; opens a list of all about IK and pins.
+fn length(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let bones = count(state.ik.length as usize, "bone", "bones");
+    let name = format!("IK chain: {bones}");
+    let response = number_button(ui, state.ik.length, &name, state.ik.on);
+    egui::Popup::menu(&response).align(egui::RectAlign::RIGHT_START).show(|ui| {
+        ui.set_width(230.0);
+        for id in [Id::ToggleIk, Id::LongerIk, Id::ShorterIk] {
+            menu::item(ui, state, id, id == Id::ToggleIk && state.ik.on, requests);
+        }
+        let pole = state.ik.pole.is_some() && state.ik.pole == state.selected();
+        menu::item(ui, state, Id::IkPole, pole, requests);
+        ui.separator();
+        menu::item(ui, state, Id::Pin, false, requests);
+        menu::item(ui, state, Id::FreePins, false, requests);
+    });
+    let [longer, shorter] = [Id::LongerIk, Id::ShorterIk].map(|id| commands::shortcut_text(ui.ctx(), id));
+    let pole = state
+        .ik
+        .pole
+        .map_or(String::new(), |pole| format!("\nElbows and knees bend towards {}", state.bone_name(pole)));
+    let pins = match state.pins.len() {
+        0 => String::new(),
+        pins => format!("\n{} pinned", count(pins, "bone is", "bones are")),
+    };
+    let help = format!("{bones} above a bone that is moved with IK ({longer} one more, {shorter} one less)");
+    response.on_hover_text(format!("{help}{pole}{pins}"));
+}
+
+/// A square button that shows a number.
+fn number_button(ui: &mut Ui, number: u32, name: &str, on: bool) -> Response {
+    let (rect, response) = ui.allocate_exact_size(style::icon_size(), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
+    if ui.is_rect_visible(rect) {
+        let theme = Theme::of(ui);
+        let fill = match (response.is_pointer_button_down_on(), response.hovered()) {
+            (true, _) => theme.pressed,
+            (false, true) => theme.hover,
+            (false, false) => Color32::TRANSPARENT,
+        };
+        let color = if on { theme.accent } else { theme.weak };
+        ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), fill);
+        let font = FontId::monospace(style::NUMBER);
+        ui.painter().text(rect.center(), Align2::CENTER_CENTER, number, font, color);
+        focus_ring(ui, &response, rect);
+    }
+    response
+}
