@@ -97,10 +97,13 @@ mod viewport_control;
 mod window;
 mod window_dialog;
 mod window_drop;
+mod window_edit;
 mod window_full_screen;
 mod window_hands;
+mod window_monkey;
 mod window_save;
 mod window_scale;
+mod window_visit;
 mod wire;
 mod workbench;
 

@@ -33,6 +33,21 @@ pub(crate) mod key {
     pub(crate) const SHIFT: u8 = 50;
     pub(crate) const F11: u8 = 95;
     pub(crate) const HOME: u8 = 110;
+    pub(crate) const RIGHT: u8 = 114;
+    pub(crate) const ALT: u8 = 64;
+    pub(crate) const F: u8 = 41;
+    pub(crate) const I: u8 = 31;
+    pub(crate) const K: u8 = 45;
+    pub(crate) const T: u8 = 28;
+
+    /// The key with this sign on it, for those that need no other key held.
+    #[track_caller]
+    pub(crate) fn of(sign: char) -> u8 {
+        const ROWS: [(&str, u8); 4] =
+            [("1234567890-=", 10), ("qwertyuiop", 24), ("asdfghjkl", 38), ("zxcvbnm,./", 52)];
+        let place = |(row, first): (&str, u8)| row.find(sign).map(|at| first + at as u8);
+        ROWS.into_iter().find_map(place).unwrap_or_else(|| panic!("no key says {sign:?}"))
+    }
 }
 
 /// See the module.
@@ -42,6 +57,8 @@ pub(crate) struct Screen {
     hand: Wire,
     test_extension: u8,
     frames: Folder,
+    /// Between two movements of a finger.
+    pub(crate) pace: Duration,
     /// The process whose window is looked at.
     pub(crate) program: Option<u32>,
 }
@@ -67,7 +84,7 @@ impl Screen {
         let number = line.trim().parse().expect("the number of the display");
         let mut hand = Wire::connect(number);
         let test_extension = hand.extension("XTEST");
-        Self { server, number, hand, test_extension, frames, program: None }
+        Self { server, number, hand, test_extension, frames, pace: HAND, program: None }
     }
 
     /// What `DISPLAY` must be for a program to open its window here.
@@ -117,40 +134,55 @@ impl Screen {
     /// Presses and releases the left button at a place, as slowly as a quick hand.
     pub(crate) fn click(&mut self, x: i16, y: i16) {
         self.point(x, y);
-        pass(HAND);
+        pass(self.pace);
         self.fake(4, 1, 0, 0);
-        pass(HAND);
+        pass(self.pace);
         self.fake(5, 1, 0, 0);
-        pass(HAND);
+        pass(self.pace);
     }
 
     /// Presses the left button and holds it.
     pub(crate) fn hold(&mut self) {
         self.fake(4, 1, 0, 0);
-        pass(HAND);
+        pass(self.pace);
     }
 
     /// Lets the left button go.
     pub(crate) fn let_go(&mut self) {
         self.fake(5, 1, 0, 0);
-        pass(HAND);
+        pass(self.pace);
     }
 
     /// Presses and releases a key.
     pub(crate) fn press(&mut self, key: u8) {
         self.fake(2, key, 0, 0);
-        pass(HAND);
+        pass(self.pace);
         self.fake(3, key, 0, 0);
-        pass(HAND);
+        pass(self.pace);
+    }
+
+    /// Presses these keys one after the other.
+    pub(crate) fn type_text(&mut self, text: &str) {
+        text.chars().for_each(|sign| self.press(key::of(sign)));
+    }
+
+    /// Puts a key down, or lets it up.
+    pub(crate) fn key(&mut self, key: u8, down: bool) {
+        self.fake(if down { 2 } else { 3 }, key, 0, 0);
+    }
+
+    /// Puts a button of the mouse down (1 left, 2 middle, 3 right, 4 and 5 the wheel), or lets it up.
+    pub(crate) fn button(&mut self, button: u8, down: bool) {
+        self.fake(if down { 4 } else { 5 }, button, 0, 0);
     }
 
     /// Presses a key while another is held down.
     pub(crate) fn press_with(&mut self, held: u8, key: u8) {
         self.fake(2, held, 0, 0);
-        pass(HAND);
+        pass(self.pace);
         self.press(key);
         self.fake(3, held, 0, 0);
-        pass(HAND);
+        pass(self.pace);
     }
 
     /// Gives the window the keyboard; without a window manager nobody else does.

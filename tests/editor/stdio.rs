@@ -8,14 +8,14 @@ use std::process::{Child, ChildStdin, ChildStdout, Stdio};
 use std::time::Duration;
 
 /// The program, talked to.
-struct Talk {
+pub(crate) struct Talk {
     child: Child,
     input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
 }
 
 impl Talk {
-    fn about(file: &Path) -> Self {
+    pub(crate) fn about(file: &Path) -> Self {
         let mut command = dragonfly([Path::new("--stdio"), file]);
         let command = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::inherit());
         let mut child = command.spawn().expect("the program starts");
@@ -24,7 +24,7 @@ impl Talk {
         Self { child, input, output }
     }
 
-    fn say(&mut self, line: &str) -> Value {
+    pub(crate) fn say(&mut self, line: &str) -> Value {
         writeln!(self.input.as_mut().expect("open"), "{line}").expect("it listens");
         let mut answer = String::new();
         self.output.read_line(&mut answer).expect("it answers");
@@ -32,13 +32,13 @@ impl Talk {
     }
 
     #[track_caller]
-    fn ask(&mut self, request: &Value) -> Value {
+    pub(crate) fn ask(&mut self, request: &Value) -> Value {
         let answer = self.say(&request.to_string());
         assert!(answer.get("error").is_none(), "{request} -> {answer}");
         answer["ok"].clone()
     }
 
-    fn end(mut self) {
+    pub(crate) fn end(mut self) {
         drop(self.input.take());
         assert_eq!(wait(&mut self.child, Duration::from_secs(30)).code(), Some(0));
     }

@@ -102,6 +102,11 @@ impl Editor {
         }
     }
 
+    /// Takes what was said so far.
+    pub(crate) fn listen(&mut self) {
+        self.lines.extend(self.said.try_iter());
+    }
+
     pub(crate) fn log(&mut self) -> String {
         self.lines.extend(self.said.try_iter());
         self.lines.join("\n")

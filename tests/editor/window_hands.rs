@@ -12,15 +12,15 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// The state of the window, as a test outside of it computes it.
-struct Inside {
-    state: State,
+pub(crate) struct Inside {
+    pub(crate) state: State,
     corner: Vec2,
     size: Vec2,
 }
 
 impl Inside {
     /// Fox at the start of its first take, in a picture that is there.
-    fn new([x, y, width, height]: [f32; 4]) -> Self {
+    pub(crate) fn new([x, y, width, height]: [f32; 4]) -> Self {
         let source = Source::File(data("gltf/Fox.glb"));
         let loaded = load_model(&source, &mut |_| {}, &Cancel::default()).expect("Fox opens");
         let mut state = State::new(Settings::default(), Instant::now());
@@ -42,7 +42,7 @@ impl Inside {
     }
 
     /// Where in the window the middle of a bone is, from its joint to that of another.
-    fn middle(&mut self, from: &str, to: &str) -> Vec2 {
+    pub(crate) fn middle(&mut self, from: &str, to: &str) -> Vec2 {
         let bones = [self.bone(from), self.bone(to)];
         self.state.select(Some(bones[0]));
         self.state.begin(self.state.now);
@@ -53,13 +53,14 @@ impl Inside {
     }
 
     /// A place in the window where a handle of the gizmo at a bone is.
-    fn handle(&mut self, bone: &str, wanted: Handle) -> Vec2 {
+    pub(crate) fn handle(&mut self, bone: &str, wanted: Handle) -> Vec2 {
         let bone = self.bone(bone);
         self.state.select(Some(bone));
         self.state.begin(self.state.now);
         let skeleton = &self.state.loaded().expect("open").model.animation.skeleton;
         let animation = self.state.posed.animation().expect("posed");
         let mut gizmo = Gizmo::new(Tool::Rotate);
+        gizmo.settings.space = self.state.settings.hand.space;
         gizmo.select(skeleton, animation.poses(), animation.to_root(), &[bone], None);
         gizmo.look(self.view());
         let joint = animation.to_root()[bone as usize].w_axis.truncate().as_dvec3();
@@ -69,8 +70,8 @@ impl Inside {
 }
 
 /// What the log tells of the window: the newest value of a field.
-fn shown(editor: &mut Editor, field: &str) -> Option<String> {
-    editor.log();
+pub(crate) fn shown(editor: &mut Editor, field: &str) -> Option<String> {
+    editor.listen();
     let line = editor.lines.iter().rev().find(|line| line.contains("dragonfly::shown"))?;
     let value = line.split(&format!("{field}=")).nth(1)?;
     let end =
@@ -78,7 +79,7 @@ fn shown(editor: &mut Editor, field: &str) -> Option<String> {
     Some(value[..end].trim_matches('"').to_owned())
 }
 
-fn numbers<const N: usize>(text: &str) -> [f32; N] {
+pub(crate) fn numbers<const N: usize>(text: &str) -> [f32; N] {
     let numbers =
         text.trim_matches(['[', ']']).split(',').map(|number| number.trim().parse().expect("a number"));
     numbers.collect::<Vec<f32>>().try_into().expect("so many numbers")

@@ -7,6 +7,7 @@ use super::hover::{Hover, Place};
 use super::interface::Interface;
 use super::options::Options;
 use super::sent::Sent;
+use super::shown;
 use crate::control::bones::Choice;
 use crate::document::{Document, DocumentHandle, DocumentReply, Setup, Source, Then};
 use crate::graphics::GraphicsReply;
@@ -135,11 +136,13 @@ impl EditorRuntime {
             }
             Effect::Change(change) => {
                 if let Some(document) = &running.document {
+                    shown::asked(&change);
                     document.change(change);
                 }
             }
             Effect::Changes(changes) => {
                 if let Some(document) = &running.document {
+                    changes.iter().for_each(shown::asked);
                     changes.into_iter().for_each(|change| document.change(change));
                 }
             }

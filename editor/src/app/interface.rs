@@ -2,6 +2,7 @@
 //!
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
+use super::reader::Reader;
 use super::shown::Shown;
 use super::store::{self, Store};
 use crate::document::edit::Edit;
@@ -48,6 +49,7 @@ pub struct Interface {
     accepts_input: bool,
     occluded: bool,
     shown: Shown,
+    reader: Reader,
 }
 
 impl Interface {
@@ -76,6 +78,7 @@ impl Interface {
             accepts_input: true,
             occluded: false,
             shown: Shown::default(),
+            reader: Reader::default(),
         }
     }
 
@@ -269,6 +272,7 @@ impl Interface {
         let size = self.window.inner_size();
         let input = self.egui.take_egui_input(&self.window);
         let dropped: Vec<_> = input.dropped_files.iter().map(|file| file.path().to_owned()).collect();
+        self.reader.listen(&context);
         let mut requests = Vec::new();
         if let Some(name) = self.state.wanted_markers() {
             let text = self.store.read(&name);
@@ -295,6 +299,7 @@ impl Interface {
         if let Some(graphics) = &self.graphics {
             graphics.show_panels(frame);
         }
+        self.reader.tell(&output.platform_output, output.pixels_per_point);
         self.egui.handle_platform_output(&self.window, output.platform_output);
 
         let before = (

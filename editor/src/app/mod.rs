@@ -17,6 +17,7 @@ mod init_manager;
 mod interface;
 mod main_runtime;
 mod options;
+mod reader;
 mod saving;
 mod sent;
 mod shown;

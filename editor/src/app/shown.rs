@@ -1,12 +1,29 @@
 //! What the window shows, in the log: for who looks after the program from outside and cannot read pixels.
 
+use crate::document::Change;
 use crate::panels::State;
+use crate::protocol::Deed;
 use dragonfly_anim::data::BoneIndex;
 use glam::{Quat, Vec3};
 use tracing::{debug, enabled};
 
 /// The target of the lines in the log.
 const TARGET: &str = "dragonfly::shown";
+
+/// The target of the lines about what was asked of the document.
+const ASKED: &str = "dragonfly::asked";
+
+/// Tells what is asked of the document, each as a line that `dragonfly --stdio` understands, where somebody listens
+/// (`DRAGONFLY_LOG=dragonfly::asked=debug`).
+pub(super) fn asked(change: &Change) {
+    if !enabled!(target: ASKED, tracing::Level::DEBUG) {
+        return;
+    }
+    let line = Deed::of(change).and_then(|deed| serde_json::to_string(&deed).ok());
+    if let Some(line) = line {
+        debug!(target: ASKED, "{line}");
+    }
+}
 
 /// What was told last: only what differs is told again.
 #[derive(Debug, Default, PartialEq)]

@@ -1,14 +1,15 @@
 //! What a line asks for.
 
 use super::Query;
+use crate::document::Change;
 use crate::document::edit::Edit;
 use crate::document::history::Gesture;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 
 /// Something that is done.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Deed {
     /// An edit; with a gesture, its newest form.
@@ -16,7 +17,7 @@ pub enum Deed {
         /// Which.
         edit: Edit,
         /// All edits of one gesture are one step.
-        #[serde(default)]
+        #[serde(default, skip_serializing_if = "Option::is_none")]
         gesture: Option<Gesture>,
     },
     /// The gesture as if it had never begun.
@@ -38,9 +39,23 @@ pub enum Deed {
     /// Saves.
     Save {
         /// Where to; the file that was opened when left out.
-        #[serde(default)]
+        #[serde(default, skip_serializing_if = "Option::is_none")]
         to: Option<PathBuf>,
     },
+}
+
+impl Deed {
+    /// What a change of the window is in a conversation; nothing where a conversation need not say it.
+    pub fn of(change: &Change) -> Option<Self> {
+        Some(match change {
+            Change::Edit(edit, gesture) => Self::Edit { edit: edit.clone(), gesture: *gesture },
+            Change::Release(_) => return None,
+            Change::Cancel(gesture) => Self::Cancel { gesture: *gesture },
+            Change::Undo => Self::Undo,
+            Change::Redo => Self::Redo,
+            Change::GoTo(steps) => Self::GoTo { steps: *steps },
+        })
+    }
 }
 
 /// What a line asks for.

@@ -1,0 +1,115 @@
+//! Hands that do anything at all do no harm: the window answers, nothing is lost, everything can be undone.
+
+use crate::keeping_desk::{Desk, same_takes};
+use crate::screen::{key, pass};
+use crate::window::alone;
+use crate::window_visit::Visit;
+use dragonfly::document::Change;
+use dragonfly_kit::random::{Random, seed};
+use std::time::{Duration, Instant};
+
+/// Keys that are pressed: all with a sign, and those that move, end and delete.
+fn keys() -> Vec<u8> {
+    let signs = "1234567890-=qwertyuiopasdfghjklzxcvbnm,./".chars().map(key::of);
+    // Tab, Enter, Space, Backspace, the arrows and their neighbours, Delete; functions but those that find commands (a
+    // random one may be Quit) and that fill the screen.
+    let others = [23, 36, 65, 22, 111, 113, 114, 116, 110, 115, 112, 117, 119, 67, 68, 70, 71, 72, 73];
+    signs.chain(others).collect()
+}
+
+/// Keys that open another file, save, or end the program while Ctrl is held; and the one that finds commands.
+fn leads_away(key: u8) -> bool {
+    "oqsp".chars().any(|sign| key::of(sign) == key)
+}
+
+#[test]
+fn two_thousand_random_deeds_lose_nothing() {
+    let _one = alone();
+    let seed = seed(11);
+    println!("DRAGONFLY_SEED={seed}");
+    let mut random = Random::new(seed);
+    let mut visit = Visit::new("monkey");
+    visit.pick_head();
+    let keys = keys();
+    let pause = visit.screen.pace;
+    visit.screen.pace = Duration::from_millis(6);
+    let began = Instant::now();
+    for deed in 0..2000 {
+        // Below the menus.
+        let mut place = || [random.below(1280) as i16, 40 + random.below(760) as i16];
+        let [mut from, to] = [place(), place()];
+        match random.below(8) {
+            0..3 => {
+                let held = [key::CONTROL, key::SHIFT, key::ALT].into_iter().filter(|_| random.below(5) == 0);
+                let held: Vec<u8> = held.collect();
+                let key = random.choice(&keys);
+                if held.contains(&key::CONTROL) && leads_away(key) {
+                    continue;
+                }
+                held.iter().for_each(|&held| visit.screen.key(held, true));
+                visit.screen.press(key);
+                held.iter().for_each(|&held| visit.screen.key(held, false));
+            }
+            3 => {
+                visit.screen.point(from[0], from[1]);
+                let button = random.choice(&[1, 1, 1, 2, 3, 4, 5]);
+                visit.screen.button(button, true);
+                visit.screen.button(button, false);
+            }
+            4..6 => {
+                // Mostly in the picture, and among the numbers of the bone.
+                match random.below(3) {
+                    0 => from = [540 + random.below(200) as i16, 200 + random.below(200) as i16],
+                    1 => from = [1040 + random.below(220) as i16, 60 + random.below(400) as i16],
+                    _ => {}
+                }
+                visit.screen.point(from[0], from[1]);
+                let button = random.choice(&[1, 1, 1, 2, 3]);
+                visit.screen.button(button, true);
+                for part in 1..=4 {
+                    let way = |axis: usize| from[axis] + (to[axis] - from[axis]) / 40 * part;
+                    visit.screen.point(way(0), way(1));
+                    // Longer than a drawing takes, or nobody sees a drag.
+                    pass(Duration::from_millis(5));
+                }
+                visit.screen.button(button, false);
+            }
+            _ => visit.screen.point(from[0], from[1]),
+        }
+        if deed % 20 == 0 {
+            visit.screen.press(key::ESCAPE);
+            // In the picture, where the fox is likely to be met.
+            let near = |random: &mut Random| random.below(200) as i16;
+            let (x, y) = (540 + near(&mut random), 200 + near(&mut random));
+            visit.screen.click(x, y);
+        }
+    }
+    println!("the deeds took {:?}", began.elapsed());
+    visit.screen.pace = pause;
+    (0..4).for_each(|_| visit.screen.press(key::ESCAPE));
+
+    // It answers, and what it saves is what `--stdio` makes of the same.
+    let saved = visit.save();
+    let asked = visit.asked();
+    println!("{} changes were asked for", asked.len());
+    assert!(asked.len() > 20);
+    assert!(saved == visit.by_stdio(), "another file by --stdio");
+    visit.editor.kill();
+
+    // The journal opens, and leads back to the takes of the file.
+    let mut fresh = Desk::new(&visit.folder.join("fresh"));
+    let original = fresh.open(&crate::program::data("gltf/Fox.glb"));
+    let mut desk = Desk::new(&visit.folder.join("autosave"));
+    let view = desk.open(&visit.file);
+    println!("{} of {} steps are done", view.history.done, view.history.steps.len());
+    let steps = view.history.steps.len();
+    assert!(steps > 0);
+    // Hands may have undone all of it.
+    desk.change(Change::GoTo(steps));
+    let last = desk.shows(|view| view.history.done == steps);
+    desk.change(Change::GoTo(0));
+    let first = desk.shows(|view| view.history.done == 0);
+    same_takes(&original, &first);
+    assert!(!first.takes.iter().eq(last.takes.iter()), "nothing was changed");
+    println!("all of it took {:?}", began.elapsed());
+}
