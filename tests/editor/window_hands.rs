@@ -175,6 +175,10 @@ fn a_bone_is_picked_and_turned_by_thirty_degrees_undone_and_done_again() {
     screen.let_go();
     wait_for_turn(&mut editor, &screen, before * Quat::from_rotation_x(60f32.to_radians()));
     screen.keep("hands-end");
+    // Nothing of it is to be kept.
     screen.close(editor.window);
+    editor.hears("asked what becomes of unsaved work", 1, SOON);
+    screen.press_with(key::SHIFT, key::TAB);
+    screen.press(key::ENTER);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
 }
