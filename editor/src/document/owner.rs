@@ -1,105 +1,18 @@
 //! The document thread: owns what is open, loads in jobs, publishes the newest view, keeps the journal.
 
+use super::handle::DocumentHandle;
 use super::job::{JobNews, LoadJob};
+use super::message::{DocumentMessage, DocumentReply, NewsBox, ScanBox};
 use super::open::Open;
 use super::recovering::{Decision, Scan, Waiting};
-use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
-use super::{Change, LoadError, LoadedModel, Loader, Offer, Progress, Source, View, open_model};
+use super::saving::SaveOrder;
+use super::{Change, LoadError, Loader, Offer, Source, View, open_model};
 use crate::store::{Autosave, FileState};
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
-
-/// What other threads may tell the document.
-#[derive(Debug)]
-pub enum DocumentMessage {
-    /// Opens a model in place of the one that is open; what is being loaded is given up. What is not saved stays in the
-    /// journal.
-    Open(Source),
-    /// Gives up what is being loaded.
-    CancelLoading,
-    /// Edits what is open, undoes, does again.
-    Change(Change),
-    /// Saves.
-    Save(SaveOrder),
-    /// What would a save write? And what is to come once a person has seen it?
-    Plan(Option<SaveOrder>),
-    /// Goes back to what was saved.
-    Revert,
-    /// The person wants to go on to this: is anything unsaved in the way?
-    Leave(Then),
-    /// The person does not want what is not saved: it goes into the bin when the document is closed.
-    DoNotSave,
-    /// Did somebody else change the file?
-    LookAtFile,
-    /// Looks for unsaved work of an earlier time, and says so if there is none.
-    Search,
-    /// What becomes of unsaved work of an earlier time.
-    Decide(Box<Offer>, Decision),
-    /// From a job; `ticket` tells whether anybody still waits for it.
-    #[doc(hidden)]
-    News(u64, NewsBox),
-    /// From the search for unsaved work.
-    #[doc(hidden)]
-    Found(ScanBox),
-}
-
-/// What a job says, opaque to others.
-#[derive(Debug)]
-pub struct NewsBox(Box<JobNews>);
-
-/// What was found, opaque to others.
-#[derive(Debug)]
-pub struct ScanBox(Scan);
-
-/// What the document tells the main thread, for the panels.
-#[derive(Debug)]
-pub enum DocumentReply {
-    /// The newest state; it takes the place of one that still waits, so it may overtake what else is said.
-    View(View),
-    /// What was on its way is open: said once for each, in order with the other answers.
-    Opened(Arc<LoadedModel>),
-    /// A model is on its way.
-    Loading {
-        /// Its title.
-        title: String,
-        /// How far it is.
-        progress: Progress,
-    },
-    /// Loading was given up on request; what was open still is.
-    Cancelled,
-    /// Loading failed; what was open still is.
-    Failed {
-        /// What was to be opened.
-        source: Source,
-        /// Place and reason.
-        reason: String,
-    },
-    /// An edit could not be done, and nothing changed.
-    Refused(String),
-    /// It was saved.
-    Saved(SavedFile),
-    /// It was not; the order comes back.
-    NotSaved(SaveOrder, NotSaved),
-    /// What a save would write, a line each, or why it could not be; and what comes once that was seen.
-    Plan(Result<String, String>, Option<SaveOrder>),
-    /// Something unsaved is in the way (`true`), or nothing.
-    Leave(Then, bool),
-    /// Somebody else changed the file, or it is gone.
-    FileChanged(FileState),
-    /// Unsaved work of an earlier time can be had back.
-    Offers(Vec<Offer>),
-    /// A person looked for unsaved work, and there is none.
-    NothingToOffer,
-    /// Something that a person should know, quietly.
-    Told(String),
-    /// Something that they must know.
-    Warned(String),
-    /// The document was lost by a mistake in the program; what was recorded of it is offered.
-    Lost,
-}
 
 /// How a document is kept.
 #[derive(Clone, Debug)]
@@ -154,14 +67,6 @@ pub(super) struct Running {
     pub(super) source: Source,
     /// Unsaved work that it is opened for.
     pub(super) offer: Option<(Offer, Decision)>,
-}
-
-/// The document, as other threads see it: the same names, as messages.
-pub struct DocumentHandle {
-    thread: ThreadHandle,
-    address: Address<DocumentMessage>,
-    /// `None` where somebody else owns the thread.
-    _owner: Option<Thread>,
 }
 
 /// One document, as receiver and as worker of its thread. When one of the two panics, both go on with a new one: nothing
@@ -460,41 +365,5 @@ impl Worker for Shared {
             document.tell_trouble();
         }
         true
-    }
-}
-
-impl DocumentHandle {
-    /// See [`DocumentMessage::Open`].
-    pub fn open(&self, source: Source) {
-        self.send(DocumentMessage::Open(source));
-    }
-
-    /// See [`DocumentMessage::CancelLoading`].
-    pub fn cancel_loading(&self) {
-        self.send(DocumentMessage::CancelLoading);
-    }
-
-    /// See [`DocumentMessage::Change`].
-    pub fn change(&self, change: Change) {
-        self.send(DocumentMessage::Change(change));
-    }
-
-    /// Its thread.
-    pub fn thread(&self) -> &ThreadHandle {
-        &self.thread
-    }
-
-    /// Ends the thread behind what it was told so far; jobs are cancelled.
-    pub fn stop(&self) {
-        self.thread.remote_stop();
-    }
-
-    /// Tells it anything; `false` when nobody hears any more.
-    pub fn send(&self, message: DocumentMessage) -> bool {
-        let heard = self.address.send(message).is_ok();
-        if !heard {
-            tracing::error!("the document thread has stopped");
-        }
-        heard
     }
 }

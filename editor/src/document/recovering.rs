@@ -1,7 +1,8 @@
 //! Unsaved work of an earlier time: found, offered, brought back.
 
+use super::message::DocumentReply;
 use super::offer::Offer;
-use super::owner::{Document, DocumentReply};
+use super::owner::Document;
 use super::replay::replay;
 use crate::store::{Autosave, Bounds, Claim, Journal, JournalError, Opening, Reading, Recoverable, Resumed};
 use std::time::Instant;

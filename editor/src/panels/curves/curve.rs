@@ -335,7 +335,7 @@ mod tests {
             let curve = Curve {
                 id: (0, Property::Translation),
                 columns: Columns::Vector(channel),
-                form: Form::Xyz,
+                form: Form::default(),
                 levels: levels(&numbers),
                 numbers,
                 whole: true,

@@ -1,56 +1,44 @@
 //! Rotations as numbers that can be read: angles in degrees in an order, or the four numbers of the quaternion.
 
+use crate::panels::properties::turn;
+use dragonfly_anim::joint::EulerOrder;
 use glam::{DQuat, EulerRot, Quat};
 
 /// How rotations are shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     /// Three angles, degrees, turned in this order.
-    #[default]
-    Xyz,
-    /// See [`Self::Xyz`].
-    Xzy,
-    /// See [`Self::Xyz`].
-    Yxz,
-    /// See [`Self::Xyz`].
-    Yzx,
-    /// See [`Self::Xyz`].
-    Zxy,
-    /// See [`Self::Xyz`].
-    Zyx,
+    Euler(EulerOrder),
     /// x, y, z, w.
     Quaternion,
 }
 
+impl Default for Form {
+    fn default() -> Self {
+        Self::Euler(EulerOrder::Xyz)
+    }
+}
+
 impl Form {
     /// Every form, in the order in which they are offered.
-    pub(super) const ALL: [Self; 7] =
-        [Self::Xyz, Self::Xzy, Self::Yxz, Self::Yzx, Self::Zxy, Self::Zyx, Self::Quaternion];
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        EulerOrder::ALL.into_iter().map(Self::Euler).chain([Self::Quaternion])
+    }
 
     /// Its name.
-    pub(super) fn name(self) -> &'static str {
+    pub(super) fn name(self) -> String {
         match self {
-            Self::Xyz => "Euler XYZ",
-            Self::Xzy => "Euler XZY",
-            Self::Yxz => "Euler YXZ",
-            Self::Yzx => "Euler YZX",
-            Self::Zxy => "Euler ZXY",
-            Self::Zyx => "Euler ZYX",
-            Self::Quaternion => "Quaternion",
+            Self::Euler(order) => format!("Euler {}", turn::name(order)),
+            Self::Quaternion => "Quaternion".to_owned(),
         }
     }
 
     /// The order and which axis each of its angles turns; `None` for quaternions.
     fn order(self) -> Option<(EulerRot, [usize; 3])> {
-        Some(match self {
-            Self::Xyz => (EulerRot::XYZ, [0, 1, 2]),
-            Self::Xzy => (EulerRot::XZY, [0, 2, 1]),
-            Self::Yxz => (EulerRot::YXZ, [1, 0, 2]),
-            Self::Yzx => (EulerRot::YZX, [1, 2, 0]),
-            Self::Zxy => (EulerRot::ZXY, [2, 0, 1]),
-            Self::Zyx => (EulerRot::ZYX, [2, 1, 0]),
-            Self::Quaternion => return None,
-        })
+        match self {
+            Self::Euler(order) => Some((order.of_glam(), order.axes())),
+            Self::Quaternion => None,
+        }
     }
 
     /// How many numbers a rotation has.
@@ -154,7 +142,7 @@ mod tests {
         for _ in 0..500 {
             let near = [(); 4].map(|()| random.between(-400.0, 400.0));
             let quaternion = Quat::from_array([(); 4].map(|()| random.between(-1.0, 1.0))).normalize();
-            for form in Form::ALL {
+            for form in Form::all() {
                 let back = form.rotation(form.of(quaternion, near));
                 assert!(back.dot(quaternion).abs() > 0.999_99, "seed {seed} {form:?} {quaternion}");
             }
@@ -166,7 +154,7 @@ mod tests {
         let mut near = [0.0; 4];
         for step in 0..=36 {
             let angle = step as f32 * 20.0;
-            near = Form::Xyz.of(Quat::from_rotation_z(angle.to_radians()), near);
+            near = Form::default().of(Quat::from_rotation_z(angle.to_radians()), near);
             assert!((near[2] - angle).abs() < 0.01, "{near:?}");
         }
     }
@@ -180,7 +168,7 @@ mod tests {
                 [random.between(-70.0, 70.0), random.between(-70.0, 70.0), random.between(-70.0, 70.0), 0.0];
             let slopes =
                 [random.between(-90.0, 90.0), random.between(-90.0, 90.0), random.between(-90.0, 90.0), 0.0];
-            for form in [Form::Xyz, Form::Zyx, Form::Yxz] {
+            for form in [EulerOrder::Xyz, EulerOrder::Zyx, EulerOrder::Yxz].map(Form::Euler) {
                 let rotation = form.rotation(numbers);
                 let rate = form.rate(rotation, Quat::from_array([0.0; 4]), numbers, slopes);
                 let back = form.slopes(rotation, rate, numbers);

@@ -131,7 +131,7 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
     let button = ui.add(Button::new(text).frame(false)).on_hover_text("How rotations are shown");
     egui::Popup::menu(&button).show(|ui| {
         ui.set_width(110.0);
-        for form in Form::ALL {
+        for form in Form::all() {
             if ui.add(Button::selectable(form == chosen.form, form.name())).clicked() {
                 chosen.form = form;
             }

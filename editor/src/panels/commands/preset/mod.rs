@@ -8,17 +8,9 @@ mod game_engines;
 mod maya;
 
 use super::Id;
-use egui::{Key, KeyboardShortcut, Modifiers};
+use super::table::{ALT, CTRL, NONE, SHIFT, key};
+use egui::{Key, KeyboardShortcut};
 use serde::{Deserialize, Serialize};
-
-const NONE: Modifiers = Modifiers::NONE;
-const CTRL: Modifiers = Modifiers::COMMAND;
-const SHIFT: Modifiers = Modifiers::SHIFT;
-const ALT: Modifiers = Modifiers::ALT;
-
-const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
-    KeyboardShortcut::new(modifiers, key)
-}
 
 /// What differs from the table.
 type Table = &'static [(Id, &'static [KeyboardShortcut])];
