@@ -19,9 +19,9 @@ pub(crate) const SOON: Duration = Duration::from_secs(60);
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
 
 /// Where on the ruler of Fox's first take 0.67 and 2.00 seconds are, and the button that plays and pauses.
-const EARLY: (i16, i16) = (330, 604);
-const LATE: (i16, i16) = (780, 604);
-const PLAY: (i16, i16) = (124, 578);
+const EARLY: (i16, i16) = (308, 533);
+const LATE: (i16, i16) = (508, 533);
+const PLAY: (i16, i16) = (124, 507);
 
 /// One window at a time: two of them on two cores only make each other late.
 static ONE: Mutex<()> = Mutex::new(());

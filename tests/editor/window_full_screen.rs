@@ -9,7 +9,7 @@ use dragonfly_kit::eventually;
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
 
 /// The menu "View" and its line "Full screen".
-const MENU: [(i16, i16); 2] = [(129, 14), (154, 345)];
+const MENU: [(i16, i16); 2] = [(300, 14), (325, 401)];
 
 #[test]
 fn f11_and_the_menu_fill_the_screen_and_give_the_window_back() {

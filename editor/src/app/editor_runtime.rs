@@ -238,7 +238,9 @@ impl BaseRuntime for EditorRuntime {
             }
             GraphicsReply::Statistics { frames, milliseconds } => {
                 interface.state.frame_time = Some(milliseconds);
+                // While something moves: else each loss would draw the frame that brings the next one.
                 if let Some(every) = self.options.lose_device_every
+                    && interface.state.playback.moves(Instant::now())
                     && frames.saturating_sub(running.lost_at) >= u64::from(every.max(1))
                 {
                     running.lost_at = frames;

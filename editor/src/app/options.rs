@@ -11,7 +11,7 @@ pub struct Options {
     pub source: Source,
     /// How many more files were asked for: one is open at a time, and the person is told.
     pub passed_over: usize,
-    /// Loses the graphics device after every so many drawn frames, to show that nothing is lost with it.
+    /// While time runs, loses the graphics device after every so many drawn frames, to show that nothing is lost with it.
     pub lose_device_every: Option<u32>,
     /// Draws on however often the device is lost, where the editor would pause: for tests of just that.
     pub never_pause: bool,
