@@ -51,7 +51,7 @@ impl Gpu {
             None => OFFSCREEN_FORMAT,
         };
         let max_side = device.limits().max_texture_dimension_2d;
-        let (frame_layout, frame_group, frame_buffer) = frame_binding(&device);
+        let (frame_layout, frame_group, frame_buffer) = uniform_binding::<FrameUniform>(&device, "frame");
         Ok(Self { device, queue, window_format, max_side, frame_layout, frame_group, frame_buffer })
     }
 
@@ -123,28 +123,32 @@ fn limits(adapter: &wgpu::Limits) -> wgpu::Limits {
     }
 }
 
-fn frame_binding(device: &wgpu::Device) -> (wgpu::BindGroupLayout, wgpu::BindGroup, wgpu::Buffer) {
+/// A group with one thing in it, at binding 0: numbers of type `T`, the same for all vertices and pixels of a draw.
+pub(crate) fn uniform_binding<T>(
+    device: &wgpu::Device,
+    label: &str,
+) -> (wgpu::BindGroupLayout, wgpu::BindGroup, wgpu::Buffer) {
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("frame"),
+        label: Some(label),
         entries: &[wgpu::BindGroupLayoutEntry {
             binding: 0,
             visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Uniform,
                 has_dynamic_offset: false,
-                min_binding_size: wgpu::BufferSize::new(size_of::<FrameUniform>() as u64),
+                min_binding_size: wgpu::BufferSize::new(size_of::<T>() as u64),
             },
             count: None,
         }],
     });
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("frame"),
-        size: size_of::<FrameUniform>() as u64,
+        label: Some(label),
+        size: size_of::<T>() as u64,
         usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     });
     let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("frame"),
+        label: Some(label),
         layout: &layout,
         entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
     });

@@ -4,7 +4,7 @@
 use super::{Commands, Layer, Pass, Surroundings};
 use crate::control::gizmo::GizmoVertex;
 use crate::graphics::device::DeviceListener;
-use crate::graphics::gpu::{DEPTH_FORMAT, Gpu, scene_samples, scene_target};
+use crate::graphics::gpu::{DEPTH_FORMAT, Gpu, scene_samples, scene_target, uniform_binding};
 use crate::graphics::message::Look;
 use crate::graphics::shaders;
 
@@ -60,30 +60,7 @@ impl DeviceListener for ControlRender {
     }
 
     fn on_reset(&mut self, gpu: &Gpu) {
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("controls"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: wgpu::BufferSize::new(size_of::<Style>() as u64),
-                },
-                count: None,
-            }],
-        });
-        let style = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("controls"),
-            size: size_of::<Style>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("controls"),
-            layout: &layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: style.as_entire_binding() }],
-        });
+        let (layout, group, style) = uniform_binding::<Style>(&gpu.device, "controls");
         self.resources = Some(Resources {
             line: pipeline(gpu, &layout, Shape::Line),
             fill: pipeline(gpu, &layout, Shape::Triangle),
