@@ -12,6 +12,7 @@ use dragonfly::graphics::Look;
 use dragonfly::graphics::scene::Scene;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Effect, Request, Settings, State, hands};
+use dragonfly::store::{Autosave, RealFiles};
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
@@ -149,7 +150,9 @@ impl Receiver for Traces {
 fn measure(name: &str, load: Load, bone: &str) -> Duration {
     let heard = Heard::default();
     let traced = Rc::new(RefCell::new(None));
-    let mut main = Thread::capture("main", || {});
+    // As in the window, the main thread sleeps until it is told that something came: it does not take a processor.
+    let own_thread = std::thread::current();
+    let mut main = Thread::capture("main", move || own_thread.unpark());
     let graphics = Thread::start("graphics").expect("a thread");
     let replies = main.context().register_receiver(heard.clone());
     let traces: Address<TraceSnapshot> = main.context().register_receiver(Traces(Rc::clone(&traced)));
@@ -166,8 +169,11 @@ fn measure(name: &str, load: Load, bone: &str) -> Duration {
             context.set_trace(MOVES * 8);
         })
         .expect("it runs");
-    let document =
-        Document::start_with(Setup { load, ..Setup::default() }, replies, pictures).expect("a thread");
+    // Work is recorded on a disk, as in the program.
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("drag-{}", std::process::id()));
+    let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.clone())).expect("a folder is given");
+    let setup = Setup { load, autosave: Some(autosave), ..Setup::default() };
+    let document = Document::start_with(setup, replies, pictures).expect("a thread");
     let mut state = State::new(Settings::default(), Instant::now());
     let rect = egui::Rect::from_min_size(egui::pos2(240.0, 30.0), egui::vec2(800.0, 500.0));
     state.execute(Request::Viewport(rect));
@@ -213,8 +219,12 @@ fn measure(name: &str, load: Load, bone: &str) -> Duration {
         }
         // The next move only when this one went all the way, so that each has a state of its own.
         let mut came = 0;
-        while came == 0 || *count.0.borrow() < index + 2 {
+        loop {
             came += turn(&mut state);
+            if came > 0 && *count.0.borrow() >= index + 2 {
+                break;
+            }
+            std::thread::park_timeout(Duration::from_secs(1));
         }
         // The panels are drawn meanwhile in the program; here the hands find out where the bone is now.
         state.begin(Instant::now());
@@ -242,6 +252,8 @@ fn measure(name: &str, load: Load, bone: &str) -> Duration {
         show(at(100)),
     );
     document.stop();
+    // What is left there is of no use to anybody, and in a folder for that.
+    let _ = std::fs::remove_dir_all(folder);
     at(99)
 }
 

@@ -24,6 +24,8 @@ pub struct Gpu {
     pub window_format: wgpu::TextureFormat,
     /// Longest side of a texture.
     pub max_side: u32,
+    /// Samples of an image that a pixel may take along a surface seen at a flat angle; 1 is none beyond the ordinary.
+    pub anisotropy: u16,
     /// Layout of bind group 0 of all passes of the scene.
     pub frame_layout: wgpu::BindGroupLayout,
     /// Bind group 0.
@@ -51,8 +53,18 @@ impl Gpu {
             None => OFFSCREEN_FORMAT,
         };
         let max_side = device.limits().max_texture_dimension_2d;
+        let anisotropy = anisotropy(adapter.get_info().device_type);
         let (frame_layout, frame_group, frame_buffer) = uniform_binding::<FrameUniform>(&device, "frame");
-        Ok(Self { device, queue, window_format, max_side, frame_layout, frame_group, frame_buffer })
+        Ok(Self {
+            device,
+            queue,
+            window_format,
+            max_side,
+            anisotropy,
+            frame_layout,
+            frame_group,
+            frame_buffer,
+        })
     }
 
     /// Hands this frame's uniform to the device.
@@ -111,6 +123,12 @@ fn check(adapter: &wgpu::Adapter) -> Result<(), GraphicsError> {
         }
     }
     Ok(())
+}
+
+/// Where a processor draws it is dear, and not safe: Mesa's llvmpipe walks over every texel of the ellipse that a pixel
+/// covers, and where a triangle is seen all but edge-on that ellipse has no end, so that a frame was seen that never ended.
+fn anisotropy(device: wgpu::DeviceType) -> u16 {
+    if device == wgpu::DeviceType::Cpu { 1 } else { 8 }
 }
 
 /// What every adapter has, and more where this one does: large models need large buffers.

@@ -421,10 +421,11 @@ impl State {
         if name.is_empty() { format!("Bone {bone}") } else { name.to_owned() }
     }
 
-    /// Are bones drawn? Also when one is selected, and where there is nothing else to see.
+    /// Are bones drawn? Also when one is selected, when some are hidden, which is for seeing the others, and where there
+    /// is nothing else to see.
     pub fn shows_skeleton(&self) -> bool {
         let bare = self.loaded().is_some_and(|loaded| loaded.model.instances.is_empty());
-        self.settings.look.skeleton || self.selected().is_some() || bare
+        self.settings.look.skeleton || self.selected().is_some() || !self.hidden.is_empty() || bare
     }
 
     /// The active bone: of those that are selected, the one that was selected last.

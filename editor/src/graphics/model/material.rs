@@ -186,7 +186,7 @@ fn sampler(gpu: &Gpu, (wrap, magnify, minify, mip): SamplerKey) -> wgpu::Sampler
         },
         lod_max_clamp: if mip { 32.0 } else { 0.0 },
         // Surfaces seen at a flat angle stay sharp. Only allowed where everything is linear.
-        anisotropy_clamp: if all_linear { 8 } else { 1 },
+        anisotropy_clamp: if all_linear { gpu.anisotropy } else { 1 },
         ..Default::default()
     })
 }
