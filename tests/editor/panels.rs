@@ -291,6 +291,51 @@ fn the_palette_runs_what_is_found() {
 }
 
 #[test]
+fn the_palette_finds_one_where_several_are_asked_for() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    harness.key_press(egui::Key::F3);
+    harness.run_steps(4);
+    harness.get_by_label("Find a command").type_text("shortcuts");
+    harness.run_steps(4);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(4);
+    assert_eq!(harness.state().state.overlay, Some(dragonfly::panels::state::Overlay::Shortcuts));
+}
+
+#[test]
+fn escape_closes_a_menu_and_leaves_what_is_selected() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.state_mut().state.select(Some(3));
+    harness.run_steps(4);
+    harness.get_by_label("View").click();
+    harness.run_steps(4);
+    assert!(egui::Popup::is_any_open(&harness.ctx));
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(4);
+    assert!(!egui::Popup::is_any_open(&harness.ctx));
+    assert_eq!(harness.state().state.selected(), Some(3));
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(4);
+    assert_eq!(harness.state().state.selected(), None, "now it is for the bones");
+}
+
+#[test]
+fn keys_do_nothing_to_the_desk_behind_what_lies_over_it() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.state_mut().state.select(Some(3));
+    harness.state_mut().state.execute(Request::Command(dragonfly::panels::commands::Id::About));
+    harness.run_steps(4);
+    let grid = harness.state().state.settings.look.grid;
+    harness.key_press(egui::Key::G);
+    harness.run_steps(4);
+    assert_eq!(harness.state().state.settings.look.grid, grid);
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(4);
+    assert_eq!((harness.state().state.overlay, harness.state().state.selected()), (None, Some(3)));
+}
+
+#[test]
 fn what_reaches_beyond_the_panels_comes_back_as_an_effect() {
     let mut harness = harness(Bench::new(None));
     harness.run_steps(4);

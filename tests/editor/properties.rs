@@ -43,11 +43,11 @@ fn a_typed_number_is_the_pose() {
 }
 
 #[test]
-fn enter_and_tab_go_on_to_the_next_number() {
+fn tab_goes_on_to_the_next_number_and_enter_gives_the_keys_back() {
     let mut window = window();
     window.get_by_label("Translation result X").click();
     window.run_steps(2);
-    for (text, key) in [("1", Key::Enter), ("2", Key::Tab), ("3", Key::Enter)] {
+    for (text, key) in [("1", Key::Tab), ("2", Key::Tab), ("3", Key::Enter)] {
         window.event(egui::Event::Text(text.to_owned()));
         window.run_steps(1);
         window.key_press(key);
@@ -55,6 +55,30 @@ fn enter_and_tab_go_on_to_the_next_number() {
     }
     assert_eq!(window.state().pose(3).translation, Vec3::new(1.0, 2.0, 3.0));
     assert_eq!(window.state().steps(), (3, 3));
+    // What comes now is for the commands, not for a text.
+    assert!(!window.ctx.egui_wants_keyboard_input());
+}
+
+#[test]
+fn what_is_typed_after_a_double_click_takes_the_place_of_the_number() {
+    let mut window = window();
+    let at = window.get_by_label("Translation result X").rect().center();
+    for pressed in [true, false, true, false] {
+        let event = egui::Event::PointerButton {
+            pos: at,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: egui::Modifiers::NONE,
+        };
+        window.event(egui::Event::PointerMoved(at));
+        window.event(event);
+        window.run_steps(1);
+    }
+    window.event(egui::Event::Text("45/2".to_owned()));
+    window.run_steps(1);
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    assert_eq!(window.state().pose(3).translation.x, 22.5);
 }
 
 #[test]

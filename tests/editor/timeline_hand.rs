@@ -49,6 +49,26 @@ fn a_box_selects_what_it_touches_in_its_rows() {
 }
 
 #[test]
+fn where_keys_lie_side_by_side_a_drag_draws_a_box_until_they_are_selected() {
+    let mut animator = Animator::with_bone(3);
+    let far = animator.at(2.0, 2);
+    for _ in 0..12 {
+        animator.wheel(far, vec2(0.0, -120.0));
+        animator.steps(2);
+    }
+    let apart = animator.at(animator.key(9), 2).x - animator.at(animator.key(8), 2).x;
+    assert!(apart < 9.0, "zoomed out, keys are {apart} apart");
+    let (from, to) = (animator.at(animator.key(8), 2), animator.at(animator.key(14), 2));
+    animator.drag(from, to);
+    animator.release(to);
+    assert!(animator.changes.is_empty(), "no key was moved");
+    assert_eq!(animator.selected(), 7, "all from the first to the last");
+    animator.drag(from, from + vec2(30.0, 0.0));
+    animator.release(from + vec2(30.0, 0.0));
+    assert!(!animator.edits().is_empty(), "what is selected is moved");
+}
+
+#[test]
 fn alt_click_selects_a_column_of_all_bones() {
     let mut animator = Animator::new(crate::fixture::full());
     animator.hold(Modifiers::ALT);

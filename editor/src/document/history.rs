@@ -158,6 +158,11 @@ impl Edited {
         self.saved = Some(self.done);
     }
 
+    /// Steps done or undone since it was saved or opened; all that were done where no undo leads back there.
+    pub fn unsaved_steps(&self) -> usize {
+        self.saved.map_or(self.done, |saved| self.done.abs_diff(saved))
+    }
+
     /// Is it as it was saved or opened?
     pub fn is_saved(&self) -> bool {
         self.saved == Some(self.done)

@@ -222,7 +222,7 @@ impl Document {
             self.begin_journal_anew();
             return self.reply(DocumentReply::Told(text));
         }
-        let steps = replayed.edited.steps().1;
+        let steps = replayed.edited.unsaved_steps();
         let stopped = replayed.stopped.clone();
         open.go_on(replayed);
         if wanted {

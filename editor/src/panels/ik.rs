@@ -66,12 +66,12 @@ impl State {
         if !all {
             self.pins.extend(&bones);
         }
-        let count = super::widgets::count(bones.len(), "bone", "bones");
-        let text = if all {
-            format!("Freed {count}")
-        } else {
-            format!("Pinned {count}: they stay while others move")
+        let (what, stay) = match *bones {
+            [bone] => (self.bone_name(bone), "it stays"),
+            _ => (super::widgets::count(bones.len(), "bone", "bones"), "they stay"),
         };
+        let text =
+            if all { format!("Freed {what}") } else { format!("Pinned {what}: {stay} while others move") };
         self.status.say(Level::Info, text);
     }
 

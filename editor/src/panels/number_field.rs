@@ -87,15 +87,32 @@ struct Drag {
 }
 
 /// What was refused when the cursor left the field, as long as the number stays the same.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Refused {
     reason: String,
     value: Option<f64>,
+    /// Frames in which the number may still become another one without anybody having changed it: fields that belong
+    /// together show what was typed until the cursor has left them, as the parts of a quaternion do.
+    settles: u8,
+}
+
+impl Refused {
+    fn new(reason: String, value: Option<f64>) -> Self {
+        Self { reason, value, settles: 2 }
+    }
+
+    /// What is left of it in the next frame, in which the field shows `value`.
+    fn next(self, value: Option<f64>) -> Option<Self> {
+        match self.settles {
+            0 => Some(self).filter(|refused| refused.value == value),
+            settles => Some(Self { value, settles: settles - 1, ..self }),
+        }
+    }
 }
 
 /// Shows at a field why the number typed last was not taken, as long as its number stays the same.
 pub fn refuse(ui: &Ui, id: Id, value: Option<f64>, reason: &str) {
-    let refused = Refused { reason: reason.to_owned(), value };
+    let refused = Refused::new(reason.to_owned(), value);
     ui.data_mut(|data| data.insert_temp(id, refused));
 }
 
@@ -123,7 +140,8 @@ impl NumberField<'_> {
         (early.or(stepped).unwrap_or(late), response)
     }
 
-    /// Enter and Tab accept and go on to the next field; where there is no number they stay and say why.
+    /// Enter accepts and gives the keys back to the commands, Tab goes on to the next field; where there is no number they
+    /// stay and say why.
     fn keys(&self, ui: &Ui) -> Option<Heard> {
         if !ui.memory(|memory| memory.has_focus(self.id)) {
             return None;
@@ -144,7 +162,7 @@ impl NumberField<'_> {
             return None;
         }
         if enter {
-            ui.memory_mut(|memory| memory.move_focus(FocusDirection::Next));
+            ui.memory_mut(|memory| memory.surrender_focus(self.id));
         }
         ui.data_mut(|data| data.remove::<Typing>(self.id));
         read.ok().filter(|_| typing.text != typing.first).map(Heard::Typed)
@@ -161,10 +179,7 @@ impl NumberField<'_> {
         });
         let mut heard = if fresh { Heard::Touched } else { Heard::Nothing };
         if fresh {
-            let mut state = TextEdit::load_state(ui.ctx(), self.id).unwrap_or_default();
-            let all = egui::text::CCursorRange::select_all_str(&typing.text);
-            state.cursor.set_char_range(Some(all));
-            state.store(ui.ctx(), self.id);
+            self.select_all(ui, &typing.text);
         }
         let steps = ui.input_mut(|input| {
             input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp) as f64
@@ -192,6 +207,10 @@ impl NumberField<'_> {
         if response.changed() {
             typing.refused = None;
         }
+        // The first click opened the field and the second would put the cursor somewhere in it; all is meant.
+        if response.double_clicked() {
+            self.select_all(ui, &typing.text);
+        }
         let edge = if typing.refused.is_some() { theme.error } else { theme.accent };
         let stroke = Stroke::new(1.0, edge);
         ui.painter().rect_stroke(rect, CornerRadius::same(RADIUS), stroke, StrokeKind::Inside);
@@ -199,6 +218,13 @@ impl NumberField<'_> {
         self.describe(ui, &response, typing.refused.as_deref());
         ui.data_mut(|data| data.insert_temp(self.id, typing));
         (heard, response)
+    }
+
+    /// So that what is typed next takes the place of `text`.
+    fn select_all(&self, ui: &Ui, text: &str) {
+        let mut state = TextEdit::load_state(ui.ctx(), self.id).unwrap_or_default();
+        state.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(text)));
+        state.store(ui.ctx(), self.id);
     }
 
     /// Why the text is not taken, or what an expression comes to.
@@ -231,15 +257,18 @@ impl NumberField<'_> {
             match self.read(&typing.text) {
                 Ok(value) => heard = Heard::Typed(value),
                 Err(reason) => {
-                    let refused = Refused { reason, value: self.value };
+                    let refused = Refused::new(reason, self.value);
                     ui.data_mut(|data| data.insert_temp(id, refused));
                 }
             }
         }
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        let refused =
-            ui.data(|data| data.get_temp::<Refused>(id)).filter(|refused| refused.value == self.value);
+        let refused = ui.data_mut(|data| {
+            let refused = data.remove_temp::<Refused>(id)?.next(self.value)?;
+            data.insert_temp(id, refused.clone());
+            Some(refused)
+        });
         self.paint(ui, rect, &response, refused.as_ref());
         self.describe(ui, &response, refused.as_ref().map(|refused| refused.reason.as_str()));
         if response.clicked() {

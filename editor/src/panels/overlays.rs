@@ -129,7 +129,12 @@ fn search(query: &str, state: &State) -> Vec<&'static Command> {
     let words: Vec<String> = query.to_lowercase().split_whitespace().map(str::to_owned).collect();
     let has = |text: &str| {
         let text = text.to_lowercase();
-        words.iter().all(|word| text.contains(word))
+        // One is meant by those who ask for several.
+        let has = |word: &str| {
+            text.contains(word)
+                || word.strip_suffix('s').is_some_and(|one| one.len() > 2 && text.contains(one))
+        };
+        words.iter().all(|word| has(word))
     };
     let (mut first, second): (Vec<&Command>, Vec<&Command>) = commands::all()
         .filter(|command| command.id != Id::Palette)

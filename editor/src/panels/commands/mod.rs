@@ -16,7 +16,7 @@ pub use shortcut::{parse, text};
 pub use table::TABLE;
 pub use when::When;
 
-use egui::{Key, KeyboardShortcut, Modifiers};
+use egui::{Key, KeyboardShortcut, Modifiers, Popup};
 
 /// One thing the program can be told to do.
 #[derive(Clone, Copy, Debug)]
@@ -97,8 +97,11 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     if Keymap::is_asking(context) {
         return Vec::new();
     }
-    // Escape closes what is open first, and takes back what is dragged.
-    let open = context.any_popup_open() || context.input(|input| input.pointer.any_down());
+    // Over what is asked or told no command reaches the desk, but those that bring up such a thing and put it away.
+    let modal = context.memory(|memory| memory.top_modal_layer().is_some());
+    // Escape closes what is open first, and takes back what is dragged. Menus are asked for in egui's memory: what the
+    // pass knows of them it forgets when the next begins, and that is when this is called.
+    let open = modal || Popup::is_any_open(context) || context.input(|input| input.pointer.any_down());
     let typing = context.text_edit_focused();
     let focused = context.memory(|memory| memory.focused().is_some());
     // A field has lost the focus by its Escape when this is asked, and is the one that was meant all the same.
@@ -119,6 +122,7 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
                 return true;
             }
             match keymap.command_of(key, modifiers) {
+                Some(id) if modal && !matches!(id, Id::Palette | Id::Shortcuts) => true,
                 Some(id) if !repeat || repeats(id) => {
                     found.push(id);
                     false

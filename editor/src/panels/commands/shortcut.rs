@@ -20,6 +20,15 @@ const CAPS: &[(Key, &str)] = &[
     (Key::Equals, "="),
     (Key::Slash, "/"),
     (Key::Questionmark, "?"),
+    (Key::OpenCurlyBracket, "{"),
+    (Key::CloseCurlyBracket, "}"),
+    (Key::Exclamationmark, "!"),
+    (Key::Colon, ":"),
+    (Key::Semicolon, ";"),
+    (Key::Quote, "'"),
+    (Key::Backtick, "`"),
+    (Key::Backslash, "\\"),
+    (Key::Pipe, "|"),
 ];
 
 /// What is held, in the order in which it is written.

@@ -237,12 +237,11 @@ impl Curves {
         } else {
             (canvas.left_top() + egui::vec2(8.0, 6.0), Align2::LEFT_TOP)
         };
-        painter.text(
-            at,
-            align,
-            text,
-            FontId::proportional(11.0),
-            if bones.is_empty() { theme.faint } else { theme.weak },
-        );
+        let color = if bones.is_empty() { theme.faint } else { theme.weak };
+        let galley = painter.layout_no_wrap(text, FontId::proportional(11.0), color);
+        let rect = align.anchor_size(at, galley.size());
+        // Legible over whatever curve runs there.
+        painter.rect_filled(rect.expand2(egui::vec2(4.0, 2.0)), 3, theme.sunken.gamma_multiply(0.9));
+        painter.galley(rect.min, galley, color);
     }
 }

@@ -158,7 +158,8 @@ impl Hand {
         input: &Input,
         requests: &mut Vec<Request>,
     ) {
-        let Some(on) = on else {
+        // Of keys side by side none can be aimed at: a hand that has not selected them means a box.
+        let Some(on) = on.filter(|on| on.selected || !crowded(on, rows, scale, drawn)) else {
             let height = at.y - places.canvas.top() + scrolled;
             self.doing = Doing::Box { time: scale.time_at(at.x), height, choice: choice(modifiers) };
             return;
@@ -317,6 +318,21 @@ fn under(
             && channel::nearest(&drawn.take, id, time).is_some_and(|key| (key - time).abs() <= SAME_TIME)
     });
     Some(OnKey { row: at as usize, time, selected })
+}
+
+/// Is another key of the row so near that it would be under the pointer too?
+fn crowded(on: &OnKey, rows: &Rows, scale: &TimeScale, drawn: &Drawn) -> bool {
+    let Some(row) = rows.list().get(on.row) else { return false };
+    let reach = scale.seconds(REACH);
+    // A key less than twice the reach away is nearer to the middle of that stretch than this one.
+    let middles = [on.time - reach, on.time + reach];
+    rows.of(row.kind).iter().any(|&id| {
+        let other = |middle| channel::nearest(&drawn.take, id, middle);
+        middles.into_iter().filter_map(other).any(|key| {
+            let apart = (key - on.time).abs();
+            apart > SAME_TIME && apart < 2.0 * reach
+        })
+    })
 }
 
 /// What is asked of the input, read once.

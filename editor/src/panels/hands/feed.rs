@@ -6,7 +6,7 @@
 use super::place;
 use crate::control::{Button, InputEvent, Key, Modifiers};
 use crate::panels::state::{Effect, State};
-use egui::{Context, Event, Order, PointerButton, Pos2, RawInput};
+use egui::{Context, Event, Order, PointerButton, Popup, Pos2, RawInput};
 
 /// Gives the scene the events of `input` from `from` on, and takes out what only it is to hear. Tells whether the picture
 /// may look different now.
@@ -91,7 +91,7 @@ fn hear(
         Event::Key { key, pressed: true, repeat, modifiers, .. } => {
             hold(state, *modifiers, effects);
             let drags = state.hands.is_busy() || state.hands.is_modal();
-            let types = context.egui_wants_keyboard_input() || context.any_popup_open();
+            let types = context.egui_wants_keyboard_input() || Popup::is_any_open(context);
             if types && !drags {
                 return Heard::Nothing;
             }
