@@ -1,0 +1,151 @@
+//! The way of one input: to the control that it is for, then to its parents.
+
+use super::{Capture, ControlFramework};
+use crate::control::Button;
+use crate::control::base::{BaseControl, ControlId, Controls, Mouse, Pass};
+use crate::control::key::Key;
+use glam::Vec2;
+
+impl ControlFramework {
+    pub(super) fn mouse_move(&mut self, at: Vec2, controls: &mut dyn Controls) -> Option<ControlId> {
+        // No screen is so large: a place reported there is a mistake of the driver.
+        if !(at.is_finite() && at.abs().max_element() < 1e5) {
+            return None;
+        }
+        self.mouse = Some(at);
+        self.mouse_gone = false;
+        self.settle(controls);
+        self.tell_mouse(controls, |control, mouse, framework| control.mouse_move(mouse, framework))
+    }
+
+    pub(super) fn wheel(&mut self, by: Vec2, controls: &mut dyn Controls) -> Option<ControlId> {
+        if !by.is_finite() {
+            return None;
+        }
+        self.tell_mouse(controls, |control, mouse, framework| control.mouse_wheel(by, mouse, framework))
+    }
+
+    pub(super) fn mouse_down(&mut self, button: Button, controls: &mut dyn Controls) -> Option<ControlId> {
+        if self.held[button as usize] {
+            // Its release was never heard of: what it began is over.
+            self.lost_mouse(controls);
+        }
+        let begins = !self.held.contains(&true);
+        self.held[button as usize] = true;
+        if begins {
+            let under = self.grabbed.or_else(|| self.under(self.pointer()?, controls));
+            self.capture = under.map_or(Capture::Gone, |control| Capture::By { control, heard: control });
+        }
+        let mouse = Mouse { at: self.mouse?, modifiers: self.modifiers };
+        let Capture::By { control, .. } = self.capture else { return None };
+        let mut next = Some(control);
+        while let Some(id) = next {
+            next = self.places.parent(id);
+            if !begins || id == control || self.is_on(id, mouse.at, controls) {
+                let Some(control) = self.there(id, controls) else { continue };
+                match &mut self.capture {
+                    // As far up as any press was passed on.
+                    Capture::By { heard, .. } if self.places.is_inside(*heard, id) => *heard = id,
+                    Capture::By { .. } => {}
+                    // The one that was pressed took itself out and passed the press on.
+                    _ => self.capture = Capture::By { control: id, heard: id },
+                }
+                if control.mouse_down(button, mouse, self) == Pass::Stop {
+                    return Some(id);
+                }
+                // It may have taken itself out; its parent was noted before.
+            }
+        }
+        None
+    }
+
+    pub(super) fn mouse_up(&mut self, button: Button, controls: &mut dyn Controls) -> Option<ControlId> {
+        if !std::mem::take(&mut self.held[button as usize]) {
+            return None;
+        }
+        let stopped = match self.capture {
+            Capture::By { .. } => self
+                .tell_mouse(controls, |control, mouse, framework| control.mouse_up(button, mouse, framework)),
+            _ => None,
+        };
+        if !self.held.contains(&true) {
+            self.capture = Capture::Free;
+        }
+        stopped
+    }
+
+    /// To the control that has the mouse, else to the one under it, and to those that it is passed on to.
+    pub(super) fn tell_mouse(
+        &mut self,
+        controls: &mut dyn Controls,
+        mut tell: impl FnMut(&mut dyn BaseControl, Mouse, &mut Self) -> Pass,
+    ) -> Option<ControlId> {
+        let (first, is_captured) = match self.capture {
+            Capture::By { control, .. } => (Some(control), true),
+            Capture::Free if self.grabbed.is_some() => (self.grabbed, true),
+            Capture::Free => (self.under(self.pointer()?, controls), false),
+            Capture::Gone => (None, false),
+        };
+        let mouse = Mouse { at: self.mouse?, modifiers: self.modifiers };
+        let mut next = first;
+        while let Some(id) = next {
+            next = self.places.parent(id);
+            // A captured mouse may be anywhere; those who saw the press see what follows.
+            if is_captured || Some(id) == first || self.is_on(id, mouse.at, controls) {
+                let Some(control) = self.there(id, controls) else { continue };
+                if tell(control, mouse, self) == Pass::Stop {
+                    return Some(id);
+                }
+            }
+        }
+        None
+    }
+
+    pub(super) fn key_down(&mut self, key: Key, controls: &mut dyn Controls) -> Option<ControlId> {
+        let held = self.keys.find(key);
+        let target = match held {
+            Some(control) => control,
+            None => {
+                // While something is dragged keys are for that: Escape, an axis, a number.
+                let known = self.captured().or(self.focus);
+                let control = match known {
+                    Some(control) => control,
+                    None => self.under(self.pointer()?, controls)?,
+                };
+                if let Some(oldest) = self.keys.full() {
+                    self.key_up(oldest, controls);
+                }
+                self.keys.put(key, control);
+                control
+            }
+        };
+        let modifiers = self.modifiers;
+        self.tell(target, controls, |control, framework| {
+            control.key_down(key, modifiers, held.is_some(), framework)
+        })
+    }
+
+    pub(super) fn key_up(&mut self, key: Key, controls: &mut dyn Controls) -> Option<ControlId> {
+        let control = self.keys.take(key)?;
+        let modifiers = self.modifiers;
+        self.tell(control, controls, |control, framework| control.key_up(key, modifiers, framework))
+    }
+
+    /// To a control and to those that it is passed on to.
+    pub(super) fn tell(
+        &mut self,
+        first: ControlId,
+        controls: &mut dyn Controls,
+        mut tell: impl FnMut(&mut dyn BaseControl, &mut Self) -> Pass,
+    ) -> Option<ControlId> {
+        let mut next = Some(first);
+        while let Some(id) = next {
+            next = self.places.parent(id);
+            let Some(control) = self.there(id, controls) else { continue };
+            if tell(control, self) == Pass::Stop {
+                return Some(id);
+            }
+        }
+        None
+    }
+}

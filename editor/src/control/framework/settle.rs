@@ -1,0 +1,110 @@
+//! Who has the mouse and the focus, and that all are told when it changes.
+
+use super::{Capture, ControlFramework, ROUNDS};
+use crate::control::base::{BaseControl, ControlId, Controls};
+use crate::control::key::{HELD_KEYS, Modifiers};
+use glam::Vec2;
+
+impl ControlFramework {
+    /// Releases will not be heard of: what was begun with the mouse is taken back, keys are let go.
+    pub(super) fn lost(&mut self, controls: &mut dyn Controls) {
+        let captured = match self.capture {
+            Capture::By { control, .. } => Some(control),
+            _ => None,
+        };
+        let grabbed = self.grabbed.take().filter(|&grabbed| Some(grabbed) != captured);
+        self.lost_mouse(controls);
+        if let Some(control) = grabbed.and_then(|id| self.there(id, controls)) {
+            control.input_lost(self);
+        }
+        self.mouse = None;
+        self.modifiers = Modifiers::default();
+        for _ in 0..HELD_KEYS {
+            let Some(key) = self.keys.first() else { return };
+            self.key_up(key, controls);
+        }
+    }
+
+    pub(super) fn lost_mouse(&mut self, controls: &mut dyn Controls) {
+        self.held = [false; 3];
+        let Capture::By { control, heard } = std::mem::take(&mut self.capture) else { return };
+        let mut next = Some(control);
+        while let Some(id) = next {
+            next = self.places.parent(id).filter(|_| id != heard);
+            if let Some(control) = self.there(id, controls) {
+                control.input_lost(self);
+            }
+        }
+    }
+
+    /// Tells the controls who has focus and mouse, until all know.
+    pub(super) fn settle(&mut self, controls: &mut dyn Controls) {
+        for _ in 0..ROUNDS {
+            let over = match self.capture {
+                // Who has the mouse keeps it.
+                Capture::By { .. } | Capture::Gone => self.entered,
+                Capture::Free => self.grabbed.or_else(|| self.under(self.pointer()?, controls)),
+            };
+            if over == self.entered && self.focus == self.focus_told {
+                return;
+            }
+            if over != self.entered {
+                if let Some(control) = self.entered.take().and_then(|id| controls.control(id)) {
+                    control.mouse_leave(self);
+                }
+                // The one that was left may have taken the other out.
+                if let Some(id) = over.filter(|&id| self.places.area(id).is_some()) {
+                    self.entered = Some(id);
+                    if let Some(control) = controls.control(id) {
+                        control.mouse_enter(self);
+                    }
+                }
+            }
+            if self.focus != self.focus_told {
+                let now = self.focus;
+                if let Some(control) = self.focus_told.take().and_then(|id| controls.control(id)) {
+                    control.null_focus(self);
+                }
+                if let Some(id) = now.filter(|_| self.focus == now) {
+                    self.focus_told = now;
+                    if let Some(control) = controls.control(id) {
+                        control.set_focus(self);
+                    }
+                }
+            }
+        }
+        // Two controls that take it from each other: it stays with who was told last.
+        self.focus = self.focus_told;
+    }
+
+    /// Where the mouse is; `None` outside of the window.
+    pub(super) fn pointer(&self) -> Option<Vec2> {
+        self.mouse.filter(|_| !self.mouse_gone)
+    }
+
+    /// The control under a point; not the root, which has no function.
+    pub(super) fn under(&self, point: Vec2, controls: &mut dyn Controls) -> Option<ControlId> {
+        let window = self.places.area(ControlId::ROOT)?;
+        if !window.holds(point) {
+            return None;
+        }
+        self.places.smallest(|id, area| {
+            area.holds(point) && controls.control(id).is_some_and(|control| control.is_pos_on(point))
+        })
+    }
+
+    /// The control of a name that is still registered: one called before may have taken it out.
+    pub(super) fn there<'a>(
+        &self,
+        id: ControlId,
+        controls: &'a mut dyn Controls,
+    ) -> Option<&'a mut dyn BaseControl> {
+        self.places.area(id)?;
+        controls.control(id)
+    }
+
+    pub(super) fn is_on(&self, id: ControlId, point: Vec2, controls: &mut dyn Controls) -> bool {
+        let holds = self.places.area(id).is_some_and(|area| area.holds(point));
+        holds && controls.control(id).is_some_and(|control| control.is_pos_on(point))
+    }
+}

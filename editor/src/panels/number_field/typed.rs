@@ -1,0 +1,116 @@
+//! A number field that has the focus: a text field.
+
+use super::{Heard, LONGEST, NumberField, Refused, Typing};
+use crate::panels::number_text::exact;
+use crate::panels::style::{self, RADIUS};
+use crate::panels::theme::Theme;
+use egui::{
+    Align2, CornerRadius, FocusDirection, FontId, Frame, Key, Margin, Modifiers, Rect, Response, Stroke,
+    StrokeKind, TextEdit, Ui,
+};
+
+impl NumberField<'_> {
+    /// Enter accepts and gives the keys back to the commands, Tab goes on to the next field; where there is no number they
+    /// stay and say why.
+    pub(super) fn keys(&self, ui: &Ui) -> Option<Heard> {
+        if !ui.memory(|memory| memory.has_focus(self.id)) {
+            return None;
+        }
+        let mut typing = ui.data(|data| data.get_temp::<Typing>(self.id))?;
+        let (enter, tab) = ui.input_mut(|input| {
+            let enter = input.consume_key(Modifiers::NONE, Key::Enter);
+            (enter, input.key_pressed(Key::Tab))
+        });
+        if !enter && !tab {
+            return None;
+        }
+        let read = self.read(&typing.text);
+        if let Err(reason) = read {
+            typing.refused = Some(reason);
+            ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+            ui.data_mut(|data| data.insert_temp(self.id, typing));
+            return None;
+        }
+        if enter {
+            ui.memory_mut(|memory| memory.surrender_focus(self.id));
+        }
+        ui.data_mut(|data| data.remove::<Typing>(self.id));
+        read.ok().filter(|_| typing.text != typing.first).map(Heard::Typed)
+    }
+
+    /// While it has the focus: a text field.
+    pub(super) fn edit(&self, ui: &mut Ui, rect: Rect) -> (Heard, Response) {
+        let known = ui.data_mut(|data| data.remove_temp::<Typing>(self.id));
+        ui.data_mut(|data| data.remove::<Refused>(self.id));
+        let fresh = known.is_none();
+        let mut typing = known.unwrap_or_else(|| {
+            let text = self.value.map_or(String::new(), |value| exact(value, self.grain));
+            Typing { first: text.clone(), text, refused: None }
+        });
+        let mut heard = if fresh { Heard::Touched } else { Heard::Nothing };
+        if fresh {
+            self.select_all(ui, &typing.text);
+        }
+        let steps = ui.input_mut(|input| {
+            input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp) as f64
+                - input.count_and_consume_key(Modifiers::NONE, Key::ArrowDown) as f64
+        });
+        if steps != 0.0
+            && let Some(value) = self.read(&typing.text).ok().or(self.value)
+        {
+            let value = self.clamp(value + steps * self.snap);
+            let text = exact(value, self.grain);
+            typing = Typing { first: text.clone(), text, refused: None };
+            heard = Heard::Typed(value);
+        }
+        let theme = Theme::of(ui);
+        ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.sunken);
+        let field = TextEdit::singleline(&mut typing.text)
+            .id(self.id)
+            .frame(Frame::NONE)
+            .margin(Margin::symmetric(5, 0))
+            .font(FontId::monospace(style::NUMBER))
+            .align(Align2::RIGHT_CENTER)
+            .char_limit(LONGEST)
+            .desired_width(rect.width());
+        let response = ui.place(rect, field);
+        if response.changed() {
+            typing.refused = None;
+        }
+        // The first click opened the field and the second would put the cursor somewhere in it; all is meant.
+        if response.double_clicked() {
+            self.select_all(ui, &typing.text);
+        }
+        let edge = if typing.refused.is_some() { theme.error } else { theme.accent };
+        let stroke = Stroke::new(1.0, edge);
+        ui.painter().rect_stroke(rect, CornerRadius::same(RADIUS), stroke, StrokeKind::Inside);
+        self.hint(ui, &response, &typing);
+        self.describe(ui, &response, typing.refused.as_deref());
+        ui.data_mut(|data| data.insert_temp(self.id, typing));
+        (heard, response)
+    }
+
+    /// So that what is typed next takes the place of `text`.
+    pub(super) fn select_all(&self, ui: &Ui, text: &str) {
+        let mut state = TextEdit::load_state(ui.ctx(), self.id).unwrap_or_default();
+        state.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(text)));
+        state.store(ui.ctx(), self.id);
+    }
+
+    /// Why the text is not taken, or what an expression comes to.
+    pub(super) fn hint(&self, ui: &Ui, response: &Response, typing: &Typing) {
+        let theme = Theme::of(ui);
+        let (text, color) = match &typing.refused {
+            Some(reason) => (reason.clone(), theme.error),
+            None if typing.text == typing.first || typing.text.trim().parse::<f64>().is_ok() => return,
+            None => match self.read(&typing.text) {
+                Ok(value) => {
+                    (format!("= {}{}", exact(value, self.grain.max(1e-6)), self.suffix()), theme.weak)
+                }
+                Err(_) => return,
+            },
+        };
+        egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), self.id.with("hint"), response.rect)
+            .show(|ui| ui.colored_label(color, text));
+    }
+}
