@@ -49,7 +49,7 @@ impl Layout {
         );
         let tabs = |tiles: &mut Tiles<Pane>, panes: Vec<TileId>| tiles.insert_tab_tile(panes);
         let (upper, lower) = (tabs(&mut tiles, left), tabs(&mut tiles, left_below));
-        let left = tiles.insert_new(linear(LinearDir::Vertical, &[(upper, 0.68), (lower, 0.32)]));
+        let left = tiles.insert_new(linear(LinearDir::Vertical, &[(upper, 0.6), (lower, 0.4)]));
         let middle = tabs(&mut tiles, middle);
         let right = tabs(&mut tiles, right);
         let top =

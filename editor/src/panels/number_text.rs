@@ -10,6 +10,11 @@ pub enum Digits {
 }
 
 impl Digits {
+    /// The number as it is shown where less than `grain` is what arithmetic left over: as nothing.
+    pub fn text_from(self, grain: f64, value: f64) -> String {
+        self.text(if value.abs() < grain { 0.0 } else { value })
+    }
+
     /// The number as it is shown.
     pub fn text(self, value: f64) -> String {
         let size = value.abs();
@@ -73,6 +78,8 @@ mod tests {
             }
         }
         assert_eq!(Digits::Fixed(2).text(-0.001), "0.00");
+        assert_eq!(Digits::Fitting.text_from(1e-6, -2e-31), "0.000");
+        assert_eq!(Digits::Fitting.text_from(1e-9, 2e-6), "2.0e-6".replace('-', "\u{2212}"));
         assert_eq!(Digits::Fixed(1).text(-30.0), "\u{2212}30.0");
     }
 }

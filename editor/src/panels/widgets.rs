@@ -93,6 +93,12 @@ pub(super) fn text_in(ui: &Ui, rect: Rect, text: &str, style: &TextStyle, color:
     right
 }
 
+/// How wide a text is, points.
+pub(super) fn text_width(ui: &Ui, text: &str, style: &TextStyle) -> f32 {
+    let font = style.resolve(ui.style());
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
+}
+
 /// A number right-aligned at `right`, in digits of one width; returns its left end.
 pub(super) fn number_at(ui: &Ui, right: f32, y: f32, text: &str, color: Color32) -> f32 {
     let rect = ui.painter().text(

@@ -30,7 +30,7 @@ impl NumberField<'_> {
         }
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         let color = if open && !self.quiet { theme.text } else { theme.weak };
-        let text = self.value.map_or("–".to_owned(), |value| self.digits.text(value));
+        let text = self.value.map_or("–".to_owned(), |value| self.digits.text_from(self.grain, value));
         let mut right = rect.right() - 5.0;
         if !self.unit.is_empty() && rect.width() > 64.0 + 7.0 * self.unit.chars().count() as f32 {
             let unit = FontId::proportional(style::SMALL);

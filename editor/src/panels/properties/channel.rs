@@ -133,7 +133,8 @@ impl Table<'_> {
         let enabled = self.locked.is_none() && value.is_some();
         let sense = if enabled { Sense::click() } else { Sense::hover() };
         let response = ui.interact(rect, self.id(spot, index), sense);
-        let text = value.map_or("–".to_owned(), |value| self.digits(spot).text(value));
+        let grain = self.grain(spot.property, spot.form);
+        let text = value.map_or("–".to_owned(), |value| self.digits(spot).text_from(grain, value));
         let name = name(spot, index);
         response.widget_info(|| {
             let role = if enabled { Role::Button } else { Role::Label };
@@ -147,7 +148,7 @@ impl Table<'_> {
         let at = pos2(rect.right() - 5.0, rect.center().y);
         painter.text(at, Align2::RIGHT_CENTER, &text, FontId::monospace(NUMBER), theme.weak);
         let Some(value) = value.filter(|_| enabled) else { return };
-        let full = exact(value, self.grain(spot.property, spot.form));
+        let full = exact(value, grain);
         if response.clicked() {
             let result = Spot { column: Column::Result, ..spot };
             // What is already there leaves nothing to do.

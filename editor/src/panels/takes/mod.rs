@@ -198,6 +198,9 @@ fn command(ui: &mut Ui, state: &State, icon: Icon, id: Id, requests: &mut Vec<Re
     });
 }
 
+/// Points: what the number of keys takes, with some air.
+const KEYS_WIDTH: f32 = 48.0;
+
 /// Name at the left, number of keys and length at the right.
 fn row(ui: &mut Ui, name: &str, keys: &str, length: &str, selected: bool, sense: Sense) -> Response {
     let theme = Theme::of(ui);
@@ -222,8 +225,11 @@ fn row(ui: &mut Ui, name: &str, keys: &str, length: &str, selected: bool, sense:
     if rect.width() > 130.0 {
         right = widgets::number_at(ui, right, y, length, numbers) - 8.0;
     }
-    if rect.width() > 200.0 && !keys.is_empty() {
-        right = widgets::number_at(ui, (rect.right() - 76.0).min(right), y, keys, theme.faint) - 8.0;
+    // Takes of one file often begin with the same word, so the name goes before how many keys there are.
+    let keys_right = (rect.right() - 76.0).min(right);
+    let wanted = widgets::text_width(ui, name, &TextStyle::Body);
+    if !keys.is_empty() && keys_right - KEYS_WIDTH - (rect.left() + 12.0) > wanted {
+        right = widgets::number_at(ui, keys_right, y, keys, theme.faint) - 8.0;
     }
     let text = Rect::from_min_max(pos2(rect.left() + 12.0, rect.top()), pos2(right, rect.bottom()));
     widgets::text_in(ui, text, name, &TextStyle::Body, color);
