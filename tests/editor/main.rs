@@ -2,6 +2,7 @@
 
 mod accessible;
 mod arm;
+mod bone_menu;
 mod camera;
 mod command_line;
 mod commands;

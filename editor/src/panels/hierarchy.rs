@@ -186,6 +186,7 @@ impl Hierarchy {
         if response.hovered() {
             requests.push(Request::Hover(row.bone));
         }
+        super::bone_menu::show(&response, state, Some(row.bone), requests);
         if response.clicked() {
             self.followed = Some(row.bone);
         }

@@ -2,6 +2,7 @@
 //!
 //! A new panel is a file here and a line in [`all`].
 
+mod bone_menu;
 pub mod commands;
 pub mod curves;
 mod dialogs;

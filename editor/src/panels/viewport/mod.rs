@@ -39,6 +39,9 @@ impl Panel for Viewport {
         let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Viewport"));
         overlay::pointer(ui, &response, state, requests);
+        if state.view.is_some() {
+            super::bone_menu::show(&response, state, state.pointed, requests);
+        }
         let mut shields = Vec::new();
         if state.view.is_some() {
             overlay::drawn(ui, rect, state);
