@@ -59,6 +59,7 @@ mod no_allocation;
 mod panels;
 mod panels_random;
 mod paste;
+mod paste_keys;
 mod pending;
 mod picking;
 mod picking_many;

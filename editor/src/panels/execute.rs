@@ -25,8 +25,14 @@ impl State {
     fn perform(&mut self, request: Request) -> Option<Effect> {
         match request {
             Request::Command(id) => return self.command(id),
-            Request::Select(bone) => self.select(bone),
-            Request::SelectBones(bones, choice) => self.selection.choose(&bones, choice),
+            Request::Select(bone) => {
+                self.keys.has_hand = false;
+                self.select(bone);
+            }
+            Request::SelectBones(bones, choice) => {
+                self.keys.has_hand = false;
+                self.selection.choose(&bones, choice);
+            }
             Request::Timeline(request) => return self.keys_request(request),
             Request::Change(change) => return Some(Effect::Change(change)),
             Request::PastePose { text, mirrored } => return self.paste_pose(&text, mirrored),
@@ -92,6 +98,9 @@ impl State {
             Id::Key => return self.key_here(),
             Id::KeyAllPending => return self.key_pending(),
             Id::DropPending => return self.drop_pending(),
+            Id::Copy => return self.copy(),
+            Id::CutKeys => return self.cut_keys(),
+            Id::CopyKeys => return self.copy_keys(),
             Id::CopyPose => return self.copy_pose(),
             Id::PastePose => return Some(Effect::PastePose { mirrored: false }),
             Id::PasteMirrored => return Some(Effect::PastePose { mirrored: true }),

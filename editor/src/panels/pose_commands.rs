@@ -1,5 +1,6 @@
 //! What commands do to the pose at the time shown: key, drop, copy, paste, reset.
 
+use super::keys;
 use super::state::{Effect, State};
 use super::status::Level;
 use crate::document::Change;
@@ -63,10 +64,17 @@ impl State {
         Some(Effect::Copy(clipboard::to_text(&copied)))
     }
 
-    /// The edit that puts on what the clipboard holds; anything but a pose is refused quietly.
+    /// The edit that puts on the pose, or in the keys, that the clipboard holds; anything else is refused quietly.
     pub(super) fn paste_pose(&mut self, text: &str, mirrored: bool) -> Option<Effect> {
         let Some(poses) = clipboard::from_text(text) else {
-            self.status.say(Level::Info, "There is no pose in the clipboard");
+            match keys::clipboard::from_text(text) {
+                Some(channels) if !mirrored => return self.paste_keys(channels),
+                Some(_) => {
+                    let text = "The clipboard holds keys, and only poses are pasted mirrored";
+                    self.status.say(Level::Info, text);
+                }
+                None => self.status.say(Level::Info, "There is no pose in the clipboard, and no keys"),
+            }
             return None;
         };
         let Some(take) = self.take_ref() else {
@@ -136,7 +144,7 @@ fn only(pose: BonePose, properties: &[Property]) -> BonePose {
 }
 
 /// By its name, so that the text means the same in another model; by its number where it shares its name.
-fn named(skeleton: &dragonfly_anim::data::Skeleton, bone: BoneIndex) -> BoneRef {
+pub(super) fn named(skeleton: &dragonfly_anim::data::Skeleton, bone: BoneIndex) -> BoneRef {
     match skeleton.bones.get(bone as usize) {
         Some(rules) if !rules.name.is_empty() && skeleton.find(&rules.name) == Some(bone) => {
             BoneRef::Name(rules.name.clone())

@@ -78,7 +78,7 @@ pub enum Request {
     Change(Change),
     /// About keys: selects, drags, marks.
     Timeline(KeysRequest),
-    /// Puts on the poses in a text from the clipboard.
+    /// Puts on the poses in a text from the clipboard, or in the keys.
     PastePose {
         /// As it was there.
         text: String,
@@ -144,6 +144,8 @@ pub enum Effect {
     Changes(Vec<Change>),
     /// Puts a text into the clipboard.
     Copy(String),
+    /// The same, and tells the document: what was copied goes.
+    Cut(String, Change),
     /// Asks for [`Request::PastePose`] with what is in the clipboard.
     PastePose {
         /// On the other side?

@@ -36,6 +36,10 @@ impl State {
         }
         self.hands.look(&self.camera);
         let stopped = self.hands.input(event);
+        if stopped && matches!(event, InputEvent::MouseDown(_)) {
+            // The picture has the hand now: what is copied is the pose.
+            self.keys.has_hand = false;
+        }
         self.follow(effects);
         stopped
     }

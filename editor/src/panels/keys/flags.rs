@@ -115,6 +115,7 @@ impl BoneFlags {
             | Edit::ScaleKeys { keys, .. }
             | Edit::DuplicateKeys { keys, .. }
             | Edit::SnapKeys { keys, .. } => keys.iter().find_map(|set| list(&set.bones)),
+            Edit::PasteKeys { channels, .. } => named(&mut channels.iter().map(|channel| &channel.bone)),
             Edit::SetTangents { bone, .. } => named(&mut std::iter::once(bone)),
             Edit::Ripple { .. } => first(),
             _ => None,

@@ -2,6 +2,7 @@
 //! is shown, markers, marks of bones, the range that plays. Nothing here draws.
 
 pub mod channel;
+pub mod clipboard;
 pub mod columns;
 mod commands;
 pub mod drag;
@@ -51,6 +52,10 @@ pub struct Keys {
     /// The part that plays, seconds; none for the whole take.
     range: Option<[f32; 2]>,
     drag: Option<KeyDrag>,
+    /// Was the timeline, or were the curves, touched last? Then what is copied are keys.
+    pub has_hand: bool,
+    /// Keys that were pasted and are selected once they are there.
+    awaited: Option<clipboard::Awaited>,
 }
 
 impl Default for Keys {
@@ -65,6 +70,8 @@ impl Default for Keys {
             window: None,
             range: None,
             drag: None,
+            has_hand: false,
+            awaited: None,
         }
     }
 }
@@ -164,12 +171,14 @@ impl State {
     pub(super) fn leave_take(&mut self) {
         self.keys.selection = KeySelection::default();
         (self.keys.window, self.keys.range, self.keys.drag) = (None, None, None);
+        self.keys.awaited = None;
     }
 
     /// A newer view is there, or time has passed: ends a drag that was let go and is done.
     pub(super) fn settle_keys(&mut self) {
         let Some(view) = &self.view else { return };
         let (generation, now) = (view.generation, self.now);
+        self.select_pasted(generation);
         if let Some(drag) = self.keys.drag.take_if(|drag| drag.settled(generation, now)) {
             self.keys.selection = match (self.shared_take(), &drag.deed) {
                 (Some(take), Deed::Move(_) | Deed::Scale { .. } | Deed::Duplicate(_) | Deed::Snap(_)) => {
@@ -182,6 +191,7 @@ impl State {
 
     /// An edit was refused.
     pub fn keys_refused(&mut self) {
+        self.keys.awaited = None;
         if let Some(drag) = &mut self.keys.drag {
             drag.refused();
         }
