@@ -50,6 +50,7 @@ mod keeping_desk;
 mod keeping_save;
 mod keymap;
 mod life;
+mod locks;
 mod made;
 mod made_take;
 mod manager;

@@ -3,6 +3,7 @@
 use crate::edits::{model, walk};
 use crate::timeline_rig::Animator;
 use dragonfly::control::bones::Choice;
+use dragonfly::document::Change;
 use dragonfly::document::adapter::ModelAdapter;
 use dragonfly::document::edit::{
     Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, Property, TakeRef,
@@ -72,7 +73,8 @@ fn keys_put_back_where_they_were_are_the_same_to_the_bit_with_tangents_and_chang
             continue;
         }
         // Through the clipboard, as text.
-        let channels = from_text(&to_text(channels.clone())).inspect(|read| assert_eq!(*read, channels)).unwrap();
+        let channels =
+            from_text(&to_text(channels.clone())).inspect(|read| assert_eq!(*read, channels)).unwrap();
         let at = selection.extent(&take).unwrap()[0];
         let before = model.clone();
         let inverse = model.apply(&paste(walk(), at, channels)).unwrap();
@@ -163,12 +165,7 @@ fn what_cannot_be_a_key_is_refused_and_other_models_bones_are_passed_over() {
     both.extend(one("root", Between::Linear, vec![key(0.1, &[1.0; 3])]));
     model.apply(&paste(walk(), 0.5, both)).unwrap();
     // Where one comes, nothing waits any more.
-    let wait = BonePose {
-        bone: BoneRef::Index(0),
-        translation: Some([5.0; 3]),
-        rotation: None,
-        scale: None,
-    };
+    let wait = BonePose { bone: BoneRef::Index(0), translation: Some([5.0; 3]), rotation: None, scale: None };
     model.apply(&Edit::Pend { take: walk(), time: 0.9, poses: vec![wait] }).unwrap();
     model.apply(&paste(walk(), 0.8, one("root", Between::Linear, vec![key(0.1, &[2.0; 3])]))).unwrap();
     assert_eq!(model.slots()[0].pending_poses(), 0);
@@ -223,7 +220,7 @@ fn ctrl_c_copies_keys_where_the_timeline_has_the_hand_and_the_pose_elsewhere() {
     assert!((new[0] - 2.0).abs() < 1e-6 && (new[1] - 2.0 - apart).abs() < 1e-6, "{new:?}");
     assert_eq!(animator.selected(), 2, "those that came");
     assert_eq!(animator.edited.steps().0.len(), 1);
-    animator.request(Request::Command(Id::Undo));
+    animator.request(Request::Change(Change::Undo));
     assert_eq!(animator.times(3), before);
 }
 

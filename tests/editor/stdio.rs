@@ -133,7 +133,8 @@ fn copied_keys_are_put_in_through_the_conversation_and_saved_exactly() {
         assert!((shown["result"]["rotation"][axis].as_f64().unwrap() - wanted).abs() < 1e-6, "{shown}");
     }
     assert_eq!(talk.ask(&json!({"query": "history"}))["steps"], json!(["Paste keys"]));
-    let refused = talk.say(&json!({"edit": "paste_keys", "take": "Run", "time": 0.5, "channels": []}).to_string());
+    let refused =
+        talk.say(&json!({"edit": "paste_keys", "take": "Run", "time": 0.5, "channels": []}).to_string());
     assert!(refused["error"].to_string().contains("no key is given"), "{refused}");
     talk.ask(&json!({"do": "save"}));
     talk.end();

@@ -73,7 +73,8 @@ fn column<T: Copy>(
     numbers: impl Fn(T) -> Vec<f32>,
 ) -> (Between, Vec<CopiedKey>) {
     let between = match channel.interpolation {
-        Interpolation::Step => Between::Step,
+        // The nearest key, which no edit can ask for: at the keys both show the same.
+        Interpolation::Step | Interpolation::Closest => Between::Step,
         Interpolation::Linear => Between::Linear,
         Interpolation::CubicSpline => Between::CubicSpline,
     };

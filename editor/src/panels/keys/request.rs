@@ -206,7 +206,8 @@ impl State {
         bone_of: impl Fn(&T) -> BoneIndex,
     ) -> bool {
         let flags = &self.keys.flags;
-        let mut spared: Vec<BoneIndex> = list.iter().map(&bone_of).filter(|&bone| flags.locked(bone)).collect();
+        let mut spared: Vec<BoneIndex> =
+            list.iter().map(&bone_of).filter(|&bone| flags.locked(bone)).collect();
         list.retain(|item| !flags.locked(bone_of(item)));
         spared.sort_unstable();
         spared.dedup();
