@@ -27,6 +27,7 @@ pub use shift::Shift;
 pub use shown::bones as shown_bones;
 pub use window::{TimeScale, TimeWindow};
 
+use super::settings::TimelineSettings;
 use super::state::State;
 use drag::KeyDrag;
 use dragonfly_anim::data::Take;
@@ -90,6 +91,12 @@ pub struct Drawn {
 }
 
 impl Keys {
+    /// Nothing selected, as the settings say.
+    pub fn of(settings: TimelineSettings) -> Self {
+        let TimelineSettings { snap, only_selected } = settings;
+        Self { snap, only_selected, ..Self::default() }
+    }
+
     /// The drag under way.
     pub fn drag(&self) -> Option<&KeyDrag> {
         self.drag.as_ref()
