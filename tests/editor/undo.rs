@@ -95,7 +95,7 @@ fn any_channel(random: &mut Random, bone: BoneRef, property: Property) -> Copied
     let count = if property == Property::Rotation { 4 } else { 3 };
     let numbers = |random: &mut Random| (0..count).map(|_| random.between(0.1, 1.0)).collect::<Vec<f32>>();
     let keys = (0..random.below(4)).map(|_| CopiedKey {
-        after: f64::from(random.choice(&[0.0, 0.125, 0.3, 0.77])),
+        after: random.choice(&[0.0, 0.125, 0.3, 0.77]),
         value: numbers(random),
         arrive: (random.below(2) == 0).then(|| numbers(random)),
         leave: (random.below(2) == 0).then(|| numbers(random)),

@@ -68,8 +68,8 @@ impl Marks {
         Self { files, ..Self::default() }
     }
 
-    /// As the text of a file, bounded.
-    fn to_text(&mut self) -> String {
+    /// The text of a file; where it would be too long the older files are forgotten.
+    fn write(&mut self) -> String {
         loop {
             let stored = Stored { files: self.files.clone() };
             // Plain data always has a text.
@@ -91,7 +91,7 @@ impl State {
     /// What is to be remembered, when it changed since the last call.
     pub fn unsaved_marks(&mut self) -> Option<String> {
         self.note_marks();
-        std::mem::take(&mut self.marks.unsaved).then(|| self.marks.to_text())
+        std::mem::take(&mut self.marks.unsaved).then(|| self.marks.write())
     }
 
     /// Notes the marks of the model that is open, where they changed.

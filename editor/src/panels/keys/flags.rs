@@ -64,6 +64,11 @@ impl BoneFlags {
         self.sets[flag as usize].iter().copied()
     }
 
+    /// None of a bone, for another model; the version still tells it from what was there.
+    pub fn emptied(&self) -> Self {
+        Self { sets: Default::default(), version: self.version + 1 }
+    }
+
     /// Grows with every change.
     pub fn version(&self) -> u64 {
         self.version

@@ -114,7 +114,8 @@ impl Keys {
 
     /// Another model is open, or none.
     fn forget(&mut self) {
-        *self = Self { snap: self.snap, only_selected: self.only_selected, ..Self::default() };
+        let (snap, only_selected, flags) = (self.snap, self.only_selected, self.flags.emptied());
+        *self = Self { snap, only_selected, flags, ..Self::default() };
     }
 }
 
