@@ -79,7 +79,7 @@ fn a_key_of_the_path_is_put_under_the_pointer_in_one_step() {
 fn ghosts_stand_as_many_steps_before_and_after_as_the_take_has_room_for() {
     let mut hand = tip();
     hand.command(Id::ToggleGhosts);
-    let ghosts = GhostSettings { shown: true, count: [2, 3], step: 6, keys: false };
+    let ghosts = GhostSettings { shown: true, count: [2, 3], step: 6, keys: false, skin: false };
     hand.state.execute(Request::Ghosts(ghosts));
     hand.state.execute(Request::Seek(0.5));
     hand.state.begin(hand.state.now);

@@ -25,6 +25,7 @@ mod faulty_files;
 mod fixture;
 mod fixture_layer;
 mod folder;
+mod ghost_skins;
 mod gizmo_control;
 mod gizmo_drag;
 mod gizmo_handles;

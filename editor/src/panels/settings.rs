@@ -118,11 +118,13 @@ pub struct GhostSettings {
     pub step: u32,
     /// At keys of the selected bone (or of all), in place of frames.
     pub keys: bool,
+    /// Is the skin shown, and not the skeleton?
+    pub skin: bool,
 }
 
 impl Default for GhostSettings {
     fn default() -> Self {
-        Self { shown: false, count: [3, 3], step: 2, keys: false }
+        Self { shown: false, count: [3, 3], step: 2, keys: false, skin: false }
     }
 }
 
