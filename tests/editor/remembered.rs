@@ -96,3 +96,17 @@ fn only_so_many_files_are_remembered_and_a_damaged_text_holds_none() {
     state.show(file("model 20.glb"));
     assert!(!state.keys.flags.any_locked());
 }
+
+#[test]
+fn marks_that_come_back_are_told_from_those_of_the_model_before() {
+    // Who draws compares versions: two models with as many marks must not look alike.
+    let mut state = State::new(Settings::default(), Instant::now());
+    let mut versions = Vec::new();
+    for (number, bone) in [(1, 2), (2, 3), (1, 2), (2, 3)] {
+        state.show(file(&format!("model {number}.glb")));
+        flag(&mut state, BoneFlag::Mute, bone);
+        assert_eq!(state.keys.flags.still(8), [bone]);
+        assert!(!versions.contains(&state.keys.flags.version()), "{versions:?}");
+        versions.push(state.keys.flags.version());
+    }
+}

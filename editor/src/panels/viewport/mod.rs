@@ -65,7 +65,7 @@ fn caption(ui: &Ui, rect: Rect, right: f32, state: &State) {
     };
     let at = pos2(rect.left() + 14.0, rect.top() + 12.0);
     let width = right - at.x - 12.0;
-    let bottom = name(ui, at, width, &loaded.title, "title", (style::BODY, theme.text));
+    let bottom = name(ui, at, width, &loaded.title, "model", (style::BODY, theme.text));
     if rect.width() > 640.0 {
         name(ui, pos2(at.x, bottom + 2.0), width, take, "take", (style::SMALL, theme.weak));
     }
@@ -79,7 +79,7 @@ fn name(ui: &Ui, at: Pos2, width: f32, text: &str, what: &str, (size, color): (f
     let (place, cut) = (Rect::from_min_size(at, galley.size()), galley.elided);
     ui.painter().galley(at, galley, color);
     let response = ui.interact(place, ui.scope_id().with(("name", what)), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Shown {what}: {text}")));
     if cut {
         response.on_hover_text(widgets::shortened(text));
     }
