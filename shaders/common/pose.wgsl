@@ -17,8 +17,8 @@ struct Draw {
     morph_targets: u32,
     morph_weights: u32,
     vertices: u32,
-    // 1 when the back faces of a blended surface are drawn.
-    pad0: u32,
+    // Four bytes, linear RGB and opacity: of ghosts.
+    tint: u32,
     pad1: u32,
     pad2: u32,
 }

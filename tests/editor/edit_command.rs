@@ -159,12 +159,12 @@ fn the_list_of_edits_and_their_schema_can_be_read_by_programs() {
         .iter()
         .filter_map(|entry| entry["example"]["edit"].as_str())
         .collect();
-    assert!(names.len() == 25 && names.contains(&"split_take"), "{names:?}");
+    assert!(names.len() == 26 && names.contains(&"split_take"), "{names:?}");
     assert_eq!(list["version"], 1);
     let people = run(["edit", "--list"]).expect(0);
     assert!(people.text().contains("# Turns the head 30°"));
     let schema = run(["edit", "--schema"]).expect(0).json();
-    assert_eq!(schema["oneOf"].as_array().map(Vec::len), Some(25));
+    assert_eq!(schema["oneOf"].as_array().map(Vec::len), Some(26));
 }
 
 #[test]
@@ -180,4 +180,39 @@ fn our_own_format_is_edited_too() {
     std::fs::write(&dfm, dragonfly_anim::format::dfm::write(&model.unwrap().model).unwrap()).unwrap();
     run(["edit", &text(&dfm), "--edits", &edits(&folder, TURN), "-o", &text(&saved)]).expect(0);
     assert!((rotation(&text(&saved), "b_Head_05", "0.25")[1] - 0.258819).abs() < 1e-6);
+}
+
+/// Two nodes without a skin, each moved by a channel of its own.
+const PLAIN: &str = r#"{"asset":{"version":"2.0"},
+    "nodes":[{"name":"arm"},{"name":"fan"}],"scenes":[{"nodes":[0,1]}],"scene":0,
+    "buffers":[{"byteLength":32,"uri":"data:;base64,AAAAAAAAgD8AAAAAAACAPwAAAAAAAAAAAAAAAAAAAAA="}],
+    "bufferViews":[{"buffer":0,"byteLength":8},{"buffer":0,"byteOffset":8,"byteLength":24}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+                 {"bufferView":1,"componentType":5126,"count":2,"type":"VEC3"}],
+    "animations":[{"name":"turn","channels":[{"sampler":0,"target":{"node":0,"path":"translation"}},
+                                             {"sampler":0,"target":{"node":1,"path":"translation"}}],
+                   "samplers":[{"input":0,"output":1}]}]}"#;
+
+#[test]
+fn a_node_that_nothing_moves_any_more_is_named_before_it_is_saved() {
+    let folder = Folder::new("edit-plain");
+    let file = folder.join("plain.gltf");
+    std::fs::write(&file, PLAIN).expect("a file");
+    let delete = r#"{"edit":"delete_keys","take":"turn","keys":[{"bones":["fan"]}]}"#;
+    let delete = edits(&folder, delete);
+    let plan = run(["edit", &text(&file), "--edits", &delete, "--dry-run"]).expect(0);
+    let said = String::from_utf8_lossy(&plan.stdout).into_owned();
+    assert!(said.contains("\"fan\" (node 1): nothing moves it any more"), "{said}");
+    let saved = text(&folder.join("saved.gltf"));
+    let report = run(["edit", &text(&file), "--edits", &delete, "-o", &saved, "--json"]).expect(0).json();
+    assert_eq!(report["changes"]["bonesLost"], serde_json::json!([{"node": 1, "bone": "fan"}]));
+    let bones = |file: &str| {
+        let listed = run(["pose", file, "--take", "turn", "--time", "0", "--json"]).expect(0).json();
+        listed["poses"][0]["bones"].as_array().map(Vec::len)
+    };
+    assert_eq!((bones(&text(&file)), bones(&saved)), (Some(2), Some(1)), "as was said");
+    // One key less is no reason to say anything.
+    let one = r#"{"edit":"delete_keys","take":"turn","keys":[{"bones":["fan"],"at":[1]}]}"#;
+    let report = run(["edit", &text(&file), "--edits", &edits(&folder, one), "-o", &saved, "--json"]);
+    assert_eq!(report.expect(0).json()["changes"]["bonesLost"], serde_json::json!([]));
 }

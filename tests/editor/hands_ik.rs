@@ -10,7 +10,7 @@ use dragonfly::graphics::scene::Scene;
 use dragonfly::graphics::{Appearance, IkLook};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::keys::BoneFlag;
+use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly_anim::data::{BoneIndex, Transform};
 use glam::{Quat, Vec2, Vec3};
 use std::sync::Arc;
@@ -302,4 +302,33 @@ fn the_skin_is_clicked_where_a_pending_pose_shows_it() {
     let side = scene.camera.right() * 0.18;
     assert_eq!(scene.pick_all(at(Vec3::new(1.5, 0.3, 0.0) + side)), [0]);
     assert!(scene.pick_all(at(Vec3::new(0.0, 0.3, 0.0) - side)).is_empty(), "not where the keys have it");
+}
+
+#[test]
+fn a_bone_that_is_locked_or_muted_is_a_stiff_joint_of_the_chain() {
+    for flag in [BoneFlag::Lock, BoneFlag::Mute] {
+        let mut hand = arm(2, Id::ToolMove);
+        hand.state.execute(Request::Timeline(KeysRequest::Flag(flag, 1, true)));
+        hand.state.begin(hand.state.now);
+        hand.command(Id::ToggleIk);
+        let (before, tip) = (poses(&hand), place(&hand, 2));
+        drag(&mut hand, Handle::Centre, Vec2::new(30.0, 40.0));
+        hand.release();
+        assert!(hand.refused.is_empty(), "{:?}", hand.refused);
+        assert_eq!(hand.steps().len(), 1, "{flag:?}: {:?}", hand.steps());
+        assert_eq!(keyed(&hand), [(0, Property::Rotation), (2, Property::Rotation)], "{flag:?}");
+        let after = poses(&hand);
+        assert_eq!(after[1], before[1], "{flag:?}: it stays as it is");
+        assert_ne!(after[0].rotation, before[0].rotation, "{flag:?}: the others reach");
+        assert!(place(&hand, 2).distance(tip) > 0.05, "{flag:?}");
+    }
+    // What is locked itself is not dragged, and says so.
+    let mut hand = arm(2, Id::ToolMove);
+    hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 2, true)));
+    hand.command(Id::ToggleIk);
+    let from = hand.handle(Handle::Centre);
+    hand.press(from);
+    hand.to(from + Vec2::new(20.0, 20.0));
+    hand.release();
+    assert!(hand.steps().is_empty(), "{:?}", hand.steps());
 }

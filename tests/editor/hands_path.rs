@@ -79,7 +79,7 @@ fn a_key_of_the_path_is_put_under_the_pointer_in_one_step() {
 fn ghosts_stand_as_many_steps_before_and_after_as_the_take_has_room_for() {
     let mut hand = tip();
     hand.command(Id::ToggleGhosts);
-    let ghosts = GhostSettings { shown: true, count: [2, 3], step: 6, keys: false };
+    let ghosts = GhostSettings { shown: true, count: [2, 3], step: 6, keys: false, skin: false };
     hand.state.execute(Request::Ghosts(ghosts));
     hand.state.execute(Request::Seek(0.5));
     hand.state.begin(hand.state.now);
@@ -97,4 +97,63 @@ fn ghosts_stand_as_many_steps_before_and_after_as_the_take_has_room_for() {
     hand.state.execute(Request::Ghosts(odd));
     assert_eq!(hand.state.settings.hand.ghosts.count, [GhostSettings::MOST[0], 0]);
     assert_eq!(hand.state.settings.hand.ghosts.step, 1);
+}
+
+#[test]
+fn a_key_of_the_path_takes_the_chain_along_with_ik_on_and_pins_hold() {
+    let mut hand = tip();
+    hand.command(Id::ToggleIk);
+    let (time, place) = *hand.state.trail.look().expect("a path").keys.last().expect("a key");
+    let stood = at(&mut hand, time);
+    let from = seen(&hand, place);
+    let root = hand.state.posed.animation().expect("posed").to_root()[0].w_axis.truncate();
+    // Away from the gizmo, which stands at the playhead.
+    at(&mut hand, 0.0);
+    // Towards the root, so that it can be reached.
+    let to = from + (seen(&hand, root) - from) * 0.3;
+    hand.press(from);
+    hand.to(from + (to - from) * 0.4);
+    hand.to(to);
+    hand.release();
+    assert!(hand.refused.is_empty(), "{:?}", hand.refused);
+    assert_eq!(hand.steps().len(), 1, "{:?}", hand.steps());
+    let after = at(&mut hand, time);
+    assert_eq!(after[2].translation, stood[2].translation, "not pulled off its parent");
+    assert!(after[0].rotation != stood[0].rotation && after[1].rotation != stood[1].rotation, "they follow");
+    let keys = &hand.state.trail.look().expect("a path").keys;
+    let now = keys.iter().find(|key| key.0 == time).expect("the key is there").1;
+    assert!(seen(&hand, now).distance(to) < 0.5, "{} is not {to}", seen(&hand, now));
+    // The root moves along its path, and a pinned tip stays where it was at that time.
+    let mut hand = Hand::new(load);
+    hand.state.select(Some(2));
+    hand.command(Id::Pin);
+    hand.state.select(Some(0));
+    at(&mut hand, 0.5);
+    hand.command(Id::Key);
+    hand.command(Id::ToolSelect);
+    hand.command(Id::TogglePath);
+    let key = hand.state.trail.look().expect("a path").keys.last().copied();
+    let (time, place) = key.expect("a key");
+    let tip_at = |hand: &mut Hand| {
+        at(hand, time);
+        hand.state.posed.animation().expect("posed").to_root()[2].w_axis.truncate()
+    };
+    let stood = tip_at(&mut hand);
+    at(&mut hand, 0.0);
+    let from = seen(&hand, place);
+    hand.press(from);
+    for part in 1..=4 {
+        // Towards the tip, which is nearly as far away as the arm is long.
+        hand.to(from + Vec2::new(2.0, -3.0) * part as f32);
+    }
+    hand.release();
+    assert_eq!(hand.steps().len(), 2, "{:?}", hand.steps());
+    assert!(tip_at(&mut hand).distance(stood) < 1e-3, "{} is not {stood}", tip_at(&mut hand));
+}
+
+/// The poses at a time.
+fn at(hand: &mut Hand, time: f32) -> Vec<dragonfly_anim::data::Transform> {
+    hand.state.execute(Request::Seek(time));
+    hand.state.begin(hand.state.now);
+    hand.state.posed.animation().expect("posed").poses().to_vec()
 }

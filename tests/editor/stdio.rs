@@ -117,6 +117,33 @@ fn a_conversation_edits_reads_undoes_and_saves() {
 }
 
 #[test]
+fn copied_keys_are_put_in_through_the_conversation_and_saved_exactly() {
+    let folder = Folder::new("stdio-keys");
+    let file = fox(&folder);
+    let mut talk = Talk::about(&file);
+    let value = [0.1, 0.2, 0.3, 0.927_361_8];
+    let keys = json!([{"after": 0.0, "value": value}, {"after": 0.25, "value": [0.0, 0.0, 0.0, 1.0]}]);
+    let channel =
+        json!({"bone": "b_Head_05", "property": "rotation", "interpolation": "linear", "keys": keys});
+    let edit = json!({"edit": "paste_keys", "take": "Run", "time": 0.5, "channels": [channel]});
+    assert_eq!(talk.ask(&edit), json!({"steps": 1, "done": 1}));
+    let at = |time: f64| json!({"query": "pose", "take": "Run", "time": time, "bone": "b_Head_05"});
+    let shown = talk.ask(&at(0.5));
+    for (axis, wanted) in value.iter().enumerate() {
+        assert!((shown["result"]["rotation"][axis].as_f64().unwrap() - wanted).abs() < 1e-6, "{shown}");
+    }
+    assert_eq!(talk.ask(&json!({"query": "history"}))["steps"], json!(["Paste keys"]));
+    let refused =
+        talk.say(&json!({"edit": "paste_keys", "take": "Run", "time": 0.5, "channels": []}).to_string());
+    assert!(refused["error"].to_string().contains("no key is given"), "{refused}");
+    talk.ask(&json!({"do": "save"}));
+    talk.end();
+    let mut talk = Talk::about(&file);
+    assert_eq!(talk.ask(&at(0.5))["original"]["rotation"], shown["result"]["rotation"]);
+    talk.end();
+}
+
+#[test]
 fn the_same_edits_give_the_same_file_as_the_command_gives() {
     let folder = Folder::new("stdio-same");
     let file = fox(&folder);

@@ -4,6 +4,7 @@ use crate::workbench::{Window, Workbench, button, drag, move_to, press, type_int
 use crate::{fixture, nasty};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::keys::KeysRequest;
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
@@ -209,4 +210,24 @@ fn the_list_is_there_without_takes() {
     still.get_by_label("New take").click();
     still.run_steps(3);
     assert_eq!((names(&still), shown(&still)), (vec!["New take".to_owned()], Some(0)));
+}
+
+#[test]
+fn trimming_leaves_the_play_range_whether_time_runs_or_stands() {
+    for playing in [false, true] {
+        let mut window = Workbench::full().window();
+        window.state_mut().state.playback.playing = playing;
+        let bounds = |window: &Window| {
+            let (start, length) = window.state().state.take_bounds();
+            [start, start + length]
+        };
+        let whole = bounds(&window);
+        give(&mut window, Id::TrimTake);
+        assert_eq!(bounds(&window), whole, "no range is set");
+        assert!(window.state().state.status.last().unwrap().text.contains("play range"));
+        let range = KeysRequest::Range(Some([0.5, 1.25]));
+        window.state_mut().state.execute(Request::Timeline(range));
+        give(&mut window, Id::TrimTake);
+        assert_eq!(bounds(&window), [0.5, 1.25], "playing: {playing}");
+    }
 }

@@ -53,6 +53,10 @@ impl Animator {
             match effect {
                 Effect::Change(change) => changes.push(change),
                 Effect::Changes(more) => changes.extend(more),
+                Effect::Cut(text, change) => {
+                    self.harness.state_mut().effects.push(Effect::Copy(text));
+                    changes.push(change);
+                }
                 other => self.harness.state_mut().effects.push(other),
             }
         }

@@ -4,7 +4,7 @@ use crate::edits::{model, pose, walk};
 use crate::made_take::{BONES, animation};
 use dragonfly::document::adapter::{ModelAdapter, Slot};
 use dragonfly::document::edit::{
-    Between, BonePose, BoneRef, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
+    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
 };
 use dragonfly::document::history::{Edited, Gesture};
 use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
@@ -32,7 +32,8 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
         scale: (random.below(3) == 0).then(|| three(random)),
     }];
     let name = format!("take {}", random.below(100));
-    match random.below(26) {
+    match random.below(28) {
+        26 | 27 => Edit::PasteKeys { take, time, channels: vec![any_channel(random, bone, property)] },
         22 | 23 => Edit::Pend { take, time, poses },
         24 => Edit::KeyPending { take, time: (random.below(2) == 0).then_some(time), bones },
         25 if random.below(2) == 0 => Edit::DropPending { take, time: None, bones },
@@ -88,6 +89,20 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
             length: Some(random.between(0.1, 2.0)),
         },
     }
+}
+
+fn any_channel(random: &mut Random, bone: BoneRef, property: Property) -> CopiedChannel {
+    let count = if property == Property::Rotation { 4 } else { 3 };
+    let numbers = |random: &mut Random| (0..count).map(|_| random.between(0.1, 1.0)).collect::<Vec<f32>>();
+    let keys = (0..random.below(4)).map(|_| CopiedKey {
+        after: random.choice(&[0.0, 0.125, 0.3, 0.77]),
+        value: numbers(random),
+        arrive: (random.below(2) == 0).then(|| numbers(random)),
+        leave: (random.below(2) == 0).then(|| numbers(random)),
+    });
+    let keys = keys.collect();
+    let interpolation = random.choice(&[Between::Step, Between::Linear, Between::CubicSpline]);
+    CopiedChannel { bone, property, interpolation, keys }
 }
 
 /// Are two documents the same in everything that can be seen, every number to the bit?

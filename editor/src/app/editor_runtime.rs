@@ -147,6 +147,13 @@ impl EditorRuntime {
                 }
             }
             Effect::Copy(text) => interface.copy(text),
+            Effect::Cut(text, change) => {
+                interface.copy(text);
+                if let Some(document) = &running.document {
+                    shown::asked(&change);
+                    document.change(change);
+                }
+            }
             Effect::PastePose { mirrored } => {
                 let text = interface.clipboard();
                 let effect = interface.state.execute(Request::PastePose { text, mirrored });

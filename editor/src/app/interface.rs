@@ -9,6 +9,7 @@ use crate::document::edit::Edit;
 use crate::graphics::{GraphicsHandle, PanelsFrame};
 use crate::panels::commands;
 use crate::panels::hands;
+use crate::panels::marks;
 use crate::panels::saving::Deed;
 use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;
@@ -60,12 +61,14 @@ impl Interface {
         let desk = Desk::new(&store.read(store::LAYOUT));
         style::install(egui.egui_ctx());
         let saved = settings.clone();
+        let mut state = State::new(settings, now);
+        state.read_marks(&store.read(marks::FILE));
         Self {
             desktop_scale: window.scale_factor(),
             window,
             egui,
             desk,
-            state: State::new(settings, now),
+            state,
             effects: Vec::new(),
             asking: false,
             title: String::new(),
@@ -248,6 +251,9 @@ impl Interface {
         }
         if let Some((name, text)) = self.state.unsaved_markers() {
             self.keep(&name, &text);
+        }
+        if let Some(text) = self.state.unsaved_marks() {
+            self.keep(marks::FILE, &text);
         }
     }
 

@@ -29,6 +29,7 @@ pub(super) struct Sent {
     path_hovered: Option<f32>,
     ghosts: Vec<(f32, i32)>,
     spare_times: Vec<(f32, i32)>,
+    ghost_skins: bool,
     ik: Option<IkLook>,
     /// Room for the list of selected bones.
     spare: Vec<BoneIndex>,
@@ -101,6 +102,10 @@ impl Sent {
             self.path = path.cloned();
             self.path_hovered = hovered;
             graphics.show_control(Appearance::Path(self.path.clone(), hovered));
+        }
+        if self.ghost_skins != state.settings.hand.ghosts.skin {
+            self.ghost_skins = state.settings.hand.ghosts.skin;
+            graphics.show_control(Appearance::GhostSkins(self.ghost_skins));
         }
         state.ghost_times(&mut self.spare_times);
         if self.ghosts != self.spare_times {

@@ -35,6 +35,12 @@ fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
         | Edit::AddKeys { bones, .. }
         | Edit::SetInterpolation { bones, .. } => bones.iter().collect(),
         Edit::SetTangents { bone, .. } => vec![bone],
+        Edit::PasteKeys { channels, .. } => {
+            let mut bones: Vec<&BoneRef> = channels.iter().map(|channel| &channel.bone).collect();
+            // The channels of a bone come one after the other.
+            bones.dedup();
+            bones
+        }
         Edit::DeleteKeys { keys, .. }
         | Edit::MoveKeys { keys, .. }
         | Edit::ScaleKeys { keys, .. }

@@ -33,6 +33,8 @@ pub enum Appearance {
     Path(Option<Arc<PathLook>>, Option<f32>),
     /// The skeleton at other times of the take that is shown: seconds, and how far from now, before now negative.
     Ghosts(Vec<(f32, i32)>),
+    /// Are ghosts drawn as skins, and not as skeletons?
+    GhostSkins(bool),
     /// Bones that are pinned, and the row that follows one that is moved; none: nothing of it is shown.
     Ik(Option<IkLook>),
 }

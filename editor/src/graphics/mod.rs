@@ -12,6 +12,7 @@ pub mod body;
 pub mod control;
 pub mod device;
 pub mod fault;
+pub mod ghosts;
 pub mod gpu;
 pub mod guard;
 mod handle;

@@ -3,12 +3,14 @@
 //! Everything that a frame needs is computed into memory that was made when the model came, so playing allocates nothing.
 
 use super::control::Controls;
+use super::ghosts::GhostSkins;
 use super::message::{BoneLook, Look, Shading};
 use super::pick::{pick_all, pick_met};
 use super::posed::PosedModel;
 use super::skin::SkinPicker;
 use super::uniform::FrameUniform;
 use crate::camera::{Camera, Projection, Ray};
+use crate::control::gizmo::GizmoRole;
 use crate::document::{LoadedModel, View};
 use crate::playback::Playback;
 use dragonfly_anim::bounds::{Bounds, Sphere};
@@ -31,6 +33,7 @@ pub struct Scene {
     pub controls: Controls,
     model: Option<PosedModel>,
     skin: Option<SkinPicker>,
+    ghosts: GhostSkins,
     /// What is shown.
     shown: Option<View>,
     /// Bones that are seen at rest.
@@ -49,6 +52,7 @@ impl Scene {
             controls: Controls::default(),
             model: None,
             skin: None,
+            ghosts: GhostSkins::default(),
             shown: None,
             still: Vec::new(),
             uniform: bytemuck::Zeroable::zeroed(),
@@ -62,6 +66,7 @@ impl Scene {
             _ => {
                 let mut model = PosedModel::new(Arc::clone(&view.loaded));
                 self.skin = None;
+                self.ghosts = GhostSkins::default();
                 model.show_takes(view, &self.still);
                 self.model = Some(model);
             }
@@ -87,6 +92,20 @@ impl Scene {
         self.model.as_ref()
     }
 
+    /// The model at other times, as prepared last.
+    pub fn ghosts(&self) -> &GhostSkins {
+        &self.ghosts
+    }
+
+    fn pose_ghosts(&mut self) {
+        let times = self.controls.ghost_skins();
+        let Some(view) = self.shown.as_ref().filter(|_| !times.is_empty()) else {
+            return self.ghosts.clear();
+        };
+        let colors = [GizmoRole::Past, GizmoRole::Future].map(|role| self.look.handles[role as usize]);
+        self.ghosts.pose(view, &self.still, self.playback.take, times, colors);
+    }
+
     /// This frame's uniform, as prepared last.
     pub fn uniform(&self) -> &FrameUniform {
         &self.uniform
@@ -108,6 +127,7 @@ impl Scene {
             model.sort(eye, self.camera.back());
             model.place_bones(&self.look);
             self.controls.present(model, &self.camera, &self.look);
+            self.pose_ghosts();
         }
         self.uniform = self.frame_uniform(&bounds);
     }

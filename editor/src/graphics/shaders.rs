@@ -27,6 +27,8 @@ pub const BACKGROUND: Shader =
     Shader { name: "background", parts: &[FRAME, COLOR, part!("background.wgsl")] };
 /// Skinned and lit surfaces.
 pub const MODEL: Shader = Shader { name: "model", parts: &[FRAME, COLOR, STUDIO, POSE, part!("model.wgsl")] };
+/// Surfaces at other times.
+pub const GHOST: Shader = Shader { name: "ghost", parts: &[FRAME, POSE, part!("ghost.wgsl")] };
 /// The ground.
 pub const GRID: Shader = Shader { name: "grid", parts: &[FRAME, part!("grid.wgsl")] };
 /// Bones.
@@ -39,7 +41,7 @@ pub const COMPOSITE: Shader = Shader { name: "composite", parts: &[COLOR, part!(
 pub const MIP: Shader = Shader { name: "mip", parts: &[part!("mip.wgsl")] };
 
 /// Every shader of the program.
-pub const ALL: &[Shader] = &[BACKGROUND, MODEL, GRID, SKELETON, CONTROLS, COMPOSITE, MIP];
+pub const ALL: &[Shader] = &[BACKGROUND, MODEL, GHOST, GRID, SKELETON, CONTROLS, COMPOSITE, MIP];
 
 impl Shader {
     /// The whole text.

@@ -63,8 +63,10 @@ pub struct DrawUniform {
     pub morph_weights: u32,
     /// Vertices of the primitive.
     pub vertices: u32,
+    /// Four bytes, linear RGB and opacity: of ghosts.
+    pub tint: u32,
     /// Fills up to 16 bytes.
-    pub pad: [u32; 3],
+    pub pad: [u32; 2],
 }
 
 /// WGSL twin: `TextureUse` in `shaders/model.wgsl`.

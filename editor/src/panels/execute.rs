@@ -4,7 +4,7 @@ use super::commands::{self, Id};
 use super::keys::KeysRequest;
 use super::ruler;
 use super::saving::Deed;
-use super::settings::{SCALES, SPEEDS, ThemeChoice};
+use super::settings::{IkSettings, SCALES, SPEEDS, ThemeChoice, TimelineSettings};
 use super::state::{Effect, Overlay, Request, State};
 use super::status::Level;
 use crate::camera::Side;
@@ -19,14 +19,25 @@ impl State {
     pub fn execute(&mut self, request: Request) -> Option<Effect> {
         let effect = self.perform(request);
         self.bound_playback();
+        self.keep_settings();
         self.unlocked(effect?)
     }
 
     fn perform(&mut self, request: Request) -> Option<Effect> {
         match request {
             Request::Command(id) => return self.command(id),
-            Request::Select(bone) => self.select(bone),
-            Request::SelectBones(bones, choice) => self.selection.choose(&bones, choice),
+            Request::Select(bone) => {
+                self.keys.has_hand = false;
+                self.select(bone);
+            }
+            Request::SelectBones(bones, choice) => {
+                self.keys.has_hand = false;
+                self.selection.choose(&bones, choice);
+            }
+            Request::Hide { bones, hide } => {
+                self.cycle.forget();
+                self.hidden.set(&bones, hide, &mut self.selection);
+            }
             Request::Timeline(request) => return self.keys_request(request),
             Request::Change(change) => return Some(Effect::Change(change)),
             Request::PastePose { text, mirrored } => return self.paste_pose(&text, mirrored),
@@ -53,6 +64,13 @@ impl State {
             Request::PropertiesLook(look) => self.settings.properties = look,
         }
         None
+    }
+
+    /// How keys snap, what is listed and how IK works is found again at the next start.
+    fn keep_settings(&mut self) {
+        self.settings.hand.ik = IkSettings { on: self.ik.on, length: self.ik.length };
+        let (snap, only_selected) = (self.keys.snap, self.keys.only_selected);
+        self.settings.timeline = TimelineSettings { snap, only_selected };
     }
 
     /// A pointer that left the picture points at nothing; bones that are not drawn cannot be drawn brighter.
@@ -92,6 +110,9 @@ impl State {
             Id::Key => return self.key_here(),
             Id::KeyAllPending => return self.key_pending(),
             Id::DropPending => return self.drop_pending(),
+            Id::Copy => return self.copy(),
+            Id::CutKeys => return self.cut_keys(),
+            Id::CopyKeys => return self.copy_keys(),
             Id::CopyPose => return self.copy_pose(),
             Id::PastePose => return Some(Effect::PastePose { mirrored: false }),
             Id::PasteMirrored => return Some(Effect::PastePose { mirrored: true }),

@@ -172,17 +172,9 @@ impl Hierarchy {
             }
         }
         let text =
-            Rect::from_min_max(pos2(left + 18.0, rect.top()), pos2(rect.right() - 12.0, rect.bottom()));
-        let end = widgets::text_in(ui, text, &name, &TextStyle::Body, color);
-        if hidden {
-            let mark = Rect::from_center_size(pos2(end + 14.0, rect.center().y), vec2(16.0, 16.0));
-            let response = ui.interact(mark, response.id.with("hidden"), Sense::hover());
-            response.widget_info(|| {
-                egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, format!("{name} is hidden"))
-            });
-            Icon::Hidden.paint(ui.painter(), mark, theme.faint);
-            response.on_hover_text(super::commands::tooltip(ui.ctx(), super::commands::Id::ShowAll));
-        }
+            Rect::from_min_max(pos2(left + 18.0, rect.top()), pos2(rect.right() - 34.0, rect.bottom()));
+        widgets::text_in(ui, text, &name, &TextStyle::Body, color);
+        eye(ui, state, row, &name, rect, response.id.with("eye"), requests);
         if response.hovered() {
             requests.push(Request::Hover(row.bone));
         }
@@ -209,6 +201,44 @@ impl Hierarchy {
             }
         }
     }
+}
+
+/// The mark at the right end of a row that hides a bone and shows it again; with Shift or Alt all below it, too. Of bones
+/// that are seen it is faint, and only there while the row is under the pointer.
+fn eye(
+    ui: &mut Ui,
+    state: &State,
+    row: Row,
+    name: &str,
+    rect: Rect,
+    id: egui::Id,
+    requests: &mut Vec<Request>,
+) {
+    let theme = Theme::of(ui);
+    let hidden = state.hidden.is_hidden(row.bone);
+    let place = Rect::from_center_size(pos2(rect.right() - 20.0, rect.center().y), vec2(20.0, ROW));
+    let over = ui.rect_contains_pointer(rect);
+    let response = ui.interact(place, id, Sense::click());
+    let verb = if hidden { "Show" } else { "Hide" };
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("{verb} {name}"))
+    });
+    if hidden || over || response.has_focus() {
+        let icon = if hidden { Icon::Hidden } else { Icon::Shown };
+        let tone = if response.hovered() { theme.text } else { theme.faint };
+        icon.paint(ui.painter(), place, tone);
+        widgets::focus_ring(ui, &response, place);
+    }
+    if response.clicked() {
+        let all = ui.input(|input| input.modifiers.shift || input.modifiers.alt);
+        let count = if all { row.below as usize } else { 0 };
+        let rows = &state.digest.rows;
+        let start = rows.iter().position(|other| other.bone == row.bone).unwrap_or(0);
+        let bones = rows.iter().skip(start).take(count + 1).map(|row| row.bone).collect();
+        requests.push(Request::Hide { bones, hide: !hidden });
+    }
+    let below = if row.parent { "\nShift: with all below it" } else { "" };
+    response.on_hover_text(format!("{verb} {}{below}", widgets::shortened(name)));
 }
 
 /// What a click on a row selects: with Ctrl it toggles, with Shift everything from the active bone to here is added.

@@ -76,6 +76,7 @@ pub enum Icon {
     Saved,
     Flip,
     Hidden,
+    Shown,
     Ghosts,
     Path,
     Ik,
@@ -155,6 +156,7 @@ impl Icon {
         Self::Saved,
         Self::Flip,
         Self::Hidden,
+        Self::Shown,
         Self::Ghosts,
         Self::Path,
         Self::Ik,
@@ -402,6 +404,12 @@ impl Icon {
                 pen.line(&[(5.0, 9.5), (4.0, 11.6)]);
                 pen.line(&[(8.0, 10.3), (8.0, 12.6)]);
                 pen.line(&[(11.0, 9.5), (12.0, 11.6)]);
+            }
+            Self::Shown => {
+                let lid = [(2.2, 8.0), (4.6, 5.6), (8.0, 4.6), (11.4, 5.6), (13.8, 8.0)];
+                pen.line(&lid);
+                pen.line(&lid.map(|(x, y)| (x, 16.0 - y)));
+                pen.dot(8.0, 8.0, 1.9);
             }
             Self::Ghosts => {
                 pen.ring(4.6, 8.0, 2.4);

@@ -12,18 +12,26 @@ use std::sync::Arc;
 impl State {
     /// What a drag at the time shown begins with: the poses as they are seen, the pins, whether rows of bones follow.
     pub fn hold(&mut self) -> Option<Hold> {
-        let view = self.view.clone()?;
+        let (view, fixed) = (self.view.clone()?, self.fixed_bones());
         let (take, time) = (self.playback.take, self.time());
         let poses = self.posed.update(&view, take, time).poses();
         let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
-        Some(Hold::new(skeleton, poses, &self.pins, self.ik, None))
+        Some(Hold::new(skeleton, poses, &self.pins, self.ik, None).with_fixed(&fixed))
     }
 
     /// The same with the poses that were computed last, for numbers that are typed; none where no bone is pinned.
     pub(super) fn hold_of_pins(&self) -> Option<Hold> {
         let animation = self.posed.animation().filter(|_| !self.pins.is_empty())?;
         let skeleton = Arc::clone(&self.loaded()?.model.animation.skeleton);
-        Some(Hold::new(skeleton, animation.poses(), &self.pins, self.ik, None))
+        let hold = Hold::new(skeleton, animation.poses(), &self.pins, self.ik, None);
+        Some(hold.with_fixed(&self.fixed_bones()))
+    }
+
+    /// Bones that nothing turns which they follow: locked ones, which are not edited, and those that are seen at rest, of
+    /// which nobody would see that they turn.
+    pub(super) fn fixed_bones(&self) -> Vec<BoneIndex> {
+        let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());
+        self.keys.flags.fixed(bones)
     }
 
     /// Is this bone held where it is while others move?

@@ -192,6 +192,9 @@ fn ghosts(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         number(ui, "frames apart", &mut ghosts.step, 1..=GhostSettings::MOST[1]);
     });
     ui.checkbox(&mut ghosts.keys, "at keys");
+    ui.separator();
+    ui.radio_value(&mut ghosts.skin, false, "as skeletons");
+    ui.radio_value(&mut ghosts.skin, true, "as skins");
     if ghosts != state.settings.hand.ghosts {
         requests.push(Request::Ghosts(ghosts));
     }

@@ -16,6 +16,7 @@ pub mod icons;
 mod ik;
 pub mod keys;
 pub mod layout;
+pub mod marks;
 pub mod menu;
 mod mirror_pairs;
 pub mod number_field;

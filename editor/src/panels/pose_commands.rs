@@ -1,12 +1,16 @@
 //! What commands do to the pose at the time shown: key, drop, copy, paste, reset.
 
+use super::keys;
 use super::state::{Effect, State};
 use super::status::Level;
+use crate::control::bones::MirrorPairs;
 use crate::document::Change;
+use crate::document::adapter::PendingAt;
 use crate::document::edit::{BonePose, BoneRef, Edit, NewKey, Property, ResetTo};
 use crate::posing::clipboard;
 use dragonfly_anim::data::{BoneIndex, Take, Transform};
 use dragonfly_anim::sample::{rest_pose, sample_track};
+use std::sync::Arc;
 
 impl State {
     /// Turns auto-key on or off, and says what that means.
@@ -27,7 +31,7 @@ impl State {
     pub(super) fn key_here(&mut self) -> Option<Effect> {
         let (take, time) = (self.take_ref()?, self.time());
         Some(done(if self.pending_here().is_some() {
-            Edit::KeyPending { take, time: Some(time), bones: Vec::new() }
+            Edit::KeyPending { take, time: Some(time), bones: self.pending_free(Some(time))? }
         } else {
             let bones = self.selected_refs();
             Edit::AddKeys { take, time, bones, properties: Vec::new(), value: NewKey::Current }
@@ -36,12 +40,37 @@ impl State {
 
     /// Keys what is pending anywhere in the take.
     pub(super) fn key_pending(&mut self) -> Option<Effect> {
-        Some(done(Edit::KeyPending { take: self.take_ref()?, time: None, bones: Vec::new() }))
+        let bones = self.pending_free(None)?;
+        Some(done(Edit::KeyPending { take: self.take_ref()?, time: None, bones }))
     }
 
     /// Gives up what is pending in the take.
     pub(super) fn drop_pending(&mut self) -> Option<Effect> {
-        Some(done(Edit::DropPending { take: self.take_ref()?, time: None, bones: Vec::new() }))
+        let bones = self.pending_free(None)?;
+        Some(done(Edit::DropPending { take: self.take_ref()?, time: None, bones }))
+    }
+
+    /// The bones whose pending poses are keyed or dropped, at one time or at all, as edits name them: all where none is
+    /// locked, else those that are free. None where all of them are locked, which is said.
+    fn pending_free(&mut self, time: Option<f32>) -> Option<Vec<BoneRef>> {
+        if !self.keys.flags.any_locked() {
+            return Some(Vec::new());
+        }
+        let slot = self.slot()?;
+        let at: Vec<&PendingAt> = match time {
+            Some(time) => slot.pending_at(time).map(|at| &**at).into_iter().collect(),
+            None => slot.pending().iter().map(|at| &**at).collect(),
+        };
+        let mut bones: Vec<BoneIndex> =
+            at.into_iter().flat_map(|at| &at.poses).map(|pose| pose.bone).collect();
+        bones.sort_unstable();
+        bones.dedup();
+        // Where nothing is pending the document says so.
+        let waits = !bones.is_empty();
+        if waits && !self.spare_locked(&mut bones, |bone| *bone) {
+            return None;
+        }
+        Some(bones.into_iter().map(BoneRef::Index).collect())
     }
 
     /// The poses of the selected bones, or of all, as text for the clipboard.
@@ -63,10 +92,17 @@ impl State {
         Some(Effect::Copy(clipboard::to_text(&copied)))
     }
 
-    /// The edit that puts on what the clipboard holds; anything but a pose is refused quietly.
+    /// The edit that puts on the pose, or in the keys, that the clipboard holds; anything else is refused quietly.
     pub(super) fn paste_pose(&mut self, text: &str, mirrored: bool) -> Option<Effect> {
         let Some(poses) = clipboard::from_text(text) else {
-            self.status.say(Level::Info, "There is no pose in the clipboard");
+            match keys::clipboard::from_text(text) {
+                Some(channels) if !mirrored => return self.paste_keys(channels),
+                Some(_) => {
+                    let text = "The clipboard holds keys, and only poses are pasted mirrored";
+                    self.status.say(Level::Info, text);
+                }
+                None => self.status.say(Level::Info, "There is no pose in the clipboard, and no keys"),
+            }
             return None;
         };
         let Some(take) = self.take_ref() else {
@@ -74,6 +110,22 @@ impl State {
             return None;
         };
         let (time, pending) = (self.time(), !self.settings.auto_key);
+        let mut poses = poses;
+        if self.keys.flags.any_locked() {
+            let skeleton = Arc::clone(&self.loaded()?.model.animation.skeleton);
+            let mirror = mirrored.then(|| MirrorPairs::of(&skeleton));
+            let target = |pose: &BonePose| {
+                let bone = match &pose.bone {
+                    BoneRef::Index(bone) => Some(*bone),
+                    BoneRef::Name(name) => skeleton.find(name),
+                };
+                let on = |bone| mirror.as_ref().map_or(Some(bone), |pairs| pairs.mirror_of(bone));
+                bone.and_then(on).unwrap_or(BoneIndex::MAX)
+            };
+            if !self.spare_locked(&mut poses, target) {
+                return None;
+            }
+        }
         Some(done(Edit::Paste { take, time, poses, mirrored, pending }))
     }
 
@@ -136,7 +188,7 @@ fn only(pose: BonePose, properties: &[Property]) -> BonePose {
 }
 
 /// By its name, so that the text means the same in another model; by its number where it shares its name.
-fn named(skeleton: &dragonfly_anim::data::Skeleton, bone: BoneIndex) -> BoneRef {
+pub(super) fn named(skeleton: &dragonfly_anim::data::Skeleton, bone: BoneIndex) -> BoneRef {
     match skeleton.bones.get(bone as usize) {
         Some(rules) if !rules.name.is_empty() && skeleton.find(&rules.name) == Some(bone) => {
             BoneRef::Name(rules.name.clone())

@@ -5,6 +5,7 @@ use super::properties::PropertiesLook;
 use crate::control::gizmo::{Pivot, Space, Tool};
 use crate::graphics::{BoneLook, Shading};
 use crate::playback::Repeat;
+use crate::posing::{IkMode, LONGEST_CHAIN};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -68,6 +69,41 @@ pub struct HandSettings {
     pub ghosts: GhostSettings,
     /// Is the motion path of the selected bone shown?
     pub path: bool,
+    /// Do the bones above follow one that is moved?
+    pub ik: IkSettings,
+}
+
+/// How bones follow one that is moved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct IkSettings {
+    /// Do they?
+    pub on: bool,
+    /// How many above it; 1 to [`LONGEST_CHAIN`].
+    pub length: u32,
+}
+
+impl Default for IkSettings {
+    fn default() -> Self {
+        let IkMode { on, length, .. } = IkMode::default();
+        Self { on, length }
+    }
+}
+
+/// How the timeline and the curves work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct TimelineSettings {
+    /// Do moved keys go to whole frames?
+    pub snap: bool,
+    /// Are only the selected bones listed, where any are selected?
+    pub only_selected: bool,
+}
+
+impl Default for TimelineSettings {
+    fn default() -> Self {
+        Self { snap: true, only_selected: true }
+    }
 }
 
 /// How the skeleton is shown at other times than the one shown.
@@ -82,11 +118,13 @@ pub struct GhostSettings {
     pub step: u32,
     /// At keys of the selected bone (or of all), in place of frames.
     pub keys: bool,
+    /// Is the skin shown, and not the skeleton?
+    pub skin: bool,
 }
 
 impl Default for GhostSettings {
     fn default() -> Self {
-        Self { shown: false, count: [3, 3], step: 2, keys: false }
+        Self { shown: false, count: [3, 3], step: 2, keys: false, skin: false }
     }
 }
 
@@ -111,6 +149,7 @@ impl Default for HandSettings {
             curl: false,
             ghosts: GhostSettings::default(),
             path: false,
+            ik: IkSettings::default(),
         }
     }
 }
@@ -136,6 +175,8 @@ pub struct Settings {
     pub look: LookSettings,
     /// How the hands work.
     pub hand: HandSettings,
+    /// How the timeline and the curves work.
+    pub timeline: TimelineSettings,
     /// At the end of a take.
     pub repeat: Repeat,
     /// Take seconds a second.
@@ -161,6 +202,7 @@ impl Default for Settings {
             scale: 1.0,
             look: LookSettings::default(),
             hand: HandSettings::default(),
+            timeline: TimelineSettings::default(),
             repeat: Repeat::default(),
             speed: 1.0,
             frame_rate: 30,
@@ -194,6 +236,7 @@ impl Settings {
             self.frame_rate = 30;
         }
         self.hand.ghosts = self.hand.ghosts.mended();
+        self.hand.ik.length = self.hand.ik.length.clamp(1, LONGEST_CHAIN);
         self.recent.truncate(RECENT);
         self
     }

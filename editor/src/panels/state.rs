@@ -76,9 +76,16 @@ pub enum Request {
     SelectBones(Vec<BoneIndex>, Choice),
     /// Edits, undoes, does again.
     Change(Change),
+    /// Puts bones out of sight, or shows them again.
+    Hide {
+        /// Which.
+        bones: Vec<BoneIndex>,
+        /// Else they are shown.
+        hide: bool,
+    },
     /// About keys: selects, drags, marks.
     Timeline(KeysRequest),
-    /// Puts on the poses in a text from the clipboard.
+    /// Puts on the poses in a text from the clipboard, or in the keys.
     PastePose {
         /// As it was there.
         text: String,
@@ -144,6 +151,8 @@ pub enum Effect {
     Changes(Vec<Change>),
     /// Puts a text into the clipboard.
     Copy(String),
+    /// The same, and tells the document: what was copied goes.
+    Cut(String, Change),
     /// Asks for [`Request::PastePose`] with what is in the clipboard.
     PastePose {
         /// On the other side?
@@ -233,6 +242,8 @@ pub struct State {
     pub trail: Trail,
     /// Repeated clicks go through what lies behind.
     pub cycle: ClickCycle,
+    /// What is remembered of each file.
+    pub marks: super::marks::Marks,
     /// What the list of takes is about to do.
     pub takes: super::takes::TakesState,
     /// Names of gestures given so far.
@@ -253,13 +264,13 @@ impl State {
             posed: Posed::default(),
             selection: BoneSelection::default(),
             pins: Vec::new(),
-            ik: IkMode::default(),
+            ik: IkMode { on: settings.hand.ik.on, length: settings.hand.ik.length, pole: None },
             hidden: HiddenBones::default(),
             hovered: None,
             pointer: None,
             pointed: None,
             playback,
-            keys: Keys::default(),
+            keys: Keys::of(settings.timeline),
             camera: Camera::default(),
             framed: false,
             settings,
@@ -279,6 +290,7 @@ impl State {
             hold: Hold::default(),
             trail: Trail::default(),
             cycle: ClickCycle::default(),
+            marks: super::marks::Marks::default(),
             takes: super::takes::TakesState::default(),
             gestures: Cell::new(0),
             full_screen: false,
@@ -318,6 +330,9 @@ impl State {
     /// Shows another document: its first take, playing from the start.
     pub fn show(&mut self, view: View) {
         let fresh = self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.loaded, &view.loaded));
+        if fresh {
+            self.note_marks();
+        }
         let before = self.view.replace(view);
         if !fresh {
             self.follow_take(before.as_ref().map_or(&[], |view| &view.slots));
@@ -333,6 +348,7 @@ impl State {
         self.pointed = None;
         self.framed = false;
         self.open_keys();
+        self.recall_marks();
         let has_takes = self.view.as_ref().is_some_and(|view| !view.takes.is_empty());
         self.show_take(has_takes.then_some(0));
         self.playback = self.playback.with(has_takes, self.settings.speed, self.settings.repeat, self.now);

@@ -6,7 +6,7 @@ use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_anim::ik::ChainScratch;
 use dragonfly_anim::joint::JointLimits;
 use glam::{Mat4, Quat, Vec3};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Most bones that follow a hand.
@@ -55,6 +55,8 @@ pub struct Hold {
     begun: Vec<Transform>,
     begun_to_root: Vec<Mat4>,
     pins: Vec<Stood>,
+    /// Bones that no row turns, with the rotations that they keep.
+    fixed: BTreeMap<BoneIndex, Quat>,
     poses: Vec<Transform>,
     to_root: Vec<Mat4>,
     scratch: ChainScratch,
@@ -95,9 +97,29 @@ impl Hold {
             begun_to_root: to_root.clone(),
             begun,
             pins,
+            fixed: BTreeMap::new(),
             to_root,
             scratch: ChainScratch::default(),
         }
+    }
+
+    /// The same with bones that stay as they are relative to their parents, whatever follows: those that are locked or seen
+    /// at rest. The others of a row go on to reach, with these as stiff joints.
+    #[must_use]
+    pub fn with_fixed(mut self, bones: &[BoneIndex]) -> Self {
+        let rotation = |&bone: &BoneIndex| Some((bone, self.begun.get(bone as usize)?.rotation));
+        self.fixed = bones.iter().filter_map(rotation).collect();
+        self
+    }
+
+    /// Where a place of the scene lies in the space of a bone's parent, as that stood when the drag began; `None` where it
+    /// has no volume.
+    pub fn in_parent(&self, bone: BoneIndex, place: Vec3) -> Option<Vec3> {
+        let parent =
+            parent_of(&self.skeleton, bone).and_then(|parent| self.begun_to_root.get(parent as usize));
+        let parent = parent.copied().unwrap_or(Mat4::IDENTITY).as_dmat4();
+        let place = parent.inverse().transform_point3(place.as_dvec3()).as_vec3();
+        place.is_finite().then_some(place)
     }
 
     /// Does this bone, when it is moved, take those above it along?
@@ -135,6 +157,9 @@ pub fn poses_of_drag(hold: &mut Hold, poses: &[BonePose], goals: &[Goal]) -> Vec
     let bones = hold.skeleton.len();
     hold.poses.copy_from_slice(&hold.begun);
     hold.to_root.copy_from_slice(&hold.begun_to_root);
+    for (&bone, rotation) in &mut hold.fixed {
+        *rotation = hold.begun[bone as usize].rotation;
+    }
     let mut moved: BTreeSet<BoneIndex> = BTreeSet::new();
     let mut turned: BTreeSet<BoneIndex> = BTreeSet::new();
     let mut given: Vec<(BoneIndex, &BonePose)> = Vec::new();
@@ -145,6 +170,9 @@ pub fn poses_of_drag(hold: &mut Hold, poses: &[BonePose], goals: &[Goal]) -> Vec
         };
         let Some(bone) = bone.filter(|&bone| (bone as usize) < bones) else { continue };
         give(&mut hold.poses[bone as usize], pose);
+        if let Some(rotation) = hold.fixed.get_mut(&bone) {
+            *rotation = hold.poses[bone as usize].rotation;
+        }
         given.push((bone, pose));
         moved.insert(bone);
     }
@@ -157,7 +185,7 @@ pub fn poses_of_drag(hold: &mut Hold, poses: &[BonePose], goals: &[Goal]) -> Vec
         let row: Vec<BoneIndex> = row(&hold.skeleton, goal.bone, length).collect();
         moved.extend(&row);
         moved.insert(goal.bone);
-        turned.extend(&row);
+        turned.extend(row.iter().filter(|bone| !hold.fixed.contains_key(bone)));
         turned.insert(goal.bone);
         if goal.place.is_finite() && goal.place.abs().max_element() < 1e15 {
             let rotation = hold.begun_to_root[goal.bone as usize].to_scale_rotation_translation().1;
@@ -181,8 +209,7 @@ pub fn poses_of_drag(hold: &mut Hold, poses: &[BonePose], goals: &[Goal]) -> Vec
     for pin in &held {
         let row: Vec<BoneIndex> = row(&hold.skeleton, pin.bone, hold.mode.length).collect();
         moved.extend(&row);
-        turned.extend(row);
-        turned.insert(pin.bone);
+        turned.extend(row.into_iter().chain([pin.bone]).filter(|bone| !hold.fixed.contains_key(bone)));
     }
     solve(hold, &rows, &held);
     results(hold, &given, &turned)
@@ -194,6 +221,7 @@ fn solve(hold: &mut Hold, rows: &[Reaching], held: &[Stood]) {
     let mut work = Work {
         skeleton: &hold.skeleton,
         limits: hold.limits.as_ref(),
+        fixed: &hold.fixed,
         poses: &mut hold.poses,
         to_root: &mut hold.to_root,
         scratch: &mut hold.scratch,
@@ -209,7 +237,7 @@ fn solve(hold: &mut Hold, rows: &[Reaching], held: &[Stood]) {
                 end: pin.bone,
                 length: hold.mode.length,
                 place: pin.place,
-                rotation: Some(pin.rotation),
+                rotation: Some(pin.rotation).filter(|_| !hold.fixed.contains_key(&pin.bone)),
                 pole,
             });
         }

@@ -5,6 +5,7 @@ use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_anim::ik::{Chain, ChainScratch, EndOrientation, Pole, TwoBone, chain, two_bone};
 use dragonfly_anim::joint::JointLimits;
 use glam::{Mat4, Quat, Vec3};
+use std::collections::BTreeMap;
 
 /// What is to be reached, and by which bones.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +26,8 @@ pub(super) struct Reaching {
 pub(super) struct Work<'a> {
     pub(super) skeleton: &'a Skeleton,
     pub(super) limits: Option<&'a JointLimits>,
+    /// Bones that keep these rotations.
+    pub(super) fixed: &'a BTreeMap<BoneIndex, Quat>,
     pub(super) poses: &'a mut [Transform],
     pub(super) to_root: &'a mut [Mat4],
     pub(super) scratch: &'a mut ChainScratch,
@@ -50,10 +53,12 @@ impl Work<'_> {
     /// Turns the row as near to its goal as it comes. Where there is no answer, nothing moves.
     pub(super) fn reach(&mut self, wanted: &Reaching) {
         let limits = self.limits;
-        let limit_of = |bone: BoneIndex| limits.and_then(|limits| limits.get(bone));
+        let is_limited = |bone: BoneIndex| {
+            self.fixed.contains_key(&bone) || limits.is_some_and(|limits| limits.get(bone).is_some())
+        };
         let mut above = row(self.skeleton, wanted.end, wanted.length);
         let (Some(middle), rest) = (above.next(), above.last()) else { return };
-        let limited = row(self.skeleton, wanted.end, wanted.length).any(|bone| limit_of(bone).is_some());
+        let limited = row(self.skeleton, wanted.end, wanted.length).any(is_limited);
         let root = rest.unwrap_or(middle);
         let solved = wanted.length == 2 && root != middle && !limited && {
             let mut limb = TwoBone::new(root, middle, wanted.end);
@@ -72,8 +77,11 @@ impl Work<'_> {
     }
 
     fn reach_by_chain(&mut self, root: BoneIndex, limited: bool, wanted: &Reaching) {
-        let (skeleton, limits) = (self.skeleton, self.limits);
+        let (skeleton, limits, fixed) = (self.skeleton, self.limits, self.fixed);
         let mut clamp = |bone: BoneIndex, rotation: Quat| {
+            if let Some(&rotation) = fixed.get(&bone) {
+                return rotation;
+            }
             let rest = skeleton.bones.get(bone as usize).map_or(Quat::IDENTITY, |bone| bone.rest.rotation);
             let limit = limits.and_then(|limits| limits.get(bone));
             limit.map_or(rotation, |limit| limit.clamp(rotation, rest).rotation)

@@ -1,6 +1,6 @@
 //! Bones that are put out of sight: they are not picked, not boxed, and no neighbour of what is seen.
 
-use super::BoneSelection;
+use super::{BoneSelection, Choice};
 use dragonfly_anim::data::BoneIndex;
 
 /// Which bones are hidden. A bone below a hidden one is shown all the same.
@@ -34,6 +34,19 @@ impl HiddenBones {
         self.hidden.clear();
         let others = (0..selection.bone_count()).map(|bone| !selection.contains(bone as BoneIndex));
         self.hidden.extend(others);
+    }
+
+    /// Hides these bones, which are selected no more then, or shows them.
+    pub fn set(&mut self, bones: &[BoneIndex], hide: bool, selection: &mut BoneSelection) {
+        self.hidden.resize(selection.bone_count(), false);
+        for &bone in bones {
+            if let Some(hidden) = self.hidden.get_mut(bone as usize) {
+                *hidden = hide;
+                if hide && selection.contains(bone) {
+                    selection.click(Some(bone), Choice::Toggle);
+                }
+            }
+        }
     }
 
     /// Shows all again and selects what was hidden, so that one sees what came.

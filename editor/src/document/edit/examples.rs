@@ -65,6 +65,10 @@ pub const EXAMPLES: &[Example] = &[
         "Copies the head's first keys one second on.",
     ),
     example(
+        r#"{"edit":"paste_keys","take":"Walk","time":1,"channels":[{"bone":"Head","property":"rotation","interpolation":"linear","keys":[{"after":0,"value":[0,0,0,1]},{"after":0.25,"value":[0,0.2588190,0,0.9659258]}]}]}"#,
+        "Puts two keys of the head in, one at a second and one a quarter later.",
+    ),
+    example(
         r#"{"edit":"ripple","take":"Walk","from":0.5,"by":0.25}"#,
         "Makes room of a quarter of a second.",
     ),

@@ -10,10 +10,12 @@
 //! Times are seconds, on the clock of the take. Bones and takes go by name or by number. A number that is not finite, a
 //! bone that there is not, a time where no key is: an error that says so, and nothing changes.
 
+mod copied;
 mod examples;
 mod lines;
 mod target;
 
+pub use copied::{CopiedChannel, CopiedKey};
 pub use examples::{EXAMPLES, Example};
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
@@ -230,6 +232,16 @@ pub enum Edit {
         /// Seconds from each key to its copy.
         by: f32,
     },
+    /// Puts copied keys in, with exactly what they held. A key that comes to lie on another takes its place. Bones that this
+    /// model has not are passed over.
+    PasteKeys {
+        /// Which take.
+        take: TakeRef,
+        /// Seconds: where the first of them goes, as a rule.
+        time: f32,
+        /// The keys, by channels.
+        channels: Vec<CopiedChannel>,
+    },
     /// Moves every key at or after a time, in all channels: room is made, or taken away with what is in it.
     Ripple {
         /// Which take.
@@ -362,6 +374,7 @@ impl Edit {
             | Self::MoveKeys { take, .. }
             | Self::ScaleKeys { take, .. }
             | Self::DuplicateKeys { take, .. }
+            | Self::PasteKeys { take, .. }
             | Self::Ripple { take, .. }
             | Self::SnapKeys { take, .. }
             | Self::SetInterpolation { take, .. }
@@ -393,6 +406,7 @@ impl Edit {
             Self::MoveKeys { .. } => "Move keys",
             Self::ScaleKeys { .. } => "Scale keys",
             Self::DuplicateKeys { .. } => "Duplicate keys",
+            Self::PasteKeys { .. } => "Paste keys",
             Self::Ripple { .. } => "Ripple",
             Self::SnapKeys { .. } => "Snap keys to frames",
             Self::SetInterpolation { .. } => "Set interpolation",

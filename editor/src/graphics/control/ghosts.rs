@@ -11,6 +11,8 @@ use std::sync::Arc;
 #[derive(Default)]
 pub(super) struct GhostsGraphic {
     times: Vec<(f32, i32)>,
+    /// Are skins shown in their place?
+    skins: bool,
     /// Of the model that is shown.
     animation: Option<Animation>,
 }
@@ -37,13 +39,17 @@ fn follow<'a>(animation: &'a mut Option<Animation>, frame: &Frame<'_>) -> &'a mu
 
 impl GraphicComponent for GhostsGraphic {
     fn receive(&mut self, appearance: &Appearance) -> bool {
-        let Appearance::Ghosts(times) = appearance else { return false };
-        self.times.clone_from(times);
+        match appearance {
+            Appearance::Ghosts(times) => self.times.clone_from(times),
+            Appearance::GhostSkins(on) => self.skins = *on,
+            _ => return false,
+        }
         true
     }
 
     fn present(&mut self, frame: &Frame<'_>, shape: &mut GizmoShape) {
-        if self.times.is_empty() {
+        // A model without a skin has its skeleton to show.
+        if self.times.is_empty() || (self.skins && !frame.model.items().is_empty()) {
             return;
         }
         let take = frame.model.at().0;

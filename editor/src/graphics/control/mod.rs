@@ -38,6 +38,8 @@ pub trait GraphicComponent {
 pub struct Controls {
     list: Vec<Box<dyn GraphicComponent>>,
     shape: GizmoShape,
+    /// When the model is shown as a ghost, and whether it is as a skin.
+    ghosts: (Vec<(f32, i32)>, bool),
 }
 
 impl Default for Controls {
@@ -49,13 +51,18 @@ impl Default for Controls {
             Box::<IkGraphic>::default(),
             Box::<GizmoGraphic>::default(),
         ];
-        Self { list, shape: GizmoShape::default() }
+        Self { list, shape: GizmoShape::default(), ghosts: (Vec::new(), false) }
     }
 }
 
 impl Controls {
     /// Hands an appearance to whom it is for.
     pub fn receive(&mut self, appearance: Appearance) {
+        match &appearance {
+            Appearance::Ghosts(times) => self.ghosts.0.clone_from(times),
+            Appearance::GhostSkins(on) => self.ghosts.1 = *on,
+            _ => {}
+        }
         let _ = self.list.iter_mut().any(|component| component.receive(&appearance));
     }
 
@@ -66,6 +73,11 @@ impl Controls {
         for component in &mut self.list {
             component.present(&frame, &mut self.shape);
         }
+    }
+
+    /// When the model is shown as a ghost with its skin: seconds, and how far from now.
+    pub fn ghost_skins(&self) -> &[(f32, i32)] {
+        if self.ghosts.1 { &self.ghosts.0 } else { &[] }
     }
 
     /// What is to be drawn.

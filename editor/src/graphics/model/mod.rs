@@ -2,11 +2,13 @@
 //! after it.
 
 mod geometry;
+mod ghost;
 mod material;
 mod pipeline;
 mod texture;
 
 use super::device::DeviceListener;
+use super::ghosts::GhostSkins;
 use super::gpu::Gpu;
 use super::posed::{DrawItem, PosedModel};
 use super::uniform::{Affine, DrawUniform};
@@ -33,6 +35,7 @@ struct Resources {
     maker: TextureMaker,
     materials: GpuMaterials,
     content: Option<Content>,
+    ghosts: ghost::Ghosts,
 }
 
 /// What a device holds for this model.
@@ -57,7 +60,8 @@ impl DeviceListener for GpuModel {
         let materials = GpuMaterials::new(gpu);
         let pipelines = ModelPipelines::new(gpu, &materials.layout);
         let maker = TextureMaker::new(gpu);
-        self.resources = Some(Resources { pipelines, maker, materials, content: None });
+        self.resources =
+            Some(Resources { pipelines, maker, materials, content: None, ghosts: Default::default() });
     }
 }
 
@@ -79,6 +83,22 @@ impl GpuModel {
             for cull in culls(posed, item) {
                 resources.pipelines.make(gpu, kind(posed, item, *cull));
             }
+        }
+    }
+
+    /// Hands the poses of ghosts to the device, after [`Self::prepare`].
+    pub fn prepare_ghosts(&mut self, gpu: &Gpu, ghosts: &GhostSkins) {
+        let Some(Resources { pipelines, content: Some(content), ghosts: own, .. }) = &mut self.resources
+        else {
+            return;
+        };
+        own.prepare(gpu, ghosts, pipelines, &content.geometries);
+    }
+
+    /// Draws ghosts.
+    pub fn draw_ghosts(&self, ghosts: &GhostSkins, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
+        if let Some(Resources { content: Some(content), ghosts: own, .. }) = &self.resources {
+            own.draw(gpu, ghosts, &content.geometries, pass);
         }
     }
 
@@ -126,6 +146,7 @@ impl Resources {
     fn load(&mut self, gpu: &Gpu, posed: &PosedModel) {
         let loaded = posed.loaded();
         self.materials.load(gpu, &mut self.maker, loaded);
+        self.ghosts.forget();
         let buffer = |label, size: usize, usage| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),

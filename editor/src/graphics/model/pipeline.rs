@@ -58,6 +58,11 @@ impl ModelPipelines {
         made.entry(kind).or_insert_with(|| pipeline(gpu, module, layout, kind));
     }
 
+    /// The layout of bind group 1.
+    pub(super) fn draw_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.draw_layout
+    }
+
     /// Bind group 1 of a draw.
     pub(super) fn draw_group(
         &self,

@@ -3,6 +3,7 @@
 mod background;
 mod composite;
 mod controls;
+mod ghosts;
 mod glass;
 mod grid;
 mod panels;
@@ -84,6 +85,7 @@ pub fn all() -> Passes {
         shared(surface::SurfacePass::new(Rc::clone(&model))),
         shared(grid::GridPass::default()),
         shared(glass::GlassPass::new(Rc::clone(&model))),
+        shared(ghosts::GhostsPass::new(Rc::clone(&model))),
         shared(skeleton::SkeletonPass::default()),
         shared(controls::ControlRender::default()),
         shared(composite::CompositePass::default()),

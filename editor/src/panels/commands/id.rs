@@ -19,6 +19,8 @@ pub enum Id {
 
     Undo,
     Redo,
+    Copy,
+    CutKeys,
 
     AutoKey,
     Key,
@@ -57,6 +59,7 @@ pub enum Id {
     RestPose,
     DeleteKeys,
     DuplicateKeys,
+    CopyKeys,
     SelectAllKeys,
     KeysEarlier,
     KeysLater,

@@ -30,6 +30,10 @@ pub(in crate::panels) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Req
         requests.extend(add_keys(state));
         ui.close();
     }
+    for id in [Id::CutKeys, Id::CopyKeys, Id::PastePose] {
+        item(ui, state, id, false, requests);
+    }
+    ui.separator();
     for id in [Id::DuplicateKeys, Id::DeleteKeys, Id::SnapKeys] {
         item(ui, state, id, false, requests);
     }

@@ -27,7 +27,7 @@ impl State {
     }
 
     /// Can any bone follow another one that is moved?
-    fn follows(&self) -> bool {
+    pub(super) fn follows(&self) -> bool {
         self.ik.on || !self.pins.is_empty()
     }
 

@@ -17,7 +17,7 @@ use crate::control::gizmo::GizmoAnswer;
 use crate::control::path::PathAnswer;
 use crate::control::{Area, Button, InputEvent, Outcome};
 use crate::document::Change;
-use crate::document::edit::BonePose;
+use crate::document::edit::{BonePose, Edit};
 use crate::document::history::Gesture;
 use egui::{Pos2, Rect, pos2};
 use glam::Vec2;
@@ -36,6 +36,10 @@ impl State {
         }
         self.hands.look(&self.camera);
         let stopped = self.hands.input(event);
+        if stopped && matches!(event, InputEvent::MouseDown(_)) {
+            // The picture has the hand now: what is copied is the pose.
+            self.keys.has_hand = false;
+        }
         self.follow(effects);
         stopped
     }
@@ -107,8 +111,7 @@ impl State {
         match answer {
             PathAnswer::Moved(key) => {
                 let Some(edit) = self.path_edit(key) else { return };
-                let gesture = self.held_gesture();
-                effects.push(Effect::Change(Change::Edit(edit, Some(gesture))));
+                self.send_held(edit, effects);
             }
             PathAnswer::Done => self.let_go(false, effects),
             PathAnswer::Cancelled => self.let_go(true, effects),
@@ -118,9 +121,15 @@ impl State {
     /// The newest form of what is being dragged.
     fn edit_held(&mut self, poses: Vec<BonePose>, effects: &mut Vec<Effect>) {
         if let Some(edit) = self.pose_edit(poses) {
-            let gesture = self.held_gesture();
-            effects.push(Effect::Change(Change::Edit(edit, Some(gesture))));
+            self.send_held(edit, effects);
         }
+    }
+
+    /// Of locked bones nothing is sent, as from anywhere else.
+    fn send_held(&mut self, edit: Edit, effects: &mut Vec<Effect>) {
+        let gesture = self.held_gesture();
+        let effect = self.unlocked(Effect::Change(Change::Edit(edit, Some(gesture))));
+        effects.extend(effect);
     }
 
     /// The drag that goes on, under one name from its first edit to its last.

@@ -1,5 +1,6 @@
 //! The motion path of the selected bone: where its joint is, frame by frame; and the times of ghosts.
 
+use super::follow::Following;
 use crate::control::gizmo::GizmoTarget;
 use crate::control::path::PathKey;
 use crate::document::View;
@@ -7,6 +8,7 @@ use crate::document::edit::{BonePose, BoneRef, Edit};
 use crate::graphics::PathLook;
 use crate::panels::keys::BoneFlags;
 use crate::panels::state::{Posed, State};
+use crate::posing::{self, Goal, poses_of_drag};
 use dragonfly_anim::animation::to_parent;
 use dragonfly_anim::data::{BoneIndex, Take, Track};
 use dragonfly_anim::sample::{rest_pose, sample_track};
@@ -108,24 +110,49 @@ impl State {
         }
     }
 
-    /// The edit that puts the joint of the selected bone there at a key.
+    /// The edit that puts the joint of the selected bone there at a key. As with the gizmo, the bones above follow with IK
+    /// on, and pinned bones stay where they are at that time; without either the bone moves alone.
     pub(super) fn path_edit(&mut self, key: PathKey) -> Option<Edit> {
-        let (view, bone, take) = (self.view.as_ref()?, self.selection.active()?, self.take_ref()?);
+        let (bone, take) = (self.selection.active()?, self.take_ref()?);
+        self.begin_following_path(key.time);
+        if let Following::From(hold) = &mut self.hold.following {
+            let (mut poses, mut goals) = (Vec::new(), Vec::new());
+            if hold.moves_by_chain(bone) {
+                goals.push(Goal { bone, place: key.place });
+            } else {
+                poses.push(moved(bone, hold.in_parent(bone, key.place)?));
+            }
+            let poses = poses_of_drag(hold, &poses, &goals);
+            return Some(self.edit_of(take, key.time, poses));
+        }
+        let view = self.view.as_ref()?;
         let skeleton = &view.loaded.model.animation.skeleton;
         let animation = self.trail.posed.update(view, self.playback.take, key.time);
         let target = GizmoTarget::of(skeleton, animation.poses(), animation.to_root(), bone)?;
         let to_parent = target.parent_to_root.as_dmat4();
         let place = to_parent.inverse().transform_point3(key.place.as_dvec3()).as_vec3();
-        let translation = Some(place.to_array()).filter(|_| place.is_finite())?;
-        let pose = BonePose {
-            bone: BoneRef::Index(bone),
-            translation: Some(translation),
-            rotation: None,
-            scale: None,
-        };
-        let (time, poses) = (key.time, vec![pose]);
-        Some(self.edit_of(take, time, poses))
+        let place = Some(place).filter(|place| place.is_finite())?;
+        Some(self.edit_of(take, key.time, vec![moved(bone, place)]))
     }
+
+    /// Notes how everything stands at a time, at the begin of a drag of the path.
+    fn begin_following_path(&mut self, time: f32) {
+        if !matches!(self.hold.following, Following::Undecided) {
+            return;
+        }
+        self.hold.following = Following::Nothing;
+        let Some(view) = self.view.clone().filter(|_| self.follows()) else { return };
+        let (take, fixed) = (self.playback.take, self.fixed_bones());
+        let poses = self.trail.posed.update(&view, take, time).poses();
+        let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
+        let hold = posing::Hold::new(skeleton, poses, &self.pins, self.ik, None).with_fixed(&fixed);
+        self.hold.following = Following::From(Box::new(hold));
+    }
+}
+
+fn moved(bone: BoneIndex, to: Vec3) -> BonePose {
+    let translation = Some(to.to_array());
+    BonePose { bone: BoneRef::Index(bone), translation, rotation: None, scale: None }
 }
 
 /// A bone and all above it, with their tracks: enough to know where its joint is.

@@ -34,7 +34,7 @@ impl BoneFlag {
         match self {
             Self::Mute => "The picture shows this bone at rest; its keys stay",
             Self::Solo => "The picture shows all other bones at rest",
-            Self::Lock => "This bone is not edited",
+            Self::Lock => "This bone is not edited; what is done to the whole take includes it",
         }
     }
 }
@@ -57,6 +57,16 @@ impl BoneFlags {
         let set = &mut self.sets[flag as usize];
         let changed = if on { set.insert(bone) } else { set.remove(&bone) };
         self.version += u64::from(changed);
+    }
+
+    /// The bones that have this mark, ascending.
+    pub fn of(&self, flag: BoneFlag) -> impl Iterator<Item = BoneIndex> + '_ {
+        self.sets[flag as usize].iter().copied()
+    }
+
+    /// None of a bone, for another model; the version still tells it from what was there.
+    pub fn emptied(&self) -> Self {
+        Self { sets: Default::default(), version: self.version + 1 }
     }
 
     /// Grows with every change.
@@ -85,9 +95,20 @@ impl BoneFlags {
         (0..count as BoneIndex).filter(still).collect()
     }
 
+    /// The bones of `count` that do not turn when others are moved: locked, or shown at rest.
+    pub fn fixed(&self, count: usize) -> Vec<BoneIndex> {
+        let mut fixed = self.still(count);
+        fixed.extend(self.sets[BoneFlag::Lock as usize].iter().filter(|&&bone| (bone as usize) < count));
+        fixed.sort_unstable();
+        fixed.dedup();
+        fixed
+    }
+
     /// A locked bone that `change` would edit, if there is one.
     ///
-    /// Edits of whole takes (trim, retime, rename) are not about bones.
+    /// What is done to a whole take (trim, split, reverse, retime, rename) is not about bones: it goes for locked ones too,
+    /// as else they would fall out of step with the others. Where several bones are meant, those who ask leave the locked
+    /// ones out (a paste, keying what is pending) or are refused (a drag).
     pub fn hinders(&self, change: &Change, skeleton: &Skeleton) -> Option<BoneIndex> {
         let Change::Edit(edit, _) = change else { return None };
         if !self.any_locked() {
@@ -106,6 +127,9 @@ impl BoneFlags {
             Edit::Set { poses, .. } | Edit::Offset { poses, .. } | Edit::Pend { poses, .. } => {
                 named(&mut poses.iter().map(|pose| &pose.bone))
             }
+            Edit::Paste { poses, mirrored: false, .. } => named(&mut poses.iter().map(|pose| &pose.bone)),
+            // None named is all: who asks for that names those that are free, where any is locked.
+            Edit::KeyPending { bones, .. } | Edit::DropPending { bones, .. } => named(&mut bones.iter()),
             Edit::SetMany { at, .. } => named(&mut at.iter().flat_map(|at| &at.poses).map(|pose| &pose.bone)),
             Edit::Reset { bones, .. }
             | Edit::AddKeys { bones, .. }
@@ -115,6 +139,7 @@ impl BoneFlags {
             | Edit::ScaleKeys { keys, .. }
             | Edit::DuplicateKeys { keys, .. }
             | Edit::SnapKeys { keys, .. } => keys.iter().find_map(|set| list(&set.bones)),
+            Edit::PasteKeys { channels, .. } => named(&mut channels.iter().map(|channel| &channel.bone)),
             Edit::SetTangents { bone, .. } => named(&mut std::iter::once(bone)),
             Edit::Ripple { .. } => first(),
             _ => None,

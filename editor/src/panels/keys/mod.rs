@@ -2,6 +2,7 @@
 //! is shown, markers, marks of bones, the range that plays. Nothing here draws.
 
 pub mod channel;
+pub mod clipboard;
 pub mod columns;
 mod commands;
 pub mod drag;
@@ -26,6 +27,7 @@ pub use shift::Shift;
 pub use shown::bones as shown_bones;
 pub use window::{TimeScale, TimeWindow};
 
+use super::settings::TimelineSettings;
 use super::state::State;
 use drag::KeyDrag;
 use dragonfly_anim::data::Take;
@@ -51,6 +53,10 @@ pub struct Keys {
     /// The part that plays, seconds; none for the whole take.
     range: Option<[f32; 2]>,
     drag: Option<KeyDrag>,
+    /// Was the timeline, or were the curves, touched last? Then what is copied are keys.
+    pub has_hand: bool,
+    /// Keys that were pasted and are selected once they are there.
+    awaited: Option<clipboard::Awaited>,
 }
 
 impl Default for Keys {
@@ -65,6 +71,8 @@ impl Default for Keys {
             window: None,
             range: None,
             drag: None,
+            has_hand: false,
+            awaited: None,
         }
     }
 }
@@ -83,6 +91,12 @@ pub struct Drawn {
 }
 
 impl Keys {
+    /// Nothing selected, as the settings say.
+    pub fn of(settings: TimelineSettings) -> Self {
+        let TimelineSettings { snap, only_selected } = settings;
+        Self { snap, only_selected, ..Self::default() }
+    }
+
     /// The drag under way.
     pub fn drag(&self) -> Option<&KeyDrag> {
         self.drag.as_ref()
@@ -100,7 +114,8 @@ impl Keys {
 
     /// Another model is open, or none.
     fn forget(&mut self) {
-        *self = Self { snap: self.snap, only_selected: self.only_selected, ..Self::default() };
+        let (snap, only_selected, flags) = (self.snap, self.only_selected, self.flags.emptied());
+        *self = Self { snap, only_selected, flags, ..Self::default() };
     }
 }
 
@@ -164,12 +179,14 @@ impl State {
     pub(super) fn leave_take(&mut self) {
         self.keys.selection = KeySelection::default();
         (self.keys.window, self.keys.range, self.keys.drag) = (None, None, None);
+        self.keys.awaited = None;
     }
 
     /// A newer view is there, or time has passed: ends a drag that was let go and is done.
     pub(super) fn settle_keys(&mut self) {
         let Some(view) = &self.view else { return };
         let (generation, now) = (view.generation, self.now);
+        self.select_pasted(generation);
         if let Some(drag) = self.keys.drag.take_if(|drag| drag.settled(generation, now)) {
             self.keys.selection = match (self.shared_take(), &drag.deed) {
                 (Some(take), Deed::Move(_) | Deed::Scale { .. } | Deed::Duplicate(_) | Deed::Snap(_)) => {
@@ -182,6 +199,7 @@ impl State {
 
     /// An edit was refused.
     pub fn keys_refused(&mut self) {
+        self.keys.awaited = None;
         if let Some(drag) = &mut self.keys.drag {
             drag.refused();
         }

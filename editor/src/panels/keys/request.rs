@@ -88,6 +88,7 @@ impl State {
         stretch: [f32; 2],
         choice: Choice,
     ) {
+        self.keys.has_hand = true;
         // What a drag that waits for its answer moved is selected when that is there.
         if self.keys.drag.is_some() {
             return;
@@ -103,7 +104,8 @@ impl State {
         self.keys.selection.choose(&take, &free, stretch, choice);
     }
 
-    fn select_parts(&mut self, parts: &[(ChannelId, Vec<[f32; 2]>)], choice: Choice) {
+    pub(super) fn select_parts(&mut self, parts: &[(ChannelId, Vec<[f32; 2]>)], choice: Choice) {
+        self.keys.has_hand = true;
         if choice == Choice::Replace {
             self.keys.selection = KeySelection::default();
         }
@@ -131,6 +133,7 @@ impl State {
 
     /// A drag begins or goes on.
     pub(super) fn drag_keys(&mut self, deed: Deed) -> Option<Effect> {
+        self.keys.has_hand = true;
         let view = self.view.as_ref()?;
         let (generation, now) = (view.generation, self.now);
         // One that was let go still waits: the next begins when it is done.
@@ -186,6 +189,7 @@ impl State {
         let changes = match &effect {
             Effect::Change(change) => std::slice::from_ref(change),
             Effect::Changes(changes) => changes,
+            Effect::Cut(_, change) => std::slice::from_ref(change),
             _ => &[],
         };
         let locked = changes.iter().find_map(|change| self.keys.flags.hinders(change, &skeleton));
@@ -193,6 +197,33 @@ impl State {
         self.say_locked(bone);
         self.keys.drag = None;
         None
+    }
+
+    /// Takes out of a list what is of locked bones, and says so. Tells whether anything is left.
+    pub(in crate::panels) fn spare_locked<T>(
+        &mut self,
+        list: &mut Vec<T>,
+        bone_of: impl Fn(&T) -> BoneIndex,
+    ) -> bool {
+        let flags = &self.keys.flags;
+        let mut spared: Vec<BoneIndex> =
+            list.iter().map(&bone_of).filter(|&bone| flags.locked(bone)).collect();
+        list.retain(|item| !flags.locked(bone_of(item)));
+        spared.sort_unstable();
+        spared.dedup();
+        match spared[..] {
+            [] => {}
+            [bone, ..] if list.is_empty() => self.say_locked(bone),
+            [bone] => {
+                let text = format!("{} is locked and stays as it is", self.bone_name(bone));
+                self.status.say(Level::Info, text);
+            }
+            _ => {
+                let text = format!("{} bones are locked and stay as they are", spared.len());
+                self.status.say(Level::Info, text);
+            }
+        }
+        !list.is_empty()
     }
 
     fn say_locked(&mut self, bone: BoneIndex) {

@@ -2,6 +2,7 @@
 
 use super::super::commands::Id;
 use super::super::state::{Effect, State};
+use super::super::status::Level;
 use crate::document::Change;
 use crate::document::adapter::{Slot, TakeId};
 use crate::document::edit::{Edit, TakeRef};
@@ -39,6 +40,12 @@ impl State {
             }
             Id::TrimTake => {
                 let [from, to] = self.trim_range();
+                let (start, length) = self.take_bounds();
+                if from <= start && to >= start + length {
+                    let text = "Nothing lies outside of what plays: set a play range first";
+                    self.status.say(Level::Info, text);
+                    return None;
+                }
                 Edit::TrimTake { take, from, to }
             }
             Id::ReverseTake => Edit::ReverseTake { take },
@@ -52,9 +59,10 @@ impl State {
         self.takes.renaming = index.and_then(|index| Some(self.view.as_ref()?.slots.get(index)?.id));
     }
 
-    /// Seconds: the part of the take that plays, which is what trimming leaves.
+    /// Seconds: the play range, or the whole take where none is set, whether time runs or stands; what trimming leaves.
     pub(in super::super) fn trim_range(&self) -> [f32; 2] {
-        [self.playback.start, self.playback.start + self.playback.length]
+        let (start, length) = self.play_bounds();
+        [start, start + length]
     }
 
     fn create_take(&mut self, copy: Option<(TakeRef, String)>) -> Option<Effect> {

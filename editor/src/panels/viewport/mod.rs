@@ -11,9 +11,10 @@ mod toolbar;
 use super::state::{Request, State};
 use super::style;
 use super::theme::Theme;
-use super::{Panel, Place};
+use super::{Panel, Place, widgets};
 use egui::accesskit::Role;
-use egui::{Align2, CornerRadius, FontId, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{Color32, CornerRadius, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 /// The picture and what lies over it. What the mouse does there is up to the controls of the scene
 /// ([`crate::control::Hands`]), which hear of it before the panels do.
@@ -45,10 +46,11 @@ impl Panel for Viewport {
         let mut shields = Vec::new();
         if state.view.is_some() {
             overlay::drawn(ui, rect, state);
-            shields.push(toolbar::toolbar(ui, rect, state, requests));
+            let tools = toolbar::toolbar(ui, rect, state, requests);
+            shields.push(tools);
             shields.extend(hand::toolbar(ui, rect, state, requests));
             shields.extend(axes::axes(ui, rect, state, requests));
-            caption(ui, rect, state);
+            caption(ui, rect, tools.left(), state);
             readout::show(ui, rect, state);
         }
         requests.push(Request::Shields(shields));
@@ -56,22 +58,35 @@ impl Panel for Viewport {
     }
 }
 
-/// What is seen: model and take, quietly, at the top left.
-fn caption(ui: &Ui, rect: Rect, state: &State) {
+/// What is seen: model and take, quietly, at the top left, as far as `right`; long names end with dots.
+fn caption(ui: &Ui, rect: Rect, right: f32, state: &State) {
     let Some(loaded) = state.loaded() else { return };
     let theme = Theme::of(ui);
     let take = match state.playback.take {
-        Some(take) => state.digest.takes.get(take).map_or(String::new(), |take| take.name.clone()),
-        None => "Rest pose".to_owned(),
+        Some(take) => state.digest.takes.get(take).map_or("", |take| take.name.as_str()),
+        None => "Rest pose",
     };
-    let painter = ui.painter().with_clip_rect(rect);
     let at = pos2(rect.left() + 14.0, rect.top() + 12.0);
-    let font = FontId::proportional(style::BODY);
-    let place = painter.text(at, Align2::LEFT_TOP, &loaded.title, font, theme.text);
+    let width = right - at.x - 12.0;
+    let bottom = name(ui, at, width, &loaded.title, "model", (style::BODY, theme.text));
     if rect.width() > 640.0 {
-        let font = FontId::proportional(style::SMALL);
-        painter.text(pos2(at.x, place.bottom() + 2.0), Align2::LEFT_TOP, take, font, theme.weak);
+        name(ui, pos2(at.x, bottom + 2.0), width, take, "take", (style::SMALL, theme.weak));
     }
+}
+
+/// A name on one line, whole when the pointer is over it; tells where it ends below.
+fn name(ui: &Ui, at: Pos2, width: f32, text: &str, what: &str, (size, color): (f32, Color32)) -> f32 {
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), FontId::proportional(size), color);
+    job.wrap = TextWrapping::truncate_at_width(width.max(0.0));
+    let galley = ui.painter().layout_job(job);
+    let (place, cut) = (Rect::from_min_size(at, galley.size()), galley.elided);
+    ui.painter().galley(at, galley, color);
+    let response = ui.interact(place, ui.scope_id().with(("name", what)), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Shown {what}: {text}")));
+    if cut {
+        response.on_hover_text(widgets::shortened(text));
+    }
+    place.bottom()
 }
 
 /// The ground of an overlay.

@@ -87,6 +87,9 @@ pub struct Changes {
     pub channels: Vec<ChangedChannel>,
     /// Nodes whose matrix is written as translation, rotation and scale, since glTF animates no matrices.
     pub nodes: Vec<u32>,
+    /// Nodes that nothing will move any more, no joint of a skin among them, with their names. They stay in the file and
+    /// are shown at rest; a file that is opened again has no bone for them.
+    pub bones_lost: Vec<(u32, String)>,
     /// Accessors.
     pub accessors: Vec<WrittenAccessor>,
     /// Tokens of the JSON text, in its order.
@@ -149,8 +152,10 @@ impl Changes {
                        "newLength": t.new_length})
             })
             .collect();
+        let lost: Vec<_> =
+            self.bones_lost.iter().map(|(node, name)| json!({"node": node, "bone": name})).collect();
         json!({
-            "takes": takes, "channels": channels, "nodes": self.nodes, "accessors": accessors, "tokens": tokens,
+            "bonesLost": lost, "takes": takes, "channels": channels, "nodes": self.nodes, "accessors": accessors, "tokens": tokens,
             "bytesAppended": self.bytes_appended, "bytesReused": self.bytes_reused,
             "bytesRemoved": self.bytes_removed, "files": self.files, "filesLeft": self.files_left,
         })
@@ -183,6 +188,13 @@ impl fmt::Display for Changes {
         }
         for node in &self.nodes {
             writeln!(f, "node {node}: its matrix becomes translation, rotation and scale")?;
+        }
+        for (node, name) in &self.bones_lost {
+            let name = one_line(name);
+            writeln!(
+                f,
+                "\"{name}\" (node {node}): nothing moves it any more; opened again, the file has no bone for it"
+            )?;
         }
         for a in &self.accessors {
             let how = if a.is_reused { "written over" } else { "new" };

@@ -26,6 +26,7 @@
 //! | a spline of one key | that key, `LINEAR`; glTF wants two |
 //! | a take that moves nothing | one key that holds the first bone where it rests, since an animation must have a channel |
 //! | start and length of a take | nothing: they are those of its keys |
+//! | a bone that is no joint and that nothing moves any more | its node, at rest; opened again, the file has no bone for it ([`Changes::bones_lost`]) |
 //! | a channel of a node with a matrix | the matrix becomes translation, rotation and scale |
 //! | key times below zero, in a take that had none | [`SaveError::Keys`] |
 //! | rotations that are not unit | [`SaveError::Keys`] |

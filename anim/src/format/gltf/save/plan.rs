@@ -107,6 +107,7 @@ pub fn plan<'a>(source: &'a SourceFile, opened: &ModelData, now: &[TakeNow]) -> 
     without_matrix(&mut draw, opened, animated)?;
     write_animations(&mut draw, &takes, &accessors)?;
     describe(&mut draw.changes, &document, &takes);
+    draw.changes.bones_lost = bones_lost(&document, opened, &takes);
     draw.finish()
 }
 
@@ -306,6 +307,54 @@ pub(super) fn fresh_view(buffer: usize, granted: &Granted) -> Fresh {
         ("byteOffset", Fresh::whole(granted.offset)),
         ("byteLength", Fresh::whole(granted.room)),
     ])
+}
+
+/// Bones that are some because an animation of the file moves them or something below them, and will not be any more.
+fn bones_lost(document: &Document<'_>, opened: &ModelData, takes: &[TakeDraft]) -> Vec<(u32, String)> {
+    let channels = |animation: &FileAnimation| -> Vec<_> {
+        animation.channels.iter().filter_map(|channel| channel.target).collect()
+    };
+    let before: HashSet<u32> =
+        document.animations.iter().flat_map(channels).map(|(node, _): (u32, Path)| node).collect();
+    let mut after: HashSet<u32> = HashSet::new();
+    for take in takes {
+        let base = take.base.and_then(|base| document.animations.get(base));
+        let mut targets: HashSet<(u32, Path)> = base.into_iter().flat_map(channels).collect();
+        for edit in &take.edits {
+            match edit.action {
+                Action::Remove => targets.remove(&edit.target),
+                Action::Set(_) => targets.insert(edit.target),
+            };
+        }
+        after.extend(targets.into_iter().map(|(node, _)| node));
+    }
+    let (before, after) = (are_bones(opened, &before), are_bones(opened, &after));
+    let bones = opened.animation.skeleton.bones.iter().zip(before.into_iter().zip(after));
+    bones
+        .filter(|(_, (before, after))| *before && !after)
+        .filter_map(|(bone, _)| Some((bone.node?, bone.name.clone())))
+        .collect()
+}
+
+/// Which of the bones a file would have that moves these nodes: joints, what is moved, and all above.
+fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
+    let bones = &opened.animation.skeleton.bones;
+    let mut are: Vec<bool> =
+        bones.iter().map(|bone| bone.node.is_none_or(|node| moved.contains(&node))).collect();
+    for &joint in opened.skins.iter().flat_map(|skin| &skin.bones) {
+        if let Some(is) = are.get_mut(joint as usize) {
+            *is = true;
+        }
+    }
+    // Parents come first.
+    for bone in (0..bones.len()).rev() {
+        if let Some(parent) = bones[bone].parent.filter(|_| are[bone])
+            && let Some(is) = are.get_mut(parent as usize)
+        {
+            *is = true;
+        }
+    }
+    are
 }
 
 /// Takes and channels, for people.

@@ -40,10 +40,15 @@ pub(super) fn arrange<K: Kind>(work: &mut Work, place: Place, chosen: &[(u32, f3
     moved.reverse();
     moved.dedup_by(|next, kept| (kept.time - next.time).abs() <= SAME_TIME);
     moved.reverse();
-    // Those that move away, and those on which one comes to lie.
-    let mut remove: Vec<u32> =
-        if moving.copy { Vec::new() } else { chosen.iter().map(|&(at, _)| at).collect() };
-    for key in &moved {
+    let away = if moving.copy { Vec::new() } else { chosen.iter().map(|&(at, _)| at).collect() };
+    lay(work, place, moved, away);
+}
+
+/// Puts keys, ascending and apart from each other, among those of a channel, of which those at `remove` go. What one comes
+/// to lie on goes, too.
+pub(super) fn lay(work: &mut Work, place: Place, keys: Vec<Key>, mut remove: Vec<u32>) {
+    let times = work.slot(place.take).times(place.bone, place.property);
+    for key in &keys {
         let near = times.partition_point(|&time| time < key.time - 2.0 * SAME_TIME);
         let there = times.iter().enumerate().skip(near);
         let there = there.take_while(|(_, time)| **time <= key.time + 2.0 * SAME_TIME);
@@ -57,7 +62,7 @@ pub(super) fn arrange<K: Kind>(work: &mut Work, place: Place, chosen: &[(u32, f3
         let gone = remove.partition_point(|&at| (at as usize) < there);
         there - gone + position
     };
-    let insert = moved
+    let insert = keys
         .into_iter()
         .enumerate()
         .map(|(position, key)| (before(position, key.time) as u32, key))

@@ -6,6 +6,7 @@ mod cut;
 mod keys;
 mod morph;
 mod paste;
+mod paste_keys;
 mod pending;
 mod pose;
 mod remap;
@@ -56,6 +57,7 @@ pub(super) fn run(work: &mut Work, edit: &Edit) -> Result<(), EditError> {
         Edit::MoveKeys { take, keys, by } => timing::shift(work, take, keys, *by),
         Edit::ScaleKeys { take, keys, about, factor } => timing::scale(work, take, keys, *about, *factor),
         Edit::DuplicateKeys { take, keys, by } => timing::duplicate(work, take, keys, *by),
+        Edit::PasteKeys { take, time, channels } => paste_keys::paste(work, take, *time, channels),
         Edit::Ripple { take, from, by } => timing::ripple(work, take, *from, *by),
         Edit::SnapKeys { take, keys, rate } => timing::snap(work, take, keys, *rate),
         Edit::SetInterpolation { take, bones, properties, interpolation } => {

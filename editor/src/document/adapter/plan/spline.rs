@@ -73,7 +73,7 @@ fn value<K: Kind>(channel: &Channel<K::Value>, key: usize) -> Numbers {
 }
 
 /// Units a second at a key: the way from its neighbours, at either end the way from or to the only one.
-fn slope<K: Kind>(channel: &Channel<K::Value>, key: usize) -> Numbers {
+pub(super) fn slope<K: Kind>(channel: &Channel<K::Value>, key: usize) -> Numbers {
     let (before, after) = (key.saturating_sub(1), (key + 1).min(channel.len() - 1));
     let seconds = channel.times[after] - channel.times[before];
     let middle = value::<K>(channel, key);

@@ -6,4 +6,7 @@ use super::*;
 pub(super) const COMMANDS: &[Command] = &[
     command(Id::Undo, When::Undo, "Undo", &[key(CTRL, Key::Z)], "Takes the last step back"),
     command(Id::Redo, When::Redo, "Redo", &[key(CTRL.plus(SHIFT), Key::Z), key(CTRL, Key::Y)], "Does again what was undone"),
+    command(Id::Copy, When::Model, "Copy", &[key(CTRL, Key::C)], "Copies the selected keys where the timeline was touched last, else the pose of the selected bones, or of all"),
+    command(Id::CutKeys, When::Keys, "Cut keys", &[key(CTRL, Key::X)], "Copies the selected keys and deletes them"),
+    command(Id::PastePose, When::Take, "Paste", &[key(CTRL, Key::V)], "Puts the copied keys in at the playhead, or the copied pose on; keys go to the bones they are of, or to as many others that are selected"),
 ];

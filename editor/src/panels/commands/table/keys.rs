@@ -7,6 +7,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::SelectAllKeys, When::Take, "Select all keys", &[key(CTRL.plus(SHIFT), Key::A)], "Every key that the timeline lists"),
     command(Id::DeleteKeys, When::Keys, "Delete keys", &[key(NONE, Key::Delete), key(NONE, Key::Backspace)], "Deletes the selected keys"),
     command(Id::DuplicateKeys, When::Keys, "Duplicate keys", &[key(CTRL, Key::D), key(SHIFT, Key::D)], "Copies the selected keys to the playhead"),
+    command(Id::CopyKeys, When::Keys, "Copy keys", &[], "Copies the selected keys with all they hold; pasted, they begin at the playhead"),
     command(Id::KeysEarlier, When::Keys, "Keys a frame earlier", &[key(ALT, Key::ArrowLeft)], "Moves the selected keys one frame back"),
     command(Id::KeysLater, When::Keys, "Keys a frame later", &[key(ALT, Key::ArrowRight)], "Moves the selected keys one frame on"),
     command(Id::KeysSlower, When::Keys, "Keys twice as slow", &[], "Doubles the distances of the selected keys to the playhead"),

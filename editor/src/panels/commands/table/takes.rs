@@ -11,6 +11,6 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::MoveTakeUp, When::OtherTakes, "Move take up", &[key(CTRL, Key::PageUp)], "Puts the take one place earlier in the list"),
     command(Id::MoveTakeDown, When::OtherTakes, "Move take down", &[key(CTRL, Key::PageDown)], "Puts the take one place later in the list"),
     command(Id::SplitTake, When::Take, "Split take here", &[], "Cuts the take in two at the time shown"),
-    command(Id::TrimTake, When::Take, "Trim take to what plays", &[], "Takes away what lies outside of the part that plays"),
+    command(Id::TrimTake, When::Take, "Trim take to what plays", &[], "Takes away what lies outside of the play range"),
     command(Id::ReverseTake, When::Take, "Reverse take", &[], "Lets the take run from its end to its start"),
 ];

@@ -1,0 +1,93 @@
+//! The eyes in the tree of the skeleton, and the names over the picture.
+
+use crate::fixture;
+use crate::panels::Bench;
+use crate::timeline_rig::Animator;
+use dragonfly::document::Change;
+use dragonfly::document::edit::{Edit, TakeRef};
+use dragonfly::panels::Request;
+use dragonfly::panels::commands::{self, Id};
+use egui::Modifiers;
+use egui_kittest::kittest::Queryable;
+
+fn click(animator: &mut Animator, label: &str) {
+    let at = animator.harness.get_by_label(label).rect().center();
+    animator.click(at);
+}
+
+#[test]
+fn an_eye_hides_a_bone_and_shows_it_again_with_shift_all_below_it() {
+    let mut animator = Animator::new(fixture::full());
+    animator.request(Request::Select(Some(2)));
+    let hidden = |animator: &Animator| -> Vec<u32> {
+        (0..12).filter(|&bone| animator.harness.state().state.hidden.is_hidden(bone)).collect()
+    };
+    click(&mut animator, "Hide rib_00_left_inner");
+    assert_eq!(hidden(&animator), [2]);
+    assert_eq!(animator.harness.state().state.selected(), None, "hidden bones are not selected");
+    click(&mut animator, "Show rib_00_left_inner");
+    assert_eq!(hidden(&animator), [0; 0]);
+    assert_eq!(animator.harness.state().state.selected(), None, "an eye selects nothing");
+    for modifiers in [Modifiers::SHIFT, Modifiers::ALT] {
+        animator.hold(modifiers);
+        click(&mut animator, "Hide rib_00_left_inner");
+        assert_eq!(hidden(&animator), [2, 3, 4], "with the whole rib");
+        click(&mut animator, "Show rib_00_left_inner");
+        assert_eq!(hidden(&animator), [0; 0]);
+        animator.hold(Modifiers::NONE);
+    }
+}
+
+#[test]
+fn a_long_name_of_a_take_ends_before_the_buttons_of_the_picture() {
+    let mut animator = Animator::new(fixture::full());
+    let long = "walk ".repeat(60);
+    let rename = Edit::RenameTake { take: TakeRef::Index(0), name: long.clone() };
+    animator.request(Request::Change(Change::Edit(rename, None)));
+    animator.steps(2);
+    let viewport = animator.harness.state().state.viewport;
+    let tools = animator.harness.query_all_by_label(commands::get(Id::ToggleSurface).title);
+    let tools = tools.map(|node| node.rect()).find(|rect| viewport.contains_rect(*rect)).unwrap();
+    let names: Vec<egui::Rect> = animator
+        .harness
+        .query_all_by_label(format!("Shown take: {long}").as_str())
+        .map(|node| node.rect())
+        .filter(|rect| viewport.contains_rect(*rect))
+        .collect();
+    let [name] = names[..] else { panic!("{names:?}") };
+    assert!(name.right() < tools.left(), "{name:?} {tools:?}");
+    assert!(name.width() > 100.0, "{name:?}");
+}
+
+#[test]
+fn pictures_of_eyes_and_long_names() {
+    let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(std::path::PathBuf::from) else { return };
+    std::fs::create_dir_all(&folder).unwrap();
+    for (name, theme) in [("dark", egui::Theme::Dark), ("light", egui::Theme::Light)] {
+        let long = "Walk with a limp and look over the left shoulder now and then, third try".repeat(2);
+        let view = fixture::view("Fox.glb", fixture::skeleton(9), &[(long.as_str(), 2.0, 12)]);
+        let mut bench = Bench::new(Some(view));
+        bench.state.execute(Request::Hide { bones: vec![3, 4], hide: true });
+        bench.state.select(Some(6));
+        let mut harness = egui_kittest::Harness::builder()
+            .with_size(egui::vec2(1280.0, 720.0))
+            .with_theme(theme)
+            .with_max_steps(20)
+            .with_context_setup(dragonfly::panels::style::install)
+            .wgpu()
+            .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench);
+        harness.run_steps(6);
+        let row = harness.get_by_label("Hide rib_00_right_inner").rect();
+        harness.event(egui::Event::PointerMoved(row.center()));
+        harness.run_steps(20);
+        harness.render().unwrap().save(folder.join(format!("eyes_{name}.png"))).unwrap();
+        let view = harness.get_by_label("View").rect();
+        harness.event(egui::Event::PointerMoved(view.center()));
+        harness.run_steps(2);
+        harness.get_by_label("View").click();
+        harness.run_steps(4);
+        harness.get_by_label_contains("Ghosts").click();
+        harness.run_steps(6);
+        harness.render().unwrap().save(folder.join(format!("ghosts_menu_{name}.png"))).unwrap();
+    }
+}

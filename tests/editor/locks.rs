@@ -1,0 +1,98 @@
+//! Locked bones: what leaves them alone, what is refused, and what goes for the whole take.
+
+use crate::timeline_rig::Animator;
+use dragonfly::document::Change;
+use dragonfly::document::edit::{BonePose, BoneRef, Edit, Property, TakeRef};
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::keys::{BoneFlag, KeysRequest};
+use dragonfly::panels::{Effect, Request};
+use dragonfly::posing::clipboard;
+
+const LEFT: u32 = 3;
+const RIGHT: u32 = 6;
+
+fn lock(animator: &mut Animator, bone: u32, on: bool) {
+    animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, bone, on)));
+}
+
+fn said(animator: &Animator) -> String {
+    animator.harness.state().state.status.last().map(|line| line.text.clone()).unwrap_or_default()
+}
+
+fn turned(bone: u32) -> BonePose {
+    let rotation = Some([0.6, 0.0, 0.0, 0.8]);
+    BonePose { bone: BoneRef::Index(bone), translation: None, rotation, scale: None }
+}
+
+/// Bones of the edit that was asked for last.
+fn bones(animator: &Animator) -> Vec<BoneRef> {
+    match animator.edits().last() {
+        Some(Edit::Paste { poses, .. }) => poses.iter().map(|pose| pose.bone.clone()).collect(),
+        Some(Edit::KeyPending { bones, .. } | Edit::DropPending { bones, .. }) => bones.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_pose_is_pasted_on_all_bones_but_the_locked_ones() {
+    let mut animator = Animator::with_bone(LEFT);
+    let text = clipboard::to_text(&[turned(LEFT), turned(RIGHT)]);
+    lock(&mut animator, LEFT, true);
+    animator.request(Request::PastePose { text: text.clone(), mirrored: false });
+    assert_eq!(bones(&animator), [BoneRef::Index(RIGHT)]);
+    assert!(said(&animator).contains("is locked and stays"), "{}", said(&animator));
+    // Mirrored, the other side counts.
+    animator.request(Request::PastePose { text: text.clone(), mirrored: true });
+    assert_eq!(bones(&animator), [BoneRef::Index(LEFT)], "it goes to the right one");
+    lock(&mut animator, RIGHT, true);
+    let asked = animator.changes.len();
+    animator.request(Request::PastePose { text, mirrored: false });
+    assert_eq!(animator.changes.len(), asked, "both are locked");
+    assert!(said(&animator).contains("is locked"), "{}", said(&animator));
+}
+
+#[test]
+fn what_is_pending_of_a_locked_bone_is_neither_keyed_nor_dropped() {
+    for command in [Id::KeyAllPending, Id::Key, Id::DropPending] {
+        let mut animator = Animator::with_bone(LEFT);
+        animator.request(Request::Seek(0.5));
+        let poses = vec![turned(LEFT), turned(RIGHT)];
+        let pend = Edit::Pend { take: TakeRef::Index(0), time: 0.5, poses };
+        animator.request(Request::Change(Change::Edit(pend, None)));
+        lock(&mut animator, LEFT, true);
+        animator.request(Request::Command(command));
+        assert_eq!(bones(&animator), [BoneRef::Index(RIGHT)], "{command:?}");
+        let slot = animator.edited.adapter().slots()[0].clone();
+        let waits: Vec<u32> = slot.pending()[0].poses.iter().map(|pose| pose.bone).collect();
+        assert_eq!(waits, [LEFT], "{command:?}");
+        assert_eq!(slot.key_at(LEFT, Property::Rotation, 0.5), None, "{command:?}");
+        let asked = animator.changes.len();
+        animator.request(Request::Command(Id::KeyAllPending));
+        assert_eq!(animator.changes.len(), asked, "only the locked one waits");
+        assert!(said(&animator).contains("is locked"), "{}", said(&animator));
+        lock(&mut animator, LEFT, false);
+        animator.request(Request::Command(Id::KeyAllPending));
+        assert_eq!(bones(&animator), []);
+        assert_eq!(animator.edited.adapter().pending_poses(), 0);
+    }
+}
+
+#[test]
+fn what_is_done_to_the_whole_take_goes_for_locked_bones_too() {
+    let mut animator = Animator::with_bone(LEFT);
+    lock(&mut animator, LEFT, true);
+    let before = animator.times(LEFT as usize);
+    animator.request(Request::Command(Id::ReverseTake));
+    let after = animator.times(LEFT as usize);
+    assert_eq!(after, animator.times(RIGHT as usize));
+    let take = TakeRef::Index(0);
+    for edit in [
+        Edit::RetimeTake { take: take.clone(), start: None, length: Some(2.0) },
+        Edit::TrimTake { take, from: 0.5, to: 1.5 },
+    ] {
+        animator.request(Request::Change(Change::Edit(edit, None)));
+        assert_eq!(animator.times(LEFT as usize), animator.times(RIGHT as usize), "in step");
+        assert_ne!(animator.times(LEFT as usize), before);
+    }
+    assert!(!animator.harness.state().effects.iter().any(|effect| matches!(effect, Effect::Change(_))));
+}
