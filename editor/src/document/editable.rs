@@ -2,21 +2,21 @@
 
 use super::adapter::{ModelAdapter, Slot, TakeId};
 use super::load::{LoadError, Source, file_name};
+use super::save_plan::{SaveError, SavePlan};
+use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use super::{Cancel, Folder, LoadedModel, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
 use crate::store::{
-    Expected, FileStamp, Journal, RealFiles, SaveError as DiskError, SaveOptions, Versions, folder_of,
-    save as save_file, save_document,
+    Expected, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file, save_document,
 };
 use dragonfly_anim::data::{AnimationData, ModelData};
-use dragonfly_anim::format::gltf::save::{self, Changes, OutputFile, Plan, SourceFile, TakeNow};
+use dragonfly_anim::format::gltf::save::{self, OutputFile, SourceFile, TakeNow};
 use dragonfly_anim::format::{AssetFs, NoFiles, ReadOptions, dfm};
 use dragonfly_anim::limits::FILE_BYTES;
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use thiserror::Error;
 
 /// A file that is edited.
 pub struct Editable {
@@ -46,25 +46,6 @@ enum Kind {
     Gltf(Box<SourceFile>),
     /// As a whole: the format is ours, and holds nothing that we do not know.
     Dfm,
-}
-
-/// What a save will write.
-pub struct SavePlan {
-    /// The files, in the order in which to write them; names relative to the folder of the file that was opened.
-    pub files: Vec<OutputFile>,
-    /// What changes in a file that is patched; none where the whole file is written.
-    pub changes: Option<Changes>,
-}
-
-/// Why something cannot be saved; nothing was written.
-#[derive(Debug, Error)]
-pub enum SaveError {
-    /// The takes do not fit into the file.
-    #[error(transparent)]
-    Gltf(#[from] save::SaveError),
-    /// The same for our own format.
-    #[error(transparent)]
-    Dfm(#[from] dfm::WriteError),
 }
 
 impl Editable {
@@ -343,69 +324,6 @@ impl fmt::Debug for Editable {
     }
 }
 
-/// What a save may overwrite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Overwrite {
-    /// The file as it was read or saved last.
-    AsRead,
-    /// No file.
-    Nothing,
-    /// Whatever is there: the person was asked.
-    Anything,
-}
-
-/// How a save writes.
-pub(super) struct Writing<'a> {
-    pub(super) overwrite: Overwrite,
-    /// Hears of it before and after, if it is that of the file.
-    pub(super) journal: Option<&'a mut Journal>,
-    /// Where the old version goes.
-    pub(super) versions: Option<&'a Versions>,
-    /// Is what was written the file that is edited from now on?
-    pub(super) becomes: bool,
-}
-
-/// What a save came to.
-#[derive(Debug, Default)]
-pub(super) struct FilesSaved {
-    /// What was written, the file itself last.
-    pub(super) files: Vec<PathBuf>,
-    /// Of the file itself.
-    pub(super) bytes: usize,
-    /// What could not be kept of the old file.
-    pub(super) notices: Vec<String>,
-}
-
-/// Why nothing was saved.
-#[derive(Debug, Error)]
-pub(super) enum SaveFailure {
-    /// Somebody else changed it.
-    #[error("{}: was changed on the disk by another program; it was not overwritten", .0.display())]
-    Changed(PathBuf),
-    /// It was to be a new file.
-    #[error("{}: exists already; it was not overwritten", .0.display())]
-    Exists(PathBuf),
-    /// Anything else.
-    #[error("{0}")]
-    Other(String),
-}
-
-impl SaveFailure {
-    fn of(error: DiskError) -> Self {
-        match error {
-            DiskError::Changed { path } => Self::Changed(path),
-            DiskError::Exists { path } => Self::Exists(path),
-            other => Self::Other(other.to_string()),
-        }
-    }
-}
-
-impl From<String> for SaveFailure {
-    fn from(reason: String) -> Self {
-        Self::Other(reason)
-    }
-}
-
 /// Does it with a door to the folder of the file at `path`; with none to go through where there is no such folder.
 fn with_door<T>(path: Option<&Path>, work: impl FnOnce(&dyn AssetFs) -> T) -> T {
     match path.and_then(|path| Folder::of(path).ok()) {
@@ -422,21 +340,4 @@ pub(super) fn same_file(a: &Path, b: &Path) -> bool {
 pub fn make_folder(path: &Path) -> Result<(), String> {
     let folder = folder_of(path);
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))
-}
-
-impl fmt::Display for SavePlan {
-    /// What will change, a line each.
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (&self.changes, self.files.last()) {
-            (Some(changes), _) => write!(out, "{changes}"),
-            (None, Some(file)) => writeln!(out, "the whole file is written anew: {} bytes", file.bytes.len()),
-            (None, None) => writeln!(out, "nothing changes"),
-        }
-    }
-}
-
-impl SavePlan {
-    fn of(plan: &Plan<'_>) -> Self {
-        Self { files: plan.write(), changes: Some(plan.changes().clone()) }
-    }
 }

@@ -1,7 +1,7 @@
 //! Saving what is open, and what is to come after.
 
-use super::editable::{Overwrite, SaveFailure, Writing};
 use super::open::Open;
+use super::writing::{Overwrite, SaveFailure, Writing};
 use super::{FileView, Source};
 use crate::store::{Autosave, FileState, RealFiles};
 use std::path::{Path, PathBuf};

@@ -12,12 +12,17 @@
 
 mod copied;
 mod examples;
+mod label;
 mod lines;
+mod mode;
+mod pose;
 mod target;
 
 pub use copied::{CopiedChannel, CopiedKey};
 pub use examples::{EXAMPLES, Example};
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
+pub use mode::{Between, NewKey, ResetTo};
+pub use pose::{BonePose, PoseAt};
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
 
 use schemars::JsonSchema;
@@ -25,67 +30,6 @@ use serde::{Deserialize, Serialize};
 
 /// Grows when a reader of today could misunderstand an edit of tomorrow.
 pub const VERSION: u32 = 1;
-
-/// Parts of a bone's pose; what is left out stays as it is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BonePose {
-    /// Which bone.
-    pub bone: BoneRef,
-    /// Metres, parent space.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub translation: Option<[f32; 3]>,
-    /// Quaternion x, y, z, w, parent space; made unit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rotation: Option<[f32; 4]>,
-    /// Factors per axis.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub scale: Option<[f32; 3]>,
-}
-
-/// Poses at one time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PoseAt {
-    /// Seconds.
-    pub time: f32,
-    /// The poses wanted; one for each bone.
-    pub poses: Vec<BonePose>,
-}
-
-/// What a reset leads back to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ResetTo {
-    /// The pose as it was read: the change is taken away, bit for bit.
-    #[default]
-    Original,
-    /// The pose of the bone when nothing animates it.
-    Rest,
-}
-
-/// What a new key holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum NewKey {
-    /// What the key before it holds, exactly (thesis §2.2.2.4); before the first key: what the first one holds.
-    #[default]
-    Predecessor,
-    /// What the take shows at that time, so that the motion stays as it is.
-    Current,
-}
-
-/// How a channel finds what lies between its keys.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Between {
-    /// The key before.
-    Step,
-    /// Mixed by distance.
-    Linear,
-    /// A spline with tangents; those of a channel that had none are chosen so that it runs smoothly through its keys.
-    CubicSpline,
-}
 
 /// One thing done to a document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -354,98 +298,4 @@ pub enum Edit {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         length: Option<f32>,
     },
-}
-
-impl Edit {
-    /// The take it is about; `None` where it makes one.
-    pub fn take(&self) -> Option<&TakeRef> {
-        match self {
-            Self::CreateTake { .. } => None,
-            Self::Set { take, .. }
-            | Self::SetMany { take, .. }
-            | Self::Offset { take, .. }
-            | Self::Reset { take, .. }
-            | Self::Pend { take, .. }
-            | Self::Paste { take, .. }
-            | Self::KeyPending { take, .. }
-            | Self::DropPending { take, .. }
-            | Self::AddKeys { take, .. }
-            | Self::DeleteKeys { take, .. }
-            | Self::MoveKeys { take, .. }
-            | Self::ScaleKeys { take, .. }
-            | Self::DuplicateKeys { take, .. }
-            | Self::PasteKeys { take, .. }
-            | Self::Ripple { take, .. }
-            | Self::SnapKeys { take, .. }
-            | Self::SetInterpolation { take, .. }
-            | Self::SetTangents { take, .. }
-            | Self::DeleteTake { take }
-            | Self::RenameTake { take, .. }
-            | Self::MoveTake { take, .. }
-            | Self::SplitTake { take, .. }
-            | Self::TrimTake { take, .. }
-            | Self::ReverseTake { take }
-            | Self::RetimeTake { take, .. } => Some(take),
-        }
-    }
-
-    /// For the history and the undo command: what was done, in a few words.
-    pub fn label(&self) -> &'static str {
-        match self {
-            Self::Set { poses, .. } | Self::Offset { poses, .. } => pose_label(poses),
-            Self::SetMany { at, .. } => at.first().map_or("Pose", |at| pose_label(&at.poses)),
-            Self::Reset { to: ResetTo::Original, .. } => "Reset to original",
-            Self::Reset { to: ResetTo::Rest, .. } => "Reset to rest pose",
-            Self::Pend { poses, .. } => pending_label(poses),
-            Self::Paste { mirrored: false, .. } => "Paste pose",
-            Self::Paste { mirrored: true, .. } => "Paste pose mirrored",
-            Self::KeyPending { .. } => "Key pending poses",
-            Self::DropPending { .. } => "Drop pending poses",
-            Self::AddKeys { .. } => "Add keys",
-            Self::DeleteKeys { .. } => "Delete keys",
-            Self::MoveKeys { .. } => "Move keys",
-            Self::ScaleKeys { .. } => "Scale keys",
-            Self::DuplicateKeys { .. } => "Duplicate keys",
-            Self::PasteKeys { .. } => "Paste keys",
-            Self::Ripple { .. } => "Ripple",
-            Self::SnapKeys { .. } => "Snap keys to frames",
-            Self::SetInterpolation { .. } => "Set interpolation",
-            Self::SetTangents { .. } => "Set tangents",
-            Self::CreateTake { copy: None, .. } => "Create take",
-            Self::CreateTake { copy: Some(_), .. } => "Duplicate take",
-            Self::DeleteTake { .. } => "Delete take",
-            Self::RenameTake { .. } => "Rename take",
-            Self::MoveTake { .. } => "Move take",
-            Self::SplitTake { .. } => "Split take",
-            Self::TrimTake { .. } => "Trim take",
-            Self::ReverseTake { .. } => "Reverse take",
-            Self::RetimeTake { .. } => "Retime take",
-        }
-    }
-}
-
-/// The same for poses that wait to be keyed.
-fn pending_label(poses: &[BonePose]) -> &'static str {
-    match pose_label(poses) {
-        "Move" => "Move (pending)",
-        "Rotate" => "Rotate (pending)",
-        "Scale" => "Scale (pending)",
-        _ => "Pose (pending)",
-    }
-}
-
-/// Moved, turned, scaled, or several of these.
-fn pose_label(poses: &[BonePose]) -> &'static str {
-    let any = |has: fn(&BonePose) -> bool| poses.iter().any(has);
-    let parts = (
-        any(|pose| pose.translation.is_some()),
-        any(|pose| pose.rotation.is_some()),
-        any(|pose| pose.scale.is_some()),
-    );
-    match parts {
-        (true, false, false) => "Move",
-        (false, true, false) => "Rotate",
-        (false, false, true) => "Scale",
-        _ => "Pose",
-    }
 }
