@@ -213,6 +213,11 @@ pub enum GraphicsMessage {
     Control(Box<Appearance>),
     /// Loses the device on purpose, to show that nothing is lost with it.
     LoseDevice,
+    /// Panics, at once or while it draws, to show that nothing is lost with it.
+    Fail {
+        /// While it draws?
+        drawing: bool,
+    },
     /// Starts drawing the scene again after [`GraphicsReply::Paused`].
     Resume,
     /// Writes the next whole frame as a PNG, then answers [`GraphicsReply::Captured`].
