@@ -17,6 +17,8 @@ pub(crate) struct Animator {
     pub(crate) edited: Edited,
     first: View,
     modifiers: Modifiers,
+    /// Effects that are not for the document.
+    others: usize,
     /// Every change that was asked for.
     pub(crate) changes: Vec<Change>,
 }
@@ -27,7 +29,7 @@ impl Animator {
         let bench = Bench::new(Some(view.clone()));
         let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
         harness.run_steps(4);
-        Self { harness, edited, first: view, modifiers: Modifiers::NONE, changes: Vec::new() }
+        Self { harness, edited, first: view, modifiers: Modifiers::NONE, others: 0, changes: Vec::new() }
     }
 
     /// A model with a spine, each bone turned by 41 keys over 3.417 seconds; `bone` is selected.
@@ -49,7 +51,9 @@ impl Animator {
     fn answer(&mut self) {
         let bench = self.harness.state_mut();
         let mut changes = Vec::new();
-        for effect in std::mem::take(&mut bench.effects) {
+        // What is not for the document stays, for who asks what was asked for.
+        let fresh = bench.effects.split_off(self.others.min(bench.effects.len()));
+        for effect in fresh {
             let mut passed = Vec::new();
             bench.state.let_through(effect, &mut |effect| passed.push(effect));
             for effect in passed {
@@ -59,6 +63,7 @@ impl Animator {
                 }
             }
         }
+        self.others = bench.effects.len();
         for change in changes {
             self.changes.push(change.clone());
             let done = match change {

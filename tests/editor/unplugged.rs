@@ -158,7 +158,7 @@ fn whoever_saves_closes_or_undoes_in_the_middle_of_a_drag_does_so_without_it() {
         || Request::Command(Id::Save),
         || Request::Command(Id::SaveAs),
         || Request::Command(Id::Quit),
-        || Request::Command(Id::Undo),
+        || Request::Change(Change::Undo),
         || Request::Deed(Deed::Leave(Then::Quit)),
         || Request::Open(dragonfly::document::Source::BuiltIn),
     ];

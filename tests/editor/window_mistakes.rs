@@ -1,9 +1,10 @@
 //! A mistake in a thread of the window: the others go on, the person is told, and nothing that they did is lost.
 
-use crate::screen::key;
+use crate::screen::{key, pass};
 use crate::window::{SOON, alone, eventually_shows_something};
 use crate::window_visit::Visit;
 use dragonfly::control::gizmo::Handle;
+use std::time::Duration;
 
 /// Turns the head, which is selected, by a drag.
 fn turn(visit: &mut Visit, done: usize) {
@@ -15,7 +16,14 @@ fn turn(visit: &mut Visit, done: usize) {
     }
     visit.screen.let_go();
     visit.until_shown("done", &done.to_string());
-    visit.go_on(1);
+}
+
+/// Moves the mouse beside everything, for a while: inputs that may be lost.
+fn stir(visit: &mut Visit) {
+    for by in 0..20 {
+        visit.screen.point(500 + by, 440);
+        pass(Duration::from_millis(10));
+    }
 }
 
 #[test]
@@ -31,7 +39,9 @@ fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_win
         let mut visit = Visit::with(&format!("mistake-{place}"), &["--fail", &format!("{place}:2:2")]);
         visit.pick_head();
         turn(&mut visit, 1);
+        visit.go_on(1);
         turn(&mut visit, 2);
+        stir(&mut visit);
         // It is told.
         let told = format!("{object}: a test asked for it. Nothing that you did is lost");
         visit.until("it is told", |visit| {
@@ -41,6 +51,7 @@ fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_win
         visit.control(&format!("Messages: {told}"));
         eventually_shows_something(&visit.screen);
         // It goes on.
+        visit.go_on(1);
         turn(&mut visit, 3);
         visit.control_and(key::Z);
         visit.until_steps(2, 3);
@@ -67,6 +78,7 @@ fn a_thread_that_fails_again_and_again_ends_the_program_in_order_and_the_next_st
             visit.screen.point(ring.x as i16 + 2 * by, ring.y as i16 + 3 * by);
         }
         visit.screen.let_go();
+        stir(&mut visit);
         let status = visit.editor.ends(SOON);
         let log = visit.editor.log();
         assert_eq!(status.code(), Some(3), "{place}: {status}\n{log}");

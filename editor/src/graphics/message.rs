@@ -213,9 +213,9 @@ pub enum GraphicsMessage {
     Control(Box<Appearance>),
     /// Loses the device on purpose, to show that nothing is lost with it.
     LoseDevice,
-    /// Panics, at once or while it draws, to show that nothing is lost with it.
+    /// Panics, at once or when it is about to draw, to show that nothing is lost with it.
     Fail {
-        /// While it draws?
+        /// When it is about to draw?
         drawing: bool,
     },
     /// Starts drawing the scene again after [`GraphicsReply::Paused`].

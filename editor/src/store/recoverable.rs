@@ -61,6 +61,8 @@ pub struct Recoverable {
     pub reading: Reading,
     /// What became of the document's file?
     pub file: Fate,
+    /// What that file was when it last held what the journal goes on from.
+    pub stamp: Option<FileStamp>,
     /// Who had it last.
     pub owner: Option<Owner>,
     /// Does that one still?
@@ -79,6 +81,7 @@ impl Recoverable {
             bytes: 0,
             reading,
             file: Fate::Unsaved,
+            stamp: None,
             owner: None,
             life: Life::Gone,
         }
@@ -179,6 +182,7 @@ impl Autosave {
         found.life = life(file, &state).map_err(fail)?;
         found.document = scan.header.document.as_ref().map(PathText::path);
         found.file = fate(&*self.files, found.document.as_deref(), &mut state);
+        found.stamp = state.stamp;
         found.work = state.work;
         found.unsaved = state.unsaved;
         found.owner = state.owner;
