@@ -7,6 +7,7 @@ use dragonfly::store::{
     save_document,
 };
 use dragonfly_kit::random::Random;
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -196,9 +197,17 @@ impl Writer {
 
     fn run(command: &mut Command) -> Self {
         let module = module_path!().split_once("::").expect("a module of the tests").1;
-        let test = format!("{module}::edits_and_saves_until_it_is_killed");
+        Self::run_test(command, &format!("{module}::edits_and_saves_until_it_is_killed"))
+    }
+
+    /// Starts another test of this file, told by its environment what to do, which says what it does as this one does.
+    pub(crate) fn of(test: &str, environment: &[(&str, &OsStr)]) -> Self {
+        Self::run_test(Command::new(program()).envs(environment.iter().copied()), test)
+    }
+
+    fn run_test(command: &mut Command, test: &str) -> Self {
         let mut child = command
-            .args([test.as_str(), "--exact", "--nocapture", "--test-threads=1"])
+            .args([test, "--exact", "--nocapture", "--test-threads=1"])
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -235,9 +244,18 @@ impl Writer {
         self.kill_and_believe(u128::MAX)
     }
 
+    /// All that it said, once it ended because somebody else killed it.
+    pub(crate) fn ended(self) -> Said {
+        self.end_and_believe(u128::MAX)
+    }
+
     /// Kills it; what it said was done before `end`, in [`nanoseconds`].
     pub(crate) fn kill_and_believe(mut self, end: u128) -> Said {
         self.child.kill().expect("it runs");
+        self.end_and_believe(end)
+    }
+
+    fn end_and_believe(mut self, end: u128) -> Said {
         self.child.wait().expect("it ends");
         let mut said = Said::default();
         // What was in the pipe was said before it was killed.

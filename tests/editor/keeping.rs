@@ -420,3 +420,94 @@ fn whatever_was_done_comes_back_from_a_kill_at_any_moment() {
         }
     }
 }
+
+/// The name of a file is not what it is: where it holds what it held, the work goes on there.
+#[test]
+fn work_on_a_file_that_was_moved_goes_on_where_it_is_now() {
+    let folder = Folder::new("keeping-moved");
+    let path = fox(&folder);
+    let mut desk = Desk::new(&folder.join("first"));
+    let opened = desk.open(&path);
+    desk.edit(turn(0.5));
+    desk.save(SaveTo::Own);
+    desk.edit(rename("Look around"));
+    desk.edit(turn(0.9));
+    let before = desk.view();
+    let second = folder.join("second");
+    killed(&folder.join("first"), &second);
+    let moved = folder.join("renamed.glb");
+    fs::rename(&path, &moved).unwrap();
+    let bytes = fs::read(&moved).unwrap();
+
+    let mut desk = Desk::new(&second);
+    let offer = desk.offered().remove(0);
+    assert!(offer.is_missing() && !offer.can_be_kept());
+    assert!(offer.warnings()[0].contains("not where it was"), "{:?}", offer.warnings());
+    let found_at =
+        |path: &std::path::Path| DocumentMessage::FoundAt(Box::new(offer.clone()), path.to_owned());
+    // Another file is noticed, and one that is not there.
+    let other = folder.join("other.glb");
+    fs::copy(crate::program::data("gltf/Fox.glb"), &other).unwrap();
+    desk.tell(found_at(&other));
+    let (back, at) = desk.hears(|reply| match reply {
+        DocumentReply::OtherFile(offer, path) => Some((offer.clone(), path.clone())),
+        _ => None,
+    });
+    assert_eq!((&*back, &at), (&offer, &other));
+    desk.tell(found_at(&folder.join("nowhere.glb")));
+    desk.warned("nowhere.glb");
+    // The right one.
+    desk.tell(found_at(&moved));
+    let after = desk.shows(|view| view.history.done == 3);
+    same_takes(&before, &after);
+    assert_eq!(before.history, after.history);
+    assert_eq!((after.file.title.as_str(), after.file.path.as_deref()), ("renamed.glb", Some(&*moved)));
+    assert_eq!(fs::read(&moved).unwrap(), bytes, "nobody saved");
+    desk.warned("Brought back the unsaved work of renamed.glb: 3 steps");
+    // Killed again it is offered for the file where it is now, and only once.
+    let third = folder.join("third");
+    killed(&second, &third);
+    let mut again = Desk::new(&third);
+    let offers = again.offered();
+    assert_eq!(offers.iter().map(|offer| &*offer.title).collect::<Vec<_>>(), ["renamed.glb"]);
+    assert!(offers[0].can_be_kept());
+    again.end();
+    desk.save(SaveTo::Own);
+    assert!(!path.exists(), "nothing is written where it was");
+    desk.end();
+    let mut desk = Desk::new(&second);
+    let view = desk.open(&moved);
+    assert_eq!((view.history.done, view.history.saved), (3, true));
+    desk.change(Change::GoTo(0));
+    same_takes(&desk.view(), &opened);
+}
+
+/// Where the file is gone for good, the work is done again on another one that is like it, as a document of its own.
+#[test]
+fn work_on_a_file_that_is_gone_is_had_on_another_one_beside_it() {
+    let folder = Folder::new("keeping-gone");
+    let path = fox(&folder);
+    let mut desk = Desk::new(&folder.join("first"));
+    desk.open(&path);
+    desk.edit(turn(0.5));
+    let before = desk.view();
+    killed(&folder.join("first"), &folder.join("second"));
+    // Another version of it.
+    let other = folder.join("older.glb");
+    desk.edit(rename("An older one"));
+    desk.change(Change::Undo);
+    desk.change(Change::Undo);
+    desk.edit(rename("An older one"));
+    desk.save(SaveTo::Copy(other.clone()));
+    fs::remove_file(&path).unwrap();
+    let bytes = fs::read(&other).unwrap();
+    let mut desk = Desk::new(&folder.join("second"));
+    let offer = desk.offered().remove(0);
+    let there = dragonfly::document::Offer { source: Some(Source::File(other.clone())), ..offer };
+    desk.tell(DocumentMessage::Decide(Box::new(there), Decision::Beside));
+    let view = desk.shows(|view| view.history.done == 1);
+    assert_eq!(view.file.path, None);
+    assert_eq!(view.takes[0].name, "An older one");
+    assert_eq!(view.takes[0].tracks, before.takes[0].tracks);
+    assert!(!view.history.saved && fs::read(&other).unwrap() == bytes);
+}

@@ -62,6 +62,16 @@ pub(crate) fn fox(folder: &Folder) -> PathBuf {
     path
 }
 
+/// Fox at a place of the test's own, copied there unless it is there already.
+pub(crate) fn fox_at(path: &Path) -> PathBuf {
+    if !path.exists() {
+        let bytes = std::fs::read(data("gltf/Fox.glb")).expect("a file");
+        // On the disk, whatever becomes of the machine.
+        dragonfly::store::replace(path, &bytes).expect("a file");
+    }
+    path.to_owned()
+}
+
 /// The program is killed: what is in its folders at this moment is all that is left, here in another folder. The file
 /// itself stays where it is, as it would.
 pub(crate) fn killed(autosave: &Path, to: &Path) {
@@ -206,6 +216,17 @@ impl Desk {
             DocumentReply::Offers(offers) => Some(offers.clone()),
             _ => None,
         })
+    }
+
+    /// The unsaved work that it has offered so far.
+    pub(crate) fn offered_already(&mut self) -> Vec<Offer> {
+        self.main.iterate();
+        let mut heard = self.heard.0.borrow_mut();
+        let place = heard.iter().position(|reply| matches!(reply, DocumentReply::Offers(_)));
+        match place.map(|place| heard.remove(place)) {
+            Some(DocumentReply::Offers(offers)) => offers,
+            _ => Vec::new(),
+        }
     }
 
     /// Waits for a sentence with this in it.

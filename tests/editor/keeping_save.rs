@@ -258,3 +258,66 @@ fn every_format_is_saved_and_its_history_comes_back() {
         same_takes(&desk.view(), &opened);
     }
 }
+
+/// Between the file and the record that it was saved there is a moment; a program killed in it has saved, and keeps its
+/// history.
+#[test]
+fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
+    let folder = Folder::new("saving-moment");
+    let (path, autosave) = (fox(&folder), folder.join("autosave"));
+    let mut desk = Desk::new(&autosave);
+    desk.open(&path);
+    desk.edit(turn(0.5));
+    desk.edit(rename("Look around"));
+    desk.save(SaveTo::Own);
+    let before = desk.view();
+    let second = folder.join("second");
+    killed(&autosave, &second);
+    let journal = fs::read_dir(second.join("journals")).unwrap().next().unwrap().unwrap().path();
+    // The record that the save succeeded is the last one, and was not finished.
+    let bytes = fs::read(&journal).unwrap();
+    fs::write(&journal, &bytes[..bytes.len() - 1]).unwrap();
+    let mut desk = Desk::new(&second);
+    let after = desk.open(&path);
+    assert_eq!(after.history, before.history);
+    same_takes(&before, &after);
+    let said = desk.said();
+    assert!(!said.iter().any(|said| said.contains("Offers") || said.contains("begins anew")), "{said:?}");
+    desk.change(Change::GoTo(0));
+    assert!(!desk.view().history.saved);
+    // And the other way round: something was done after the save, and is offered with what was before.
+    let third = folder.join("third");
+    fs::remove_dir_all(&second.join("journals")).unwrap();
+    fs::create_dir_all(second.join("journals")).unwrap();
+    fs::write(&journal, &bytes[..bytes.len() - 1]).unwrap();
+    let mut desk = Desk::new(&second);
+    desk.open(&path);
+    desk.edit(turn(0.9));
+    let before = desk.view();
+    killed(&second, &third);
+    let mut desk = Desk::new(&third);
+    let opened = desk.open(&path);
+    let offer = desk.offered().remove(0);
+    assert_eq!(offer.steps, 1);
+    desk.tell(DocumentMessage::Decide(Box::new(offer), dragonfly::document::Decision::Keep));
+    let after = desk.shows(|view| view.generation > opened.generation);
+    assert_eq!(after.history, before.history);
+    same_takes(&before, &after);
+}
+
+/// A reader gives a rotation the sign of the one before it; that is no other state of the file.
+#[test]
+fn a_turn_of_any_angle_keeps_its_history_through_saving_and_opening() {
+    let folder = Folder::new("saving-turns");
+    let (path, autosave) = (fox(&folder), folder.join("autosave"));
+    let mut steps = 0;
+    for angle in [0.3, 2.0, 3.0, 3.5, 4.0, 6.0, -3.0, -5.0] {
+        let mut desk = Desk::new(&autosave);
+        let opened = desk.open(&path);
+        assert_eq!(opened.history.done, steps, "before {angle}");
+        desk.edit(turn(angle));
+        desk.save(SaveTo::Own);
+        steps += 1;
+        desk.end();
+    }
+}

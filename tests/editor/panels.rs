@@ -33,13 +33,16 @@ impl Bench {
         panels::hands::feed(ui.ctx(), &mut self.state, &mut input, 0, &mut self.effects);
         ui.input_mut(|state| state.events = input.events);
         self.state.begin(self.state.now);
-        if self.state.question().is_none() {
+        if self.state.question().is_none() && !self.state.dragging.is_open() {
             requests.extend(panels::commands::pressed(ui.ctx()).into_iter().map(Request::Command));
         }
         self.desk.show(ui, &self.state, &mut requests);
         self.state.hovered = None;
         self.state.find = false;
         self.effects.extend(requests.into_iter().filter_map(|request| self.state.execute(request)));
+        if self.state.dragging.is_open() && !ui.input(|input| input.pointer.any_down()) {
+            self.effects.push(Effect::HandsOff);
+        }
     }
 }
 

@@ -29,6 +29,7 @@ fn offer(name: &str, steps: usize, ago: u64, file: Fate, reading: Reading, life:
             bytes: 4000,
             reading,
             file,
+            stamp: None,
             owner: Some(Owner { process: 4242, host: "attic".to_owned() }),
             life,
         },
@@ -54,6 +55,14 @@ fn questions() -> Vec<(&'static str, Question)> {
     );
     let own = || Some(SaveOrder::own(None));
     vec![
+        (
+            "find",
+            Question::Find { offer: Box::new(fox(Fate::Missing, Reading::Whole, Life::Gone)), other: None },
+        ),
+        (
+            "find_another",
+            Question::Find { offer: Box::new(whole()), other: Some("/home/mara/models/Fox 2.glb".into()) },
+        ),
         ("unsaved", Question::Unsaved(Then::Quit)),
         ("unsaved_open", Question::Unsaved(Then::Open(Source::File("/models/Bear.glb".into())))),
         ("changed_save", Question::Changed(FileState::Changed, own())),

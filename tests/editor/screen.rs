@@ -166,6 +166,17 @@ impl Screen {
         text.chars().for_each(|sign| self.press(key::of(sign)));
     }
 
+    /// Presses the keys that write a path, capital letters and underscores with Shift.
+    pub(crate) fn type_path(&mut self, text: &str) {
+        for sign in text.chars() {
+            match sign {
+                '_' => self.press_with(key::SHIFT, key::of('-')),
+                'A'..='Z' => self.press_with(key::SHIFT, key::of(sign.to_ascii_lowercase())),
+                sign => self.press(key::of(sign)),
+            }
+        }
+    }
+
     /// Puts a key down, or lets it up.
     pub(crate) fn key(&mut self, key: u8, down: bool) {
         self.fake(if down { 2 } else { 3 }, key, 0, 0);

@@ -59,21 +59,21 @@ impl Drop for Cutter {
 
 /// What became of a number of power cuts.
 #[derive(Debug, Default)]
-struct Cuts {
-    cuts: usize,
+pub(crate) struct Cuts {
+    pub(crate) cuts: usize,
     with_saves: usize,
-    edits: u32,
+    pub(crate) edits: u32,
     saves: u32,
     lost: u32,
     /// Age of the oldest edit that was lost, in nanoseconds.
-    oldest: u128,
+    pub(crate) oldest: u128,
     /// Cuts in which something was said to be on the disk after the cut had begun, and was lost.
     late: usize,
 }
 
 /// Cuts the power `cuts` times while a program works on the disk; `None`, and a printed reason, where that cannot be
 /// had.
-fn cut(
+pub(crate) fn cut(
     name: &str,
     cuts: usize,
     work: fn(&Path) -> Writer,
@@ -141,7 +141,7 @@ fn cut(
 
 /// What depends on the time that a program gets is asked up to three times: a machine that has much else to do may keep
 /// it waiting. What must hold always was asserted at each cut.
-fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, holds: impl Fn(&Cuts) -> bool) {
+pub(crate) fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, holds: impl Fn(&Cuts) -> bool) {
     let mut seen = Vec::new();
     for _ in 0..3 {
         let Some(all) = cuts() else { return };
@@ -154,7 +154,7 @@ fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, holds: impl F
 }
 
 /// How many cuts: `few`, or very many when asked to take long.
-fn times(few: usize) -> usize {
+pub(crate) fn times(few: usize) -> usize {
     if std::env::var_os("DRAGONFLY_LONG").is_some() { 500 } else { few }
 }
 

@@ -17,6 +17,8 @@ pub(crate) struct Animator {
     pub(crate) edited: Edited,
     first: View,
     modifiers: Modifiers,
+    /// Effects that are not for the document.
+    others: usize,
     /// Every change that was asked for.
     pub(crate) changes: Vec<Change>,
 }
@@ -27,7 +29,7 @@ impl Animator {
         let bench = Bench::new(Some(view.clone()));
         let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
         harness.run_steps(4);
-        Self { harness, edited, first: view, modifiers: Modifiers::NONE, changes: Vec::new() }
+        Self { harness, edited, first: view, modifiers: Modifiers::NONE, others: 0, changes: Vec::new() }
     }
 
     /// A model with a spine, each bone turned by 41 keys over 3.417 seconds; `bone` is selected.
@@ -47,19 +49,21 @@ impl Animator {
     }
 
     fn answer(&mut self) {
-        let effects = std::mem::take(&mut self.harness.state_mut().effects);
+        let bench = self.harness.state_mut();
         let mut changes = Vec::new();
-        for effect in effects {
-            match effect {
-                Effect::Change(change) => changes.push(change),
-                Effect::Changes(more) => changes.extend(more),
-                Effect::Cut(text, change) => {
-                    self.harness.state_mut().effects.push(Effect::Copy(text));
-                    changes.push(change);
+        // What is not for the document stays, for who asks what was asked for.
+        let fresh = bench.effects.split_off(self.others.min(bench.effects.len()));
+        for effect in fresh {
+            let mut passed = Vec::new();
+            bench.state.let_through(effect, &mut |effect| passed.push(effect));
+            for effect in passed {
+                match effect {
+                    Effect::Change(change) => changes.push(change),
+                    other => bench.effects.push(other),
                 }
-                other => self.harness.state_mut().effects.push(other),
             }
         }
+        self.others = bench.effects.len();
         for change in changes {
             self.changes.push(change.clone());
             let done = match change {

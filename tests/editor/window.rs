@@ -8,6 +8,7 @@ use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -59,7 +60,9 @@ impl Editor {
         arguments: &[&str],
         environment: &[(&str, &str)],
     ) -> Self {
-        let settings = Folder::new(&format!("settings{}", screen.display().replace(':', "-")));
+        // One that is ended is let go of only after the next one began.
+        static STARTS: AtomicUsize = AtomicUsize::new(0);
+        let settings = Folder::new(&format!("settings-{}", STARTS.fetch_add(1, Ordering::Relaxed)));
         let mut child = dragonfly(arguments)
             .arg("--settings")
             .arg(settings.path())
@@ -125,6 +128,11 @@ impl Editor {
         while let Ok(line) = self.said.recv() {
             self.lines.push(line);
         }
+    }
+
+    /// Its number among the processes.
+    pub(crate) fn process(&self) -> u32 {
+        self.child.id()
     }
 
     /// Ends it as the system ends what it cannot save.

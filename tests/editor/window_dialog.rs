@@ -1,6 +1,7 @@
 //! The desktop's dialog for opening files.
 
 use crate::drag::address;
+use crate::keeping_desk::{Desk, killed, turn};
 use crate::portal::{Answer, Bus, Portal};
 use crate::program::{Folder, data};
 use crate::screen::{Screen, key};
@@ -84,4 +85,62 @@ fn a_desktop_without_a_dialog_is_told_and_the_path_can_be_typed() {
         screen.close(editor.window);
         assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
     }
+}
+
+#[test]
+fn work_on_a_file_that_was_renamed_goes_on_in_the_file_that_is_chosen() {
+    let _one = alone();
+    let folder = Folder::new("renamed");
+    let model = folder.join("Fox.glb");
+    std::fs::copy(data("gltf/Fox.glb"), &model).expect("a file");
+    let mut desk = Desk::new(&folder.join("first"));
+    desk.open(&model);
+    desk.edit(turn(0.5));
+    desk.edit(turn(0.9));
+    desk.view();
+    let autosave = folder.join("second");
+    killed(&folder.join("first"), &autosave);
+    let moved = folder.join("Füchsin & mehr.glb");
+    std::fs::rename(&model, &moved).expect("renamed");
+    let other = data("gltf/Fox_skeleton.glb");
+    let (bus, mut screen) = (Bus::new(), Screen::new("renamed", 1280, 800));
+    let arguments = ["--autosave", autosave.to_str().expect("a name")];
+    {
+        let portal = Portal::new(&bus);
+        let mut editor = Editor::open(&mut screen, &arguments, &[(BUS, bus.address())]);
+        editor.hears("offered unsaved work", 1, SOON);
+        settled(&screen, VIEWPORT);
+        screen.keep("recover-missing");
+        screen.press(key::ENTER);
+        let question = portal.question(SOON);
+        assert_eq!(question.title, "Where is Fox.glb now?");
+        // Closed without an answer the question is still there.
+        portal.answer(&question, &Answer::Nothing);
+        editor.hears("No file was chosen", 1, SOON);
+        screen.press(key::ENTER);
+        portal.answer(&portal.question(SOON), &Answer::File(address(&other)));
+        editor.hears("said that it is another file", 1, SOON);
+        settled(&screen, VIEWPORT);
+        screen.keep("recover-other");
+        screen.press(key::ENTER);
+        portal.answer(&portal.question(SOON), &Answer::File(address(&moved)));
+        editor.hears("Brought back the unsaved work of Füchsin & mehr.glb: 2 steps", 1, SOON);
+        screen.window("• Füchsin & mehr.glb", SOON);
+        editor.kill();
+    }
+    // Where there is no dialog for files, the path is typed; what stands there is where it was last.
+    let back = folder.join("Fox.glb");
+    std::fs::rename(&moved, &back).expect("renamed");
+    let environment = [(BUS, "unix:path=/nonexistent"), ("PATH", "/nonexistent")];
+    let mut editor = Editor::open(&mut screen, &arguments, &environment);
+    editor.hears("offered unsaved work", 1, SOON);
+    screen.press(key::ENTER);
+    editor.hears("asked where a file is now", 1, SOON);
+    settled(&screen, VIEWPORT);
+    screen.keep("recover-typed");
+    screen.press_with(key::CONTROL, key::of('a'));
+    screen.type_path(back.to_str().expect("a name"));
+    screen.press(key::ENTER);
+    editor.hears("Brought back the unsaved work of Fox.glb: 2 steps", 1, SOON);
+    editor.kill();
 }

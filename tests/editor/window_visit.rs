@@ -8,7 +8,7 @@ use crate::window::{Editor, SOON, eventually_shows_something};
 use crate::window_hands::{Inside, numbers, shown};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// What the log must tell for it.
@@ -30,24 +30,49 @@ pub(crate) struct Visit {
     saved: usize,
 }
 
+fn start(screen: &mut Screen, folder: &Folder, file: &Path, more: &[&str]) -> Editor {
+    let autosave = folder.join("autosave").display().to_string();
+    let arguments = [&["--autosave", &autosave], more].concat();
+    let mut editor = Editor::open_file(screen, file, &arguments, &[("DRAGONFLY_LOG", LOG)]);
+    editor.window = screen.any_window(&["Fox.glb", "• Fox.glb"], SOON);
+    screen.focus(editor.window);
+    screen.point(i16::MAX, i16::MAX);
+    editor
+}
+
 impl Visit {
     /// Opens a copy of Fox, pauses, and goes to the start.
     pub(crate) fn new(name: &str) -> Self {
+        Self::with(name, &[])
+    }
+
+    /// The same, started with more arguments.
+    pub(crate) fn with(name: &str, more: &[&str]) -> Self {
         let folder = Folder::new(name);
         let file = fox(&folder);
         let mut screen = Screen::new(name, 1280, 800);
-        let autosave = folder.join("autosave").display().to_string();
-        let mut editor =
-            Editor::open_file(&mut screen, &file, &["--autosave", &autosave], &[("DRAGONFLY_LOG", LOG)]);
-        editor.window = screen.window("Fox.glb", SOON);
-        screen.focus(editor.window);
-        screen.point(i16::MAX, i16::MAX);
-        eventually_shows_something(&screen);
+        let editor = start(&mut screen, &folder, &file, more);
         let mut visit = Self { editor, screen, file, folder, controls: BTreeMap::new(), read: 0, saved: 0 };
-        visit.screen.press(key::SPACE);
-        visit.screen.press(key::HOME);
-        visit.until_shown("time", "0.0");
+        eventually_shows_something(&visit.screen);
+        visit.stand_still();
         visit
+    }
+
+    /// Starts the program once more, after it ended or was ended; on another screen where there is none any more.
+    pub(crate) fn again(&mut self, screen: Option<&str>) {
+        if let Some(name) = screen {
+            self.screen = Screen::new(name, 1280, 800);
+        }
+        self.editor = start(&mut self.screen, &self.folder, &self.file, &[]);
+        (self.controls, self.read, self.saved) = (BTreeMap::new(), 0, 0);
+    }
+
+    /// Pauses, and goes to the start.
+    #[track_caller]
+    pub(crate) fn stand_still(&mut self) {
+        self.screen.press(key::SPACE);
+        self.screen.press(key::HOME);
+        self.until_shown("time", "0.0");
     }
 
     /// The newest value of a field that the window tells of what it shows.

@@ -5,18 +5,18 @@ use super::base_runtime::{BaseRuntime, Parts};
 use super::file_dialog::{self, Answer, Purpose};
 use super::hover::{Hover, Place};
 use super::interface::Interface;
-use super::options::Options;
+use super::options::{Options, Part};
 use super::sent::Sent;
 use super::shown;
 use crate::control::bones::Choice;
 use crate::document::{Document, DocumentHandle, DocumentReply, Setup, Source, Then};
-use crate::graphics::GraphicsReply;
+use crate::graphics::{GraphicsMessage, GraphicsReply};
 use crate::panels::saving::Deed;
 use crate::panels::state::Device;
 use crate::panels::status::Level;
 use crate::panels::{Effect, Request};
 use crate::store::{Autosave, RealFiles};
-use dragonfly_runtime::{Address, Context, Receiver, Thread};
+use dragonfly_runtime::{Address, Context, Outcome, Receiver, Thread};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -86,7 +86,7 @@ impl EditorRuntime {
     /// Sends out what the person asked for, and what the graphics thread is to know of it.
     fn carry_out(&mut self) {
         let effects = match &self.running {
-            Some(running) => std::mem::take(&mut running.parts.interface.borrow_mut().effects),
+            Some(running) => running.parts.interface.borrow_mut().take_effects(),
             None => return,
         };
         for effect in effects {
@@ -113,7 +113,7 @@ impl EditorRuntime {
         let graphics = &running.parts.graphics;
         let mut interface = running.parts.interface.borrow_mut();
         match effect {
-            Effect::Open(_) | Effect::Quit | Effect::Deed(_) => {}
+            Effect::Open(_) | Effect::Quit | Effect::Deed(_) | Effect::TakeBack | Effect::HandsOff => {}
             Effect::Stays => running.leaving = false,
             Effect::OpenDialog if interface.asking => {
                 interface.state.status.say(Level::Info, "The dialog for opening files is open already");
@@ -185,9 +185,12 @@ impl BaseRuntime for EditorRuntime {
             let mut interface = parts.interface.borrow_mut();
             interface.state.passed_over = self.options.passed_over;
             interface.edits = std::mem::take(&mut self.options.edits);
+            interface.mistake = self.options.mistake;
         }
-        let replies = main.register_receiver(Replies { interface: Rc::clone(&parts.interface) });
-        let answers = main.register_receiver(Answers(Rc::clone(&parts.interface)));
+        let (replies, answers) = (main.handle().reserve_address(), main.handle().reserve_address());
+        let (hears, chooses) = (Rc::clone(&parts.interface), Rc::clone(&parts.interface));
+        main.register_restartable_receiver_at(&replies, move |_| Replies { interface: Rc::clone(&hears) });
+        main.register_restartable_receiver_at(&answers, move |_| Answers(Rc::clone(&chooses)));
         let setup = self.setup();
         let document = match Document::start_with(setup, replies.clone(), parts.graphics.views().clone()) {
             Ok(document) => {
@@ -286,6 +289,12 @@ impl BaseRuntime for EditorRuntime {
         self.carry_out();
         if let Some(running) = &mut self.running {
             running.ask_under_pointer();
+            let mut interface = running.parts.interface.borrow_mut();
+            for (part, drawing) in [(Part::Message, false), (Part::Picture, true)] {
+                if interface.makes_mistake(part) {
+                    running.parts.graphics.send(GraphicsMessage::Fail { drawing });
+                }
+            }
         }
     }
 
@@ -326,22 +335,23 @@ pub(super) fn report_faults(
     interface: &Rc<RefCell<Interface>>,
     main: &mut Context,
 ) {
-    let address = main.register_receiver(Faults(Rc::clone(interface)));
+    let address = main.handle().reserve_address();
+    let shown = Rc::clone(interface);
+    main.register_restartable_receiver_at(&address, move |_| Faults(Rc::clone(&shown)));
     thread.observe(move |fault| {
         let text = format!("{} in thread {} failed: {}", fault.object, fault.thread, fault.reason);
         // The log has it in any case.
-        let _ = address.send(text);
+        let _ = address.send((text, fault.outcome == Outcome::GivenUp));
     });
 }
 
 struct Faults(Rc<RefCell<Interface>>);
 
 impl Receiver for Faults {
-    type Message = String;
+    /// What failed, and whether it did for good.
+    type Message = (String, bool);
 
-    fn receive(&mut self, text: String, _main: &mut Context) {
-        let mut interface = self.0.borrow_mut();
-        interface.state.status.say(Level::Error, text);
-        interface.redraw();
+    fn receive(&mut self, (text, for_good): (String, bool), _main: &mut Context) {
+        self.0.borrow_mut().failed(text, for_good);
     }
 }

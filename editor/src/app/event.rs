@@ -5,6 +5,8 @@
 pub(super) enum UserEvent {
     /// Messages wait for the main thread.
     Wake,
+    /// The system asks the program to end, by this signal.
+    Signal(i32),
     /// A screen reader.
     AccessKit(accesskit_winit::Event),
 }

@@ -1,6 +1,6 @@
 //! The system's dialogs for files, asked in a thread of their own: they may take minutes to answer.
 
-use crate::document::Then;
+use crate::document::{Offer, Then};
 use dragonfly_anim::format::FORMATS;
 use dragonfly_runtime::Address;
 use std::path::PathBuf;
@@ -10,6 +10,8 @@ use std::path::PathBuf;
 pub(super) enum Purpose {
     /// To open it.
     Open,
+    /// To go on with unsaved work of this file, which is not where it was.
+    Find(Box<Offer>),
     /// To save there.
     Save {
         /// Does the document stay that of its own file?
@@ -45,10 +47,14 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
             dialog = dialog.set_directory(folder);
         }
         let file = match &purpose {
-            Purpose::Open => {
+            Purpose::Open | Purpose::Find(_) => {
+                let title = match &purpose {
+                    Purpose::Find(offer) => format!("Where is {} now?", offer.title),
+                    _ => "Open a model".to_owned(),
+                };
                 let models: Vec<&str> =
                     FORMATS.iter().flat_map(|format| format.extensions).copied().collect();
-                let dialog = dialog.set_title("Open a model").add_filter("Models", &models);
+                let dialog = dialog.set_title(title).add_filter("Models", &models);
                 pollster::block_on(dialog.add_filter("All files", &["*"]).pick_file())
             }
             Purpose::Save { copy, name, .. } => {

@@ -2,6 +2,7 @@
 //!
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
+use super::options::{Mistake, Part};
 use super::reader::Reader;
 use super::shown::Shown;
 use super::store::{self, Store};
@@ -15,6 +16,7 @@ use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;
 use crate::panels::{Desk, Effect, Request, Settings, State, style};
 use dragonfly_runtime::{Context, Worker};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::event::{InnerSizeWriter, WindowEvent};
@@ -49,6 +51,10 @@ pub struct Interface {
     drawn: Instant,
     accepts_input: bool,
     occluded: bool,
+    /// A part of the program failed so often that nothing goes on; which.
+    pub(super) given_up: Option<String>,
+    /// One that a test asked for.
+    pub(super) mistake: Option<Mistake>,
     shown: Shown,
     reader: Reader,
 }
@@ -80,6 +86,8 @@ impl Interface {
             drawn: now - FASTEST,
             accepts_input: true,
             occluded: false,
+            given_up: None,
+            mistake: None,
             shown: Shown::default(),
             reader: Reader::default(),
         }
@@ -89,6 +97,30 @@ impl Interface {
     pub(super) fn set_graphics(&mut self, graphics: GraphicsHandle) {
         graphics.resize(self.window_size());
         self.graphics = Some(graphics);
+    }
+
+    /// What the panels asked for; before what would cut a drag in two, that it is taken back.
+    pub(super) fn take_effects(&mut self) -> Vec<Effect> {
+        let mut passed = Vec::with_capacity(self.effects.len());
+        for effect in self.effects.drain(..) {
+            self.state.let_through(effect, &mut |effect| passed.push(effect));
+        }
+        passed
+    }
+
+    /// A part of the program failed; for good?
+    pub(super) fn failed(&mut self, text: String, for_good: bool) {
+        if for_good {
+            self.given_up.get_or_insert_with(|| text.clone());
+        }
+        self.state.status.say(Level::Error, format!("{text}. Nothing that you did is lost"));
+        self.redraw();
+    }
+
+    /// Does a test want a mistake to be made here now?
+    pub(super) fn makes_mistake(&mut self, part: Part) -> bool {
+        let steps = self.state.view.as_ref().map(|view| view.history.done);
+        self.mistake.as_mut().zip(steps).is_some_and(|(mistake, steps)| mistake.is_made(part, steps))
     }
 
     /// Draws the panels soon.
@@ -177,6 +209,7 @@ impl Interface {
         if !self.accepts_input {
             return false;
         }
+        assert!(!self.makes_mistake(Part::Input), "a test asked for it");
         let before = self.egui.egui_input().events.len();
         let response = self.egui.on_window_event(&self.window, event);
         if let WindowEvent::ScaleFactorChanged { scale_factor, inner_size_writer } = event {
@@ -276,7 +309,8 @@ impl Interface {
         });
         // Asked before there are textures to deliver: asking panics when the window was destroyed behind our back.
         let size = self.window.inner_size();
-        let input = self.egui.take_egui_input(&self.window);
+        let mut input = self.egui.take_egui_input(&self.window);
+        let tells_more = self.state.dragging.tell(&context, &mut input);
         let dropped: Vec<_> = input.dropped_files.iter().map(|file| file.path().to_owned()).collect();
         self.reader.listen(&context);
         let mut requests = Vec::new();
@@ -285,14 +319,23 @@ impl Interface {
             self.state.read_markers(&text);
         }
         self.state.begin(now);
+        let fails = self.makes_mistake(Part::Panels);
         let (desk, state) = (&mut self.desk, &self.state);
+        let mut mistake = None;
         let output = context.run_ui(input, |ui| {
-            // A frame may be run twice; what was asked for in the first run counts.
-            // Who is asked something answers that first.
-            if state.question().is_none() {
-                requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
+            // Caught here, or egui would be left in the midst of its drawing.
+            let drawn = catch_unwind(AssertUnwindSafe(|| {
+                // A frame may be run twice; what was asked for in the first run counts.
+                // Who is asked something answers that first, and who drags something means that.
+                if state.question().is_none() && !state.dragging.is_open() {
+                    requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
+                }
+                desk.show(ui, state, &mut requests);
+                assert!(!fails, "a test asked for it");
+            }));
+            if let Err(panic) = drawn {
+                mistake.get_or_insert(panic);
             }
-            desk.show(ui, state, &mut requests);
         });
         // Sent before anything else can go wrong: egui aborts when textures are lost on the way.
         let jobs = context.tessellate(output.shapes, output.pixels_per_point);
@@ -304,6 +347,11 @@ impl Interface {
         };
         if let Some(graphics) = &self.graphics {
             graphics.show_panels(frame);
+        }
+        if let Some(mistake) = mistake {
+            // What was asked for before it is not done: it may be half of something.
+            self.redraw();
+            resume_unwind(mistake);
         }
         self.reader.tell(&output.platform_output, output.pixels_per_point);
         self.egui.handle_platform_output(&self.window, output.platform_output);
@@ -327,6 +375,9 @@ impl Interface {
             let effect = self.state.execute(request);
             self.effects.extend(effect);
         }
+        if self.state.dragging.is_open() && !context.input(|input| input.pointer.any_down()) {
+            self.effects.push(Effect::HandsOff);
+        }
         // What was asked for is seen in the next drawing.
         let after = (
             self.state.playback,
@@ -334,7 +385,8 @@ impl Interface {
             self.state.bright(),
             self.state.settings.clone(),
         );
-        let changed = before != after
+        let changed = tells_more
+            || before != after
             || overlay != self.state.overlay
             || questions != self.state.questions
             || viewport != self.state.viewport;

@@ -8,8 +8,9 @@ use super::init_manager::{InitManager, MakeRuntime};
 use super::interface::Interface;
 use super::store::Store;
 use super::timeline::{Step, Timeline};
+use crate::graphics::guard::caught;
 use crate::graphics::{Graphics, GraphicsHandle, SurfaceSource};
-use dragonfly_runtime::{Captured, Next, Thread};
+use dragonfly_runtime::{Captured, Next, RESTART_WINDOW, RESTARTS, Thread};
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -30,6 +31,8 @@ pub struct MainRuntime {
     init: Rc<RefCell<InitManager>>,
     graphics: GraphicsHandle,
     timeline: Rc<RefCell<Timeline>>,
+    /// When inputs failed lately.
+    mistakes: Vec<Instant>,
 }
 
 impl MainRuntime {
@@ -71,7 +74,9 @@ impl MainRuntime {
         let interface = Rc::new(RefCell::new(Interface::new(Arc::clone(&window), egui, store)));
         let init = Rc::new(RefCell::new(InitManager::new(custom, Rc::clone(&timeline))));
         let (seen, kept) = (Rc::clone(&interface), Rc::clone(&init));
-        let replies = main.context().register_receiver(Rc::clone(&init));
+        let replies = main.handle().reserve_address();
+        let hears = Rc::clone(&init);
+        main.context().register_restartable_receiver_at(&replies, move |_| Rc::clone(&hears));
         // Drawing the panels is the first work of every turn, and a mistake in a panel must not end it.
         main.context().register_restartable_worker(move |_| Rc::clone(&seen));
         main.context().register_restartable_worker(move |_| Rc::clone(&kept));
@@ -89,7 +94,7 @@ impl MainRuntime {
         interface.borrow_mut().set_graphics(graphics.clone());
         let parts = Parts { interface: Rc::clone(&interface), graphics: graphics.clone() };
         init.borrow_mut().set_parts(parts);
-        Ok(Self { main, window, interface, init, graphics, timeline })
+        Ok(Self { main, window, interface, init, graphics, timeline, mistakes: Vec::new() })
     }
 
     /// One turn of the main thread: messages, panels, custom run-time. Says when the next is due.
@@ -99,9 +104,15 @@ impl MainRuntime {
 
     /// Takes an event of the window.
     pub(super) fn window_event(&mut self, event: &WindowEvent) {
-        let heard = self.interface.borrow_mut().window_event(event);
-        if heard {
-            self.init.borrow_mut().hasten();
+        // Nobody else catches it: the window system is not made for that.
+        let taken = caught(|| {
+            let heard = self.interface.borrow_mut().window_event(event);
+            if heard {
+                self.init.borrow_mut().hasten();
+            }
+        });
+        if let Err(reason) = taken {
+            self.mistake(&reason);
         }
     }
 
@@ -119,14 +130,25 @@ impl MainRuntime {
         self.interface.borrow_mut().accesskit_event(event.window_event);
     }
 
-    /// Why nothing can be drawn, when nothing can.
-    pub(super) fn fatal(&self) -> Option<String> {
-        self.init.borrow().fatal().map(str::to_owned)
+    /// Why nothing goes on, when nothing does.
+    pub(super) fn fatal(&self) -> Option<AppError> {
+        let mistake = self.interface.borrow().given_up.clone().map(AppError::Mistake);
+        mistake.or_else(|| self.init.borrow().fatal().map(|reason| AppError::Graphics(reason.to_owned())))
+    }
+
+    /// Something went wrong in an input: only that one is lost. Where it goes on like that, nothing does.
+    fn mistake(&mut self, reason: &str) {
+        let now = Instant::now();
+        self.mistakes.retain(|then| now.saturating_duration_since(*then) < RESTART_WINDOW);
+        self.mistakes.push(now);
+        tracing::error!(reason, "an input failed");
+        let text = format!("An input failed in thread main: {reason}");
+        self.interface.borrow_mut().failed(text, self.mistakes.len() > RESTARTS);
     }
 
     /// Destroys what uses before what is used: input, custom run-time, graphics, window (T-095, T-096).
     pub(super) fn destroy(self) {
-        let Self { mut main, window, interface, init, graphics, timeline } = self;
+        let Self { mut main, window, interface, init, graphics, timeline, mistakes: _ } = self;
         interface.borrow_mut().close();
         init.borrow_mut().destroy(main.context());
         graphics.stop();

@@ -21,6 +21,7 @@ mod reader;
 mod saving;
 mod sent;
 mod shown;
+mod signals;
 pub mod store;
 pub mod timeline;
 
@@ -29,7 +30,8 @@ pub use editor_runtime::EditorRuntime;
 pub use init_manager::{InitManager, MakeRuntime};
 pub use interface::Interface;
 pub use main_runtime::MainRuntime;
-pub use options::Options;
+pub use options::{Mistake, Options, Part};
+pub use signals::end_by;
 
 use dragonfly_runtime::Next;
 use event::UserEvent;
@@ -57,6 +59,14 @@ pub enum AppError {
     /// The system gave no thread.
     #[error("no thread: {0}")]
     Thread(String),
+    /// The system asked the program to end, and it did, in order.
+    #[error("ended by signal {0}")]
+    Signal(i32),
+    /// A part of the program failed again and again, and without it nothing goes on.
+    #[error(
+        "a mistake in the program ended it: {0}\n  What you did is recorded, and offered when it is started again."
+    )]
+    Mistake(String),
     /// Nothing can draw into it.
     #[error("no graphics: {0}")]
     Graphics(String),
@@ -70,6 +80,7 @@ pub fn run(options: Options) -> Result<(), AppError> {
         .build()
         .map_err(|error| AppError::Display(error.to_string()))?;
     let proxy = event_loop.create_proxy();
+    signals::watch(proxy.clone());
     let mut shell = Shell {
         options,
         proxy,
@@ -142,8 +153,12 @@ impl ApplicationHandler<UserEvent> for Shell {
         runtime.window_event(&event);
     }
 
-    fn user_event(&mut self, _event_loop: &ActiveEventLoop, event: UserEvent) {
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: UserEvent) {
         match (event, &mut self.runtime) {
+            (UserEvent::Signal(signal), _) => {
+                self.error.get_or_insert(AppError::Signal(signal));
+                event_loop.exit();
+            }
             // The turn follows in `about_to_wait`.
             (UserEvent::Wake, _) | (_, None) => {}
             (UserEvent::AccessKit(event), Some(runtime)) => runtime.accesskit_event(event),
@@ -153,8 +168,8 @@ impl ApplicationHandler<UserEvent> for Shell {
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let Some(runtime) = &mut self.runtime else { return };
         let next = runtime.iterate();
-        if let Some(reason) = runtime.fatal() {
-            self.error = Some(AppError::Graphics(reason));
+        if let Some(error) = runtime.fatal() {
+            self.error.get_or_insert(error);
             event_loop.exit();
         } else if self.quit.get() {
             event_loop.exit();

@@ -3,6 +3,7 @@
 use crate::document::Source;
 use crate::document::edit::Edit;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// How the editor is started.
 #[derive(Clone, Debug)]
@@ -23,6 +24,60 @@ pub struct Options {
     pub edits: Vec<Edit>,
     /// Lets the document fail at this change, to show that nothing is lost with it.
     pub fail_at: Option<u32>,
+    /// Lets another part of the program fail, likewise.
+    pub mistake: Option<Mistake>,
+}
+
+/// A mistake made on purpose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// Where.
+    pub part: Part,
+    /// Once so many steps are done.
+    pub steps: usize,
+    /// So often.
+    pub times: u32,
+}
+
+/// A part of the program that can fail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The main thread, while it draws the panels.
+    Panels,
+    /// The main thread, while it takes an input.
+    Input,
+    /// The graphics thread, while it takes a message.
+    Message,
+    /// The graphics thread, while it draws.
+    Picture,
+}
+
+impl Mistake {
+    /// Is it made now? Then it is made so often less later.
+    pub(super) fn is_made(&mut self, part: Part, steps: usize) -> bool {
+        let made = self.part == part && self.times > 0 && steps >= self.steps;
+        self.times -= u32::from(made);
+        made
+    }
+}
+
+impl FromStr for Mistake {
+    type Err = &'static str;
+
+    /// `panels:3` or `panels:3:5`: place, steps, and how often.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let mut parts = text.split(':');
+        let part = match parts.next() {
+            Some("panels") => Part::Panels,
+            Some("input") => Part::Input,
+            Some("message") => Part::Message,
+            Some("picture") => Part::Picture,
+            _ => return Err("the place is panels, input, message or picture"),
+        };
+        let number = |part: Option<&str>| part.map_or(Ok(1), str::parse).map_err(|_| "a number is wanted");
+        let (steps, times) = (number(parts.next())?, number(parts.next())?);
+        Ok(Self { part, steps: steps as usize, times })
+    }
 }
 
 impl Default for Options {
@@ -37,6 +92,7 @@ impl Default for Options {
             autosave_folder: None,
             edits: Vec::new(),
             fail_at: None,
+            mistake: None,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::file_dialog::{self, Purpose};
 use super::interface::Interface;
-use crate::document::{DocumentMessage, DocumentReply, SaveOrder, Source, Then};
+use crate::document::{DocumentMessage, DocumentReply, Offer, SaveOrder, Source, Then};
 use crate::panels::Effect;
 use crate::panels::saving::{Deed, Question};
 use crate::panels::state::Overlay;
@@ -20,6 +20,14 @@ impl Running {
             Deed::Plan(order) => self.tell(DocumentMessage::Plan(order)),
             Deed::Revert => self.tell(DocumentMessage::Revert),
             Deed::Decide(offer, decision) => self.tell(DocumentMessage::Decide(offer, decision)),
+            Deed::Find(offer) => {
+                self.ask_where_it_is(offer);
+                true
+            }
+            Deed::FoundAt(offer, path) => {
+                self.parts.interface.borrow_mut().state.offer_is_answered(&offer);
+                self.tell(DocumentMessage::FoundAt(offer, path))
+            }
             Deed::Search => self.tell(DocumentMessage::Search),
             Deed::LookAtFile => self.tell(DocumentMessage::LookAtFile),
             Deed::Where { copy, then } => {
@@ -71,6 +79,20 @@ impl Running {
         false
     }
 
+    fn ask_where_it_is(&mut self, offer: Box<Offer>) {
+        let mut interface = self.parts.interface.borrow_mut();
+        if interface.asking {
+            return interface.state.status.say(Level::Info, "A dialog for files is open already");
+        }
+        let folder = offer.found.document.as_deref().and_then(Path::parent).map(Path::to_owned);
+        match file_dialog::ask(Purpose::Find(offer), folder, self.answers.clone()) {
+            Ok(()) => interface.asking = true,
+            Err(error) => {
+                interface.state.status.say(Level::Error, format!("No dialog could be opened: {error}"));
+            }
+        }
+    }
+
     fn ask_where(&mut self, copy: bool, then: Option<Then>) {
         let mut interface = self.parts.interface.borrow_mut();
         if interface.asking {
@@ -113,6 +135,14 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             let order = SaveOrder { to, anyway: true, then };
             interface.effects.push(Effect::Deed(Deed::Save(order)));
         }
+        (Purpose::Find(offer), Some(path)) => {
+            interface.effects.push(Effect::Deed(Deed::FoundAt(offer, path)));
+        }
+        (Purpose::Find(offer), None) if quick => {
+            let text = "This desktop has no dialog for opening files; type the path instead";
+            interface.state.status.say(Level::Warning, text);
+            interface.state.ask_where_it_is(offer, None);
+        }
         (Purpose::Open, None) if quick => {
             let text = "This desktop has no dialog for opening files; type the path instead";
             interface.state.status.say(Level::Warning, text);
@@ -124,7 +154,9 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.ask(Question::Where { copy, then });
         }
         // Also where the dialog failed slowly, which looks the same from here.
-        (Purpose::Open, None) => interface.state.status.say(Level::Info, "No file was chosen"),
+        (Purpose::Open | Purpose::Find(_), None) => {
+            interface.state.status.say(Level::Info, "No file was chosen")
+        }
         (Purpose::Save { .. }, None) => interface.state.status.say(Level::Info, "Nothing was saved"),
     }
 }
@@ -164,6 +196,7 @@ pub(super) fn heard(interface: &mut Interface, reply: DocumentReply) -> Option<D
         DocumentReply::Leave(then, false) => interface.effects.push(Effect::Deed(Deed::Proceed(then))),
         DocumentReply::FileChanged(file) => state.ask(Question::Changed(file, None)),
         DocumentReply::Offers(offers) => offer(state, offers),
+        DocumentReply::OtherFile(offer, path) => state.ask_where_it_is(offer, Some(path)),
         DocumentReply::NothingToOffer => {
             state.status.say(Level::Info, "There is no unsaved work of an earlier time")
         }

@@ -2,7 +2,7 @@
 
 use super::choice::{Size, load, source};
 use super::{Command, Failure, output, quiet, render, tell};
-use crate::app::{self, AppError, Options};
+use crate::app::{self, AppError, Mistake, Options};
 use crate::document::Source;
 use std::env;
 use std::path::{Path, PathBuf};
@@ -34,6 +34,9 @@ pub(super) struct Arguments {
     /// Lets the document fail at this change
     #[arg(long, value_name = "CHANGES", hide = true)]
     fail_at: Option<u32>,
+    /// Lets another part fail: panels, input, message or picture, once so many steps are done, so often
+    #[arg(long, value_name = "PLACE:STEPS:TIMES", hide = true)]
+    fail: Option<Mistake>,
 }
 
 impl Command for Arguments {
@@ -48,6 +51,10 @@ impl Command for Arguments {
         match app::run(self.options()?) {
             Ok(()) => Ok(()),
             Err(AppError::Display(reason)) => self.draw(&reason),
+            Err(AppError::Signal(signal)) => {
+                app::end_by(signal);
+                Err(Failure::Machine(format!("ended by signal {signal}")))
+            }
             Err(AppError::Graphics(reason)) => Err(render::no_graphics(&reason)),
             Err(error) => Err(Failure::Machine(error.to_string())),
         }
@@ -74,6 +81,7 @@ impl Arguments {
             autosave_folder: self.autosave.clone(),
             edits: edits.into_iter().map(|(_, edit)| edit).collect(),
             fail_at: self.fail_at,
+            mistake: self.fail,
         })
     }
 

@@ -5,6 +5,7 @@ use super::recovering::{Decision, Scan};
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::{Change, LoadedModel, Offer, Progress, Source, View};
 use crate::store::FileState;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What other threads may tell the document.
@@ -33,6 +34,8 @@ pub enum DocumentMessage {
     Search,
     /// What becomes of unsaved work of an earlier time.
     Decide(Box<Offer>, Decision),
+    /// The file that unsaved work of an earlier time is about is here now; the work goes on there, if it is that file.
+    FoundAt(Box<Offer>, PathBuf),
     /// From a job; `ticket` tells whether anybody still waits for it.
     #[doc(hidden)]
     News(u64, NewsBox),
@@ -86,6 +89,8 @@ pub enum DocumentReply {
     FileChanged(FileState),
     /// Unsaved work of an earlier time can be had back.
     Offers(Vec<Offer>),
+    /// The file at this path is not the one that the work was done on.
+    OtherFile(Box<Offer>, PathBuf),
     /// A person looked for unsaved work, and there is none.
     NothingToOffer,
     /// Something that a person should know, quietly.

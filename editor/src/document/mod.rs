@@ -2,6 +2,7 @@
 
 mod about;
 pub mod adapter;
+mod alike;
 mod base;
 mod cancel;
 pub mod edit;

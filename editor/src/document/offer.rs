@@ -3,7 +3,8 @@
 use super::Source;
 use super::history::Gesture;
 use super::recorded::{About, Recorded, Snapshot};
-use crate::store::{Autosave, Entry, Fate, Life, Reading, Recoverable};
+use crate::store::{Autosave, Entry, Fate, FileStamp, Life, Reading, RealFiles, Recoverable};
+use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 /// Labels of steps that are shown.
@@ -67,7 +68,8 @@ impl Offer {
                     .to_owned(),
             ),
             Fate::Missing => warnings.push(
-                "The file is not there any more. Put it back to its place to have the work back.".to_owned(),
+                "The file is not where it was. If it was moved or renamed, open it where it is now."
+                    .to_owned(),
             ),
             Fate::Unknown(reason) => warnings.push(format!("The file cannot be looked at: {reason}.")),
             Fate::Same | Fate::Unsaved => {}
@@ -81,6 +83,29 @@ impl Offer {
             warnings.push(format!("It may still be in use by {owner}, which cannot be asked."));
         }
         warnings
+    }
+
+    /// Was the file moved, renamed or removed, so that somebody must say where it is?
+    pub fn is_missing(&self) -> bool {
+        self.found.document.is_some() && self.found.file == Fate::Missing
+    }
+
+    /// Is the file at `path` the one that the work was done on: does it hold the same?
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    pub(super) fn is_of(&self, path: &Path) -> Result<bool, String> {
+        let stamp =
+            FileStamp::take(&RealFiles, path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(self.found.stamp.is_some_and(|then| (then.size, then.hash) == (stamp.size, stamp.hash)))
+    }
+
+    /// Where the file is now, if it is not where it was.
+    pub(super) fn moved_to(&self) -> Option<&Path> {
+        match (&self.source, &self.found.document) {
+            (Some(Source::File(path)), Some(document)) if path != document => Some(path),
+            _ => None,
+        }
     }
 
     /// Can the work be had back now?

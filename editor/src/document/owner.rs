@@ -342,6 +342,7 @@ impl Receiver for Shared {
                 document.search();
             }
             DocumentMessage::Decide(offer, decision) => document.decide(*offer, decision),
+            DocumentMessage::FoundAt(offer, path) => document.found_at(*offer, path),
             DocumentMessage::News(ticket, NewsBox(news)) => document.hear(ticket, *news),
             DocumentMessage::Found(ScanBox(scan)) => document.offer(scan),
         }

@@ -1,10 +1,12 @@
 //! Unsaved work of an earlier time: found, offered, brought back.
 
+use super::Source;
 use super::message::DocumentReply;
 use super::offer::Offer;
 use super::owner::Document;
 use super::replay::replay;
 use crate::store::{Autosave, Bounds, Claim, Journal, JournalError, Opening, Reading, Recoverable, Resumed};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// What becomes of unsaved work.
@@ -184,12 +186,31 @@ impl Document {
         self.tell_trouble();
     }
 
+    /// The file is here now, a person says: goes on there if it holds what it held then.
+    pub(super) fn found_at(&mut self, offer: Offer, path: PathBuf) {
+        match offer.is_of(&path) {
+            Ok(true) => {
+                let offer = Offer { source: Some(Source::File(path.clone())), ..offer };
+                self.open(Source::File(path), Some((offer, Decision::Keep)));
+            }
+            Ok(false) => self.reply(DocumentReply::OtherFile(Box::new(offer), path)),
+            Err(reason) => self.reply(DocumentReply::Warned(reason)),
+        }
+    }
+
     /// Brings work back into the model that was opened for it.
     pub(super) fn bring_back(&mut self, offer: &Offer, decision: Decision) {
         let (Some(open), Some(autosave)) = (&mut self.open, self.autosave.clone()) else { return };
         let beside = decision == Decision::Beside || offer.found.document.is_none();
         let resumed = if decision == Decision::Beside {
             autosave.beside(&offer.found, None)
+        } else if let Some(path) = offer.moved_to() {
+            // A journal of the file where it is now; the other one is done with.
+            autosave.beside(&offer.found, Some(path)).inspect(|_| {
+                if let Err(error) = autosave.discard(&offer.found) {
+                    tracing::warn!("{error}");
+                }
+            })
         } else {
             autosave.keep(&offer.found, Claim::Anyway)
         };

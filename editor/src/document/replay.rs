@@ -1,6 +1,7 @@
 //! What a journal holds, done again.
 
 use super::adapter::{ModelAdapter, TakeId};
+use super::alike::alike;
 use super::base;
 use super::edit::VERSION;
 use super::history::Edited;
@@ -33,7 +34,7 @@ impl Replayed {
                     && saved
                         .iter()
                         .zip(takes)
-                        .all(|((_, saved), take)| Arc::ptr_eq(saved, take) || saved == take)
+                        .all(|((_, saved), take)| Arc::ptr_eq(saved, take) || alike(saved, take))
             }
             None => self.base.is_none(),
         }

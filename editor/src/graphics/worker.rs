@@ -38,6 +38,8 @@ pub struct Graphics {
     captures: Vec<PathBuf>,
     statistics: Rc<RefCell<Statistics>>,
     failed: bool,
+    /// So many drawings a test wants to fail.
+    fails: u32,
 }
 
 /// What the presenter knows about frames.
@@ -90,10 +92,17 @@ impl Graphics {
                 captures: Vec::new(),
                 statistics: Rc::default(),
                 failed: false,
+                fails: 0,
             }));
-            context.register_receiver_at(&own, Rc::clone(&graphics));
-            context.register_receiver_at(&shows, Views(Rc::clone(&graphics)));
-            context.register_worker(graphics);
+            // What is shown stays after a mistake: only the message is lost, or the drawing, which is done again.
+            let again = move || {
+                graphics.borrow().draw_again();
+                Rc::clone(&graphics)
+            };
+            let [receives, views, works] = [(); 3].map(|()| again.clone());
+            context.register_restartable_receiver_at(&own, move |_| receives());
+            context.register_restartable_receiver_at(&shows, move |_| Views(views()));
+            context.register_restartable_worker(move |_| works());
         });
         GraphicsHandle::new(thread.clone(), address, views, owner)
     }
@@ -113,7 +122,8 @@ impl Graphics {
         let passes = stage.passes().to_vec();
         let stage = Rc::new(RefCell::new(stage));
         for pass in passes {
-            thread.register_worker(Drawer { stage: Rc::clone(&stage), pass });
+            let drawer = Drawer { stage: Rc::clone(&stage), pass };
+            thread.register_restartable_worker(move |_| drawer.clone());
         }
         thread.register_last_worker(Present {
             stage: Rc::clone(&stage),
@@ -128,6 +138,12 @@ impl Graphics {
         // The drawers are called from the next iteration on.
         thread.iterate_again();
         false
+    }
+
+    fn draw_again(&self) {
+        if let Some(stage) = &self.stage {
+            stage.borrow_mut().touch_window();
+        }
     }
 
     fn fail(&mut self, reason: &str) -> bool {
@@ -237,6 +253,11 @@ impl Receiver for Graphics {
                 stage.device().lose();
                 stage.touch_window();
             }
+            GraphicsMessage::Fail { drawing } => {
+                assert!(drawing, "a test asked for it");
+                self.fails += 1;
+                stage.touch_window();
+            }
             GraphicsMessage::Resume => stage.resume(),
             GraphicsMessage::Capture(path) => {
                 self.captures.push(path);
@@ -271,6 +292,11 @@ impl Worker for Graphics {
         if let Some(wait) = too_soon(self.statistics.borrow().opened, now, stage) {
             thread.wake_at(now + wait);
             return false;
+        }
+        // What touches the device is guarded; this is not.
+        if self.fails > 0 {
+            self.fails -= 1;
+            panic!("a test asked for it");
         }
         for path in std::mem::take(&mut self.captures) {
             let written = stage.capture(now).and_then(|picture| write(&picture, &path));
@@ -311,6 +337,7 @@ fn write(picture: &image::RgbaImage, path: &Path) -> Result<(), String> {
 }
 
 /// Lets one pass draw.
+#[derive(Clone)]
 pub struct Drawer {
     stage: Rc<RefCell<Stage>>,
     pass: SharedPass,

@@ -8,6 +8,7 @@ pub mod curves;
 mod dialogs;
 pub mod digest;
 mod dope;
+pub mod dragging;
 mod execute;
 pub mod hands;
 pub mod hierarchy;

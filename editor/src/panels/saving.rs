@@ -25,6 +25,13 @@ pub enum Question {
         /// Was it lost just now, by a mistake in the program?
         lost: bool,
     },
+    /// Where the file of unsaved work is now.
+    Find {
+        /// The work.
+        offer: Box<Offer>,
+        /// A file that was chosen and is another one; its path is asked for where there is none.
+        other: Option<PathBuf>,
+    },
     /// The path to save at, typed.
     Where {
         /// Does the document stay that of its own file?
@@ -43,6 +50,8 @@ impl Question {
             Self::Exists(..) => "asked whether a file is to be replaced",
             Self::Plan(..) => "showed what will be saved",
             Self::Recover { .. } => "offered unsaved work",
+            Self::Find { other: None, .. } => "asked where a file is now",
+            Self::Find { .. } => "said that it is another file",
             Self::Where { .. } => "asked where to save",
         }
     }
@@ -70,6 +79,10 @@ pub enum Deed {
     Reload,
     /// Says what becomes of unsaved work of an earlier time.
     Decide(Box<Offer>, Decision),
+    /// Asks the person where the file of unsaved work is now.
+    Find(Box<Offer>),
+    /// It is here.
+    FoundAt(Box<Offer>, PathBuf),
     /// Looks for unsaved work.
     Search,
     /// Goes on to this, unless something unsaved is in the way.
@@ -100,6 +113,25 @@ impl State {
         self.questions.push_back((self.asked, question));
     }
 
+    /// Asks before everything else where a file is now, or says that it is another one.
+    pub fn ask_where_it_is(&mut self, offer: Box<Offer>, other: Option<PathBuf>) {
+        self.questions.retain(|(_, question)| !matches!(question, Question::Find { .. }));
+        self.asked += 1;
+        self.questions.push_front((self.asked, Question::Find { offer, other }));
+    }
+
+    /// Somebody said where the file of this work is: it is not offered any more.
+    pub fn offer_is_answered(&mut self, offer: &Offer) {
+        for (_, question) in &mut self.questions {
+            if let Question::Recover { offers, .. } = question {
+                offers.retain(|other| other.found.journal != offer.found.journal);
+            }
+        }
+        self.questions.retain(
+            |(_, question)| !matches!(question, Question::Recover { offers, .. } if offers.is_empty()),
+        );
+    }
+
     /// Takes the question away that was answered.
     pub(super) fn answered(&mut self, deed: Deed) -> Option<Effect> {
         match (&deed, self.questions.front_mut().map(|(_, question)| question)) {
@@ -113,6 +145,8 @@ impl State {
                     self.questions.pop_front();
                 }
             }
+            // A dialog for files may be closed without an answer.
+            (Deed::Find(_), Some(Question::Recover { .. })) => {}
             _ => {
                 self.questions.pop_front();
             }

@@ -1,6 +1,7 @@
 //! What is shown and chosen right now. Panels read it and ask for changes; only [`super::execute`] makes them.
 
 use super::digest::Digest;
+use super::dragging::Dragging;
 use super::hands::{Hold, Trail};
 use super::keys::{Keys, KeysRequest};
 pub use super::posed::Posed;
@@ -143,6 +144,10 @@ pub enum Effect {
     OpenDialog,
     /// Opens a model.
     Open(Source),
+    /// Takes back what is dragged, as if it had never begun.
+    TakeBack,
+    /// No button is held: what was dragged is over, said or not.
+    HandsOff,
     /// Stops the job that loads.
     CancelLoading,
     /// Tells the document.
@@ -238,6 +243,8 @@ pub struct State {
     pub hands: Hands,
     /// What the hands hold on to.
     pub hold: Hold,
+    /// The drag that goes on, whoever holds it.
+    pub dragging: Dragging,
     /// Where the selected bone moves along.
     pub trail: Trail,
     /// Repeated clicks go through what lies behind.
@@ -288,6 +295,7 @@ impl State {
             shields: Vec::new(),
             hands: Hands::default(),
             hold: Hold::default(),
+            dragging: Dragging::default(),
             trail: Trail::default(),
             cycle: ClickCycle::default(),
             marks: super::marks::Marks::default(),

@@ -61,6 +61,8 @@ pub struct Recoverable {
     pub reading: Reading,
     /// What became of the document's file?
     pub file: Fate,
+    /// What that file was when it last held what the journal goes on from.
+    pub stamp: Option<FileStamp>,
     /// Who had it last.
     pub owner: Option<Owner>,
     /// Does that one still?
@@ -79,6 +81,7 @@ impl Recoverable {
             bytes: 0,
             reading,
             file: Fate::Unsaved,
+            stamp: None,
             owner: None,
             life: Life::Gone,
         }
@@ -133,7 +136,9 @@ impl Autosave {
     pub fn entries(&self, found: &Recoverable) -> Result<Vec<Entry>, JournalError> {
         let path = &found.journal;
         let file = again(|| self.files.open(path)).map_err(JournalError::io(path, "cannot be read"))?;
-        Ok(contents(&*file, path)?.2)
+        let mut contents = contents(&*file, path)?;
+        contents.look_at_file(&*self.files);
+        Ok(contents.entries)
     }
 
     /// Looks at one journal; changes nothing.
@@ -177,6 +182,7 @@ impl Autosave {
         found.life = life(file, &state).map_err(fail)?;
         found.document = scan.header.document.as_ref().map(PathText::path);
         found.file = fate(&*self.files, found.document.as_deref(), &mut state);
+        found.stamp = state.stamp;
         found.work = state.work;
         found.unsaved = state.unsaved;
         found.owner = state.owner;
@@ -185,18 +191,50 @@ impl Autosave {
 }
 
 /// All that is in a journal.
-pub(super) fn contents(file: &dyn VfsFile, path: &Path) -> Result<(Scan, State, Vec<Entry>), JournalError> {
+pub(super) struct Contents {
+    pub(super) scan: Scan,
+    pub(super) state: State,
+    pub(super) entries: Vec<Entry>,
+    /// How many entries there were when a save was begun of whose end nothing is said.
+    saving: Option<usize>,
+}
+
+impl Contents {
+    /// What became of the document's file. Where a save was finished, but not recorded, the entries say so from now on,
+    /// and the stamp of the file comes back with it.
+    pub(super) fn look_at_file(&mut self, files: &dyn Vfs) -> (Fate, Option<FileStamp>) {
+        let waits = self.state.saving.is_some();
+        let document = self.scan.header.document.as_ref().map(PathText::path);
+        let fate = fate(files, document.as_deref(), &mut self.state);
+        let settled = self.state.stamp.filter(|_| waits && self.state.saving.is_none());
+        if let Some(place) = self.saving.take_if(|_| settled.is_some()) {
+            self.entries.insert(place, Entry::Saved);
+        }
+        (fate, settled)
+    }
+}
+
+/// All that is in the journal in `file`.
+pub(super) fn contents(file: &dyn VfsFile, path: &Path) -> Result<Contents, JournalError> {
     let mut state = State::default();
     let mut entries = Vec::new();
+    let mut saving = None;
     let scan = record::scan(file, |tag, bytes| {
         let understood = state.add(tag, bytes);
         match tag {
             Tag::Snapshot => {
                 entries.clear();
                 entries.push(Entry::Snapshot(bytes.to_vec()));
+                // It says itself what was saved.
+                saving = None;
             }
             Tag::Edit => entries.push(Entry::Edit(bytes.to_vec())),
-            Tag::Saved if understood => entries.push(Entry::Saved),
+            Tag::Saving if understood => saving = Some(entries.len()),
+            // What was done while it was being saved is not in the file.
+            Tag::Saved if understood => {
+                let place = saving.take().unwrap_or(entries.len());
+                entries.insert(place, Entry::Saved);
+            }
             _ => {}
         }
         understood
@@ -209,7 +247,7 @@ pub(super) fn contents(file: &dyn VfsFile, path: &Path) -> Result<(Scan, State, 
         Refused::Io(error) => JournalError::io(path, "cannot be read")(error),
     })?;
     state.stamp = state.stamp.or(scan.header.stamp);
-    Ok((scan, state, entries))
+    Ok(Contents { scan, state, entries, saving })
 }
 
 /// Is `file` still the one called `path`?

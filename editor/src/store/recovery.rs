@@ -4,8 +4,8 @@
 use super::autosave::{Autosave, Lock, lock_patiently};
 use super::journal::{Journal, JournalError};
 use super::owner::{Life, Owner};
-use super::record::{PathText, Tag};
-use super::recoverable::{Entry, Reading, Recoverable, contents, fate, same};
+use super::record::Tag;
+use super::recoverable::{Contents, Entry, Reading, Recoverable, contents, same};
 use super::shelf::{self, Bounds};
 use super::vfs::{VfsFile, again, folder_of, look, read_pieces, write_all};
 use std::io;
@@ -45,7 +45,8 @@ impl Autosave {
         let path = &found.journal;
         let fail = |error| JournalError::io(path, "cannot be taken")(error);
         let (file, locked) = self.take(path)?;
-        let (scan, mut state, entries) = contents(&*file, path)?;
+        let mut contents = contents(&*file, path)?;
+        let state = &contents.state;
         let life =
             if state.closed { Life::Gone } else { state.owner.as_ref().map_or(Life::Gone, Owner::life) };
         match (life, state.owner.clone()) {
@@ -58,14 +59,13 @@ impl Autosave {
             }
             _ => {}
         }
-        let cut = scan.size - scan.valid;
+        let cut = contents.scan.size - contents.scan.valid;
         if cut > 0 {
-            self.cut(&*file, path, scan.valid).map_err(fail)?;
+            self.cut(&*file, path, contents.scan.valid).map_err(fail)?;
         }
-        let saving = state.saving;
-        let document = scan.header.document.as_ref().map(PathText::path);
-        fate(&*self.files, document.as_deref(), &mut state);
-        let settled = state.stamp.filter(|_| saving.is_some() && state.saving.is_none());
+        let saving = contents.state.saving;
+        let (_, settled) = contents.look_at_file(&*self.files);
+        let Contents { scan, mut state, entries, .. } = contents;
         // It settles again when the record below is written.
         state.saving = saving;
         let mut journal = Journal {
@@ -96,7 +96,7 @@ impl Autosave {
     pub fn beside(&self, found: &Recoverable, document: Option<&Path>) -> Result<Resumed, JournalError> {
         let path = &found.journal;
         let file = again(|| self.files.open(path)).map_err(JournalError::io(path, "cannot be read"))?;
-        let (scan, state, entries) = contents(&*file, path)?;
+        let Contents { scan, state, entries, .. } = contents(&*file, path)?;
         let mut journal = self.begin_beside(document, state.stamp.as_ref())?;
         let copied = entries.iter().try_for_each(|entry| match entry {
             Entry::Snapshot(bytes) => journal.write(Tag::Snapshot, bytes),
@@ -197,7 +197,7 @@ impl Autosave {
             let file = again(|| self.files.open_to_write(path)).map_err(fail)?;
             let lock = lock_patiently(&*file).map_err(fail)?;
             if lock == Lock::Held {
-                let owner = contents(&*file, path).ok().and_then(|(_, state, _)| state.owner);
+                let owner = contents(&*file, path).ok().and_then(|contents| contents.state.owner);
                 return Err(JournalError::Held { path: path.to_path_buf(), owner });
             }
             // Its owner may have begun it anew under the same name before it let go.

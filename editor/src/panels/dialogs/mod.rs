@@ -2,6 +2,7 @@
 
 mod changed;
 mod exists;
+mod find;
 mod place;
 mod plan;
 mod recover;
@@ -35,7 +36,10 @@ impl Dialogs {
             // The keyboard gets there with the next frame.
             ui.ctx().request_repaint();
             self.chosen = 0;
-            self.path = place::proposal(state, matches!(question, Question::Where { copy: true, .. }));
+            self.path = match question {
+                Question::Find { offer, .. } => find::proposal(offer),
+                question => place::proposal(state, matches!(question, Question::Where { copy: true, .. })),
+            };
         }
         if !fresh && !std::mem::replace(&mut self.told, true) {
             tracing::info!(target: "dragonfly::question", "{}", question.name());
@@ -53,6 +57,9 @@ impl Dialogs {
                 Question::Plan(lines, order) => plan::show(&mut ask, lines, order.as_ref()),
                 Question::Recover { offers, lost } => {
                     recover::show(&mut ask, offers, *lost, &mut self.chosen)
+                }
+                Question::Find { offer, other } => {
+                    find::show(&mut ask, offer, other.as_deref(), &mut self.path)
                 }
                 Question::Where { copy, then } => place::show(&mut ask, *copy, then.as_ref(), &mut self.path),
             }

@@ -36,6 +36,20 @@ pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut
     let discard = ("Discard", "Puts it into the bin of the autosave folder", Tone::Loses, Decision::Discard);
     let pressed = if offer.can_be_kept() {
         ask.buttons(&[keep, beside, later, discard])
+    } else if offer.is_missing() {
+        let some =
+            |(title, help, tone, decision): (_, _, Tone, Decision)| (title, help, tone, Some(decision));
+        let find = (
+            "Open it where it is now…",
+            "Choose the file: it is the right one if it holds what it held then",
+            Tone::First,
+            None,
+        );
+        let pressed = ask.buttons(&[find, some(later), some(discard)]);
+        if pressed == Some(None) {
+            ask.requests.push(Request::Deed(Deed::Find(Box::new(offer.clone()))));
+        }
+        pressed.flatten()
     } else {
         let later = (later.0, later.1, Tone::First, later.3);
         ask.buttons(&[later, discard])

@@ -122,6 +122,7 @@ fn hear(
         }
         Event::WindowFocused(false) => {
             state.input(InputEvent::Lost, effects);
+            state.lose_input(context, effects);
             Heard::Both
         }
         _ => Heard::Nothing,

@@ -140,8 +140,9 @@ impl State {
     }
 
     fn let_go(&mut self, cancel: bool, effects: &mut Vec<Effect>) {
-        if let Some(gesture) = self.hold.end().filter(|_| cancel) {
-            effects.push(Effect::Change(Change::Cancel(gesture)));
+        if let Some(gesture) = self.hold.end() {
+            let end = if cancel { Change::Cancel } else { Change::Release };
+            effects.push(Effect::Change(end(gesture)));
         }
     }
 }

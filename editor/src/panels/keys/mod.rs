@@ -97,6 +97,11 @@ impl Keys {
         Self { snap, only_selected, ..Self::default() }
     }
 
+    /// Lets go of a drag whose hand is still on it, as if it had never begun.
+    pub(in crate::panels) fn drop_held(&mut self) {
+        self.drag.take_if(|drag| drag.held());
+    }
+
     /// The drag under way.
     pub fn drag(&self) -> Option<&KeyDrag> {
         self.drag.as_ref()

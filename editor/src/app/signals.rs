@@ -1,0 +1,79 @@
+//! Signals by which the system asks the program to end: a session is left, a terminal is closed, Ctrl+C is pressed in one.
+//!
+//! Nobody is asked anything then. There may be nobody to answer, and what does not end soon is killed. So the program ends
+//! in order, and what is not saved is in its journal and offered at the next start, as after a crash.
+
+use super::event::UserEvent;
+use winit::event_loop::EventLoopProxy;
+
+/// Lets these signals end the loop behind `proxy`. Those that somebody had told the program to ignore stay ignored.
+///
+/// Does nothing on systems without signals.
+pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) {
+    #[cfg(unix)]
+    if let Err(error) = unix::watch(proxy) {
+        tracing::warn!("signals end the program without order: {error}");
+    }
+    #[cfg(not(unix))]
+    drop(proxy);
+}
+
+/// Ends this process as `signal` ends one that does not listen to it, so that whoever started it sees why it ended.
+/// Returns only where that cannot be done.
+pub fn end_by(signal: i32) {
+    #[cfg(unix)]
+    let _ = signal_hook::low_level::emulate_default_handler(signal);
+    #[cfg(not(unix))]
+    let _ = signal;
+}
+
+#[cfg(unix)]
+mod unix {
+    use super::UserEvent;
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    use std::time::{Duration, Instant};
+    use winit::event_loop::EventLoopProxy;
+
+    /// Systems send two signals at once to be sure; a person who sends a second one has waited longer than this.
+    const PATIENCE: Duration = Duration::from_secs(1);
+
+    pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) -> std::io::Result<()> {
+        let ignored = ignored(&std::fs::read_to_string("/proc/self/status").unwrap_or_default());
+        let heard = [SIGTERM, SIGHUP, SIGINT].into_iter().filter(|signal| !ignored(*signal));
+        let mut signals = Signals::new(heard)?;
+        let listen = move || {
+            let mut first: Option<Instant> = None;
+            for signal in signals.forever() {
+                tracing::info!(signal, "asked to end");
+                if first.get_or_insert_with(Instant::now).elapsed() > PATIENCE {
+                    super::end_by(signal);
+                }
+                // The loop may have ended, and the program is about to.
+                let _ = proxy.send_event(UserEvent::Signal(signal));
+            }
+        };
+        std::thread::Builder::new().name("signals".to_owned()).spawn(listen)?;
+        Ok(())
+    }
+
+    /// Which signals a process ignores, by its `status`: whoever starts it with `nohup` wants it to outlive the terminal.
+    fn ignored(status: &str) -> impl Fn(i32) -> bool + use<> {
+        let line = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        let mask = line.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+        move |signal| (1..=64).contains(&signal) && mask >> (signal - 1) & 1 == 1
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::*;
+
+        #[test]
+        fn what_was_to_be_ignored_is_found() {
+            let ignored = ignored("Name:\tdragonfly\nSigIgn:\t0000000000001001\nSigCgt:\tffffffffffffffff\n");
+            assert!(ignored(SIGHUP) && ignored(13));
+            assert!(!ignored(SIGTERM) && !ignored(SIGINT) && !ignored(0) && !ignored(99));
+            assert!(!super::ignored("")(SIGHUP));
+        }
+    }
+}

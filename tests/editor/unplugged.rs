@@ -1,0 +1,192 @@
+//! A mouse that is unplugged, a keyboard that goes to another window: the end of what is dragged never comes. Nothing
+//! stays held, and what was half done is taken back. Nor is anything saved or undone in the middle of a drag.
+
+use crate::timeline_rig::Animator;
+use dragonfly::document::edit::Edit;
+use dragonfly::document::history::Edited;
+use dragonfly::document::{Change, Then};
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::saving::Deed;
+use dragonfly::panels::{Effect, Request};
+use dragonfly_kit::random::{Random, seed};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, pos2};
+
+/// The window loses the keyboard, and hears nothing of what is let go.
+fn lose(animator: &mut Animator) {
+    animator.harness.event(Event::WindowFocused(false));
+    animator.steps(1);
+    loop {
+        let mut input = RawInput::default();
+        let context = animator.harness.ctx.clone();
+        let more = animator.harness.state_mut().state.dragging.tell(&context, &mut input);
+        input.events.into_iter().for_each(|event| animator.harness.event(event));
+        animator.steps(1);
+        if !more {
+            break;
+        }
+    }
+}
+
+fn key(animator: &mut Animator, key: Key, modifiers: Modifiers) {
+    for pressed in [true, false] {
+        animator.harness.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
+    }
+    animator.steps(1);
+}
+
+#[track_caller]
+fn nothing_is_held(animator: &Animator, round: usize) {
+    let state = &animator.harness.state().state;
+    assert!(!state.dragging.is_open(), "round {round}: a drag goes on");
+    assert!(!state.hands.is_busy() && !state.hands.edits(), "round {round}: the hands are busy");
+    assert!(!state.keys.drag().is_some_and(|drag| drag.held()), "round {round}: keys are held");
+    assert_eq!(state.hands.modifiers(), Default::default(), "round {round}: a key is held");
+    let context = &animator.harness.ctx;
+    assert_eq!(context.dragged_id(), None, "round {round}: a panel is dragged");
+    context.input(|input| {
+        assert!(!input.pointer.any_down(), "round {round}: a button is held");
+        assert_eq!(input.modifiers, Modifiers::NONE, "round {round}: a key is held");
+    });
+}
+
+fn same(one: &Edited, other: &Edited) -> bool {
+    let takes = |edited: &Edited| edited.adapter().results().cloned().collect::<Vec<_>>();
+    one.steps().1 == other.steps().1 && takes(one) == takes(other)
+}
+
+/// A place where something can be dragged, mostly.
+fn place(random: &mut Random, animator: &Animator) -> Pos2 {
+    let keys = animator.keys();
+    let bones = random.below(8);
+    match random.below(8) {
+        // The gizmo at the selected bone, and the picture around it.
+        0..3 => pos2(random.between(430.0, 830.0), random.between(100.0, 420.0)),
+        // Numbers of the bone.
+        3 | 4 => pos2(random.between(1030.0, 1275.0), random.between(60.0, 460.0)),
+        5 | 6 => animator.at(animator.key(random.below(40)), bones),
+        _ => pos2(random.between(keys.left(), 1275.0), random.between(470.0, 690.0)),
+    }
+}
+
+#[test]
+fn a_drag_whose_end_never_comes_leaves_nothing_held_and_nothing_half_done() {
+    let seed = seed(0x756e_706c);
+    println!("DRAGONFLY_SEED={seed}");
+    let mut random = Random::new(seed);
+    let rounds = if std::env::var_os("DRAGONFLY_LONG").is_some() { 1000 } else { 200 };
+    let mut animator = Animator::with_bone(3);
+    let (mut taken_back, mut ended, mut deaf) = (0, 0, 0);
+    for round in 0..rounds {
+        let modifiers =
+            random.choice(&[Modifiers::NONE, Modifiers::NONE, Modifiers::SHIFT, Modifiers::COMMAND]);
+        animator.hold(modifiers);
+        let from = place(&mut random, &animator);
+        let mut before = animator.edited.clone();
+        animator.press(from);
+        let mut open = animator.harness.state().state.dragging.is_open();
+        for _ in 0..2 + random.below(5) {
+            if !open {
+                before = animator.edited.clone();
+            }
+            let to = from + egui::vec2(random.between(-60.0, 60.0), random.between(-60.0, 60.0));
+            animator.move_to(to);
+            let now = animator.harness.state().state.dragging.is_open();
+            open = now;
+            if open && random.below(3) == 0 {
+                // A command in the middle of it is not heard.
+                let (steps, asked) = (animator.edited.steps().1, animator.harness.state().effects.len());
+                let letter = random.choice(&[Key::S, Key::Z, Key::O, Key::Q, Key::K, Key::Delete]);
+                let with = if letter == Key::Delete { Modifiers::NONE } else { Modifiers::COMMAND };
+                key(&mut animator, letter, with);
+                animator.hold(modifiers);
+                assert_eq!(animator.edited.steps().1, steps, "round {round}: {letter:?} did something");
+                assert_eq!(animator.harness.state().effects.len(), asked, "round {round}: {letter:?}");
+                deaf += 1;
+            }
+        }
+        open = animator.harness.state().state.dragging.is_open();
+        if random.below(4) == 0 {
+            animator.release(from);
+            ended += usize::from(open);
+            animator.hold(Modifiers::NONE);
+            lose(&mut animator);
+        } else {
+            lose(&mut animator);
+            if open {
+                assert!(same(&animator.edited, &before), "round {round}: half of a drag is left");
+                taken_back += 1;
+            }
+        }
+        nothing_is_held(&animator, round);
+        // The hand comes back, perhaps with a button that nobody heard of.
+        animator.harness.event(Event::WindowFocused(true));
+        let asked = animator.changes.len();
+        animator.move_to(from);
+        if random.below(2) == 0 {
+            animator.button(from, PointerButton::Primary, false);
+        }
+        animator.move_to(from + egui::vec2(30.0, 10.0));
+        assert_eq!(animator.changes.len(), asked, "round {round}: {:?}", animator.changes.last());
+        // Whatever was opened by a click is closed, and the bone is selected again.
+        key(&mut animator, Key::Escape, Modifiers::NONE);
+        let bench = animator.harness.state_mut();
+        bench.effects.clear();
+        (bench.state.overlay, bench.state.playback.playing) = (None, false);
+        bench.state.questions.clear();
+        bench.state.select(Some(3));
+        animator.steps(2);
+        nothing_is_held(&animator, round);
+    }
+    println!("{taken_back} drags taken back, {ended} ended, {deaf} commands in the middle of one");
+    assert!(taken_back > rounds / 20 && ended > 0 && deaf > 0);
+    // All of it can be undone.
+    animator.edited.go_to(0);
+    assert!(
+        animator
+            .edited
+            .adapter()
+            .slots()
+            .iter()
+            .all(|slot| slot.result == slot.original || slot.origin.is_none())
+    );
+}
+
+/// What asks for something of the document in the middle of a drag, by whatever way, does so without the drag.
+#[test]
+fn whoever_saves_closes_or_undoes_in_the_middle_of_a_drag_does_so_without_it() {
+    let ways: [fn() -> Request; 6] = [
+        || Request::Command(Id::Save),
+        || Request::Command(Id::SaveAs),
+        || Request::Command(Id::Quit),
+        || Request::Change(Change::Undo),
+        || Request::Deed(Deed::Leave(Then::Quit)),
+        || Request::Open(dragonfly::document::Source::BuiltIn),
+    ];
+    for (number, way) in ways.into_iter().enumerate() {
+        let mut animator = Animator::with_bone(3);
+        let rename =
+            Edit::RenameTake { take: dragonfly::document::edit::TakeRef::Index(0), name: "Sneak".to_owned() };
+        animator.request(Request::Change(Change::Edit(rename, None)));
+        let before = animator.edited.clone();
+        let keys = [animator.at(animator.key(4), 0), animator.at(animator.key(9), 0)];
+        animator.drag(keys[0], keys[1]);
+        animator.steps(2);
+        assert!(animator.harness.state().state.dragging.is_open(), "{number}: nothing is dragged");
+        assert_eq!(animator.edited.steps().1, 2, "{number}");
+        animator.request(way());
+        let undone = usize::from(number == 3);
+        assert_eq!(animator.edited.steps().1, 1 - undone, "{number}: the drag is there");
+        if undone == 0 {
+            assert!(same(&animator.edited, &before), "{number}");
+        }
+        // The hand goes on, and is not heard; its next drag is.
+        animator.move_to(keys[0]);
+        animator.move_to(keys[1]);
+        animator.release(keys[1]);
+        assert_eq!(animator.edited.steps().1, 1 - undone, "{number}");
+        animator.harness.state_mut().effects.retain(|effect| !matches!(effect, Effect::Open(_)));
+        animator.drag(keys[0], keys[1]);
+        animator.release(keys[1]);
+        assert_eq!(animator.edited.steps().1, 2 - undone, "{number}: it is stuck");
+    }
+}

@@ -1,0 +1,163 @@
+//! In the midst of a drag in the real window: nothing of it is saved or undone, it never outlives the hand, and no key and
+//! no button stays held when their release is never told.
+
+use crate::keeping_desk::Desk;
+use crate::screen::{key, pass};
+use crate::window::{SOON, alone};
+use crate::window_visit::Visit;
+use dragonfly::control::gizmo::Handle;
+use std::fs;
+use std::time::Duration;
+
+/// What is dragged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum What {
+    Gizmo,
+    Field,
+    Keys,
+}
+
+const ALL: [What; 3] = [What::Gizmo, What::Field, What::Keys];
+
+impl What {
+    /// Begins to drag it, and is in the midst of it when this returns.
+    #[track_caller]
+    fn begins(self, visit: &mut Visit) {
+        let done: usize = visit.shown("done").parse().expect("a number");
+        let (x, y) = self.place(visit);
+        visit.screen.point(x, y);
+        pass(visit.screen.pace);
+        visit.screen.hold();
+        for by in 1..12 {
+            visit.screen.point(x + 3 * by, y + 2 * by * i16::from(self == Self::Gizmo));
+            pass(Duration::from_millis(10));
+        }
+        visit.until_shown("done", &(done + 1).to_string());
+    }
+
+    fn place(self, visit: &mut Visit) -> (i16, i16) {
+        let middle = |control: &serde_json::Value| {
+            let at = |at: usize| control["place"][at].as_f64().expect("a place");
+            ((at(0) + at(2) / 2.0) as i16, (at(1) + at(3) / 2.0) as i16)
+        };
+        match self {
+            Self::Gizmo => {
+                let ring = visit.inside().handle("b_Head_05", Handle::Ring);
+                (ring.x as i16, ring.y as i16)
+            }
+            Self::Field => middle(&visit.control("Rotation result Z")),
+            // The first key of the first bone that is listed: at the start of the take, where time stands.
+            Self::Keys => {
+                let track = visit.control("Time track");
+                let left = track["place"][0].as_f64().expect("a place");
+                (left as i16 + 16, 586)
+            }
+        }
+    }
+}
+
+#[test]
+fn in_the_midst_of_a_drag_nothing_is_saved_or_undone() {
+    let _one = alone();
+    let mut visit = Visit::new("dragging-keys");
+    let original = fs::read(&visit.file).unwrap();
+    visit.pick_head();
+    for (number, what) in ALL.into_iter().enumerate() {
+        println!("{what:?}");
+        what.begins(&mut visit);
+        visit.screen.keep(&format!("dragging-{what:?}"));
+        for letter in [key::S, key::Z, key::Q, key::O] {
+            visit.control_and(letter);
+        }
+        // It goes on.
+        visit.screen.let_go();
+        visit.until_steps(number + 1, number + 1);
+        assert!(fs::read(&visit.file).unwrap() == original, "{what:?}: the middle of a drag was saved");
+        let log = visit.editor.log();
+        assert!(!log.contains("Saved") && !log.contains("asked what becomes"), "{what:?}: {log}");
+    }
+    let saved = visit.save();
+    assert!(saved == visit.by_stdio(), "another file by --stdio");
+    visit.end();
+}
+
+#[test]
+fn a_window_that_is_closed_in_the_midst_of_a_drag_leaves_without_it() {
+    let _one = alone();
+    for what in ALL {
+        println!("{what:?}");
+        let mut visit = Visit::new(&format!("dragging-closed-{what:?}"));
+        visit.pick_head();
+        // Something that is whole.
+        What::Field.begins(&mut visit);
+        visit.screen.let_go();
+        visit.go_on(0);
+        what.begins(&mut visit);
+        visit.screen.close(visit.editor.window);
+        visit.editor.hears("asked what becomes of unsaved work", 1, SOON);
+        visit.until_steps(1, 1);
+        visit.screen.let_go();
+        visit.screen.press(key::ENTER);
+        assert_eq!(visit.editor.ends(SOON).code(), Some(0), "{}", visit.editor.log());
+        let saved = fs::read(&visit.file).unwrap();
+        assert!(saved == visit.by_stdio(), "{what:?}: another file by --stdio");
+        let mut desk = Desk::new(&visit.folder.join("look"));
+        let view = desk.open(&visit.file);
+        let asked = visit.asked();
+        assert!(asked.iter().any(|deed| deed["do"] == "cancel"), "{what:?}: {asked:?}");
+        drop(view);
+    }
+}
+
+#[test]
+fn what_is_dragged_while_the_keyboard_goes_elsewhere_is_taken_back_and_nothing_stays_held() {
+    let _one = alone();
+    let mut visit = Visit::new("dragging-lost");
+    let original = fs::read(&visit.file).unwrap();
+    visit.pick_head();
+    for what in ALL {
+        println!("{what:?}");
+        what.begins(&mut visit);
+        visit.screen.key(key::CONTROL, true);
+        pass(visit.screen.pace);
+        visit.screen.leave();
+        visit.until_steps(0, 0);
+        // Nobody hears of these.
+        visit.screen.key(key::CONTROL, false);
+        let (x, y) = what.place(&mut visit);
+        visit.screen.point(x + 90, y + 40);
+        pass(visit.screen.pace);
+        visit.screen.focus(visit.editor.window);
+        for by in 0..10 {
+            visit.screen.point(x + 90 - 5 * by, y + 40 - 3 * by);
+            pass(Duration::from_millis(5));
+        }
+        visit.screen.let_go();
+        // No key is held: an arrow alone is one frame, not one second.
+        visit.screen.press(key::RIGHT);
+        visit.until("one frame later", |visit| {
+            let time: f32 = visit.shown("time").parse().ok()?;
+            ((time - 1.0 / 30.0).abs() < 1e-3).then_some(())
+        });
+        visit.screen.press(key::HOME);
+        visit.until_shown("time", "0.0");
+        visit.until_steps(0, 0);
+        // And it can be dragged again, as a whole.
+        if visit.shown("bone") != "b_Head_05" {
+            visit.pick_head();
+        }
+        what.begins(&mut visit);
+        visit.screen.let_go();
+        visit.until_steps(1, 1);
+        visit.control_and(key::Z);
+        visit.until_steps(0, 1);
+        // So that the next one begins with nothing to do again.
+        visit.screen.press(key::HOME);
+        what.begins(&mut visit);
+        visit.screen.press(key::ESCAPE);
+        visit.screen.let_go();
+        visit.until_steps(0, 0);
+    }
+    assert!(visit.save() == original);
+    visit.end();
+}

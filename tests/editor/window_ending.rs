@@ -1,0 +1,223 @@
+//! However the window ends while something is not saved, the next start gives all of it back.
+
+use crate::keeping_desk::{Desk, killed};
+use crate::program::data;
+use crate::screen::{key, pass};
+use crate::window::{SOON, alone, settled};
+use crate::window_hands::numbers;
+use crate::window_visit::Visit;
+use dragonfly::control::gizmo::Handle;
+use dragonfly::document::{Cancel, Decision, DocumentMessage, Editable, SaveTo, Source};
+use dragonfly::protocol::Session;
+use dragonfly_kit::random::{Random, seed};
+use glam::Quat;
+use rustix::process::{Pid, Signal, kill_process};
+use serde_json::{Value, json};
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::time::{Duration, Instant};
+
+/// What ends the program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum End {
+    /// The session is left, or somebody says `kill`.
+    Term,
+    /// Its terminal is closed.
+    Hup,
+    /// Ctrl+C in its terminal.
+    Int,
+    /// `kill -9`, or a crash.
+    Kill,
+    /// The X server dies.
+    Screen,
+}
+
+/// What the person is doing then, with something unsaved in any case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Midst {
+    /// Nothing.
+    Rest,
+    /// Dragging the gizmo.
+    Gizmo,
+    /// Dragging a number.
+    Field,
+    /// Looking at a pose that is in no key yet.
+    Pending,
+    /// Thinking about what becomes of unsaved work.
+    Asked,
+}
+
+const ENDS: [End; 5] = [End::Term, End::Hup, End::Int, End::Kill, End::Screen];
+const MIDSTS: [Midst; 5] = [Midst::Gizmo, Midst::Field, Midst::Pending, Midst::Asked, Midst::Rest];
+
+impl End {
+    fn signal(self) -> Option<Signal> {
+        match self {
+            Self::Term => Some(Signal::TERM),
+            Self::Hup => Some(Signal::HUP),
+            Self::Int => Some(Signal::INT),
+            Self::Kill => Some(Signal::KILL),
+            Self::Screen => None,
+        }
+    }
+
+    #[track_caller]
+    fn comes(self, visit: &mut Visit) {
+        let process = Pid::from_raw(visit.editor.process() as i32).expect("a number");
+        match self.signal() {
+            Some(signal) => kill_process(process, signal).expect("it runs"),
+            None => visit.screen.kill(),
+        }
+        let asked = Instant::now();
+        let status = visit.editor.ends(SOON);
+        match self.signal() {
+            // Whoever started it sees what it was ended by.
+            Some(signal) => assert_eq!(status.signal(), Some(signal.as_raw()), "{self:?}: {status}"),
+            None => assert_ne!(status.code(), Some(0)),
+        }
+        assert!(asked.elapsed() < Duration::from_secs(20), "{self:?} took {:?}", asked.elapsed());
+        let log = visit.editor.log();
+        let in_order = self.signal().is_some() && self != Self::Kill;
+        assert_eq!(log.contains("step=11") || log.contains("step=10"), in_order, "{self:?}: {log}");
+    }
+}
+
+impl Midst {
+    /// Changes the pose of the head, which is selected, and is then in the midst of it.
+    fn begins(self, visit: &mut Visit) {
+        let done: usize = visit.shown("done").parse().expect("a number");
+        match self {
+            Self::Field => {
+                let field = visit.control("Rotation result Z");
+                let at = |at: usize| field["place"][at].as_f64().expect("a place");
+                let (x, y) = ((at(0) + at(2) / 2.0) as i16, (at(1) + at(3) / 2.0) as i16);
+                visit.screen.point(x, y);
+                pass(visit.screen.pace);
+                visit.screen.hold();
+                for by in 1..12 {
+                    visit.screen.point(x + 2 * by, y);
+                    pass(Duration::from_millis(10));
+                }
+            }
+            _ => {
+                if self == Self::Pending {
+                    visit.screen.press_with(key::SHIFT, key::I);
+                    visit.until("auto-key is off", |visit| {
+                        (visit.control_now("Auto-key")?["on"] == false).then_some(())
+                    });
+                }
+                let ring = visit.inside().handle("b_Head_05", Handle::Ring);
+                visit.screen.point(ring.x as i16, ring.y as i16);
+                visit.screen.hold();
+                for by in 1..15 {
+                    visit.screen.point(ring.x as i16 + by, ring.y as i16 + 2 * by);
+                    pass(Duration::from_millis(10));
+                }
+            }
+        }
+        visit.until_shown("done", &(done + 1).to_string());
+        if !matches!(self, Self::Field | Self::Gizmo) {
+            visit.screen.let_go();
+        }
+        // What the hand did last is seen.
+        visit.until("the pose that was asked for", |visit| {
+            let asked = visit.asked().into_iter().rfind(|deed| deed["do"] == "edit")?;
+            let rotation = &asked["edit"]["poses"][0]["rotation"];
+            let asked = Quat::from_array([0, 1, 2, 3].map(|at| rotation[at].as_f64().unwrap() as f32));
+            let shown = Quat::from_array(numbers(&visit.shown("rotation")));
+            ((asked - shown).length().min((asked + shown).length()) < 1e-5).then_some(())
+        });
+        match self {
+            Self::Pending => drop(visit.control("1 pose pending")),
+            Self::Asked => {
+                visit.screen.close(visit.editor.window);
+                visit.editor.hears("asked what becomes of unsaved work", 1, SOON);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The bytes that a save writes after all that was asked so far.
+fn saved_by_asking(visit: &Visit, asked: &[Value]) -> Vec<u8> {
+    let editable = Editable::open(&Source::File(data("gltf/Fox.glb")), &Cancel::default()).unwrap();
+    let mut session = Session::new(editable);
+    for line in asked {
+        session.answer(&line.to_string());
+    }
+    let to = visit.folder.join("asked.glb");
+    let _ = fs::remove_file(&to);
+    let answer = session.answer(&json!({"do": "save", "to": to}).to_string()).unwrap();
+    assert!(answer.contains("ok"), "{answer}");
+    fs::read(to).unwrap()
+}
+
+/// The bytes that a save writes after the work was brought back from what is in the autosave folder at this moment, and
+/// how many steps are done then.
+fn saved_by_keeping(visit: &Visit, life: usize) -> (Vec<u8>, usize) {
+    let look = visit.folder.join(&format!("look-{life}"));
+    killed(&visit.folder.join("autosave"), &look);
+    let mut desk = Desk::new(&look);
+    let opened = desk.open(&visit.file);
+    let offers = desk.offered();
+    assert_eq!((offers.len(), offers[0].title.as_str()), (1, "Fox.glb"), "{offers:?}");
+    desk.tell(DocumentMessage::Decide(Box::new(offers[0].clone()), Decision::Keep));
+    let view = desk.shows(|view| view.generation > opened.generation);
+    let to = visit.folder.join(&format!("kept-{life}.glb"));
+    desk.save(SaveTo::Copy(to.clone()));
+    (fs::read(to).unwrap(), view.history.done)
+}
+
+#[test]
+fn however_the_window_ends_all_that_was_done_comes_back() {
+    let _one = alone();
+    let seed = seed(0x656e_6473);
+    println!("DRAGONFLY_SEED={seed}");
+    let mut random = Random::new(seed);
+    let began = Instant::now();
+    let mut visit = Visit::new("ending");
+    let before = fs::read(&visit.file).unwrap();
+    let mut asked: Vec<Value> = Vec::new();
+    let (mut steps, mut lost_screen) = (0, false);
+    // Each way once, and some once more; in each midst once, and in some once more.
+    let turn = random.below(5);
+    for life in 0..7 {
+        let end = if life < 5 { ENDS[(life + turn) % 5] } else { random.choice(&ENDS) };
+        let midst = if life < 5 { MIDSTS[life] } else { random.choice(&MIDSTS) };
+        println!("life {life}: {end:?} in the midst of {midst:?}, after {:?}", began.elapsed());
+        if life > 0 {
+            let screen = format!("ending-{life}");
+            visit.again(lost_screen.then_some(&screen));
+            visit.editor.hears("offered unsaved work", 1, SOON);
+            visit.screen.press(key::ENTER);
+            let what = if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
+            visit.editor.hears(&format!("Brought back the unsaved work of Fox.glb: {what}"), 1, SOON);
+            visit.stand_still();
+            // Until the picture is that of this moment, and a click meets what is seen.
+            settled(&visit.screen, [300, 90, 680, 360]);
+        }
+        visit.pick_head();
+        visit.go_on(2 + 3 * life);
+        midst.begins(&mut visit);
+        end.comes(&mut visit);
+        lost_screen = end == End::Screen;
+        if !lost_screen {
+            // The mouse stays where it is when a program ends.
+            visit.screen.let_go();
+        }
+        // Gestures of one life are none of another.
+        asked.extend(visit.asked().into_iter().map(|mut line| {
+            if let Some(gesture) = line["gesture"].as_u64() {
+                line["gesture"] = json!(gesture + 1000 * life as u64);
+            }
+            line
+        }));
+        let expected = saved_by_asking(&visit, &asked);
+        let (kept, done) = saved_by_keeping(&visit, life);
+        assert!(kept == expected, "life {life}: another file than what was done makes");
+        assert!(done > steps, "life {life}: {done} steps, {steps} before it");
+        steps = done;
+    }
+    assert!(fs::read(&visit.file).unwrap() == before, "nobody saved");
+    println!("all of it took {:?}", began.elapsed());
+}

@@ -1,0 +1,95 @@
+//! A mistake in a thread of the window: the others go on, the person is told, and nothing that they did is lost.
+
+use crate::screen::{key, pass};
+use crate::window::{SOON, alone, eventually_shows_something};
+use crate::window_visit::Visit;
+use dragonfly::control::gizmo::Handle;
+use std::time::Duration;
+
+/// Turns the head, which is selected, by a drag.
+fn turn(visit: &mut Visit, done: usize) {
+    let ring = visit.inside().handle("b_Head_05", Handle::Ring);
+    visit.screen.point(ring.x as i16, ring.y as i16);
+    visit.screen.hold();
+    for by in 1..8 {
+        visit.screen.point(ring.x as i16 + 2 * by, ring.y as i16 + 3 * by);
+    }
+    visit.screen.let_go();
+    visit.until_shown("done", &done.to_string());
+}
+
+/// Moves the mouse beside everything, for a while: inputs that may be lost.
+fn stir(visit: &mut Visit) {
+    for by in 0..20 {
+        visit.screen.point(500 + by, 440);
+        pass(Duration::from_millis(10));
+    }
+}
+
+#[test]
+fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_window_goes_on() {
+    let _one = alone();
+    for (place, object) in [
+        ("panels", "Interface in thread main failed"),
+        ("input", "An input failed in thread main"),
+        ("message", "Graphics in thread graphics failed"),
+        ("picture", "Graphics in thread graphics failed"),
+    ] {
+        println!("{place}");
+        let mut visit = Visit::with(&format!("mistake-{place}"), &["--fail", &format!("{place}:2:2")]);
+        visit.pick_head();
+        turn(&mut visit, 1);
+        visit.go_on(1);
+        turn(&mut visit, 2);
+        stir(&mut visit);
+        // It is told.
+        let told = format!("{object}: a test asked for it. Nothing that you did is lost");
+        visit.until("it is told", |visit| {
+            let lines = visit.editor.lines.iter().filter(|line| line.contains(&told));
+            (lines.count() >= 2).then_some(())
+        });
+        visit.control(&format!("Messages: {told}"));
+        eventually_shows_something(&visit.screen);
+        // It goes on.
+        visit.go_on(1);
+        turn(&mut visit, 3);
+        visit.control_and(key::Z);
+        visit.until_steps(2, 3);
+        visit.control_and(key::Y);
+        visit.until_steps(3, 3);
+        visit.screen.keep(&format!("mistake-{place}"));
+        let saved = visit.save();
+        assert!(saved == visit.by_stdio(), "{place}: another file by --stdio");
+        visit.end();
+    }
+}
+
+#[test]
+fn a_thread_that_fails_again_and_again_ends_the_program_in_order_and_the_next_start_has_the_work() {
+    let _one = alone();
+    for place in ["panels", "input", "message", "picture"] {
+        println!("{place}");
+        let mut visit = Visit::with(&format!("mistakes-{place}"), &["--fail", &format!("{place}:1:9")]);
+        visit.pick_head();
+        let ring = visit.inside().handle("b_Head_05", Handle::Ring);
+        visit.screen.point(ring.x as i16, ring.y as i16);
+        visit.screen.hold();
+        for by in 1..8 {
+            visit.screen.point(ring.x as i16 + 2 * by, ring.y as i16 + 3 * by);
+        }
+        visit.screen.let_go();
+        stir(&mut visit);
+        let status = visit.editor.ends(SOON);
+        let log = visit.editor.log();
+        assert_eq!(status.code(), Some(3), "{place}: {status}\n{log}");
+        assert!(log.contains("a mistake in the program ended it: "), "{place}: {log}");
+        assert!(log.contains("What you did is recorded"), "{place}: {log}");
+        visit.again(None);
+        visit.editor.hears("offered unsaved work", 1, SOON);
+        visit.screen.press(key::ENTER);
+        visit.editor.hears("Brought back the unsaved work of Fox.glb: 1 step", 1, SOON);
+        visit.stand_still();
+        visit.save();
+        visit.end();
+    }
+}
