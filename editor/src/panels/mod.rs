@@ -28,6 +28,7 @@ mod pose_commands;
 mod posed;
 mod posing;
 pub mod properties;
+mod request;
 pub mod ruler;
 pub mod saving;
 mod selecting;
