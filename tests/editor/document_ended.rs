@@ -82,7 +82,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
         desk.end();
         let found = candidates.into_iter().find(|(_, edited)| is_shown(edited, &view));
         let Some((at, edited)) = found else {
-            let deeds: Vec<String> = (number.saturating_sub(8)..=said).map(|at| told(at)).collect();
+            let deeds: Vec<String> = (number.saturating_sub(8)..=said).map(told).collect();
             panic!(
                 "kill {kill} with {signal:?}, after {number} and up to {said}: {deeds:#?}\nthere is {:?}, and was said {said_now:#?}",
                 view.history

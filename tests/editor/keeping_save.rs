@@ -287,7 +287,7 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     assert!(!desk.view().history.saved);
     // And the other way round: something was done after the save, and is offered with what was before.
     let third = folder.join("third");
-    fs::remove_dir_all(&second.join("journals")).unwrap();
+    fs::remove_dir_all(second.join("journals")).unwrap();
     fs::create_dir_all(second.join("journals")).unwrap();
     fs::write(&journal, &bytes[..bytes.len() - 1]).unwrap();
     let mut desk = Desk::new(&second);
@@ -310,14 +310,13 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
 fn a_turn_of_any_angle_keeps_its_history_through_saving_and_opening() {
     let folder = Folder::new("saving-turns");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut steps = 0;
-    for angle in [0.3, 2.0, 3.0, 3.5, 4.0, 6.0, -3.0, -5.0] {
+    let angles = [0.3, 2.0, 3.0, 3.5, 4.0, 6.0, -3.0, -5.0];
+    for (steps, angle) in angles.into_iter().enumerate() {
         let mut desk = Desk::new(&autosave);
         let opened = desk.open(&path);
         assert_eq!(opened.history.done, steps, "before {angle}");
         desk.edit(turn(angle));
         desk.save(SaveTo::Own);
-        steps += 1;
         desk.end();
     }
 }

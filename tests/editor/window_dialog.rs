@@ -4,9 +4,10 @@ use crate::drag::address;
 use crate::keeping_desk::{Desk, killed, turn};
 use crate::portal::{Answer, Bus, Portal};
 use crate::program::{Folder, data};
-use crate::screen::{Screen, key};
+use crate::screen::{Screen, key, pass};
 use crate::window::{Editor, SOON, alone, eventually_shows_something, rest, same, settled};
 use dragonfly_kit::eventually;
+use std::time::Duration;
 
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
 
@@ -109,19 +110,16 @@ fn work_on_a_file_that_was_renamed_goes_on_in_the_file_that_is_chosen() {
         let portal = Portal::new(&bus);
         let mut editor = Editor::open(&mut screen, &arguments, &[(BUS, bus.address())]);
         editor.hears("offered unsaved work", 1, SOON);
-        settled(&screen, VIEWPORT);
-        screen.keep("recover-missing");
         screen.press(key::ENTER);
         let question = portal.question(SOON);
         assert_eq!(question.title, "Where is Fox.glb now?");
-        // Closed without an answer the question is still there.
+        // Closed by a person, who takes some time for it, the question is still there.
+        pass(Duration::from_millis(400));
         portal.answer(&question, &Answer::Nothing);
         editor.hears("No file was chosen", 1, SOON);
         screen.press(key::ENTER);
         portal.answer(&portal.question(SOON), &Answer::File(address(&other)));
         editor.hears("said that it is another file", 1, SOON);
-        settled(&screen, VIEWPORT);
-        screen.keep("recover-other");
         screen.press(key::ENTER);
         portal.answer(&portal.question(SOON), &Answer::File(address(&moved)));
         editor.hears("Brought back the unsaved work of Füchsin & mehr.glb: 2 steps", 1, SOON);
@@ -136,8 +134,6 @@ fn work_on_a_file_that_was_renamed_goes_on_in_the_file_that_is_chosen() {
     editor.hears("offered unsaved work", 1, SOON);
     screen.press(key::ENTER);
     editor.hears("asked where a file is now", 1, SOON);
-    settled(&screen, VIEWPORT);
-    screen.keep("recover-typed");
     screen.press_with(key::CONTROL, key::of('a'));
     screen.type_path(back.to_str().expect("a name"));
     screen.press(key::ENTER);
