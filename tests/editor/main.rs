@@ -28,6 +28,7 @@ mod faulty_files;
 mod fixture;
 mod fixture_layer;
 mod folder;
+mod framing;
 mod ghost_skins;
 mod gizmo_control;
 mod gizmo_drag;

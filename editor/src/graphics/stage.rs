@@ -59,12 +59,14 @@ struct Frame {
 
 /// See the module.
 pub struct Stage {
+    /// First, since fields are dropped in their order: a frame that was opened and never shown is given back to a surface
+    /// that is still there.
+    frame: Option<Frame>,
     device: Device,
     /// What is shown; whoever changes it calls [`Self::touch_scene`].
     pub scene: Scene,
     passes: Passes,
     target: Option<SceneTarget>,
-    frame: Option<Frame>,
     window_size: [u32; 2],
     scene_changed: bool,
     window_changed: bool,

@@ -230,7 +230,7 @@ impl State {
             | Id::TogglePath => return self.tool_command(id),
 
             Id::FrameSelected => self.frame_selected(),
-            Id::FrameAll => self.frame_all(),
+            Id::FrameAll => self.frame_shown(),
             Id::ViewFront => self.camera.look_from(Side::Front),
             Id::ViewBack => self.camera.look_from(Side::Back),
             Id::ViewRight => self.camera.look_from(Side::Right),
@@ -344,7 +344,7 @@ impl State {
         }
         // The first model may arrive before the first layout; it is placed when its place is known.
         if !self.framed && self.view.is_some() {
-            self.frame_all();
+            self.frame_model();
             self.framed = true;
         }
     }

@@ -10,6 +10,7 @@ pub mod digest;
 mod dope;
 pub mod dragging;
 mod execute;
+mod framing;
 pub mod hands;
 pub mod hierarchy;
 pub mod history;

@@ -17,7 +17,6 @@ use crate::document::{LoadedModel, Progress, View};
 use crate::playback::Playback;
 use crate::posing::IkMode;
 use dragonfly_anim::data::{BoneIndex, Take};
-use glam::Vec3;
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -242,7 +241,7 @@ impl State {
         let has_takes = self.view.as_ref().is_some_and(|view| !view.takes.is_empty());
         self.show_take(has_takes.then_some(0));
         self.playback = self.playback.with(has_takes, self.settings.speed, self.settings.repeat, self.now);
-        self.frame_all();
+        self.frame_model();
         self.framed = true;
     }
 
@@ -267,36 +266,6 @@ impl State {
         self.playback.take = bounds.and(self.playback.take);
         (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
         self.playback = self.playback.seek(time, self.now);
-    }
-
-    /// Puts everything into the middle of the picture.
-    pub fn frame_all(&mut self) {
-        let aspect = self.aspect();
-        if let Some(loaded) = self.loaded() {
-            let (min, max) = (loaded.bounds.min, loaded.bounds.max);
-            self.camera.frame_box(min, max, aspect);
-        }
-    }
-
-    /// Puts the selected bone and its children into the middle, or everything when none is selected.
-    pub fn frame_selected(&mut self) {
-        let (Some(view), Some(selected)) = (self.view.clone(), self.selected()) else {
-            return self.frame_all();
-        };
-        let skeleton = &view.loaded.model.animation.skeleton;
-        let time = self.playback.time_at(self.now);
-        let to_root = self.posed.update(&view, self.playback.take, time).to_root();
-        let at = |bone: BoneIndex| to_root.get(bone as usize).map(|matrix| matrix.w_axis.truncate());
-        let Some(origin) = at(selected).filter(|origin| origin.is_finite()) else { return };
-        let (mut min, mut max) = (origin, origin);
-        for point in skeleton.children(Some(selected)).filter_map(at).filter(|point| point.is_finite()) {
-            min = min.min(point);
-            max = max.max(point);
-        }
-        // A bone without children has no size: a tenth of the model is seen around it.
-        let room = Vec3::splat((view.loaded.bounds.sphere.radius * 0.1).max(1e-4));
-        let aspect = self.aspect();
-        self.camera.frame_box(min - room, max + room, aspect);
     }
 
     /// The model that is open.

@@ -1,0 +1,35 @@
+//! Where the eye goes to see the model.
+
+use crate::program::data;
+use dragonfly::control::gizmo::GizmoView;
+use dragonfly::document::{Cancel, Source, View, load_model};
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::{Request, Settings, State};
+use dragonfly_anim::evaluator::Evaluator;
+use glam::Vec2;
+use std::sync::Arc;
+use std::time::Instant;
+
+#[test]
+fn all_is_framed_as_it_stands_now() {
+    let source = Source::File(data("gltf/Fox.glb"));
+    let loaded = load_model(&source, &mut |_| {}, &Cancel::default()).expect("Fox opens");
+    let mut state = State::new(Settings::default(), Instant::now());
+    let size = Vec2::new(780.0, 430.0);
+    state.execute(Request::Viewport(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(size.x, size.y))));
+    let mut evaluator = Evaluator::new(Arc::clone(&loaded.model));
+    state.show(View::opened(1, Arc::new(loaded)));
+    state.playback.playing = false;
+    state.execute(Request::ShowTake(Some(2)));
+    state.execute(Request::Seek(0.1));
+    state.execute(Request::Command(Id::ViewRight));
+    state.execute(Request::Command(Id::FrameAll));
+    evaluator.pose(Some(2), 0.1);
+    let view = GizmoView::new(&state.camera, size);
+    let places = evaluator.all_positions();
+    let seen: Vec<Vec2> =
+        places.iter().filter_map(|place| view.to_screen(place.as_dvec3())).map(|at| at.as_vec2()).collect();
+    assert_eq!(seen.len(), places.len(), "all of the running fox is before the eye");
+    let outside = seen.iter().filter(|at| at.min_element() < 0.0 || at.cmpgt(size).any()).count();
+    assert_eq!(outside, 0, "of {} vertices", places.len());
+}
