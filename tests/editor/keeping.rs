@@ -463,7 +463,7 @@ fn work_on_a_file_that_was_moved_goes_on_where_it_is_now() {
     assert_eq!(before.history, after.history);
     assert_eq!((after.file.title.as_str(), after.file.path.as_deref()), ("renamed.glb", Some(&*moved)));
     assert_eq!(fs::read(&moved).unwrap(), bytes, "nobody saved");
-    desk.warned("Brought back the unsaved work of renamed.glb: 3 steps");
+    desk.warned("Brought back the unsaved work of renamed.glb: 2 steps");
     // Killed again it is offered for the file where it is now, and only once.
     let third = folder.join("third");
     killed(&second, &third);

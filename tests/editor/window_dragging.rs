@@ -25,6 +25,11 @@ impl What {
     fn begins(self, visit: &mut Visit) {
         let done: usize = visit.shown("done").parse().expect("a number");
         let (x, y) = self.place(visit);
+        if self == Self::Keys {
+            // They lie side by side: a drag of one that is not selected would be a box.
+            visit.screen.click(x, y);
+            visit.control("Time of the key");
+        }
         visit.screen.point(x, y);
         pass(visit.screen.pace);
         visit.screen.hold();
