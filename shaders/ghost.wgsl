@@ -1,17 +1,5 @@
 // The surface at another time: one colour, one looks through it, and its outline is brightest.
 
-struct VertexIn {
-    @location(0) position: vec3f,
-    @location(1) normal: vec3f,
-    @location(2) tangent: vec4f,
-    @location(3) uv: vec4f,
-    @location(4) color: vec4f,
-    @location(5) joints0: vec4u,
-    @location(6) joints1: vec4u,
-    @location(7) weights0: vec4f,
-    @location(8) weights1: vec4f,
-}
-
 struct Ghost {
     @builtin(position) position: vec4f,
     @location(0) world: vec3f,
@@ -22,9 +10,7 @@ struct Ghost {
 
 @vertex
 fn vs_ghost(in: VertexIn, @builtin(vertex_index) index: u32) -> Ghost {
-    let start = morphed(Posed(in.position, in.normal, in.tangent), index);
-    let matrix = blended_matrix(in.joints0, in.joints1, in.weights0, in.weights1);
-    let posed = moved(matrix, start);
+    let posed = posed_vertex(in, index);
     return Ghost(
         frame.clip_from_world * vec4f(posed.position, 1.0),
         posed.position, posed.normal, unpack4x8unorm(draw.tint));

@@ -21,14 +21,16 @@ const FRAME: Part = part!("common/frame.wgsl");
 const COLOR: Part = part!("common/color.wgsl");
 const STUDIO: Part = part!("common/studio.wgsl");
 const POSE: Part = part!("common/pose.wgsl");
+const VERTEX: Part = part!("common/vertex.wgsl");
 
 /// The gradient behind the scene.
 pub const BACKGROUND: Shader =
     Shader { name: "background", parts: &[FRAME, COLOR, part!("background.wgsl")] };
 /// Skinned and lit surfaces.
-pub const MODEL: Shader = Shader { name: "model", parts: &[FRAME, COLOR, STUDIO, POSE, part!("model.wgsl")] };
+pub const MODEL: Shader =
+    Shader { name: "model", parts: &[FRAME, COLOR, STUDIO, POSE, VERTEX, part!("model.wgsl")] };
 /// Surfaces at other times.
-pub const GHOST: Shader = Shader { name: "ghost", parts: &[FRAME, POSE, part!("ghost.wgsl")] };
+pub const GHOST: Shader = Shader { name: "ghost", parts: &[FRAME, POSE, VERTEX, part!("ghost.wgsl")] };
 /// The ground.
 pub const GRID: Shader = Shader { name: "grid", parts: &[FRAME, part!("grid.wgsl")] };
 /// Bones.

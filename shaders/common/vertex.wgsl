@@ -1,0 +1,19 @@
+// A vertex of a model, and where it stands: morphed, then skinned.
+
+struct VertexIn {
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    // Two texture coordinate sets.
+    @location(3) uv: vec4f,
+    @location(4) color: vec4f,
+    @location(5) joints0: vec4u,
+    @location(6) joints1: vec4u,
+    @location(7) weights0: vec4f,
+    @location(8) weights1: vec4f,
+}
+
+fn posed_vertex(in: VertexIn, index: u32) -> Posed {
+    let start = morphed(Posed(in.position, in.normal, in.tangent), index);
+    return moved(blended_matrix(in.joints0, in.joints1, in.weights0, in.weights1), start);
+}
