@@ -67,6 +67,16 @@ impl Gpu {
         })
     }
 
+    /// A buffer of so many bytes that is written to later.
+    pub(super) fn buffer(&self, label: &str, size: usize, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: size as u64,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
     /// Hands this frame's uniform to the device.
     pub fn write_frame(&self, uniform: &FrameUniform) {
         self.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(uniform));

@@ -19,7 +19,7 @@ pub(super) struct GpuVertex {
 }
 
 /// Attributes of [`GpuVertex`], by shader location.
-pub(super) const ATTRIBUTES: [wgpu::VertexAttribute; 9] = wgpu::vertex_attr_array![
+const ATTRIBUTES: [wgpu::VertexAttribute; 9] = wgpu::vertex_attr_array![
     0 => Float32x3,
     1 => Float32x3,
     2 => Float32x4,
@@ -30,6 +30,13 @@ pub(super) const ATTRIBUTES: [wgpu::VertexAttribute; 9] = wgpu::vertex_attr_arra
     7 => Float32x4,
     8 => Float32x4,
 ];
+
+/// How vertices lie in their buffer.
+pub(super) const VERTICES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<GpuVertex>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &ATTRIBUTES,
+};
 
 /// Buffers of one primitive.
 pub(super) struct GpuGeometry {

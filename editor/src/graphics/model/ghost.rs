@@ -1,6 +1,6 @@
 //! The surface of the model drawn once more for each ghost: the same triangles, other matrices, one colour.
 
-use super::geometry::{ATTRIBUTES, GpuGeometry, GpuVertex};
+use super::geometry::{GpuGeometry, VERTICES};
 use super::pipeline::ModelPipelines;
 use crate::document::LoadedModel;
 use crate::graphics::ghosts::GhostSkins;
@@ -130,14 +130,7 @@ impl Room {
         geometries: &HashMap<(u32, u32), GpuGeometry>,
     ) -> Option<Self> {
         let posed = ghosts.posed()?;
-        let buffer = |label, size: usize, usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size: size as u64,
-                usage: usage | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        };
+        let buffer = |label, size, usage| gpu.buffer(label, size, usage);
         let storage = wgpu::BufferUsages::STORAGE;
         let palettes = buffer("ghosts", count * size_of_val::<[Affine]>(posed.palettes()), storage);
         let weights = buffer("ghosts' weights", count * size_of_val::<[f32]>(posed.weights()), storage);
@@ -167,11 +160,7 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::PipelineLayout, front_face: wgpu::FrontFac
             module: &module,
             entry_point: Some("vs_ghost"),
             compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<GpuVertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &ATTRIBUTES,
-            })],
+            buffers: &[Some(VERTICES)],
         },
         primitive: wgpu::PrimitiveState {
             front_face,

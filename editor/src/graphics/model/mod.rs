@@ -147,14 +147,7 @@ impl Resources {
         let loaded = posed.loaded();
         self.materials.load(gpu, &mut self.maker, loaded);
         self.ghosts.forget();
-        let buffer = |label, size: usize, usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size: size as u64,
-                usage: usage | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        };
+        let buffer = |label, size, usage| gpu.buffer(label, size, usage);
         let palettes =
             buffer("palettes", size_of_val::<[Affine]>(posed.palettes()), wgpu::BufferUsages::STORAGE);
         let weights =

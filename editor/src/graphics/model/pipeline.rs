@@ -1,6 +1,6 @@
 //! The ways to draw a surface.
 
-use super::geometry::{ATTRIBUTES, GpuVertex};
+use super::geometry::VERTICES;
 use crate::graphics::gpu::{Gpu, scene_depth, scene_samples, scene_target};
 use crate::graphics::shaders;
 use crate::graphics::uniform::{Affine, DrawUniform};
@@ -126,11 +126,7 @@ fn pipeline(
             module,
             entry_point: Some("vs_model"),
             compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<GpuVertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &ATTRIBUTES,
-            })],
+            buffers: &[Some(VERTICES)],
         },
         primitive: wgpu::PrimitiveState {
             front_face: if kind.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
