@@ -55,3 +55,32 @@ fn taking_a_drag_back_opens_no_menu() {
     button(&mut window, place, PointerButton::Primary, false);
     assert!(!Popup::is_any_open(&window.ctx));
 }
+
+#[test]
+fn a_menu_is_put_away_by_a_drag_beside_it_and_not_by_one_in_it() {
+    let mut window = Workbench::full().window();
+    window.run_steps(2);
+    let drag = |window: &mut Window, from: Pos2| {
+        button(window, from, PointerButton::Primary, true);
+        for step in 1..5 {
+            window.event(Event::PointerMoved(from + egui::vec2(6.0, 4.0) * step as f32));
+            window.run_steps(1);
+        }
+    };
+    window.get_by_label("View").click();
+    window.run_steps(3);
+    assert!(Popup::is_any_open(&window.ctx));
+    let entry = window.get_by_label_contains("Full screen").rect().center();
+    drag(&mut window, entry);
+    assert!(Popup::is_any_open(&window.ctx), "the drag began in the menu");
+    button(&mut window, entry, PointerButton::Primary, false);
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    window.get_by_label("View").click();
+    window.run_steps(3);
+    assert!(Popup::is_any_open(&window.ctx));
+    let place = window.state().state.viewport.center();
+    drag(&mut window, place);
+    assert!(!Popup::is_any_open(&window.ctx), "while the button is still held");
+    button(&mut window, place, PointerButton::Primary, false);
+}

@@ -1,7 +1,8 @@
 //! What an edit was done to, in the words of the model: for the list of the history.
 
 use super::adapter::ModelAdapter;
-use super::edit::{BoneRef, Edit};
+use super::edit::{BonePose, BoneRef, Edit};
+use crate::control::bones::MirrorPairs;
 use std::sync::Arc;
 
 /// Longest name in a list, letters; a name may have any length.
@@ -24,11 +25,15 @@ pub(super) fn about(adapter: &ModelAdapter, edit: &Edit) -> Arc<str> {
 }
 
 fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
+    let pasted;
     let named: Vec<&BoneRef> = match edit {
-        Edit::Set { poses, .. }
-        | Edit::Offset { poses, .. }
-        | Edit::Pend { poses, .. }
-        | Edit::Paste { poses, .. } => poses.iter().map(|pose| &pose.bone).collect(),
+        Edit::Set { poses, .. } | Edit::Offset { poses, .. } | Edit::Pend { poses, .. } => {
+            poses.iter().map(|pose| &pose.bone).collect()
+        }
+        Edit::Paste { poses, mirrored, .. } => {
+            pasted = changed_by_paste(adapter, poses, *mirrored);
+            pasted.iter().collect()
+        }
         Edit::KeyPending { bones, .. }
         | Edit::DropPending { bones, .. }
         | Edit::Reset { bones, .. }
@@ -59,6 +64,17 @@ fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
     }
 }
 
+/// The bones that get a pasted pose: with a mirrored one those on the other side. What this model lacks is passed over.
+fn changed_by_paste(adapter: &ModelAdapter, poses: &[BonePose], mirrored: bool) -> Vec<BoneRef> {
+    let pairs = mirrored.then(|| MirrorPairs::of(adapter.skeleton()));
+    let found = poses.iter().filter_map(|pose| adapter.bone(&pose.bone).ok());
+    let changed = found.filter_map(|bone| match &pairs {
+        Some(pairs) => pairs.mirror_of(bone),
+        None => Some(bone),
+    });
+    changed.map(BoneRef::Index).collect()
+}
+
 /// The begin of a name.
 fn short(name: &str) -> String {
     match name.char_indices().nth(LONGEST) {
@@ -70,28 +86,56 @@ fn short(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::edit::EXAMPLES;
+    use crate::document::edit::{EXAMPLES, TakeRef};
     use dragonfly_anim::data::{AnimationData, Bone, Skeleton, Take, Transform};
     use glam::Mat4;
 
-    #[test]
-    fn every_edit_says_what_it_was_done_to() {
-        let long = "é".repeat(10_000);
-        let bone = |name: &str| Bone {
+    fn bone(name: &str) -> Bone {
+        Bone {
             name: name.to_owned(),
             parent: None,
             rest: Transform::IDENTITY,
             rest_matrix: None,
             offset: Mat4::IDENTITY,
             node: None,
-        };
+        }
+    }
+
+    fn take(name: &str) -> Arc<Take> {
+        Arc::new(Take { name: name.to_owned(), ..Take::default() })
+    }
+
+    #[test]
+    fn every_edit_says_what_it_was_done_to() {
+        let long = "é".repeat(10_000);
         let skeleton = Skeleton { bones: vec![bone("b_Head_05"), bone(&long)] };
-        let take = |name: &str| Arc::new(Take { name: name.to_owned(), ..Take::default() });
         let takes = vec![take("Survey"), take(&long)];
         let adapter = ModelAdapter::new(&AnimationData { skeleton: Arc::new(skeleton), takes });
         for example in EXAMPLES {
             let text = about(&adapter, &serde_json::from_str(example.json).expect("an edit"));
             assert!(text.chars().count() <= 2 * LONGEST + 8, "{text}");
         }
+    }
+
+    #[test]
+    fn a_mirrored_pose_is_about_the_bones_that_it_changes() {
+        let names = ["hips", "hand.L", "hand.R"];
+        let skeleton = Skeleton { bones: names.into_iter().map(bone).collect() };
+        let adapter =
+            ModelAdapter::new(&AnimationData { skeleton: Arc::new(skeleton), takes: vec![take("Walk")] });
+        let paste = |mirrored: bool, bones: &[&str]| {
+            let pose = |name: &&str| {
+                let bone = BoneRef::Name((*name).to_owned());
+                BonePose { bone, translation: None, rotation: None, scale: None }
+            };
+            let poses = bones.iter().map(pose).collect();
+            let edit = Edit::Paste { take: TakeRef::Index(0), time: 0.0, poses, mirrored, pending: false };
+            about(&adapter, &edit).to_string()
+        };
+        assert_eq!(paste(false, &["hand.L"]), "hand.L  ·  Walk");
+        assert_eq!(paste(true, &["hand.L"]), "hand.R  ·  Walk");
+        assert_eq!(paste(true, &["hips"]), "hips  ·  Walk");
+        assert_eq!(paste(true, &["hand.R", "tail of another model"]), "hand.L  ·  Walk");
+        assert_eq!(paste(false, &["hand.L", "hips"]), "2 bones  ·  Walk");
     }
 }

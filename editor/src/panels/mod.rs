@@ -134,6 +134,7 @@ impl Desk {
     /// Draws everything once.
     pub fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         commands::Keymap::install(&state.settings.keys, ui.ctx());
+        close_menus_beside_a_drag(ui.ctx());
         let theme = theme::Theme::of(ui);
         let bar = egui::Frame::NONE.fill(theme.bar);
         egui::Panel::top("menu").exact_size(style::BAR).frame(bar).show_separator_line(false).show(
@@ -156,6 +157,19 @@ impl Desk {
         drop_hint(ui);
         self.overlays.show(ui, state, requests);
         self.dialogs.show(ui, state, requests);
+    }
+}
+
+/// A click beside a menu closes it, which egui sees to; so does a drag, which is no click to egui: what is boxed or turned
+/// in the picture would lie under the menu.
+fn close_menus_beside_a_drag(context: &egui::Context) {
+    let begun = context.input(|input| {
+        let drags = input.pointer.is_decidedly_dragging();
+        input.pointer.press_origin().filter(|_| drags)
+    });
+    let beside = |at| context.layer_id_at(at).is_none_or(|layer| layer.order < egui::Order::Foreground);
+    if begun.is_some_and(beside) {
+        egui::Popup::close_all(context);
     }
 }
 
