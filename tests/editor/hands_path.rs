@@ -151,6 +151,33 @@ fn a_key_of_the_path_takes_the_chain_along_with_ik_on_and_pins_hold() {
     assert!(tip_at(&mut hand).distance(stood) < 1e-3, "{} is not {stood}", tip_at(&mut hand));
 }
 
+#[test]
+fn a_key_under_a_handle_of_the_gizmo_is_taken_hold_of_but_not_in_its_middle() {
+    let mut hand = tip();
+    hand.command(Id::ToolRotate);
+    let path = Arc::clone(hand.state.trail.look().expect("a path"));
+    let &(time, place) = path.keys.last().expect("a key");
+    let key = seen(&hand, place);
+    let near = path.points.iter().map(|&(time, joint)| (time, seen(&hand, joint).distance(key)));
+    let (beside, far) =
+        near.clone().find(|(_, far)| (20.0..70.0).contains(far)).expect("a time near the key");
+    at(&mut hand, beside);
+    hand.to(key);
+    assert_eq!(hand.state.hands.path().hovered(), Some(time), "{far} points from the middle");
+    assert_eq!(hand.state.hands.gizmo().gizmo.hovered(), None, "one thing lies under the pointer");
+    hand.press(key);
+    hand.to(key + Vec2::new(9.0, 6.0));
+    hand.release();
+    assert_eq!(hand.steps(), ["Move"]);
+    hand.command(Id::Undo);
+    // At the time of the key the middle of the gizmo lies on it.
+    at(&mut hand, time);
+    hand.press(key);
+    hand.to(key + Vec2::new(9.0, 6.0));
+    hand.release();
+    assert_eq!(hand.steps(), ["Rotate"]);
+}
+
 /// The poses at a time.
 fn at(hand: &mut Hand, time: f32) -> Vec<dragonfly_anim::data::Transform> {
     hand.state.execute(Request::Seek(time));

@@ -213,6 +213,28 @@ fn the_search_finds_bones_and_shows_where_they_hang() {
 }
 
 #[test]
+fn enter_in_the_search_takes_the_bone_called_so_or_else_the_first() {
+    let mut skeleton = fixture::skeleton(9);
+    // A name that holds another one, and comes before it.
+    skeleton.bones[1].name = "spine_05_helper".to_owned();
+    let mut harness = harness(Bench::new(Some(fixture::view("model", skeleton, &[("Walk", 1.0, 5)]))));
+    let mut find = |text: &str| {
+        harness.state_mut().state.execute(Request::Command(dragonfly::panels::commands::Id::Find));
+        harness.run_steps(4);
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        harness.get_by_label("Find a bone").type_text(text);
+        harness.run_steps(4);
+        harness.key_press(egui::Key::Enter);
+        harness.run_steps(4);
+        harness.state().state.selected().map(|bone| harness.state().state.bone_name(bone))
+    };
+    assert_eq!(find("03_left_tip").as_deref(), Some("rib_03_left_tip"));
+    assert_eq!(find("Spine_05").as_deref(), Some("spine_05"));
+    assert_eq!(find("Left_Tip").as_deref(), Some("rib_00_left_tip"), "the first of many");
+    assert_eq!(find("no such bone").as_deref(), Some("rib_00_left_tip"), "nothing found, nothing changed");
+}
+
+#[test]
 fn keys_that_are_typed_do_not_play() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
@@ -304,6 +326,20 @@ fn the_palette_finds_one_where_several_are_asked_for() {
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);
     assert_eq!(harness.state().state.overlay, Some(dragonfly::panels::state::Overlay::Shortcuts));
+}
+
+#[test]
+fn a_drag_that_a_command_waits_for_is_announced_beside_the_pointer() {
+    use dragonfly::panels::commands::Id;
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    assert!(harness.query_by_label_contains("Draw around bones").is_none());
+    harness.state_mut().state.execute(Request::Command(Id::LassoSelect));
+    harness.run_steps(4);
+    harness.get_by_label_contains("Draw around bones");
+    harness.state_mut().state.execute(Request::Command(Id::BoxSelect));
+    harness.run_steps(4);
+    harness.get_by_label_contains("Drag a box over bones");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::base::{BaseControl, Mouse, Pass};
 use super::framework::ControlFramework;
-use super::gizmo::GizmoView;
+use super::gizmo::{AXIS_FROM, GizmoView};
 use super::key::{Key, Modifiers};
 use super::viewport::Button;
 use glam::{DVec3, Vec2, Vec3};
@@ -43,6 +43,9 @@ pub struct PathControl {
     pub corner: Vec2,
     /// May keys be changed?
     pub editable: bool,
+    /// Where the gizmo stands, scene space. Its handles are long and keys are small, so that these win everywhere but
+    /// in the middle of it: a joint that rests has all of its keys there.
+    pub gizmo: Option<DVec3>,
     keys: Vec<PathKey>,
     view: Option<GizmoView>,
     hovered: Option<usize>,
@@ -81,9 +84,13 @@ impl PathControl {
 
     fn key_at(&self, at: Vec2) -> Option<usize> {
         let view = self.view.filter(|_| at.is_finite() && self.editable)?;
+        let middle = self.gizmo.and_then(|pivot| view.to_screen(pivot));
         let mut nearest: Option<(f64, usize)> = None;
         for (index, key) in self.keys.iter().enumerate() {
             let Some(place) = view.to_screen(key.place.as_dvec3()) else { continue };
+            if middle.is_some_and(|middle| middle.distance(place) <= AXIS_FROM) {
+                continue;
+            }
             let distance = place.distance(at.as_dvec2());
             if distance <= f64::from(REACH) && nearest.is_none_or(|(best, _)| distance < best) {
                 nearest = Some((distance, index));
@@ -126,7 +133,8 @@ impl BaseControl for PathControl {
             }
             None => {
                 self.hovered = self.key_at(at);
-                Pass::ToParent
+                // What lies behind a key has no handle under the pointer.
+                if self.hovered.is_some() { Pass::Stop } else { Pass::ToParent }
             }
         }
     }

@@ -46,8 +46,12 @@ impl Panel for Hierarchy {
         if state.digest.rows.is_empty() {
             return widgets::empty(ui, "No bones", "This model has nothing that moves");
         }
-        self.search(ui, state);
+        let entered = self.search(ui, state);
         let rows = self.visible(state);
+        if entered {
+            let found = self.best(state, &rows);
+            requests.extend(found.map(|bone| Request::Select(Some(bone))));
+        }
         if rows.is_empty() {
             return widgets::empty(ui, "No bone is called that", "");
         }
@@ -56,9 +60,11 @@ impl Panel for Hierarchy {
 }
 
 impl Hierarchy {
-    fn search(&mut self, ui: &mut Ui, state: &State) {
+    /// The field; was what it finds taken with Enter?
+    fn search(&mut self, ui: &mut Ui, state: &State) -> bool {
         let theme = Theme::of(ui);
         ui.add_space(GRID);
+        let mut entered = false;
         ui.horizontal(|ui| {
             ui.add_space(2.0 * GRID);
             let width = ui.available_width() - 2.0 * GRID;
@@ -73,6 +79,7 @@ impl Hierarchy {
             if state.find {
                 response.request_focus();
             }
+            entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
             if !self.query.is_empty() {
                 let cross =
                     Rect::from_center_size(pos2(rect.right() - 13.0, rect.center().y), vec2(20.0, 20.0));
@@ -88,6 +95,15 @@ impl Hierarchy {
             }
         });
         ui.add_space(GRID);
+        entered
+    }
+
+    /// What Enter takes: the bone that is called just so, else the first that is found.
+    fn best(&self, state: &State, rows: &[(Row, bool)]) -> Option<BoneIndex> {
+        let query = self.query.trim().to_lowercase();
+        let found = || rows.iter().filter(|(_, hit)| *hit).map(|(row, _)| row.bone);
+        let exact = found().find(|&bone| state.bone_name(bone).to_lowercase() == query);
+        exact.or_else(|| found().next()).filter(|_| !query.is_empty())
     }
 
     /// The rows to show: those that match and their ancestors, or those that no ancestor hides.

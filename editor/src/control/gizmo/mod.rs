@@ -182,6 +182,11 @@ impl Gizmo {
         }
     }
 
+    /// What it stands at, scene space; `None` where nothing is selected.
+    pub fn pivot(&self) -> Option<glam::DVec3> {
+        self.placed.map(|placed| placed.pivot)
+    }
+
     /// The handle at a place, points from the top left of the picture; none while dragging.
     pub fn handle_at(&self, pointer: Vec2) -> Option<Handle> {
         let free = pointer.is_finite() && self.going.is_none();

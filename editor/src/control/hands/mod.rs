@@ -4,7 +4,8 @@
 //! root (window, without function)
 //!   └ picture: camera, clicks, boxes       the size of the viewport
 //!       ├ shields: tools over the picture   panels take precedence where they are
-//!       └ path · gizmo                      where their handles are; everywhere while they drag
+//!       └ gizmo                             where its handles are; everywhere while it drags
+//!           └ path                          the same with its keys, which lie over the gizmo's handles
 //! ```
 //!
 //! Inputs come in as they happen, not once a frame. What follows is taken out by the owner after each.
@@ -69,8 +70,8 @@ impl Default for Hands {
         let nowhere = Area::default();
         // Of areas that are as large the one registered later lies inside.
         let picture = (framework.register_control(nowhere), ViewportControl::default());
-        let path = (framework.register_control(nowhere), PathControl::default());
         let gizmo = (framework.register_control(nowhere), GizmoControl::default());
+        let path = (framework.register_control(nowhere), PathControl::default());
         Self {
             framework,
             owner: Owner { picture, path, gizmo, shields: Vec::new() },
@@ -120,7 +121,7 @@ impl Hands {
         // The edge belongs to who makes panels larger.
         let inside = Area::new(picture.min + EDGE, picture.max - EDGE);
         if framework.area(owner.picture.0) != Some(inside) {
-            for id in [owner.picture.0, owner.path.0, owner.gizmo.0] {
+            for id in [owner.picture.0, owner.gizmo.0, owner.path.0] {
                 framework.move_control(id, inside);
             }
         }

@@ -83,7 +83,9 @@ impl State {
             let skeleton = &view.loaded.model.animation.skeleton;
             control.gizmo.select(skeleton, animation.poses(), animation.to_root(), bones, None);
         }
-        self.hands.path_mut().editable = take.is_some();
+        let pivot = self.hands.gizmo().gizmo.pivot();
+        let path = self.hands.path_mut();
+        (path.editable, path.gizmo) = (take.is_some(), pivot);
         self.hold.spare = self.hold.placed.replace(now).map(|placed| placed.selected).unwrap_or_default();
         self.hands.update();
     }

@@ -1,7 +1,8 @@
-//! What a drag has come to, beside the pointer.
+//! What a drag has come to, or would be of, beside the pointer.
 
 use super::super::style::{GRID, NUMBER};
 use super::glass;
+use crate::control::Catch;
 use crate::control::gizmo::{Axis, GizmoDelta, GizmoReadout, Handle, Space, Tool};
 use crate::panels::State;
 use crate::panels::theme::Theme;
@@ -9,21 +10,39 @@ use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
-/// Draws it while something is dragged.
+/// Draws it while something is dragged or waits for the drag that a command asked for, and at the keys of a motion path.
 pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State) {
-    let Some(readout) = state.hands.gizmo().gizmo.readout() else { return };
     let theme = Theme::of(ui);
-    let (what, how, amount) = (what(&readout), how(&readout), amount(&readout));
-    let mut job = LayoutJob::default();
     let words = |color| TextFormat::simple(FontId::proportional(NUMBER), color);
     let digits = |color| TextFormat::simple(FontId::monospace(NUMBER), color);
-    job.append(what, 0.0, words(theme.text));
-    job.append(&how, 6.0, words(theme.weak));
-    job.append(&amount, 10.0, digits(theme.text));
-    if let Some(typed) = typed(&readout) {
-        let color = if readout.is_number { theme.accent } else { theme.warning };
-        job.append(&typed, 10.0, digits(color));
+    let mut job = LayoutJob::default();
+    if let Some(readout) = state.hands.gizmo().gizmo.readout() {
+        job.append(what(&readout), 0.0, words(theme.text));
+        job.append(&how(&readout), 6.0, words(theme.weak));
+        job.append(&amount(&readout), 10.0, digits(theme.text));
+        if let Some(typed) = typed(&readout) {
+            let color = if readout.is_number { theme.accent } else { theme.warning };
+            job.append(&typed, 10.0, digits(color));
+        }
+    } else if let Some(catch) = state.hands.picture().armed() {
+        let what = match catch {
+            Catch::Box => "Drag a box over bones",
+            Catch::Lasso => "Draw around bones",
+        };
+        job.append(what, 0.0, words(theme.text));
+        job.append("Shift adds, Ctrl toggles, Esc stops", 10.0, words(theme.weak));
+    } else if let Some(time) = state.hands.path().hovered() {
+        let frame = (f64::from(time) * f64::from(state.settings.frame_rate)).round();
+        job.append("Key", 0.0, words(theme.text));
+        job.append(&format!("frame {frame}"), 6.0, words(theme.weak));
+        job.append(&format!("{time:.3} s"), 10.0, digits(theme.text));
+    } else {
+        return;
     }
+    beside_the_pointer(ui, rect, state, job);
+}
+
+fn beside_the_pointer(ui: &Ui, rect: Rect, state: &State, job: LayoutJob) {
     let text = job.text.clone();
     let galley = ui.painter().layout_job(job);
     let size = galley.size() + vec2(4.0 * GRID, 2.0 * GRID);
@@ -32,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State) {
     let most = (rect.max - size - vec2(6.0, 6.0)).max(rect.min);
     let at = Rect::from_min_size(wanted.clamp(rect.min + vec2(6.0, 6.0), most), size);
     glass(ui, at);
-    ui.painter().galley(at.min + vec2(2.0 * GRID, GRID), galley, theme.text);
+    ui.painter().galley(at.min + vec2(2.0 * GRID, GRID), galley, Theme::of(ui).text);
     let response = ui.interact(at, ui.scope_id().with("readout"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text.as_str()));
 }
