@@ -7,6 +7,7 @@ use dragonfly::control::gizmo::{Axis, Handle, Tool};
 use dragonfly::control::{InputEvent, Key, Modifiers};
 use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_kit::counting;
 use glam::{Quat, Vec2};
@@ -149,6 +150,50 @@ fn the_rest_pose_is_not_edited_and_it_is_said_why() {
     assert!(said.contains("rest pose"), "{said}");
     // A box is not drawn either: the handle was meant.
     assert!(hand.effects.is_empty(), "{:?}", hand.effects);
+}
+
+#[test]
+fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dragged() {
+    let mut hand = arm();
+    let lock = |hand: &mut Hand, bone, on| {
+        hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, bone, on)));
+        hand.state.begin(hand.state.now);
+    };
+    let turns = |hand: &Hand| {
+        let poses = hand.state.posed.animation().expect("posed").poses();
+        poses.iter().map(|pose| pose.rotation).collect::<Vec<_>>()
+    };
+    hand.state.execute(Request::SelectBones(vec![0, 1], Choice::Replace));
+    lock(&mut hand, 0, true);
+    let before = turns(&hand);
+    let ring = hand.handle(Handle::Axis(Axis::X));
+    hand.press(ring);
+    hand.to(ring + Vec2::new(9.0, 20.0));
+    hand.release();
+    assert_eq!(hand.steps(), ["Rotate"]);
+    let after = turns(&hand);
+    assert_eq!(after[0], before[0], "it is locked");
+    assert_ne!(after[1], before[1], "the other one is not");
+    // With all of them locked nothing turns, not even the gizmo.
+    lock(&mut hand, 1, true);
+    for by_key in [false, true] {
+        let ring = hand.handle(Handle::Axis(Axis::X));
+        if by_key {
+            hand.command(Id::RotateNow);
+        } else {
+            hand.press(ring);
+        }
+        hand.to(ring + Vec2::new(9.0, 20.0));
+        assert!(!hand.state.hands.edits(), "by key: {by_key}");
+        hand.release();
+        assert_eq!((hand.steps(), turns(&hand)), (vec!["Rotate"], after.clone()));
+        let said = hand.state.status.last().expect("said why").text.clone();
+        assert!(said.contains("is locked"), "{said}");
+    }
+    lock(&mut hand, 1, false);
+    let ring = hand.handle(Handle::Axis(Axis::X));
+    hand.press(ring);
+    assert!(hand.state.hands.edits(), "free again");
 }
 
 #[test]

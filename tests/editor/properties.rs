@@ -1,8 +1,10 @@
 //! Numbers of the selected bones are dragged and typed, and the pose becomes what they say.
 
 use crate::workbench::{Window, Workbench, drag, move_to, press, release, type_into};
+use dragonfly::control::bones::Choice;
 use dragonfly::document::Change;
 use dragonfly::panels::Request;
+use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{Quat, Vec3};
@@ -369,6 +371,31 @@ fn the_rest_pose_is_shown_and_not_changed() {
     window.state_mut().state.select(Some(3));
     window.run_steps(2);
     assert_eq!(value(&window, "Translation result X"), Some(f64::from(-0.08_f32)));
+}
+
+#[test]
+fn a_locked_bone_is_shown_and_not_changed_and_others_change_without_it() {
+    let mut window = window();
+    let lock = |on| Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 3, on));
+    let said = "Locked in the timeline: its keys are not changed";
+    assert!(window.query_by_label(said).is_none());
+    window.state_mut().state.execute(lock(true));
+    window.run_steps(3);
+    assert!(window.query_by_label(said).is_some());
+    drag(&mut window, "Rotation change X", vec2(50.0, 0.0), Modifiers::NONE);
+    assert_eq!(window.state().changes, []);
+    // The last one is the active one, whose numbers are shown.
+    window.state_mut().state.execute(Request::SelectBones(vec![3, 5], Choice::Replace));
+    window.run_steps(3);
+    assert!(window.query_by_label(said).is_none());
+    let before = [3, 5].map(|bone| window.state().pose(bone).rotation);
+    drag(&mut window, "Rotation change X", vec2(50.0, 0.0), Modifiers::NONE);
+    assert_eq!(window.state().pose(3).rotation, before[0], "it is locked");
+    assert_ne!(window.state().pose(5).rotation, before[1], "the other one is not");
+    window.state_mut().state.execute(lock(false));
+    window.run_steps(3);
+    drag(&mut window, "Rotation change X", vec2(50.0, 0.0), Modifiers::NONE);
+    assert_ne!(window.state().pose(3).rotation, before[0]);
 }
 
 #[test]

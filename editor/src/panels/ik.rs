@@ -130,11 +130,11 @@ impl State {
         let view = self.view.clone()?;
         let (take, time) = (self.playback.take, self.time());
         let active = self.selected()?;
+        let alone = self.selection.bones() == [active];
+        let others: Vec<BoneIndex> = self.bones_to_pose().filter(|&bone| bone != active).collect();
         let animation = self.posed.update(&view, take, time);
         let skeleton = &view.loaded.model.animation.skeleton;
-        let others: Vec<BoneIndex> =
-            self.selection.bones().iter().copied().filter(|&bone| bone != active).collect();
-        let poses = if others.is_empty() {
+        let poses = if alone {
             look_at(skeleton, animation.poses(), &[active], self.camera.target)
         } else {
             let target = animation.to_root().get(active as usize)?.w_axis.truncate();

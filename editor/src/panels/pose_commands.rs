@@ -133,7 +133,7 @@ impl State {
     pub(super) fn reset_pose(&mut self, properties: &[Property], to: ResetTo) -> Option<Effect> {
         let (take, time) = (self.take_ref()?, self.time());
         let slot = self.slot()?;
-        let bones = self.selection.bones().to_vec();
+        let bones: Vec<BoneIndex> = self.bones_to_pose().collect();
         let keyed =
             |bone: BoneIndex| properties.iter().any(|&property| slot.key_at(bone, property, time).is_some());
         // On keys, to the bit and with its tangents.

@@ -58,9 +58,24 @@ impl State {
         (self.slot().map_or(0, Slot::pending_poses), all)
     }
 
-    /// The selected bones as edits name them; all (none named) where nothing is selected.
+    /// The selected bones that a change is for: those that are free. Where all of them are locked, all: then the change is
+    /// refused, and the person told why.
+    pub fn bones_to_pose(&self) -> impl Iterator<Item = BoneIndex> + '_ {
+        let bones = self.selection.bones();
+        let locked = |bone: &BoneIndex| self.keys.flags.locked(*bone);
+        let none_free = self.selection_is_locked();
+        bones.iter().copied().filter(move |bone| none_free || !locked(bone))
+    }
+
+    /// Are bones selected, and all of them locked?
+    pub fn selection_is_locked(&self) -> bool {
+        let (bones, flags) = (self.selection.bones(), &self.keys.flags);
+        flags.any_locked() && !bones.is_empty() && bones.iter().all(|&bone| flags.locked(bone))
+    }
+
+    /// The bones of [`Self::bones_to_pose`] as edits name them; all (none named) where nothing is selected.
     pub(super) fn selected_refs(&self) -> Vec<BoneRef> {
-        self.selection.bones().iter().map(|&bone| BoneRef::Index(bone)).collect()
+        self.bones_to_pose().map(BoneRef::Index).collect()
     }
 
     /// The selected bones, or all of them where nothing is selected.

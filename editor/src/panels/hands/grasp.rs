@@ -62,7 +62,7 @@ impl State {
         };
         let mut selected = std::mem::take(&mut self.hold.spare);
         selected.clear();
-        selected.extend_from_slice(self.selection.bones());
+        selected.extend(self.bones_to_pose());
         let (take, time) = (self.playback.take, self.playback.time_at(self.now));
         let (generation, flags) = (view.generation, self.keys.flags.version());
         let now = Placed { generation, take, time, tool: hand.tool, settings, selected, flags };
@@ -70,8 +70,10 @@ impl State {
             self.hold.spare = now.selected;
             return;
         }
+        let editable = take.is_some() && !self.selection_is_locked();
+        let free = self.selection.active().is_none_or(|bone| !self.keys.flags.locked(bone));
         let control = self.hands.gizmo_mut();
-        control.editable = take.is_some();
+        control.editable = editable;
         control.gizmo.settings = settings;
         control.gizmo.tool = now.tool.unwrap_or_default();
         // Who only selects has no handles.
@@ -85,7 +87,7 @@ impl State {
         }
         let pivot = self.hands.gizmo().gizmo.pivot();
         let path = self.hands.path_mut();
-        (path.editable, path.gizmo) = (take.is_some(), pivot);
+        (path.editable, path.gizmo) = (editable && free, pivot);
         self.hold.spare = self.hold.placed.replace(now).map(|placed| placed.selected).unwrap_or_default();
         self.hands.update();
     }

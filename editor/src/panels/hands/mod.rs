@@ -85,6 +85,9 @@ impl State {
 
     /// Says why a pose cannot be changed.
     pub(super) fn refuse(&mut self) {
+        if let Some(bone) = self.selection.active().filter(|_| self.playback.take.is_some()) {
+            return self.say_locked(bone);
+        }
         let text = "The rest pose stays as it is: show a take to change a pose in it";
         self.status.say(Level::Info, text);
     }

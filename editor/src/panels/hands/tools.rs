@@ -51,6 +51,9 @@ impl State {
         self.stop_at(self.time());
         self.grasp();
         self.hands.look(&self.camera);
+        if !self.hands.gizmo().editable {
+            return self.refuse();
+        }
         if !self.hands.begin_by_key() {
             let text = "The selected bone lies behind the eye";
             self.status.say(crate::panels::status::Level::Info, text);

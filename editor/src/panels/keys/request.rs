@@ -226,7 +226,7 @@ impl State {
         !list.is_empty()
     }
 
-    fn say_locked(&mut self, bone: BoneIndex) {
+    pub(in crate::panels) fn say_locked(&mut self, bone: BoneIndex) {
         let text = format!("{} is locked: its keys are not edited", self.bone_name(bone));
         self.status.say(Level::Warning, text);
     }

@@ -229,9 +229,9 @@ impl Hand {
     }
 
     fn begun(&self, state: &State, spot: Spot) -> Begun {
-        let bones = state.selection.bones().iter();
-        let starts = bones
-            .filter_map(|&bone| {
+        let starts = state
+            .bones_to_pose()
+            .filter_map(|bone| {
                 let pair = self.pair(state, bone)?;
                 Some(Start { bone, pair, numbers: self.numbers(bone, &pair, spot)? })
             })
@@ -291,13 +291,11 @@ impl Hand {
         requests: &mut Vec<Request>,
     ) {
         let mut parts: HashMap<BoneIndex, Part> = state
-            .selection
-            .bones()
-            .iter()
-            .filter_map(|&bone| Some((bone, of(&self.pair(state, bone)?, bone)?)))
+            .bones_to_pose()
+            .filter_map(|bone| Some((bone, of(&self.pair(state, bone)?, bone)?)))
             .collect();
-        let bones = state.selection.bones().iter();
-        let poses = bones.filter_map(|bone| Some(parts.get(bone)?.pose(*bone, property))).collect();
+        let bones = state.bones_to_pose();
+        let poses = bones.filter_map(|bone| Some(parts.get(&bone)?.pose(bone, property))).collect();
         let poses = State::with_pins(&mut state.hold_of_pins(), poses);
         turn_parts(&mut parts, &poses);
         if let Some(edit) = state.pose_edit(poses) {

@@ -87,7 +87,13 @@ impl Properties {
     fn bone(&mut self, ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
         let (Some(loaded), Some(pair)) = (state.loaded(), self.hand.pair(state, bone)) else { return };
         head(ui, state, bone, requests);
-        let locked = state.take_ref().is_none().then_some("The rest pose cannot be changed: show a take");
+        let locked = match state.take_ref() {
+            None => Some("The rest pose cannot be changed: show a take"),
+            Some(_) if state.keys.flags.locked(bone) => {
+                Some("Locked in the timeline: its keys are not changed")
+            }
+            Some(_) => None,
+        };
         if let Some(why) = locked {
             ui.add_space(GRID);
             ui.label(RichText::new(why).small().color(Theme::of(ui).warning));
