@@ -2,6 +2,7 @@
 
 use crate::fixture;
 use crate::panels::Bench;
+use crate::shots;
 use crate::timeline_rig::Animator;
 use dragonfly::document::Change;
 use dragonfly::document::edit::{Edit, TakeRef};
@@ -61,26 +62,20 @@ fn a_long_name_of_a_take_ends_before_the_buttons_of_the_picture() {
 
 #[test]
 fn pictures_of_eyes_and_long_names() {
-    let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(std::path::PathBuf::from) else { return };
-    std::fs::create_dir_all(&folder).unwrap();
+    let Some(folder) = shots::folder() else { return };
     for (name, theme) in [("dark", egui::Theme::Dark), ("light", egui::Theme::Light)] {
         let long = "Walk with a limp and look over the left shoulder now and then, third try".repeat(2);
         let view = fixture::view("Fox.glb", fixture::skeleton(9), &[(long.as_str(), 2.0, 12)]);
         let mut bench = Bench::new(Some(view));
         bench.state.execute(Request::Hide { bones: vec![3, 4], hide: true });
         bench.state.select(Some(6));
-        let mut harness = egui_kittest::Harness::builder()
-            .with_size(egui::vec2(1280.0, 720.0))
-            .with_theme(theme)
-            .with_max_steps(20)
-            .with_context_setup(dragonfly::panels::style::install)
-            .wgpu()
-            .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench);
+        let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
+        let mut harness = shots::drawn(bench, [1280.0, 720.0], 1.0, theme, frame);
         harness.run_steps(6);
         let row = harness.get_by_label("Hide rib_00_right_inner").rect();
         harness.event(egui::Event::PointerMoved(row.center()));
         harness.run_steps(20);
-        harness.render().unwrap().save(folder.join(format!("eyes_{name}.png"))).unwrap();
+        shots::save(&mut harness, &folder, &format!("eyes_{name}"));
         let view = harness.get_by_label("View").rect();
         harness.event(egui::Event::PointerMoved(view.center()));
         harness.run_steps(2);
@@ -88,6 +83,6 @@ fn pictures_of_eyes_and_long_names() {
         harness.run_steps(4);
         harness.get_by_label_contains("Ghosts").click();
         harness.run_steps(6);
-        harness.render().unwrap().save(folder.join(format!("ghosts_menu_{name}.png"))).unwrap();
+        shots::save(&mut harness, &folder, &format!("ghosts_menu_{name}"));
     }
 }

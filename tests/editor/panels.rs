@@ -1,6 +1,7 @@
 //! Every panel draws every document, and what a person does in it asks for the right thing.
 
 use crate::fixture;
+use crate::shots;
 use dragonfly::document::{Progress, Stage, View};
 use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
@@ -65,22 +66,14 @@ pub(crate) fn harness_of(
         .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench)
 }
 
-/// Writes pictures of the panels to `$DRAGONFLY_SHOTS`, to be looked at; does nothing without it.
 #[test]
 fn pictures_of_the_panels() {
-    let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(std::path::PathBuf::from) else { return };
-    std::fs::create_dir_all(&folder).unwrap();
+    let Some(folder) = shots::folder() else { return };
     let shoot = |name: &str, bench: Bench, theme: egui::Theme, zoom: f32| {
-        let mut harness = Harness::builder()
-            .with_size(egui::vec2(1280.0, 720.0))
-            .with_pixels_per_point(zoom)
-            .with_theme(theme)
-            .with_max_steps(20)
-            .with_context_setup(style::install)
-            .wgpu()
-            .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench);
+        let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
+        let mut harness = shots::drawn(bench, [1280.0, 720.0], zoom, theme, frame);
         harness.run_steps(6);
-        harness.render().unwrap().save(folder.join(format!("{name}.png"))).unwrap();
+        shots::save(&mut harness, &folder, name);
     };
     let full = || Bench::new(Some(fixture::full()));
     shoot("empty", Bench::new(None), egui::Theme::Dark, 1.0);

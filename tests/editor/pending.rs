@@ -3,6 +3,7 @@
 use crate::edits::{model, pose, walk};
 use crate::fixture;
 use crate::panels::{Bench, harness_of};
+use crate::shots;
 use dragonfly::document::adapter::ModelAdapter;
 use dragonfly::document::edit::{BonePose, BoneRef, Edit, NewKey, Property, TakeRef};
 use dragonfly::document::history::Edited;
@@ -257,11 +258,9 @@ fn how_many_poses_wait_is_said_and_a_click_goes_there() {
     assert!(!harness.state().state.settings.auto_key);
 }
 
-/// Writes pictures to `$DRAGONFLY_SHOTS`, to be looked at; does nothing without it.
 #[test]
 fn pictures_of_what_waits() {
-    let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(std::path::PathBuf::from) else { return };
-    std::fs::create_dir_all(&folder).unwrap();
+    let Some(folder) = shots::folder() else { return };
     for (name, theme) in [("dark", egui::Theme::Dark), ("light", egui::Theme::Light)] {
         for overlay in [None, Some(Overlay::MirrorPairs)] {
             let (view, _) = pending_view([0.0, 1.0, 0.0]);
@@ -269,16 +268,11 @@ fn pictures_of_what_waits() {
             bench.state.settings.auto_key = overlay.is_some();
             bench.state.overlay = overlay;
             bench.state.execute(Request::Seek(0.4));
-            let mut harness = egui_kittest::Harness::builder()
-                .with_size(egui::vec2(1280.0, 720.0))
-                .with_theme(theme)
-                .with_max_steps(20)
-                .with_context_setup(dragonfly::panels::style::install)
-                .wgpu()
-                .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench);
+            let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
+            let mut harness = shots::drawn(bench, [1280.0, 720.0], 1.0, theme, frame);
             harness.run_steps(6);
             let what = if overlay.is_some() { "mirror_pairs" } else { "pending" };
-            harness.render().unwrap().save(folder.join(format!("{what}_{name}.png"))).unwrap();
+            shots::save(&mut harness, &folder, &format!("{what}_{name}"));
         }
     }
 }

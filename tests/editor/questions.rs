@@ -2,11 +2,11 @@
 
 use crate::fixture;
 use crate::panels::{Bench, harness_of};
+use crate::shots;
 use dragonfly::document::{Decision, Offer, SaveOrder, SaveTo, Source, Then};
 use dragonfly::panels::saving::{Deed, Question};
-use dragonfly::panels::{Effect, Request, style};
+use dragonfly::panels::{Effect, Request};
 use dragonfly::store::{Fate, FileState, Life, Owner, Reading, Recoverable};
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -88,27 +88,20 @@ fn bench(question: Question) -> Bench {
     bench
 }
 
-/// Writes pictures of the questions to `$DRAGONFLY_SHOTS`, to be looked at; does nothing without it.
 #[test]
 fn pictures_of_the_questions() {
-    let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(PathBuf::from) else { return };
-    std::fs::create_dir_all(&folder).unwrap();
+    let Some(folder) = shots::folder() else { return };
     for (name, question) in questions() {
         for theme in [egui::Theme::Dark, egui::Theme::Light] {
             let light = theme == egui::Theme::Light;
             if light && !matches!(name, "unsaved" | "recover_several" | "plan") {
                 continue;
             }
-            let mut harness = Harness::builder()
-                .with_size(egui::vec2(800.0, 520.0))
-                .with_theme(theme)
-                .with_max_steps(20)
-                .with_context_setup(style::install)
-                .wgpu()
-                .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench(question.clone()));
+            let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
+            let mut harness = shots::drawn(bench(question.clone()), [800.0, 520.0], 1.0, theme, frame);
             harness.run_steps(6);
             let name = if light { format!("{name}_light") } else { name.to_owned() };
-            harness.render().unwrap().save(folder.join(format!("question_{name}.png"))).unwrap();
+            shots::save(&mut harness, &folder, &format!("question_{name}"));
         }
     }
 }

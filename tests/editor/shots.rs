@@ -1,4 +1,4 @@
-//! Pictures of the panels that edit, to be looked at.
+//! Pictures of the panels, to be looked at: how they are made, and those of the panels that edit.
 
 use crate::workbench::Workbench;
 use crate::{fixture, workbench};
@@ -7,6 +7,36 @@ use dragonfly::document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use dragonfly::panels::{Request, style};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use std::path::{Path, PathBuf};
+
+/// Where pictures go: `$DRAGONFLY_SHOTS`. Without it none are made.
+pub(crate) fn folder() -> Option<PathBuf> {
+    let folder = PathBuf::from(std::env::var_os("DRAGONFLY_SHOTS")?);
+    std::fs::create_dir_all(&folder).unwrap();
+    Some(folder)
+}
+
+/// A window whose pixels are drawn.
+pub(crate) fn drawn<T>(
+    state: T,
+    size: [f32; 2],
+    pixels_per_point: f32,
+    theme: egui::Theme,
+    frame: impl FnMut(&mut egui::Ui, &mut T) + 'static,
+) -> Harness<'static, T> {
+    Harness::builder()
+        .with_size(egui::Vec2::from(size))
+        .with_pixels_per_point(pixels_per_point)
+        .with_theme(theme)
+        .with_max_steps(20)
+        .with_context_setup(style::install)
+        .wgpu()
+        .build_ui_state(frame, state)
+}
+
+pub(crate) fn save<T>(window: &mut Harness<'_, T>, folder: &Path, name: &str) {
+    window.render().unwrap().save(folder.join(format!("{name}.png"))).unwrap();
+}
 
 fn bench() -> Workbench {
     let mut bench = Workbench::full();
@@ -54,26 +84,18 @@ fn long_names() -> Workbench {
     bench
 }
 
-/// Writes pictures to `$DRAGONFLY_SHOTS`; does nothing without it.
 #[test]
 fn pictures_of_the_panels_that_edit() {
-    let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS").map(std::path::PathBuf::from) else { return };
-    std::fs::create_dir_all(&folder).unwrap();
+    let Some(folder) = folder() else { return };
     let shoot =
         |name: &str, bench: Workbench, dark: bool, size: [f32; 2], act: &dyn Fn(&mut workbench::Window)| {
             let theme = if dark { egui::Theme::Dark } else { egui::Theme::Light };
-            let mut window = Harness::builder()
-                .with_size(egui::Vec2::from(size))
-                .with_pixels_per_point(if size[0] < 600.0 { 2.0 } else { 1.0 })
-                .with_theme(theme)
-                .with_max_steps(20)
-                .with_context_setup(style::install)
-                .wgpu()
-                .build_ui_state(|ui, bench: &mut Workbench| bench.frame(ui), bench);
+            let zoom = if size[0] < 600.0 { 2.0 } else { 1.0 };
+            let mut window = drawn(bench, size, zoom, theme, |ui, bench: &mut Workbench| bench.frame(ui));
             window.run_steps(4);
             act(&mut window);
             window.run_steps(4);
-            window.render().unwrap().save(folder.join(format!("{name}.png"))).unwrap();
+            save(&mut window, &folder, name);
         };
     let laptop = [1280.0, 720.0];
     let click =
