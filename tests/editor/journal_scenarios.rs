@@ -6,7 +6,7 @@ use crate::journal::{autosave, begin, edits, only};
 use crate::mounted::{Mounted, may_mount, quick_folder};
 use crate::program::Folder;
 use dragonfly::store::{
-    Autosave, Bounds, Claim, Fate, FileStamp, JournalError, Life, Opening, Owner, Reading, RealFiles,
+    Autosave, Bounds, Claim, Entry, Fate, FileStamp, JournalError, Life, Opening, Owner, Reading, RealFiles,
     SaveOptions, replace, save_document,
 };
 use std::fs;
@@ -162,6 +162,62 @@ fn a_moved_document_is_missed_and_its_work_goes_on_where_it_is_now() {
     it.autosave.discard(&found).unwrap();
     assert_eq!(only(&it.autosave).document, Some(fs::canonicalize(&moved).unwrap()));
     assert!(!it.document.exists());
+}
+
+#[test]
+fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
+    let it = killed("scenario-moved-saved");
+    let mut journal = it.autosave.keep(&only(&it.autosave), Claim::IfFree).unwrap().journal;
+    save_document(&RealFiles, &mut journal, &it.document, b"saved", &SaveOptions::default()).unwrap();
+    journal.append(b"three", Instant::now()).unwrap();
+    let edits_after_save = |entries: &[Entry]| {
+        let last = entries.iter().rposition(|entry| *entry == Entry::Saved);
+        (entries.len() - 1 - last.expect("a save")) as u64
+    };
+    for (word, after) in [("said", 1), ("unsaid", 0)] {
+        // Killed between the file's replacement and the word of it.
+        if word == "unsaid" {
+            journal.saving(b"saved again").unwrap();
+            replace(&it.document, b"saved again").unwrap();
+        }
+        let moved = it.folder.join(&format!("{word}.glb"));
+        fs::copy(&it.document, &moved).unwrap();
+        let away = it.folder.join("away.glb");
+        fs::rename(&it.document, &away).unwrap();
+        let path = journal.path().to_owned();
+        let found = |path: &std::path::Path| {
+            let all = it.autosave.recoverable().unwrap();
+            all.into_iter().find(|found| found.journal == path).expect("the journal")
+        };
+        assert!(found(&path).held(&FileStamp::take(&RealFiles, &moved).unwrap()), "{word}");
+        let resumed = it.autosave.beside(&found(&path), Some(&moved)).unwrap();
+        assert_eq!(edits_after_save(&resumed.entries), after, "{word}: {:?}", resumed.entries);
+        let place = resumed.journal.path().to_owned();
+        drop(resumed);
+        // Looked at again, the new journal says the same.
+        let again = found(&place);
+        assert_eq!((again.unsaved, again.file.clone()), (after, Fate::Same), "{word}");
+        assert_eq!(edits_after_save(&it.autosave.entries(&again).unwrap()), after, "{word}");
+        it.autosave.discard(&again).unwrap();
+        fs::rename(&away, &it.document).unwrap();
+    }
+}
+
+#[test]
+fn a_save_that_failed_does_not_say_where_a_later_one_was() {
+    let it = killed("scenario-failed-save");
+    let mut journal = it.autosave.keep(&only(&it.autosave), Claim::IfFree).unwrap().journal;
+    let stamp = FileStamp::take(&RealFiles, &it.document).unwrap();
+    // Nothing becomes of this one.
+    journal.saving(b"what was never written").unwrap();
+    journal.append(b"undone, back at what the file holds", Instant::now()).unwrap();
+    journal.saved(&stamp).unwrap();
+    assert_eq!(journal.unsaved(), 0);
+    drop(journal);
+    let found = only(&it.autosave);
+    assert_eq!(found.unsaved, 0, "nothing is offered");
+    let entries = it.autosave.entries(&found).unwrap();
+    assert_eq!((entries.len(), entries.last()), (4, Some(&Entry::Saved)));
 }
 
 #[test]

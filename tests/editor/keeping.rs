@@ -471,6 +471,9 @@ fn work_on_a_file_that_was_moved_goes_on_where_it_is_now() {
     let offers = again.offered();
     assert_eq!(offers.iter().map(|offer| &*offer.title).collect::<Vec<_>>(), ["renamed.glb"]);
     assert!(offers[0].can_be_kept());
+    // And what was saved before it was moved still counts as saved.
+    again.tell(DocumentMessage::Decide(Box::new(offers[0].clone()), Decision::Keep));
+    assert_eq!(again.shows(|view| view.history.done == 3).history, before.history);
     again.end();
     desk.save(SaveTo::Own);
     assert!(!path.exists(), "nothing is written where it was");

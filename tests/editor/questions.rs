@@ -30,6 +30,7 @@ fn offer(name: &str, steps: usize, ago: u64, file: Fate, reading: Reading, life:
             reading,
             file,
             stamp: None,
+            saving: None,
             owner: Some(Owner { process: 4242, host: "attic".to_owned() }),
             life,
         },

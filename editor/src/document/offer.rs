@@ -97,7 +97,7 @@ impl Offer {
     pub(super) fn is_of(&self, path: &Path) -> Result<bool, String> {
         let stamp =
             FileStamp::take(&RealFiles, path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(self.found.stamp.is_some_and(|then| (then.size, then.hash) == (stamp.size, stamp.hash)))
+        Ok(self.found.held(&stamp))
     }
 
     /// Where the file is now, if it is not where it was.

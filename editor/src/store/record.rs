@@ -107,6 +107,13 @@ pub(super) struct Saving {
     pub(super) hash: u64,
 }
 
+impl Saving {
+    /// Is it this save that made the file what it is?
+    pub(super) fn made(&self, stamp: &FileStamp) -> bool {
+        (self.size, self.hash) == (stamp.size, stamp.hash)
+    }
+}
+
 /// Who took the journal.
 pub(super) type Opened = Owner;
 

@@ -63,6 +63,8 @@ pub struct Recoverable {
     pub file: Fate,
     /// What that file was when it last held what the journal goes on from.
     pub stamp: Option<FileStamp>,
+    /// Size and hash of what the file was about to become, when nothing is said of how that save ended.
+    pub saving: Option<(u64, u64)>,
     /// Who had it last.
     pub owner: Option<Owner>,
     /// Does that one still?
@@ -82,9 +84,16 @@ impl Recoverable {
             reading,
             file: Fate::Unsaved,
             stamp: None,
+            saving: None,
             owner: None,
             life: Life::Gone,
         }
+    }
+
+    /// Is a file that is like this, wherever it lies, the document's: does it hold what it held last?
+    pub fn held(&self, stamp: &FileStamp) -> bool {
+        let then = self.stamp.map(|then| (then.size, then.hash));
+        [then, self.saving].contains(&Some((stamp.size, stamp.hash)))
     }
 
     /// Is it to be offered at the start: work that is in no file, and nobody has it?
@@ -183,6 +192,7 @@ impl Autosave {
         found.document = scan.header.document.as_ref().map(PathText::path);
         found.file = fate(&*self.files, found.document.as_deref(), &mut state);
         found.stamp = state.stamp;
+        found.saving = state.saving.map(|(saving, _)| (saving.size, saving.hash));
         found.work = state.work;
         found.unsaved = state.unsaved;
         found.owner = state.owner;
@@ -195,46 +205,47 @@ pub(super) struct Contents {
     pub(super) scan: Scan,
     pub(super) state: State,
     pub(super) entries: Vec<Entry>,
-    /// How many entries there were when a save was begun of whose end nothing is said.
-    saving: Option<usize>,
 }
 
 impl Contents {
-    /// What became of the document's file. Where a save was finished, but not recorded, the entries say so from now on,
-    /// and the stamp of the file comes back with it.
-    pub(super) fn look_at_file(&mut self, files: &dyn Vfs) -> (Fate, Option<FileStamp>) {
-        let waits = self.state.saving.is_some();
+    /// Looks at the document's file where it was. Where a save was finished, but not recorded, the entries say so from now
+    /// on, and the stamp of the file comes back.
+    pub(super) fn look_at_file(&mut self, files: &dyn Vfs) -> Option<FileStamp> {
         let document = self.scan.header.document.as_ref().map(PathText::path);
-        let fate = fate(files, document.as_deref(), &mut self.state);
-        let settled = self.state.stamp.filter(|_| waits && self.state.saving.is_none());
-        if let Some(place) = self.saving.take_if(|_| settled.is_some()) {
-            self.entries.insert(place, Entry::Saved);
-        }
-        (fate, settled)
+        self.look_at_file_in(files, document.as_deref())
     }
+
+    /// The same where the file is now.
+    pub(super) fn look_at_file_in(&mut self, files: &dyn Vfs, path: Option<&Path>) -> Option<FileStamp> {
+        let waits = self.state.saving.is_some();
+        fate(files, path, &mut self.state);
+        let settled = self.state.stamp.filter(|_| waits && self.state.saving.is_none());
+        if settled.is_some() {
+            mark_saved(&mut self.entries, &self.state);
+        }
+        settled
+    }
+}
+
+/// Says among the entries that the document was saved, before those that `state` counts as unsaved.
+fn mark_saved(entries: &mut Vec<Entry>, state: &State) {
+    let unsaved = usize::try_from(state.unsaved).unwrap_or(usize::MAX);
+    entries.insert(entries.len().saturating_sub(unsaved), Entry::Saved);
 }
 
 /// All that is in the journal in `file`.
 pub(super) fn contents(file: &dyn VfsFile, path: &Path) -> Result<Contents, JournalError> {
     let mut state = State::default();
     let mut entries = Vec::new();
-    let mut saving = None;
     let scan = record::scan(file, |tag, bytes| {
         let understood = state.add(tag, bytes);
         match tag {
             Tag::Snapshot => {
                 entries.clear();
                 entries.push(Entry::Snapshot(bytes.to_vec()));
-                // It says itself what was saved.
-                saving = None;
             }
             Tag::Edit => entries.push(Entry::Edit(bytes.to_vec())),
-            Tag::Saving if understood => saving = Some(entries.len()),
-            // What was done while it was being saved is not in the file.
-            Tag::Saved if understood => {
-                let place = saving.take().unwrap_or(entries.len());
-                entries.insert(place, Entry::Saved);
-            }
+            Tag::Saved if understood => mark_saved(&mut entries, &state),
             _ => {}
         }
         understood
@@ -247,7 +258,7 @@ pub(super) fn contents(file: &dyn VfsFile, path: &Path) -> Result<Contents, Jour
         Refused::Io(error) => JournalError::io(path, "cannot be read")(error),
     })?;
     state.stamp = state.stamp.or(scan.header.stamp);
-    Ok(Contents { scan, state, entries, saving })
+    Ok(Contents { scan, state, entries })
 }
 
 /// Is `file` still the one called `path`?

@@ -64,7 +64,7 @@ impl Autosave {
             self.cut(&*file, path, contents.scan.valid).map_err(fail)?;
         }
         let saving = contents.state.saving;
-        let (_, settled) = contents.look_at_file(&*self.files);
+        let settled = contents.look_at_file(&*self.files);
         let Contents { scan, mut state, entries, .. } = contents;
         // It settles again when the record below is written.
         state.saving = saving;
@@ -88,20 +88,28 @@ impl Autosave {
         Ok(Resumed { journal, entries, cut })
     }
 
-    /// Copies the work in a journal into a new one, of the document at `document` or of one not yet saved. The journal
-    /// itself stays as it is, and may be somebody else's.
+    /// Copies the work in a journal into a new one, of the document at `document`, whose file is the one that the work was
+    /// done on, or of one not yet saved. The journal itself stays as it is, and may be somebody else's.
     ///
     /// # Errors
     /// When it cannot be read or the new one cannot be written.
     pub fn beside(&self, found: &Recoverable, document: Option<&Path>) -> Result<Resumed, JournalError> {
         let path = &found.journal;
         let file = again(|| self.files.open(path)).map_err(JournalError::io(path, "cannot be read"))?;
-        let Contents { scan, state, entries, .. } = contents(&*file, path)?;
+        let mut contents = contents(&*file, path)?;
+        if document.is_some() {
+            contents.look_at_file_in(&*self.files, document);
+        }
+        let Contents { scan, state, entries } = contents;
         let mut journal = self.begin_beside(document, state.stamp.as_ref())?;
         let copied = entries.iter().try_for_each(|entry| match entry {
             Entry::Snapshot(bytes) => journal.write(Tag::Snapshot, bytes),
             Entry::Edit(bytes) => journal.write(Tag::Edit, bytes),
-            Entry::Saved => Ok(()),
+            // Which of several saves it was the stamp does not say, and only the last one matters.
+            Entry::Saved => match state.stamp.filter(|_| document.is_some()) {
+                Some(stamp) => journal.write_json(Tag::Saved, &stamp),
+                None => Ok(()),
+            },
         });
         if let Err(error) = copied.and_then(|()| journal.sync()) {
             let _ = again(|| self.files.remove(&journal.path));

@@ -9,7 +9,7 @@ use super::stamp::FileStamp;
 pub(super) struct State {
     /// Edits, and the snapshot as one.
     pub(super) work: u64,
-    /// Of them, those not in the document's file.
+    /// Of them, the last ones, which are not in the document's file.
     pub(super) unsaved: u64,
     /// What the file was when it last held what the journal says.
     pub(super) stamp: Option<FileStamp>,
@@ -54,17 +54,18 @@ impl State {
         true
     }
 
-    /// The document was saved. What was done while it was being saved is not in the file.
+    /// The document was saved. What was done while it was being saved is not in the file; a save that was begun and made
+    /// something else of it failed, and says nothing about this one.
     fn saved(&mut self, stamp: FileStamp) {
-        let before = self.saving.take().map_or(self.work, |(_, work)| work);
+        let begun = self.saving.take().filter(|(saving, _)| saving.made(&stamp));
+        let before = begun.map_or(self.work, |(_, work)| work);
         self.unsaved = self.work - before;
         self.stamp = Some(stamp);
     }
 
     /// The file is what a save, of whose end nothing is said, was to make of it: so it was saved.
     pub(super) fn settle(&mut self, stamp: FileStamp) -> bool {
-        let settled =
-            self.saving.is_some_and(|(saving, _)| (saving.size, saving.hash) == (stamp.size, stamp.hash));
+        let settled = self.saving.is_some_and(|(saving, _)| saving.made(&stamp));
         if settled {
             self.saved(stamp);
         }
