@@ -1,6 +1,8 @@
 //! The right button at a bone.
 
 use crate::workbench::{Window, Workbench};
+use dragonfly::document::Change;
+use dragonfly::document::edit::{Edit, TakeRef};
 use egui::{Event, Key, Modifiers, PointerButton, Popup, Pos2};
 use egui_kittest::kittest::Queryable;
 
@@ -28,6 +30,41 @@ fn in_the_tree_it_is_about_the_bone_under_the_pointer() {
     window.run_steps(3);
     assert!(!Popup::is_any_open(&window.ctx));
     assert!(window.state().state.hidden.is_hidden(0) && !window.state().state.hidden.is_hidden(2));
+}
+
+#[test]
+fn the_tree_stays_as_it_is_under_a_menu_and_after_an_edit() {
+    let mut window = Workbench::full().window_of(egui::vec2(1280.0, 500.0), egui::Theme::Dark);
+    window.state_mut().state.select(Some(0));
+    window.run_steps(3);
+    window.get_by_label("Collapse rib_00_left_inner").click();
+    window.run_steps(3);
+    let rows =
+        |window: &Window| ["Collapse root", "Collapse spine_00"].map(|name| window.get_by_label(name).rect());
+    let before = rows(&window);
+    assert!(window.query_by_label("rib_00_left_tip").is_none());
+    // The last row in sight.
+    let area = window.get_by_label("Takes").rect();
+    let names: Vec<String> = (0..20).map(|bone| window.state().state.bone_name(bone)).collect();
+    let seen = names.iter().flat_map(|name| window.query_all_by_label(name)).map(|row| row.rect());
+    let rows_above = seen.filter(|row| row.left() < area.right() && row.bottom() < area.top());
+    let last = rows_above.max_by(|a, b| a.top().total_cmp(&b.top()));
+    right_click(&mut window, last.expect("a row").center());
+    assert!(Popup::is_any_open(&window.ctx));
+    assert!(window.state().state.selected() != Some(0), "the row was selected");
+    assert_eq!(rows(&window), before, "and did not go away under the menu");
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    window.state_mut().state.select(Some(0));
+    window.run_steps(3);
+    let generation = window.state().state.view.as_ref().map(|view| view.generation);
+    window.state_mut().change(Change::Edit(
+        Edit::RenameTake { take: TakeRef::Index(0), name: "Look around".to_owned() },
+        None,
+    ));
+    window.run_steps(3);
+    assert_ne!(window.state().state.view.as_ref().map(|view| view.generation), generation);
+    assert!(window.query_by_label("rib_00_left_tip").is_none(), "the branch is still folded");
 }
 
 #[test]

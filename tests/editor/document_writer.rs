@@ -58,7 +58,10 @@ pub(crate) fn deed(number: u32) -> Deed {
         7 => {
             let (time, bones, properties) = (0.01 + random.unit() * 0.5, vec![bone()], Vec::new());
             let value = NewKey::default();
-            Change::Edit(Edit::AddKeys { take: take(), time, bones, properties, value }, None)
+            Change::Edit(
+                Edit::AddKeys { take: take(), time, bones, properties, value, keyed_only: false },
+                None,
+            )
         }
         8 => Change::Edit(Edit::Pend { take: take(), time: random.unit() * 0.5, poses: vec![pose()] }, None),
         9 => Change::Edit(Edit::ReverseTake { take: TakeRef::Index(2) }, None),

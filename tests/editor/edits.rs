@@ -135,6 +135,7 @@ fn a_new_key_is_an_exact_copy_of_its_predecessor_in_original_change_and_result()
         bones: vec![bone("root")],
         properties: vec![Property::Translation],
         value: NewKey::Predecessor,
+        keyed_only: false,
     };
     model.apply(&add).unwrap();
     model.check().unwrap();
@@ -158,6 +159,7 @@ fn keys_that_keep_the_motion_leave_every_curve_where_it_was() {
         bones: Vec::new(),
         properties: Vec::new(),
         value: NewKey::Current,
+        keyed_only: false,
     };
     for time in [0.05, 0.33, 0.45, 0.97] {
         model.apply(&add(time)).unwrap();
@@ -182,6 +184,7 @@ fn channels_with_one_column_of_times_have_one_afterwards() {
             bones: vec![bone("root"), bone("hip")],
             properties: Vec::new(),
             value: NewKey::Current,
+            keyed_only: false,
         })
         .unwrap();
     let tracks = &model.slots()[0].original.tracks;

@@ -3,10 +3,12 @@
 use crate::arm;
 use crate::hands_rig::{Hand, PICTURE};
 use dragonfly::control::Key;
+use dragonfly::control::bones::Choice;
 use dragonfly::control::gizmo::GizmoView;
 use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::settings::GhostSettings;
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
@@ -176,6 +178,21 @@ fn a_key_under_a_handle_of_the_gizmo_is_taken_hold_of_but_not_in_its_middle() {
     hand.to(key + Vec2::new(9.0, 6.0));
     hand.release();
     assert_eq!(hand.steps(), ["Rotate"]);
+}
+
+#[test]
+fn keys_of_a_bone_can_be_dragged_when_it_is_free_whatever_was_selected_with_it() {
+    let mut hand = tip();
+    hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 1, true)));
+    let select = |hand: &mut Hand, bones: &[u32]| {
+        hand.state.execute(Request::SelectBones(bones.to_vec(), Choice::Replace));
+        hand.state.begin(hand.state.now);
+        hand.state.hands.path().editable
+    };
+    // The last one is the active one, of which the path is.
+    for (bones, wanted) in [(&[2, 1][..], false), (&[2], true), (&[2, 1], false), (&[1, 2], true)] {
+        assert_eq!(select(&mut hand, bones), wanted, "{bones:?}");
+    }
 }
 
 /// The poses at a time.

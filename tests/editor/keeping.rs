@@ -456,6 +456,7 @@ fn work_on_a_file_that_was_moved_goes_on_where_it_is_now() {
     assert_eq!((&*back, &at), (&offer, &other));
     desk.tell(found_at(&folder.join("nowhere.glb")));
     desk.warned("nowhere.glb");
+    assert_eq!(desk.offered(), std::slice::from_ref(&offer), "a wrong path is no answer");
     // The right one.
     desk.tell(found_at(&moved));
     let after = desk.shows(|view| view.history.done == 3);

@@ -1,12 +1,14 @@
 //! Locked bones: what leaves them alone, what is refused, and what goes for the whole take.
 
 use crate::timeline_rig::Animator;
+use dragonfly::control::bones::Choice;
 use dragonfly::document::Change;
 use dragonfly::document::edit::{BonePose, BoneRef, Edit, Property, TakeRef};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, Request};
 use dragonfly::posing::clipboard;
+use egui_kittest::kittest::Queryable;
 
 const LEFT: u32 = 3;
 const RIGHT: u32 = 6;
@@ -75,6 +77,36 @@ fn what_is_pending_of_a_locked_bone_is_neither_keyed_nor_dropped() {
         assert_eq!(bones(&animator), []);
         assert_eq!(animator.edited.adapter().pending_poses(), 0);
     }
+}
+
+#[test]
+fn keys_are_added_to_all_that_is_free_and_nothing_is_keyed_that_did_not_move() {
+    let mut animator = Animator::with_bone(LEFT);
+    lock(&mut animator, LEFT, true);
+    animator.harness.state_mut().state.select(None);
+    animator.request(Request::Seek(0.05));
+    let keys = |animator: &Animator, bone: u32| animator.times(bone as usize).len();
+    let before = [LEFT, RIGHT].map(|bone| keys(&animator, bone));
+    animator.request(Request::Command(Id::Key));
+    assert_eq!([LEFT, RIGHT].map(|bone| keys(&animator, bone)), [before[0], before[1] + 1]);
+    let track = &animator.edited.adapter().slots()[0].original.tracks[RIGHT as usize];
+    assert!(track.scale.times.is_empty(), "it never grew");
+    // Selected with a locked one, the free one gets its key.
+    animator.harness.state_mut().state.execute(Request::SelectBones(vec![LEFT, RIGHT], Choice::Replace));
+    animator.request(Request::Seek(0.06));
+    animator.harness.get_by_label("Add a rotation key").click();
+    animator.steps(3);
+    assert_eq!([LEFT, RIGHT].map(|bone| keys(&animator, bone)), [before[0], before[1] + 2]);
+}
+
+#[test]
+fn a_locked_bone_is_not_turned_to_another_one_and_it_is_said_why() {
+    let mut animator = Animator::with_bone(LEFT);
+    lock(&mut animator, LEFT, true);
+    animator.harness.state_mut().state.execute(Request::SelectBones(vec![LEFT, RIGHT], Choice::Replace));
+    animator.request(Request::Command(Id::LookAt));
+    assert_eq!(animator.changes, []);
+    assert!(said(&animator).contains("is locked"), "{}", said(&animator));
 }
 
 #[test]

@@ -222,6 +222,15 @@ fn ctrl_c_copies_keys_where_the_timeline_has_the_hand_and_the_pose_elsewhere() {
     assert_eq!(animator.edited.steps().0.len(), 1);
     animator.request(Request::Change(Change::Undo));
     assert_eq!(animator.times(3), before);
+    // A view of something else, which was on its way when they were pasted, does not take their place.
+    let bench = animator.harness.state_mut();
+    let effect = bench.state.execute(Request::PastePose { text, mirrored: false });
+    let mut view = bench.state.view.clone().expect("open");
+    view.generation += 1;
+    bench.state.show(view);
+    bench.effects.extend(effect);
+    animator.steps(3);
+    assert_eq!(animator.selected(), 2, "those that came");
 }
 
 #[test]

@@ -108,6 +108,18 @@ fn pictures_of_the_questions() {
 }
 
 #[test]
+fn a_file_is_asked_for_until_one_is_named() {
+    let fox = Box::new(offer("Fox.glb", 12, 250, Fate::Missing, Reading::Whole, Life::Gone));
+    let mut bench = bench(Question::Recover { offers: vec![(*fox).clone()], lost: false });
+    bench.state.ask_where_it_is(fox.clone(), Some("Fox 2.glb".into()));
+    bench.state.execute(Request::Deed(Deed::Find(fox.clone())));
+    // The dialog for files may be closed without an answer.
+    assert!(matches!(bench.state.question(), Some(Question::Find { .. })), "{:?}", bench.state.question());
+    bench.state.offer_is_answered(&fox);
+    assert_eq!(bench.state.question(), None);
+}
+
+#[test]
 fn every_question_is_drawn_in_every_window_and_left_by_escape_without_a_deed() {
     for (name, question) in questions() {
         for size in [egui::vec2(1280.0, 720.0), egui::vec2(480.0, 320.0), egui::vec2(40.0, 30.0)] {

@@ -75,6 +75,26 @@ fn marks_and_pins_of_a_file_come_back_with_it() {
 }
 
 #[test]
+fn a_model_that_is_saved_elsewhere_takes_its_marks_along() {
+    let mut state = State::new(Settings::default(), Instant::now());
+    let mut view = file("Fox.glb");
+    state.show(view.clone());
+    flag(&mut state, BoneFlag::Lock, 4);
+    assert!(state.unsaved_marks().is_some());
+    let mut moved = (*view.file).clone();
+    moved.path = Some("Wolf.glb".into());
+    view.file = std::sync::Arc::new(moved);
+    state.show(view);
+    let text = state.unsaved_marks().expect("of the new file too");
+    for name in ["Fox.glb", "Wolf.glb"] {
+        let mut again = State::new(Settings::default(), Instant::now());
+        again.read_marks(&text);
+        again.show(file(name));
+        assert!(again.keys.flags.has(BoneFlag::Lock, 4), "{name}");
+    }
+}
+
+#[test]
 fn only_so_many_files_are_remembered_and_a_damaged_text_holds_none() {
     let mut state = State::new(Settings::default(), Instant::now());
     for number in 0..marks::FILES + 10 {

@@ -51,7 +51,14 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
         },
         5 | 6 => {
             let value = random.choice(&[NewKey::Predecessor, NewKey::Current]);
-            Edit::AddKeys { take, time: random.between(0.0, 1.5), bones, properties, value }
+            Edit::AddKeys {
+                take,
+                time: random.between(0.0, 1.5),
+                bones,
+                properties,
+                value,
+                keyed_only: false,
+            }
         }
         7 => Edit::DeleteKeys { take, keys: keys() },
         8 => Edit::MoveKeys { take, keys: keys(), by: random.between(-0.2, 0.4) },

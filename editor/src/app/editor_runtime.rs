@@ -113,7 +113,9 @@ impl EditorRuntime {
         let graphics = &running.parts.graphics;
         let mut interface = running.parts.interface.borrow_mut();
         match effect {
-            Effect::Open(_) | Effect::Quit | Effect::Deed(_) | Effect::TakeBack | Effect::HandsOff => {}
+            Effect::Open(_) | Effect::Quit | Effect::Deed(_) => {}
+            // What these come to is what was let through.
+            Effect::Changes(_) | Effect::Cut(..) | Effect::TakeBack | Effect::HandsOff => {}
             Effect::Stays => running.leaving = false,
             Effect::OpenDialog if interface.asking => {
                 interface.state.status.say(Level::Info, "The dialog for opening files is open already");
@@ -140,20 +142,7 @@ impl EditorRuntime {
                     document.change(change);
                 }
             }
-            Effect::Changes(changes) => {
-                if let Some(document) = &running.document {
-                    changes.iter().for_each(shown::asked);
-                    changes.into_iter().for_each(|change| document.change(change));
-                }
-            }
             Effect::Copy(text) => interface.copy(text),
-            Effect::Cut(text, change) => {
-                interface.copy(text);
-                if let Some(document) = &running.document {
-                    shown::asked(&change);
-                    document.change(change);
-                }
-            }
             Effect::PastePose { mirrored } => {
                 let text = interface.clipboard();
                 let effect = interface.state.execute(Request::PastePose { text, mirrored });

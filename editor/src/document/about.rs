@@ -3,6 +3,7 @@
 use super::adapter::ModelAdapter;
 use super::edit::{BonePose, BoneRef, Edit};
 use crate::control::bones::MirrorPairs;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Longest name in a list, letters; a name may have any length.
@@ -41,10 +42,10 @@ fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
         | Edit::SetInterpolation { bones, .. } => bones.iter().collect(),
         Edit::SetTangents { bone, .. } => vec![bone],
         Edit::PasteKeys { channels, .. } => {
-            let mut bones: Vec<&BoneRef> = channels.iter().map(|channel| &channel.bone).collect();
-            // The channels of a bone come one after the other.
-            bones.dedup();
-            bones
+            let found: BTreeSet<u32> =
+                channels.iter().filter_map(|channel| adapter.bone(&channel.bone).ok()).collect();
+            pasted = found.into_iter().map(BoneRef::Index).collect();
+            pasted.iter().collect()
         }
         Edit::DeleteKeys { keys, .. }
         | Edit::MoveKeys { keys, .. }
@@ -137,5 +138,29 @@ mod tests {
         assert_eq!(paste(true, &["hips"]), "hips  ·  Walk");
         assert_eq!(paste(true, &["hand.R", "tail of another model"]), "hand.L  ·  Walk");
         assert_eq!(paste(false, &["hand.L", "hips"]), "2 bones  ·  Walk");
+    }
+
+    #[test]
+    fn pasted_keys_are_about_the_bones_that_the_model_has_each_once() {
+        let skeleton = Skeleton { bones: ["hips", "hand.L"].into_iter().map(bone).collect() };
+        let adapter =
+            ModelAdapter::new(&AnimationData { skeleton: Arc::new(skeleton), takes: vec![take("Walk")] });
+        let channel = |bone: &str, property: &str, value: &str| {
+            let keys = format!(r#"[{{"after":0,"value":{value}}}]"#);
+            format!(r#"{{"bone":"{bone}","property":"{property}","interpolation":"linear","keys":{keys}}}"#)
+        };
+        let turn = |bone| channel(bone, "rotation", "[0,0,0,1]");
+        let place = |bone| channel(bone, "translation", "[0,0,0]");
+        let named = |channels: &[String]| {
+            let json = format!(
+                r#"{{"edit":"paste_keys","take":"Walk","time":0,"channels":[{}]}}"#,
+                channels.join(",")
+            );
+            about(&adapter, &serde_json::from_str(&json).expect("an edit")).to_string()
+        };
+        let of_a_hand = [turn("hand.L"), turn("tail"), place("hand.L")];
+        assert_eq!(named(&of_a_hand), "hand.L  ·  Walk");
+        let of_both = [turn("hand.L"), turn("hips"), place("hand.L")];
+        assert_eq!(named(&of_both), "2 bones  ·  Walk");
     }
 }

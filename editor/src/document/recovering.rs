@@ -194,7 +194,11 @@ impl Document {
                 self.open(Source::File(path), Some((offer, Decision::Keep)));
             }
             Ok(false) => self.reply(DocumentReply::OtherFile(Box::new(offer), path)),
-            Err(reason) => self.reply(DocumentReply::Warned(reason)),
+            Err(reason) => {
+                self.reply(DocumentReply::Warned(reason));
+                // A path with a letter too many is no answer.
+                self.reply(DocumentReply::Offers(vec![offer]));
+            }
         }
     }
 

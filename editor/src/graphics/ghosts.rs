@@ -13,9 +13,13 @@ pub struct GhostSkins {
     posed: Option<PosedModel>,
     /// Which view it has the takes of, and which bones rest.
     of: Option<(u64, Vec<BoneIndex>)>,
+    /// Times and places of the ghosts, those far away first.
+    order: Vec<(f32, i32)>,
     palettes: Vec<Affine>,
     weights: Vec<f32>,
     tints: Vec<u32>,
+    /// Whether each draw item of one ghost after the other is seen from inside.
+    mirrored: Vec<bool>,
 }
 
 impl GhostSkins {
@@ -24,6 +28,7 @@ impl GhostSkins {
         self.palettes.clear();
         self.weights.clear();
         self.tints.clear();
+        self.mirrored.clear();
     }
 
     /// Poses `view` at each of `times` (seconds, and how far from now) of a take. `colors` are of what was and of what comes.
@@ -50,10 +55,12 @@ impl GhostSkins {
         }
         let most = times.iter().map(|(_, place)| place.unsigned_abs()).max().unwrap_or(1).max(1) as f32;
         // Those far away first: the nearer ones over them.
-        let mut order: Vec<(f32, i32)> = times.to_vec();
-        order.sort_by_key(|(_, place)| std::cmp::Reverse(place.unsigned_abs()));
-        for (time, place) in order {
+        self.order.clear();
+        self.order.extend_from_slice(times);
+        self.order.sort_unstable_by_key(|&(_, place)| (std::cmp::Reverse(place.unsigned_abs()), place));
+        for &(time, place) in &self.order {
             posed.pose(take, time, true);
+            self.mirrored.extend(posed.items().iter().map(|item| posed.is_mirrored(item)));
             self.palettes.extend_from_slice(posed.palettes());
             self.weights.extend_from_slice(posed.weights());
             let opacity = 0.75 - 0.55 * (place.unsigned_abs() as f32 - 1.0) / most;
@@ -84,6 +91,12 @@ impl GhostSkins {
     /// What each is tinted with.
     pub fn tints(&self) -> &[u32] {
         &self.tints
+    }
+
+    /// Is this draw item of this ghost seen from inside, because scales turn it inside out?
+    pub fn is_mirrored(&self, ghost: usize, item: usize) -> bool {
+        let items = self.posed.as_ref().map_or(0, |posed| posed.items().len());
+        self.mirrored.get(ghost * items + item).copied().unwrap_or_default()
     }
 
     /// The model, in the pose of the last ghost.

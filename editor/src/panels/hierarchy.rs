@@ -7,9 +7,11 @@ use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
 use crate::control::bones::Choice;
+use crate::document::LoadedModel;
 use dragonfly_anim::data::BoneIndex;
 use egui::{Rect, ScrollArea, Sense, TextEdit, TextStyle, Ui, pos2, vec2};
 use std::collections::HashSet;
+use std::sync::Arc;
 
 /// The skeleton as a tree.
 #[derive(Debug, Default)]
@@ -19,7 +21,8 @@ pub struct Hierarchy {
     collapsed: HashSet<BoneIndex>,
     /// The selection that was last scrolled to.
     followed: Option<BoneIndex>,
-    generation: Option<u64>,
+    /// Of which model all this is.
+    of: Option<Arc<LoadedModel>>,
 }
 
 impl Panel for Hierarchy {
@@ -36,9 +39,9 @@ impl Panel for Hierarchy {
     }
 
     fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-        let generation = state.view.as_ref().map(|view| view.generation);
-        if self.generation != generation {
-            *self = Self { generation, query: std::mem::take(&mut self.query), ..Self::default() };
+        let of = state.view.as_ref().map(|view| &view.loaded);
+        if self.of.as_ref().map(Arc::as_ptr) != of.map(Arc::as_ptr) {
+            *self = Self { of: of.cloned(), query: std::mem::take(&mut self.query), ..Self::default() };
         }
         if state.view.is_none() {
             return widgets::empty(ui, "", "Bones appear here");
@@ -195,7 +198,8 @@ impl Hierarchy {
             requests.push(Request::Hover(row.bone));
         }
         super::bone_menu::show(&response, state, Some(row.bone), requests);
-        if response.clicked() {
+        // The row that was clicked stays where it is, and so does one that a menu is about.
+        if response.clicked() || (response.secondary_clicked() && !selected) {
             self.followed = Some(row.bone);
         }
         if response.double_clicked() {

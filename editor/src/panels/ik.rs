@@ -132,6 +132,13 @@ impl State {
         let active = self.selected()?;
         let alone = self.selection.bones() == [active];
         let others: Vec<BoneIndex> = self.bones_to_pose().filter(|&bone| bone != active).collect();
+        if !alone
+            && others.is_empty()
+            && let Some(locked) = self.selection.bones().iter().copied().find(|&bone| bone != active)
+        {
+            self.say_locked(locked);
+            return None;
+        }
         let animation = self.posed.update(&view, take, time);
         let skeleton = &view.loaded.model.animation.skeleton;
         let poses = if alone {

@@ -8,6 +8,7 @@ use crate::document::View;
 use crate::document::edit::BoneRef;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// Its name in the program's own folder.
 pub const FILE: &str = "marks.json";
@@ -48,9 +49,19 @@ impl FileMarks {
 pub struct Marks {
     /// Newest first.
     files: Vec<FileMarks>,
-    /// What was looked at last: the file, the version of its marks, pins, pole.
-    noted: Option<(String, u64, Vec<BoneIndex>, Option<BoneIndex>)>,
+    /// What was looked at last.
+    noted: Option<Noted>,
     unsaved: bool,
+}
+
+#[derive(Clone, Debug)]
+struct Noted {
+    /// Of the file; a model that is saved elsewhere takes its marks along.
+    path: Option<PathBuf>,
+    /// Of the flags.
+    version: u64,
+    pins: Vec<BoneIndex>,
+    pole: Option<BoneIndex>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -98,16 +109,16 @@ impl State {
     pub(super) fn note_marks(&mut self) {
         let Some(view) = &self.view else { return };
         let version = self.keys.flags.version();
-        let same = |noted: &(String, u64, Vec<BoneIndex>, Option<BoneIndex>)| {
-            (noted.1, &noted.2, noted.3) == (version, &self.pins, self.ik.pole)
+        let same = |noted: &Noted| {
+            (&noted.path, noted.version, &noted.pins, noted.pole)
+                == (&view.file.path, version, &self.pins, self.ik.pole)
         };
         if self.marks.noted.as_ref().is_some_and(same) {
             return;
         }
         let path = key_of(view);
-        let now = (path.clone(), version, self.pins.clone(), self.ik.pole);
         // What was opened just now has what was remembered of it.
-        let first = self.marks.noted.replace(now).is_none();
+        let first = self.marks.noted.replace(self.noted(view)).is_none();
         let marks =
             of(path, &view.loaded.model.animation.skeleton, &self.keys.flags, &self.pins, self.ik.pole);
         let at = self.marks.files.iter().position(|file| file.path == marks.path);
@@ -132,7 +143,9 @@ impl State {
             BoneRef::Index(bone) => Some(*bone).filter(|&bone| (bone as usize) < skeleton.len()),
             BoneRef::Name(name) => skeleton.find(name),
         };
-        let Some(marks) = self.marks.files.iter().find(|file| file.path == path) else { return };
+        let Some(marks) = self.marks.files.iter().find(|file| file.path == path) else {
+            return;
+        };
         for flag in BoneFlag::ALL {
             for bone in marks.flag(flag).iter().filter_map(index) {
                 self.keys.flags.set(flag, bone, true);
@@ -140,8 +153,12 @@ impl State {
         }
         self.pins = marks.pins.iter().filter_map(index).collect();
         self.ik.pole = marks.pole.as_ref().and_then(index);
-        let version = self.keys.flags.version();
-        self.marks.noted = Some((path, version, self.pins.clone(), self.ik.pole));
+        self.marks.noted = Some(self.noted(&view));
+    }
+
+    fn noted(&self, view: &View) -> Noted {
+        let (pins, pole) = (self.pins.clone(), self.ik.pole);
+        Noted { path: view.file.path.clone(), version: self.keys.flags.version(), pins, pole }
     }
 }
 

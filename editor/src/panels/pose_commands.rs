@@ -33,9 +33,19 @@ impl State {
         Some(done(if self.pending_here().is_some() {
             Edit::KeyPending { take, time: Some(time), bones: self.pending_free(Some(time))? }
         } else {
-            let bones = self.selected_refs();
-            Edit::AddKeys { take, time, bones, properties: Vec::new(), value: NewKey::Current }
+            self.added_keys()?
         }))
+    }
+
+    /// Keys at the time shown that leave the motion as it is: of the selected bones; with none selected in all channels that
+    /// have keys, but those of locked bones.
+    pub(super) fn added_keys(&self) -> Option<Edit> {
+        let all = self.selection.bones().is_empty();
+        let bones = if all && self.keys.flags.any_locked() { self.free_refs() } else { self.selected_refs() };
+        let (properties, value) = (Vec::new(), NewKey::Current);
+        let (take, time) = (self.take_ref()?, self.time());
+        let keyed_only = all && !bones.is_empty();
+        Some(Edit::AddKeys { take, time, bones, properties, value, keyed_only })
     }
 
     /// Keys what is pending anywhere in the take.

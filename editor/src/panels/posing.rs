@@ -78,6 +78,12 @@ impl State {
         self.bones_to_pose().map(BoneRef::Index).collect()
     }
 
+    /// All bones that are not locked, as edits name them; none where all are.
+    pub(super) fn free_refs(&self) -> Vec<BoneRef> {
+        let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len()) as BoneIndex;
+        (0..bones).filter(|&bone| !self.keys.flags.locked(bone)).map(BoneRef::Index).collect()
+    }
+
     /// The selected bones, or all of them where nothing is selected.
     pub(super) fn selected_or_all(&self) -> Vec<BoneIndex> {
         if !self.selection.bones().is_empty() {

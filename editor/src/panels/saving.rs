@@ -120,11 +120,14 @@ impl State {
         self.questions.push_front((self.asked, Question::Find { offer, other }));
     }
 
-    /// Somebody said where the file of this work is: it is not offered any more.
+    /// Somebody said where the file of this work is: it is neither offered nor asked for any more.
     pub fn offer_is_answered(&mut self, offer: &Offer) {
+        let same = |other: &Offer| other.found.journal == offer.found.journal;
+        self.questions
+            .retain(|(_, question)| !matches!(question, Question::Find { offer, .. } if same(offer)));
         for (_, question) in &mut self.questions {
             if let Question::Recover { offers, .. } = question {
-                offers.retain(|other| other.found.journal != offer.found.journal);
+                offers.retain(|other| !same(other));
             }
         }
         self.questions.retain(
@@ -146,7 +149,7 @@ impl State {
                 }
             }
             // A dialog for files may be closed without an answer.
-            (Deed::Find(_), Some(Question::Recover { .. })) => {}
+            (Deed::Find(_), Some(Question::Recover { .. } | Question::Find { .. })) => {}
             _ => {
                 self.questions.pop_front();
             }

@@ -139,6 +139,9 @@ pub enum Edit {
         /// What they hold.
         #[serde(default)]
         value: NewKey,
+        /// Only in channels that have keys, also of bones that are named.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        keyed_only: bool,
     },
     /// Deletes keys. The last key of a take stays.
     DeleteKeys {

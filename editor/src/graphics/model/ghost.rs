@@ -106,12 +106,13 @@ impl Ghosts {
             return;
         };
         pass.set_bind_group(0, &gpu.frame_group, &[]);
+        let first = ghosts.len().saturating_sub(self.count);
         for ghost in 0..self.count {
             for (index, item) in posed.items().iter().enumerate() {
                 let geometry = geometries.get(&(item.mesh, item.primitive));
                 let Some((geometry, group)) = geometry.zip(room.groups.get(index)) else { continue };
                 let place = (ghost * posed.items().len() + index) as u32;
-                pass.set_pipeline(&pipelines[usize::from(posed.is_mirrored(item))]);
+                pass.set_pipeline(&pipelines[usize::from(ghosts.is_mirrored(first + ghost, index))]);
                 pass.set_bind_group(1, group, &[place * room.stride]);
                 pass.set_vertex_buffer(0, geometry.vertices.slice(..));
                 pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);

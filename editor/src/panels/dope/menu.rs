@@ -2,7 +2,6 @@
 
 use super::hand::Hand;
 use crate::document::Change;
-use crate::document::edit::{BoneRef, Edit, NewKey};
 use crate::panels::commands::Id;
 use crate::panels::menu::item;
 use crate::panels::state::{Request, State};
@@ -27,7 +26,7 @@ pub(in crate::panels) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Req
     let button = Button::new("Add keys at the playhead").frame_when_inactive(false);
     let hint = "Keys that keep the motion: of the selected bones, or of all";
     if ui.add_enabled(state.take().is_some(), button).on_hover_text(hint).clicked() {
-        requests.extend(add_keys(state));
+        requests.extend(state.added_keys().map(|edit| Request::Change(Change::Edit(edit, None))));
         ui.close();
     }
     for id in [Id::CutKeys, Id::CopyKeys, Id::PastePose] {
@@ -53,17 +52,4 @@ pub(in crate::panels) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Req
     for id in [Id::SelectAllKeys, Id::RangeOfKeys, Id::FitKeys] {
         item(ui, state, id, false, requests);
     }
-}
-
-/// Keys at the time shown that leave the motion as it is.
-fn add_keys(state: &State) -> Option<Request> {
-    let bones = state.selection.bones().iter().map(|&bone| BoneRef::Index(bone)).collect();
-    let edit = Edit::AddKeys {
-        take: state.take_ref()?,
-        time: state.time(),
-        bones,
-        properties: Vec::new(),
-        value: NewKey::Current,
-    };
-    Some(Request::Change(Change::Edit(edit, None)))
 }

@@ -28,6 +28,8 @@ struct Placed {
     tool: Option<Tool>,
     settings: GizmoSettings,
     selected: Vec<BoneIndex>,
+    /// It may be one that is not moved.
+    active: Option<BoneIndex>,
     /// Version of the marks of bones: some are seen at rest.
     flags: u64,
 }
@@ -65,13 +67,14 @@ impl State {
         selected.extend(self.bones_to_pose());
         let (take, time) = (self.playback.take, self.playback.time_at(self.now));
         let (generation, flags) = (view.generation, self.keys.flags.version());
-        let now = Placed { generation, take, time, tool: hand.tool, settings, selected, flags };
+        let active = self.selection.active();
+        let now = Placed { generation, take, time, tool: hand.tool, settings, selected, active, flags };
         if self.hold.placed.as_ref() == Some(&now) || self.hands.edits() {
             self.hold.spare = now.selected;
             return;
         }
         let editable = take.is_some() && !self.selection_is_locked();
-        let free = self.selection.active().is_none_or(|bone| !self.keys.flags.locked(bone));
+        let free = active.is_none_or(|bone| !self.keys.flags.locked(bone));
         let control = self.hands.gizmo_mut();
         control.editable = editable;
         control.gizmo.settings = settings;

@@ -174,7 +174,18 @@ impl State {
 
     /// Selects keys that were pasted, once they are there.
     pub(super) fn select_pasted(&mut self, generation: u64) {
-        if let Some((_, parts)) = self.keys.awaited.take_if(|(before, _)| generation > *before) {
+        let Some((before, parts)) = &self.keys.awaited else { return };
+        // A view that was on its way when they were pasted has not got them yet.
+        let there = parts.iter().any(|((bone, property), times)| {
+            let slot = self.slot();
+            times
+                .iter()
+                .any(|[time, _]| slot.is_some_and(|slot| slot.key_at(*bone, *property, *time).is_some()))
+        });
+        if generation > *before
+            && there
+            && let Some((_, parts)) = self.keys.awaited.take()
+        {
             self.select_parts(&parts, Choice::Replace);
         }
     }

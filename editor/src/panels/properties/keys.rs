@@ -7,7 +7,7 @@ use super::super::widgets;
 use super::hand::Hand;
 use super::parts::Part;
 use crate::document::Change;
-use crate::document::edit::{BoneRef, Edit, KeySet, NewKey, Property, ResetTo};
+use crate::document::edit::{Edit, KeySet, NewKey, Property, ResetTo};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::rest_pose;
 use egui::Ui;
@@ -100,19 +100,19 @@ pub(super) fn button(
     }
 }
 
-fn bones(state: &State) -> Vec<BoneRef> {
-    state.selection.bones().iter().map(|&bone| BoneRef::Index(bone)).collect()
-}
-
 fn toggled(state: &State, property: Property, keyed: Keyed) -> Option<Edit> {
-    let (take, time, bones, properties) = (state.take_ref()?, state.time(), bones(state), vec![property]);
+    let (take, time, bones) = (state.take_ref()?, state.time(), state.selected_refs());
+    let properties = vec![property];
     Some(match keyed {
         Keyed::Here => {
             let keys = vec![KeySet { bones, properties, at: Some(vec![time]), ..KeySet::default() }];
             Edit::DeleteKeys { take, keys }
         }
         Keyed::Pending => Edit::KeyPending { take, time: Some(time), bones },
-        _ => Edit::AddKeys { take, time, bones, properties, value: NewKey::Current },
+        _ => {
+            let value = NewKey::Current;
+            Edit::AddKeys { take, time, bones, properties, value, keyed_only: false }
+        }
     })
 }
 
@@ -127,7 +127,7 @@ pub(super) fn reset(
 ) {
     let Some(take) = state.take_ref() else { return };
     if has_key {
-        let (time, bones, properties) = (state.time(), bones(state), vec![property]);
+        let (time, bones, properties) = (state.time(), state.selected_refs(), vec![property]);
         let edit = Edit::Reset { take, time, bones, properties, to };
         requests.push(Request::Change(Change::Edit(edit, None)));
         return;

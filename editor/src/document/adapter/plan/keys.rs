@@ -16,6 +16,7 @@ pub(super) fn add(
     time: f32,
     named: Named<'_>,
     value: NewKey,
+    keyed_only: bool,
 ) -> Result<(), EditError> {
     let take = work.take(take)?;
     key_time(time, work.slot(take))?;
@@ -23,7 +24,7 @@ pub(super) fn add(
     for place in work.channels(take, named)? {
         let times = work.slot(take).times(place.bone, place.property);
         // What does not move gets keys only when it is named.
-        let wanted = !times.is_empty() || !named.0.is_empty();
+        let wanted = !times.is_empty() || !(named.0.is_empty() || keyed_only);
         if wanted && key_at(times, time).is_err() {
             with_kind!(place.property, insert::<K>(work, place, time, value));
             added = true;

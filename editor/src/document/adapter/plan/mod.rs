@@ -50,8 +50,8 @@ pub(super) fn run(work: &mut Work, edit: &Edit) -> Result<(), EditError> {
         }
         Edit::KeyPending { take, time, bones } => pending::key(work, take, *time, bones),
         Edit::DropPending { take, time, bones } => pending::drop(work, take, *time, bones),
-        Edit::AddKeys { take, time, bones, properties, value } => {
-            keys::add(work, take, *time, (bones, properties), *value)
+        Edit::AddKeys { take, time, bones, properties, value, keyed_only } => {
+            keys::add(work, take, *time, (bones, properties), *value, *keyed_only)
         }
         Edit::DeleteKeys { take, keys } => keys::delete(work, take, keys),
         Edit::MoveKeys { take, keys, by } => timing::shift(work, take, keys, *by),
