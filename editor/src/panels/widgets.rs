@@ -7,8 +7,8 @@ use super::style::{self, GRID, RADIUS, ROW};
 use super::theme::Theme;
 use egui::accesskit::Role;
 use egui::{
-    Align2, Color32, CornerRadius, FontId, Rect, Response, RichText, Sense, TextStyle, Ui, WidgetInfo, pos2,
-    vec2,
+    Align2, Color32, CornerRadius, FontId, Rect, RectAlign, Response, RichText, Sense, TextStyle, Tooltip,
+    Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 
 /// A square button with an icon that does a command; lit when `on`. Its tooltip names the shortcut.
@@ -19,12 +19,29 @@ pub(super) fn command_button(
     on: bool,
     requests: &mut Vec<Request>,
 ) -> Response {
-    let response =
-        icon_button(ui, icon, commands::get(id).title, on).on_hover_text(commands::tooltip(ui.ctx(), id));
+    let hint = commands::tooltip(ui.ctx(), id);
+    command(ui, icon, id, on, requests).on_hover_text(hint)
+}
+
+/// The same in a column of buttons: the tooltip lies beside it and not over the next one.
+pub(super) fn column_button(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) {
+    let hint = commands::tooltip(ui.ctx(), id);
+    hint_beside(&command(ui, icon, id, on, requests), hint);
+}
+
+fn command(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) -> Response {
+    let response = icon_button(ui, icon, commands::get(id).title, on);
     if response.clicked() {
         requests.push(Request::Command(id));
     }
     response
+}
+
+/// A tooltip at the right of what it is about.
+pub(super) fn hint_beside(response: &Response, hint: impl Into<WidgetText>) {
+    let mut tooltip = Tooltip::for_enabled(response);
+    tooltip.popup = tooltip.popup.align(RectAlign::RIGHT);
+    tooltip.show(|ui| ui.label(hint));
 }
 
 /// A square button with an icon; `name` is what a screen reader says.

@@ -5,7 +5,7 @@ use crate::control::gizmo::{Pivot, Space, Tool};
 use crate::panels::commands::Id;
 use crate::panels::icons::Icon;
 use crate::panels::style::GRID;
-use crate::panels::widgets::{command_button, icon_button};
+use crate::panels::widgets::{column_button, hint_beside, icon_button};
 use crate::panels::{Request, State, menu};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
@@ -33,7 +33,7 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
         (Icon::Rotate, Id::ToolRotate, Some(Tool::Rotate)),
         (Icon::Scale, Id::ToolScale, Some(Tool::Scale)),
     ] {
-        command_button(ui, icon, id, hand.tool == tool, requests);
+        column_button(ui, icon, id, hand.tool == tool, requests);
     }
     if fits <= 2 {
         divider_across(ui);
@@ -46,8 +46,8 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
     }
     if fits == 0 {
         divider_across(ui);
-        command_button(ui, Icon::Ghosts, Id::ToggleGhosts, hand.ghosts.shown, requests);
-        command_button(ui, Icon::Path, Id::TogglePath, hand.path, requests);
+        column_button(ui, Icon::Ghosts, Id::ToggleGhosts, hand.ghosts.shown, requests);
+        column_button(ui, Icon::Path, Id::TogglePath, hand.path, requests);
     }
     Some(at)
 }
@@ -90,7 +90,7 @@ fn choice(
             menu::item(ui, state, Id::ToggleCurl, hand.curl, requests);
         }
     });
-    response.on_hover_text(name);
+    hint_beside(&response, name);
 }
 
 fn space_icon(space: Space) -> Icon {

@@ -4,17 +4,17 @@ use crate::panels::commands::{self, Id};
 use crate::panels::icons::Icon;
 use crate::panels::style::{self, RADIUS};
 use crate::panels::theme::Theme;
-use crate::panels::widgets::{command_button, count, focus_ring};
+use crate::panels::widgets::{column_button, count, focus_ring, hint_beside};
 use crate::panels::{Request, State, menu};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, CornerRadius, FontId, Response, Sense, Ui, WidgetInfo};
 
 /// Three buttons, one above the other.
 pub(super) fn tools(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-    command_button(ui, Icon::Ik, Id::ToggleIk, state.ik.on, requests);
+    column_button(ui, Icon::Ik, Id::ToggleIk, state.ik.on, requests);
     length(ui, state, requests);
     let pinned = state.selected().is_some_and(|bone| state.is_pinned(bone));
-    command_button(ui, Icon::Pin, Id::Pin, pinned, requests);
+    column_button(ui, Icon::Pin, Id::Pin, pinned, requests);
 }
 
 /// How many bones follow; opens a list of all about IK and pins.
@@ -43,7 +43,7 @@ fn length(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         pins => format!("\n{} pinned", count(pins, "bone is", "bones are")),
     };
     let help = format!("{bones} above a bone that is moved with IK ({longer} one more, {shorter} one less)");
-    response.on_hover_text(format!("{help}{pole}{pins}"));
+    hint_beside(&response, format!("{help}{pole}{pins}"));
 }
 
 /// A square button that shows a number.
