@@ -5,7 +5,7 @@ use crate::document_writer::{Deed, come_back, deed, done_to, start, start_counti
 use crate::journal_writer::{Found, Said};
 use crate::keeping_desk::fox_at;
 use crate::mounted::quick_folder;
-use crate::program::data;
+use crate::program::{data, ignores};
 use crate::store_power::{cut, once_in_three, times};
 use dragonfly::document::adapter::ModelAdapter;
 use dragonfly::document::history::Edited;
@@ -50,6 +50,8 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
     // What was had back last, and how many deeds that was.
     let (mut kept, mut number) = (Edited::new(ModelAdapter::new(&loaded.model.animation)), 0);
     let began = Instant::now();
+    let signals = [Signal::KILL, Signal::TERM, Signal::HUP, Signal::INT];
+    let signals: Vec<Signal> = signals.into_iter().filter(|signal| !ignores(*signal)).collect();
     let mut in_a_drag = 0;
     for kill in 0..kills {
         let mut writer = start(folder.path(), number);
@@ -61,7 +63,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
             Duration::from_micros(random.below(60_000) as u64)
         };
         std::thread::park_timeout(patience);
-        let signal = random.choice(&[Signal::KILL, Signal::TERM, Signal::HUP, Signal::INT]);
+        let signal = random.choice(&signals);
         let process = Pid::from_raw(writer.process() as i32).expect("a number");
         kill_process(process, signal).expect("it runs");
         let said = writer.ended();

@@ -2,10 +2,13 @@
 
 use crate::picture::difference;
 use crate::program::data;
-use crate::studio;
-use dragonfly::document::{Cancel, Source, load_model};
+use crate::{arm, studio};
+use dragonfly::document::{Cancel, LoadedModel, Source, View, load_model};
+use dragonfly::graphics::ghosts::GhostSkins;
 use dragonfly::graphics::{Appearance, PictureSettings};
 use dragonfly::panels::settings::GhostSettings;
+use dragonfly_anim::data::{Channel, Interpolation};
+use glam::Vec3;
 use image::RgbaImage;
 use std::sync::Arc;
 
@@ -57,6 +60,24 @@ fn the_skin_is_seen_before_and_after_and_the_skeleton_in_its_place() {
     assert!(difference(&bones, &none) > 100 && difference(&bones, &before) > 300, "the skeleton alone");
     assert_eq!(difference(&shown(&[], true), &none), 0, "gone without a trace");
     assert_eq!(studio.stage().device().errors(), 0);
+}
+
+/// Each ghost knows for itself whether it is seen from inside.
+#[test]
+fn a_part_that_is_turned_inside_out_at_one_time_only_is_so_in_that_ghost_only() {
+    let loaded = Arc::into_inner(arm::loaded()).expect("the only one");
+    let mut model = Arc::into_inner(loaded.model).expect("the only one");
+    let mut take = (*model.animation.takes[0]).clone();
+    let scales = vec![Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0)];
+    take.tracks[arm::BONES - 1].scale = Channel::new(vec![0.0, arm::LENGTH], scales, Interpolation::Step);
+    model.animation.takes = vec![Arc::new(take)];
+    let view = View::opened(1, Arc::new(LoadedModel { model: Arc::new(model), ..loaded }));
+    let mut ghosts = GhostSkins::default();
+    ghosts.pose(&view, &[], Some(0), &[(0.0, -1), (arm::LENGTH, 1)], [[0.0; 3]; 2]);
+    // The tube is bound to all bones, the pane hangs from the last one.
+    let inside = |ghost: usize| [ghosts.is_mirrored(ghost, 0), ghosts.is_mirrored(ghost, 1)];
+    assert_eq!(inside(0), [false, false]);
+    assert!(inside(1)[1], "the pane");
 }
 
 #[test]

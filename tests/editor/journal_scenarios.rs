@@ -60,7 +60,13 @@ fn crc32c(bytes: &[u8]) -> u32 {
 
 /// The journal 77 of `/nowhere/fox.glb` in format `version`, with records of these kinds and bytes.
 fn forged(version: u32, records: &[(u8, &[u8])]) -> Vec<u8> {
-    let text = br#"{"number":77,"document":"/nowhere/fox.glb","stamp":null,"later":"ignored"}"#;
+    let text = r#"{"number":77,"document":"/nowhere/fox.glb","stamp":null,"later":"ignored"}"#;
+    forged_with(text, version, records)
+}
+
+/// The same with what a header says.
+pub(crate) fn forged_with(header: &str, version: u32, records: &[(u8, &[u8])]) -> Vec<u8> {
+    let text = header.as_bytes();
     let mut bytes = b"\x89DFJ\r\n\x1a\n".to_vec();
     bytes.extend(version.to_le_bytes());
     bytes.extend((text.len() as u32).to_le_bytes());

@@ -63,6 +63,7 @@ mod manager;
 mod mounted;
 mod nasty;
 mod no_allocation;
+mod old_journals;
 mod panels;
 mod panels_random;
 mod paste;

@@ -1,5 +1,7 @@
 //! Texts that people and programs really put into fields, and that break programs that did not think of them.
 
+use dragonfly_kit::random::Random;
+
 /// Each once into every field.
 pub(crate) fn texts() -> Vec<String> {
     let mut texts: Vec<String> = [
@@ -45,4 +47,66 @@ pub(crate) fn texts() -> Vec<String> {
     texts.push("1+".repeat(5_000));
     texts.push("9".repeat(5_000));
     texts
+}
+
+/// Any text: pieces of numbers and formulas, letters of many scripts, signs that are none. Now and then a very long one.
+pub(crate) fn any(random: &mut Random) -> String {
+    const PIECES: &[&str] = &[
+        "1",
+        "0",
+        "9",
+        ".",
+        ",",
+        "e",
+        "E",
+        "-",
+        "+",
+        "*",
+        "/",
+        "%",
+        "^",
+        "(",
+        ")",
+        ";",
+        " ",
+        "sqrt",
+        "pi",
+        "1e999",
+        "nan",
+        "inf",
+        "°",
+        "m",
+        "a",
+        "Z",
+        "_",
+        "\"",
+        "\\",
+        "/",
+        "\0",
+        "\t",
+        "\n",
+        "\r",
+        "\u{1b}",
+        "\u{7f}",
+        "\u{200b}",
+        "\u{202e}",
+        "\u{feff}",
+        "\u{301}",
+        "é",
+        "ß",
+        "ﷺ",
+        "ש",
+        "م",
+        "左",
+        "の",
+        "न",
+        "😀",
+        "🏳️‍🌈",
+        "\u{10ffff}",
+    ];
+    let pieces = match random.below(200) {
+        0 => random.below(5_000),
+        _ => random.below(24),
+    };
+    (0..pieces).map(|_| random.choice(PIECES)).collect()
 }

@@ -2,6 +2,9 @@
 
 use crate::workbench::{Window, Workbench, button};
 use crate::{fixture, nasty};
+use dragonfly::document::adapter::ModelAdapter;
+use dragonfly::document::edit::{Edit, TakeRef};
+use dragonfly::document::history::Edited;
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Key, Modifiers, MouseWheelUnit, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -10,6 +13,11 @@ fn bench() -> Workbench {
     let mut bench = Workbench::full();
     bench.state.select(Some(3));
     bench
+}
+
+/// How often: `few` times, or ten times as often when asked to take long.
+fn times(few: usize) -> usize {
+    if std::env::var_os("DRAGONFLY_LONG").is_some() { 10 * few } else { few }
 }
 
 /// Every field into which something can be typed takes every text; where it is no number nothing happens.
@@ -25,7 +33,11 @@ fn any_text_in_any_field() {
         .filter_map(|node| node.accesskit_node().label())
         .collect();
     assert!(fields.len() > 20, "{fields:?}");
-    let texts = nasty::texts();
+    let seed = seed(0x7e87);
+    println!("seed {seed}");
+    let mut random = Random::new(seed);
+    let mut texts = nasty::texts();
+    texts.extend((0..times(1_000)).map(|_| nasty::any(&mut random)));
     for (at, text) in texts.iter().enumerate() {
         // Each text in three fields, so that each field sees several.
         for more in 0..3 {
@@ -115,6 +127,55 @@ fn run(window: &mut Window, random: &mut Random, events: usize, texts: &[String]
         }
     }
     button(window, pos2(0.0, 0.0), false);
+}
+
+/// Fields for names and for words that something is looked for with.
+#[test]
+fn any_text_is_looked_for() {
+    let seed = seed(0x5ea4);
+    println!("seed {seed}");
+    let mut random = Random::new(seed);
+    for field in ["Find a bone", "Filter bones of the timeline"] {
+        let mut window = bench().window_of_any_text();
+        for _ in 0..times(1_000) {
+            window.get_by_label(field).focus();
+            window.event(Event::Text(nasty::any(&mut random)));
+            window.run_steps(1);
+            if random.below(3) == 0 {
+                window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+                window.key_press(Key::Delete);
+                window.run_steps(1);
+            }
+        }
+    }
+}
+
+#[test]
+fn any_text_is_a_name_or_is_refused_and_changes_nothing() {
+    let seed = seed(0x4a3e);
+    println!("seed {seed}");
+    let mut random = Random::new(seed);
+    let view = fixture::full();
+    let mut edited = Edited::new(ModelAdapter::new(&view.loaded.model.animation));
+    let mut kept = 0;
+    for _ in 0..10_000 {
+        let name = nasty::any(&mut random);
+        let take = TakeRef::Index(random.below(3));
+        let edit = match random.below(3) {
+            0 => Edit::RenameTake { take, name: name.clone() },
+            1 => Edit::CreateTake { name: name.clone(), copy: Some(take), at: None },
+            _ => Edit::SplitTake { take, time: 0.3, name: name.clone() },
+        };
+        if edited.apply(edit, None).is_ok() {
+            kept += 1;
+            assert!(edited.adapter().results().any(|take| take.name == name), "seed {seed}: {name:?}");
+            assert_eq!(edited.adapter().check(), Ok(()), "seed {seed}: {name:?}");
+            edited.undo();
+        }
+        let names: Vec<String> = edited.adapter().results().map(|take| take.name.clone()).collect();
+        assert_eq!(names, ["Survey", "Walk", "Run"], "seed {seed}: {name:?}");
+    }
+    assert!(kept > 5_000, "{kept}");
 }
 
 #[test]

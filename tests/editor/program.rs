@@ -1,6 +1,7 @@
 //! The real program, run and watched with a deadline.
 
 use crate::complaints;
+use rustix::process::Signal;
 use std::ffi::OsStr;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -90,6 +91,19 @@ pub(crate) fn wait(child: &mut Child, limit: Duration) -> ExitStatus {
         }
         std::thread::park_timeout(Duration::from_millis(5));
     }
+}
+
+/// Does this process ignore a signal, and with it all that it starts? What a script starts in the background ignores
+/// Ctrl+C.
+pub(crate) fn ignores(signal: Signal) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = line.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or_default();
+    let ignores = mask >> (signal.as_raw() - 1) & 1 == 1;
+    if ignores {
+        println!("skipped: {signal:?}, which whoever started this ignores");
+    }
+    ignores
 }
 
 /// Reads to the end beside the test.

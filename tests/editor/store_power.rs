@@ -164,13 +164,13 @@ fn a_power_cut_tears_no_file_and_costs_nothing_that_was_saved() {
         let saved = document_at(&folder.join("fox.glb")).unwrap_or_default();
         Found { edits: 0, saved }
     };
-    let cuts = || cut("power-saves", times(20), Writer::start_saving, only_saves);
+    let cuts = || cut("power-saves", times(40), Writer::start_saving, only_saves);
     once_in_three(cuts, "it hardly came to save anything", |all| all.with_saves * 2 > all.cuts);
 }
 
 #[test]
 fn a_power_cut_costs_at_most_a_second_of_edits() {
-    let cuts = || cut("power-edits", times(20), Writer::start, check_at);
+    let cuts = || cut("power-edits", times(38), Writer::start, check_at);
     once_in_three(cuts, "edits of more than a second were lost, or there were hardly any", |all| {
         let worked = all.with_saves * 10 > all.cuts && all.edits as usize > all.cuts;
         worked && all.oldest <= 1_000_000_000

@@ -198,9 +198,8 @@ pub(super) fn tools(
         .hint_text("Filter bones")
         .margin(egui::Margin { left: 6, right: 6, top: 2, bottom: 2 });
     let usual = std::mem::replace(&mut ui.spacing_mut().interact_size.y, field.height());
-    let response = ui.put(field, edit);
+    let response = ui.put(field, edit).accessible_name("Filter bones of the timeline");
     ui.spacing_mut().interact_size.y = usual;
-    response.widget_info(|| WidgetInfo::text_edit(true, "", filter.as_str(), "Filter bones of the timeline"));
     if response.changed() {
         requests.push(Request::Timeline(KeysRequest::Filter(filter.clone())));
     }
