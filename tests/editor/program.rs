@@ -85,12 +85,28 @@ pub(crate) fn wait(child: &mut Child, limit: Duration) -> ExitStatus {
             return status;
         }
         if Instant::now() > deadline {
+            println!("{}", threads(child.id()));
             let _ = child.kill();
             let _ = child.wait();
             panic!("the program did not end within {limit:?}");
         }
         std::thread::park_timeout(Duration::from_millis(5));
     }
+}
+
+/// What the threads of a process that does not end are doing: all stacks where there is a debugger, else what they wait for.
+pub(crate) fn threads(process: u32) -> String {
+    let id = process.to_string();
+    let debugger = Command::new("gdb").args(["-p", &id, "-batch", "-ex", "thread apply all bt 24"]).output();
+    if let Ok(output) = debugger {
+        return String::from_utf8_lossy(&output.stdout).into_owned();
+    }
+    let tasks = std::fs::read_dir(format!("/proc/{id}/task")).into_iter().flatten().flatten();
+    let told = tasks.map(|task| {
+        let read = |name: &str| std::fs::read_to_string(task.path().join(name)).unwrap_or_default();
+        format!("{}: {}, {}", read("comm").trim(), read("wchan"), read("syscall").trim())
+    });
+    told.collect::<Vec<_>>().join("\n")
 }
 
 /// Does this process ignore a signal, and with it all that it starts? What a script starts in the background ignores
