@@ -5,7 +5,7 @@ use crate::document_writer::{Deed, come_back, deed, done_to, start, start_counti
 use crate::journal_writer::{Found, Said};
 use crate::keeping_desk::fox_at;
 use crate::mounted::quick_folder;
-use crate::program::{data, ignores};
+use crate::program::{data, ignores, takes_long};
 use crate::store_power::{cut, once_in_three, times};
 use dragonfly::document::adapter::ModelAdapter;
 use dragonfly::document::history::{Edited, MAX_STEPS};
@@ -38,8 +38,7 @@ fn told(number: u32) -> String {
 
 #[test]
 fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
-    let long = std::env::var_os("DRAGONFLY_LONG").is_some();
-    let kills = if long { 5000 } else { 200 };
+    let kills = if takes_long() { 5000 } else { 200 };
     let seed = seed(0x646f_6373);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);

@@ -4,6 +4,7 @@ use crate::arm;
 use crate::fixture;
 use crate::hands_rig::{Hand, PICTURE};
 use crate::panels::{Bench, harness_of};
+use crate::program::takes_long;
 use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly::panels::commands;
 use dragonfly::panels::{Request, hands};
@@ -99,8 +100,7 @@ fn a_hundred_thousand_events_and_commands_leave_the_document_whole() {
         .filter(|id| !matches!(id, commands::Id::Quit | commands::Id::Open | commands::Id::OpenBuiltIn))
         .collect();
     let mut effects = Vec::new();
-    let long = std::env::var_os("DRAGONFLY_LONG").is_some();
-    for _ in 0..if long { 10_000_000 } else { 100_000 } {
+    for _ in 0..if takes_long() { 10_000_000 } else { 100_000 } {
         let joint = hand.state.selected().map_or(glam::Vec2::new(400.0, 300.0), |_| hand.joint_or_middle());
         let middle = pos2(joint.x + PICTURE[0], joint.y + PICTURE[1]);
         let mut input = RawInput { events: vec![event(&mut random, middle)], ..RawInput::default() };

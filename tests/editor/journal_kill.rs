@@ -3,6 +3,7 @@
 use crate::journal::autosave;
 use crate::journal_writer::{Writer, check};
 use crate::mounted::quick_folder;
+use crate::program::takes_long;
 use dragonfly::store::{JournalError, Owner, RealFiles, replace};
 use dragonfly_kit::random::{Random, seed};
 use std::fs;
@@ -10,8 +11,7 @@ use std::time::Duration;
 
 #[test]
 fn a_program_killed_at_any_instant_loses_no_edit_and_no_save() {
-    let long = std::env::var_os("DRAGONFLY_LONG").is_some();
-    let kills = if long { 5000 } else { 200 };
+    let kills = if takes_long() { 5000 } else { 200 };
     let seed = seed(0x6b69_6c6c);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);

@@ -1,5 +1,6 @@
 //! Nothing that is typed, pressed or dragged anywhere in the window breaks it.
 
+use crate::program::takes_long;
 use crate::workbench::{Window, Workbench, button};
 use crate::{fixture, nasty};
 use dragonfly::document::adapter::ModelAdapter;
@@ -17,7 +18,7 @@ fn bench() -> Workbench {
 
 /// How often: `few` times, or ten times as often when asked to take long.
 fn times(few: usize) -> usize {
-    if std::env::var_os("DRAGONFLY_LONG").is_some() { 10 * few } else { few }
+    if takes_long() { 10 * few } else { few }
 }
 
 /// Every field into which something can be typed takes every text; where it is no number nothing happens.

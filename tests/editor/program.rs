@@ -94,6 +94,11 @@ pub(crate) fn wait(child: &mut Child, limit: Duration) -> ExitStatus {
     }
 }
 
+/// Are the random tests asked to take long?
+pub(crate) fn takes_long() -> bool {
+    std::env::var_os("DRAGONFLY_LONG").is_some()
+}
+
 /// What the threads of a process that does not end are doing: all stacks where there is a debugger, else what they wait for.
 pub(crate) fn threads(process: u32) -> String {
     let id = process.to_string();

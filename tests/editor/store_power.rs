@@ -2,7 +2,7 @@
 
 use crate::journal_writer::{Found, Said, Writer, check_at, document_at, nanoseconds};
 use crate::mounted::{Mounted, may_mount, said};
-use crate::program::Folder;
+use crate::program::{Folder, takes_long};
 use dragonfly_kit::random::{Random, seed};
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -155,7 +155,7 @@ pub(crate) fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, ho
 
 /// How many cuts: `few`, or very many when asked to take long.
 pub(crate) fn times(few: usize) -> usize {
-    if std::env::var_os("DRAGONFLY_LONG").is_some() { 500 } else { few }
+    if takes_long() { 500 } else { few }
 }
 
 #[test]

@@ -143,9 +143,7 @@ impl State {
             BoneRef::Index(bone) => Some(*bone).filter(|&bone| (bone as usize) < skeleton.len()),
             BoneRef::Name(name) => skeleton.find(name),
         };
-        let Some(marks) = self.marks.files.iter().find(|file| file.path == path) else {
-            return;
-        };
+        let Some(marks) = self.marks.files.iter().find(|file| file.path == path) else { return };
         for flag in BoneFlag::ALL {
             for bone in marks.flag(flag).iter().filter_map(index) {
                 self.keys.flags.set(flag, bone, true);

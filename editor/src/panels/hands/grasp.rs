@@ -90,7 +90,7 @@ impl State {
         }
         let pivot = self.hands.gizmo().gizmo.pivot();
         let path = self.hands.path_mut();
-        (path.editable, path.gizmo) = (editable && free, pivot);
+        (path.editable, path.gizmo) = (take.is_some() && free, pivot);
         self.hold.spare = self.hold.placed.replace(now).map(|placed| placed.selected).unwrap_or_default();
         self.hands.update();
     }

@@ -174,16 +174,16 @@ impl State {
 
     /// Selects keys that were pasted, once they are there.
     pub(super) fn select_pasted(&mut self, generation: u64) {
-        let Some((before, parts)) = &self.keys.awaited else { return };
+        let Some(slot) = self.slot() else { return };
         // A view that was on its way when they were pasted has not got them yet.
-        let there = parts.iter().any(|((bone, property), times)| {
-            let slot = self.slot();
-            times
-                .iter()
-                .any(|[time, _]| slot.is_some_and(|slot| slot.key_at(*bone, *property, *time).is_some()))
-        });
-        if generation > *before
-            && there
+        let there = |(before, parts): &Awaited| {
+            let is_key = |bone, property, time| slot.key_at(bone, property, time).is_some();
+            let any = |times: &[[f32; 2]], bone, property| {
+                times.iter().any(|[time, _]| is_key(bone, property, *time))
+            };
+            generation > *before && parts.iter().any(|((bone, property), times)| any(times, *bone, *property))
+        };
+        if self.keys.awaited.as_ref().is_some_and(there)
             && let Some((_, parts)) = self.keys.awaited.take()
         {
             self.select_parts(&parts, Choice::Replace);
