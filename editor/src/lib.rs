@@ -1,7 +1,5 @@
 //! Dragonfly, the editor: everything but the few lines of `main.rs`, so that tests and benches can reach it.
 
-#![forbid(unsafe_code)]
-
 pub mod app;
 pub mod camera;
 pub mod command;

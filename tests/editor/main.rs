@@ -113,6 +113,7 @@ mod window_edit;
 mod window_ending;
 mod window_full_screen;
 mod window_hands;
+mod window_heard;
 mod window_mistakes;
 mod window_monkey;
 mod window_save;

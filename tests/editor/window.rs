@@ -1,7 +1,7 @@
 //! The whole program as a person meets it: a real window on a screen of our own, driven by keys and mouse.
 
 use crate::complaints;
-use crate::program::{Folder, data, dragonfly, wait};
+use crate::program::{Folder, data, dragonfly, threads, wait};
 use crate::screen::{Screen, Window, key, pass};
 use image::RgbaImage;
 use std::ffi::OsStr;
@@ -98,6 +98,7 @@ impl Editor {
             match self.said.recv_timeout(deadline.saturating_duration_since(Instant::now())) {
                 Ok(line) => self.lines.push(line),
                 Err(RecvTimeoutError::Timeout) => {
+                    println!("{}", threads(self.process()));
                     panic!("\"{word}\" was said {count} of {times} times within {limit:?}:\n{}", self.log());
                 }
                 Err(RecvTimeoutError::Disconnected) => panic!("the program ended:\n{}", self.log()),

@@ -1,7 +1,7 @@
 //! A bone is picked and turned in the real window, with mouse and keys, and the numbers that are shown are the ones asked for.
 
 use crate::hands_rig::find;
-use crate::program::data;
+use crate::program::{data, threads};
 use crate::screen::{Screen, key};
 use crate::window::{Editor, SOON, alone, eventually_shows_something};
 use dragonfly::control::gizmo::{Axis, Gizmo, GizmoView, Handle, Tool};
@@ -87,11 +87,17 @@ pub(crate) fn numbers<const N: usize>(text: &str) -> [f32; N] {
 
 /// Waits until a field is what it should be.
 #[track_caller]
-fn wait_for(editor: &mut Editor, screen: &Screen, what: &str, mut holds: impl FnMut(&mut Editor) -> bool) {
+pub(crate) fn wait_for(
+    editor: &mut Editor,
+    screen: &Screen,
+    what: &str,
+    mut holds: impl FnMut(&mut Editor) -> bool,
+) {
     let deadline = Instant::now() + SOON;
     while !holds(editor) {
         if Instant::now() > deadline {
             screen.keep("waiting");
+            println!("{}", threads(editor.process()));
             panic!("never: {what}\n{}", editor.log());
         }
         std::thread::park_timeout(Duration::from_millis(20));

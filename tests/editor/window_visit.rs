@@ -1,7 +1,7 @@
 //! A person with a file at the real window: hands on the keys and the mouse, and ears that hear what a screen reader tells.
 
 use crate::keeping_desk::fox;
-use crate::program::{Folder, data};
+use crate::program::{Folder, data, threads};
 use crate::screen::{Screen, key};
 use crate::stdio::Talk;
 use crate::window::{Editor, SOON, eventually_shows_something};
@@ -92,6 +92,7 @@ impl Visit {
             }
             if Instant::now() > deadline {
                 self.screen.keep("waiting");
+                println!("{}", threads(self.editor.process()));
                 panic!("never: {what}; there are {:?}", self.names());
             }
             std::thread::park_timeout(Duration::from_millis(20));

@@ -9,7 +9,7 @@ use super::interface::Interface;
 use super::store::Store;
 use super::timeline::{Step, Timeline};
 use crate::graphics::guard::caught;
-use crate::graphics::{Graphics, GraphicsHandle, SurfaceSource};
+use crate::graphics::{Connection, Graphics, GraphicsHandle, SurfaceSource};
 use dragonfly_runtime::{Captured, Next, RESTART_WINDOW, RESTARTS, Thread};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -82,8 +82,8 @@ impl MainRuntime {
         main.context().register_restartable_worker(move |_| Rc::clone(&kept));
         timeline.borrow_mut().reach(Step::MainRuntime);
 
-        let source =
-            SurfaceSource { window: Arc::clone(&window), display: event_loop.owned_display_handle() };
+        let connection = Connection::beside(event_loop.owned_display_handle());
+        let source = SurfaceSource { window: Arc::clone(&window), connection };
         let size = window.inner_size();
         let graphics = Graphics::start(source, [size.width, size.height], replies)
             .map_err(|error| AppError::Thread(error.to_string()))?;

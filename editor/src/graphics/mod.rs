@@ -9,6 +9,7 @@
 //! ```
 
 pub mod body;
+pub mod connection;
 pub mod control;
 pub mod device;
 pub mod fault;
@@ -32,7 +33,10 @@ pub mod surface;
 pub mod target;
 pub mod uniform;
 mod worker;
+#[cfg(all(unix, not(target_vendor = "apple")))]
+mod x11;
 
+pub use connection::Connection;
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState, GraphicsError};
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};

@@ -1,9 +1,9 @@
 //! The window's surface: configured when there is something to configure, never with a size of zero.
 
+use super::connection::{Connection, Outlook};
 use super::device::GraphicsError;
 use super::gpu::Gpu;
 use std::sync::Arc;
-use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
 
 /// What a surface is made from; kept, to make it anew.
@@ -11,20 +11,21 @@ use winit::window::Window;
 pub struct SurfaceSource {
     /// The window.
     pub window: Arc<Window>,
-    /// The connection to the window system.
-    pub display: OwnedDisplayHandle,
+    /// The driver's connection to the window system.
+    pub connection: Connection,
 }
 
 impl SurfaceSource {
     /// Describes an instance that can draw into the window.
     pub fn instance_descriptor(&self) -> wgpu::InstanceDescriptor {
-        wgpu::InstanceDescriptor::new_with_display_handle(Box::new(self.display.clone()))
+        wgpu::InstanceDescriptor::new_with_display_handle(Box::new(self.connection.clone()))
     }
 
     /// A surface of the window.
     pub fn surface(&self, instance: &wgpu::Instance) -> Result<WindowSurface, GraphicsError> {
+        let outlook = Outlook { window: Arc::clone(&self.window), connection: self.connection.clone() };
         let surface = instance
-            .create_surface(Arc::clone(&self.window))
+            .create_surface(wgpu::SurfaceTarget::DisplayAndWindow(Box::new(outlook)))
             .map_err(|error| GraphicsError::NoSurface(error.to_string()))?;
         Ok(WindowSurface { surface, window: Arc::clone(&self.window), configured: None, refusals: 0 })
     }

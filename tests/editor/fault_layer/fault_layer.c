@@ -11,13 +11,19 @@
 //   FAULT_EVERY   k: after that every k-th call fails too; 0 (usual): only the one
 //   FAULT_TIMES   so many faults, then none any more (usual: 1, or without end where FAULT_EVERY is set)
 //   FAULT_LOG     a file; a line "call n result" is added for each fault
+//   FAULT_READS   for so many milliseconds after each picture a thread reads, faster than anybody else, what comes over
+//                 the surface's connection to the X server, as real drivers do where they wait for their own events
 //
 // As with a real driver, a device that was lost stays lost: every later call on it says so.
 
+#define _GNU_SOURCE
+#include <dlfcn.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -25,7 +31,7 @@ enum call { SUBMIT, WAIT, ACQUIRE, PRESENT, ALLOCATE, CALLS };
 static const char *const names[CALLS] = {"submit", "wait", "acquire", "present", "allocate"};
 
 static struct {
-    int call, result, at, climb, every, times;
+    int call, result, at, climb, every, times, reads;
     const char *log;
 } wanted;
 
@@ -46,9 +52,13 @@ struct device {
 
 // One test process makes hundreds of devices, one after the other; a place is used again when its device is gone.
 static struct device devices[64];
-static struct {
+struct surface_info;
+typedef VkResult(VKAPI_PTR *surface_maker)(VkInstance, const struct surface_info *, const VkAllocationCallbacks *, VkSurfaceKHR *);
+static struct instance {
     void *key;
     PFN_vkGetInstanceProcAddr next;
+    surface_maker of_xlib, of_xcb;
+    PFN_vkDestroySurfaceKHR unmake;
 } instances[64];
 static long calls;  // of all devices
 static int faults;  // so far
@@ -70,6 +80,7 @@ static void read_wishes(void) {
     wanted.every = number("FAULT_EVERY", 0);
     wanted.times = number("FAULT_TIMES", wanted.every ? 0x7fffffff : 1);
     wanted.log = getenv("FAULT_LOG");
+    wanted.reads = number("FAULT_READS", 0);
 }
 
 // The first word of every dispatchable handle tells to which device (or instance) it belongs.
@@ -104,6 +115,74 @@ static VkResult judge(struct device *device, int call) {
     }
     pthread_mutex_unlock(&lock);
     return verdict;
+}
+
+// What a surface of X is made of; the real headers would want those of X.
+struct surface_info {
+    VkStructureType type;
+    const void *next;
+    VkFlags flags;
+    void *connection; // of XCB, or a display of Xlib
+};
+
+static _Atomic(long) read_until; // milliseconds; negative: never again
+static pthread_t reader;
+static int reads;
+
+static long now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return time.tv_sec * 1000 + time.tv_nsec / 1000000;
+}
+
+// XCB puts what it reads for others into its queue, where nobody looks who waits for the socket to become readable.
+static void *read_on(void *connection) {
+    struct extension { const char *name; int id; } present = {"Present", 0};
+    void *xcb = dlopen("libxcb.so.1", RTLD_NOW);
+    void *(*subscribe)(void *, struct extension *, unsigned, unsigned *) = (void *(*)(void *, struct extension *, unsigned, unsigned *))dlsym(xcb, "xcb_register_for_special_xge");
+    void (*leave)(void *, void *) = (void (*)(void *, void *))dlsym(xcb, "xcb_unregister_for_special_event");
+    void *(*poll)(void *, void *) = (void *(*)(void *, void *))dlsym(xcb, "xcb_poll_for_special_event");
+    unsigned (*id)(void *) = (unsigned (*)(void *))dlsym(xcb, "xcb_generate_id");
+    void *place = subscribe(connection, &present, id(connection), NULL);
+    if (!place) abort();
+    for (long until = read_until; until >= 0; until = read_until) {
+        if (now() < until) free(poll(connection, place));
+        else nanosleep(&(struct timespec){0, 1000000}, NULL);
+    }
+    leave(connection, place);
+    return NULL;
+}
+
+static void begin_to_read(void *connection) {
+    if (!wanted.reads || reads) return;
+    read_until = 0;
+    reads = !pthread_create(&reader, NULL, read_on, connection);
+}
+
+static struct instance *instance_of(VkInstance handle) {
+    for (int index = 0; index < 64; index++)
+        if (instances[index].key == key_of(handle)) return &instances[index];
+    return NULL;
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_CreateXlibSurfaceKHR(VkInstance handle, const struct surface_info *info, const VkAllocationCallbacks *allocator, VkSurfaceKHR *made) {
+    void *library = dlopen("libX11-xcb.so.1", RTLD_NOW);
+    begin_to_read(((void *(*)(void *))dlsym(library, "XGetXCBConnection"))(info->connection));
+    return instance_of(handle)->of_xlib(handle, info, allocator, made);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fault_CreateXcbSurfaceKHR(VkInstance handle, const struct surface_info *info, const VkAllocationCallbacks *allocator, VkSurfaceKHR *made) {
+    begin_to_read(info->connection);
+    return instance_of(handle)->of_xcb(handle, info, allocator, made);
+}
+
+static VKAPI_ATTR void VKAPI_CALL fault_DestroySurfaceKHR(VkInstance handle, VkSurfaceKHR surface, const VkAllocationCallbacks *allocator) {
+    if (reads) {
+        read_until = -1;
+        pthread_join(reader, NULL);
+        reads = 0;
+    }
+    instance_of(handle)->unmake(handle, surface, allocator);
 }
 
 static VKAPI_ATTR VkResult VKAPI_CALL fault_QueueSubmit(VkQueue queue, uint32_t count, const VkSubmitInfo *infos, VkFence fence) {
@@ -151,6 +230,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fault_QueuePresentKHR(VkQueue queue, const
     if (verdict == VK_ERROR_DEVICE_LOST) return verdict;
     // For all other errors the waits are still carried out, so the semaphores are free again.
     VkResult result = device->QueuePresentKHR(queue, info);
+    if (reads && read_until >= 0) read_until = now() + wanted.reads;
     if (!verdict) return result;
     for (uint32_t index = 0; info->pResults && index < info->swapchainCount; index++) info->pResults[index] = verdict;
     return verdict;
@@ -219,6 +299,10 @@ static VKAPI_ATTR VkResult VKAPI_CALL fault_CreateInstance(const VkInstanceCreat
     while (index < 63 && instances[index].key && instances[index].key != key_of(*made)) index++;
     instances[index].key = key_of(*made);
     instances[index].next = next;
+    // Asked for now: later the loader would answer with what is ours.
+    instances[index].of_xlib = (surface_maker)next(*made, "vkCreateXlibSurfaceKHR");
+    instances[index].of_xcb = (surface_maker)next(*made, "vkCreateXcbSurfaceKHR");
+    instances[index].unmake = (PFN_vkDestroySurfaceKHR)next(*made, "vkDestroySurfaceKHR");
     pthread_mutex_unlock(&lock);
     return VK_SUCCESS;
 }
@@ -259,9 +343,11 @@ static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL fault_GetInstanceProcAddr(VkInst
     PFN_vkVoidFunction ours = ours_of_device(name);
     if (ours) return ours;
     if (!handle) return NULL;
-    for (int index = 0; index < 64; index++)
-        if (instances[index].key == key_of(handle)) return instances[index].next(handle, name);
-    return NULL;
+    struct instance *instance = instance_of(handle);
+    if (instance && instance->of_xlib) OURS(CreateXlibSurfaceKHR);
+    if (instance && instance->of_xcb) OURS(CreateXcbSurfaceKHR);
+    if (instance && instance->unmake) OURS(DestroySurfaceKHR);
+    return instance ? instance->next(handle, name) : NULL;
 }
 
 __attribute__((visibility("default"))) VKAPI_ATTR VkResult VKAPI_CALL vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface *version) {
