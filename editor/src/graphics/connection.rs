@@ -64,20 +64,20 @@ impl fmt::Debug for Connection {
 }
 
 /// A window as the driver sees it over a connection.
-pub struct Outlook {
+pub struct ConnectedWindow {
     /// The window.
     pub window: Arc<Window>,
     /// The way to it.
     pub connection: Connection,
 }
 
-impl HasDisplayHandle for Outlook {
+impl HasDisplayHandle for ConnectedWindow {
     fn display_handle(&self) -> Result<DisplayHandle<'_>, HandleError> {
         self.connection.display_handle()
     }
 }
 
-impl HasWindowHandle for Outlook {
+impl HasWindowHandle for ConnectedWindow {
     fn window_handle(&self) -> Result<WindowHandle<'_>, HandleError> {
         let handle = self.window.window_handle()?;
         self.connection.own.as_ref().map_or(Ok(handle), |own| own.window_handle(handle))

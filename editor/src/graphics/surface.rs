@@ -1,6 +1,6 @@
 //! The window's surface: configured when there is something to configure, never with a size of zero.
 
-use super::connection::{Connection, Outlook};
+use super::connection::{ConnectedWindow, Connection};
 use super::device::GraphicsError;
 use super::gpu::Gpu;
 use std::sync::Arc;
@@ -23,9 +23,10 @@ impl SurfaceSource {
 
     /// A surface of the window.
     pub fn surface(&self, instance: &wgpu::Instance) -> Result<WindowSurface, GraphicsError> {
-        let outlook = Outlook { window: Arc::clone(&self.window), connection: self.connection.clone() };
+        let window =
+            ConnectedWindow { window: Arc::clone(&self.window), connection: self.connection.clone() };
         let surface = instance
-            .create_surface(wgpu::SurfaceTarget::DisplayAndWindow(Box::new(outlook)))
+            .create_surface(wgpu::SurfaceTarget::DisplayAndWindow(Box::new(window)))
             .map_err(|error| GraphicsError::NoSurface(error.to_string()))?;
         Ok(WindowSurface { surface, window: Arc::clone(&self.window), configured: None, refusals: 0 })
     }
