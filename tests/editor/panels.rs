@@ -2,7 +2,7 @@
 
 use crate::fixture;
 use crate::shots;
-use dragonfly::document::{Progress, Stage, View};
+use dragonfly::document::{FileView, Progress, Stage, View};
 use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
 use egui_kittest::Harness;
@@ -399,4 +399,15 @@ fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
     assert_eq!((state.playback.take, state.time()), (None, 0.0));
     state.begin(state.now);
     assert!(state.digest.takes.is_empty());
+}
+
+#[test]
+fn a_model_is_called_as_it_was_saved_last() {
+    let mut view = fixture::full();
+    let file = FileView { title: "renamed.glb".to_owned(), path: Some("renamed.glb".into()) };
+    view.file = std::sync::Arc::new(file);
+    let mut harness = harness_of(Bench::new(Some(view)), egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+    harness.run_steps(4);
+    harness.get_by_label("Shown model: renamed.glb");
+    harness.get_by_label("renamed.glb");
 }

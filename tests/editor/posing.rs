@@ -294,6 +294,10 @@ fn commands_pin_free_and_turn() {
     state.execute(Request::Command(Id::IkPole));
     assert_eq!(state.ik.pole, Some(4));
     assert!(state.hold().unwrap().moves_by_chain(4));
+    // One alone has nothing to look at.
+    assert_eq!(state.execute(Request::Command(Id::LookAt)), None);
+    assert!(state.status.last().unwrap().text.contains("last the one they shall look at"));
+    state.selection.choose(&[6, 4], Choice::Replace);
     let effect = state.execute(Request::Command(Id::LookAt));
     let Some(Effect::Change(Change::Edit(Edit::Set { poses, .. }, None))) = effect else {
         panic!("{effect:?}")

@@ -1,9 +1,11 @@
 //! What a hand does on the curves: values up and down, times sidewards, tangents by their ends.
 
 use crate::timeline_rig::Animator;
-use dragonfly::document::edit::{Between, Edit, Property};
+use dragonfly::document::Change;
+use dragonfly::document::edit::{Between, BonePose, BoneRef, Edit, Property, TakeRef};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::keys::KeysRequest;
 use dragonfly_anim::data::Interpolation;
 use egui::{Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
@@ -138,4 +140,39 @@ fn the_fields_take_sums_and_refuse_what_is_no_number() {
         let now = angle(&animator, 8);
         assert!((now - wanted.unwrap_or(before)).abs() < 0.01, "{text}: {now}");
     }
+}
+
+/// Turns a key of bone 3 about z, as a gizmo would.
+fn turn(animator: &mut Animator, key: usize, degrees: f32) {
+    let edit = Edit::Set {
+        take: TakeRef::Index(0),
+        time: animator.key(key),
+        poses: vec![BonePose {
+            bone: BoneRef::Index(3),
+            translation: None,
+            rotation: Some(glam::Quat::from_rotation_z(degrees.to_radians()).to_array()),
+            scale: None,
+        }],
+    };
+    animator.request(Request::Change(Change::Edit(edit, None)));
+    animator.steps(2);
+}
+
+#[test]
+fn values_that_an_edit_brings_out_of_sight_come_into_it_unless_a_part_is_looked_at() {
+    let mut animator = Animator::with_bone(3);
+    animator.steps(2);
+    turn(&mut animator, 8, 150.0);
+    let at = place(&animator, 8);
+    animator.click(at);
+    assert_eq!(animator.selected(), 1, "the key is where all values fit");
+    animator.request(Request::Timeline(KeysRequest::Deselect));
+    // Who looks at a part goes on looking at it.
+    let values = animator.harness.get_by_label("Values").rect().center();
+    animator.drag(values, values + vec2(0.0, 90.0));
+    animator.release(values + vec2(0.0, 90.0));
+    turn(&mut animator, 8, -170.0);
+    let at = place(&animator, 8);
+    animator.click(at);
+    assert_eq!(animator.selected(), 0, "it is out of sight");
 }

@@ -6,6 +6,7 @@ use dragonfly::document::edit::Edit;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, Deed, KeysRequest};
+use dragonfly::playback::Repeat;
 use egui::{Key, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -323,4 +324,40 @@ fn a_refused_drag_leaves_everything_as_it_was() {
     assert_eq!(animator.times(3), before);
     assert!(animator.harness.state().state.keys.drag().is_none(), "nothing is waited for");
     assert_eq!(animator.selected(), 1);
+}
+
+#[test]
+fn keys_that_are_not_listed_any_more_are_not_deleted_unseen() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Command(Id::SelectAllKeys));
+    assert_eq!(animator.selected(), 41);
+    animator.harness.state_mut().state.select(Some(2));
+    animator.steps(2);
+    assert_eq!(animator.selected(), 0, "another bone is listed");
+    animator.harness.key_press(Key::Delete);
+    animator.steps(2);
+    assert!(animator.changes.is_empty());
+    // All bones are listed where all are wanted, and one is when its name is looked for.
+    animator.request(Request::Timeline(KeysRequest::OnlySelected(false)));
+    animator.request(Request::Command(Id::SelectAllKeys));
+    let all = animator.selected();
+    let name = animator.harness.state().state.bone_name(3);
+    animator.request(Request::Timeline(KeysRequest::Filter(name)));
+    assert!((1..all).contains(&animator.selected()), "{} of {all}", animator.selected());
+}
+
+#[test]
+fn time_that_is_stopped_stands_on_a_frame_as_keys_do() {
+    let mut animator = Animator::with_bone(3);
+    for (snaps, wanted) in [(true, 10.0 / 30.0), (false, 0.345)] {
+        animator.request(Request::Timeline(KeysRequest::Snap(snaps)));
+        // It plays, however slowly, when it is stopped.
+        let state = &mut animator.harness.state_mut().state;
+        state.playback =
+            state.playback.with(true, state.settings.speed, Repeat::Loop, state.now).seek(0.345, state.now);
+        state.execute(Request::Command(Id::PlayPause));
+        let state = &animator.harness.state().state;
+        assert!(!state.playback.playing);
+        assert!((state.time() - wanted).abs() < 1e-5, "{} s", state.time());
+    }
 }

@@ -3,11 +3,14 @@
 use crate::fixture;
 use crate::panels::Bench;
 use crate::timeline_rig::Animator;
+use dragonfly::document::edit::{Edit, TakeRef};
+use dragonfly::document::{Change, FileView};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{KeysRequest, MarkerDeed};
 use egui::vec2;
 use egui_kittest::kittest::Queryable;
+use std::sync::Arc;
 
 fn marker(animator: &mut Animator, deed: MarkerDeed) {
     animator.request(Request::Timeline(KeysRequest::Marker(deed)));
@@ -58,5 +61,35 @@ fn markers_come_back_with_the_file_and_a_damaged_text_brings_none() {
         let mut other = Bench::new(Some(fixture::full())).state;
         other.read_markers(damaged);
         assert!(other.markers().len() <= 1);
+    }
+}
+
+#[test]
+fn markers_go_with_a_file_that_is_saved_elsewhere_and_with_a_take_that_is_renamed() {
+    let mut animator = Animator::with_bone(3);
+    // As the window does when a file is opened.
+    let state = &mut animator.harness.state_mut().state;
+    assert!(state.wanted_markers().is_some());
+    state.read_markers("");
+    marker(&mut animator, MarkerDeed::Add(0.5));
+    let first = animator.harness.state_mut().state.unsaved_markers().unwrap();
+    let rename = Edit::RenameTake { take: TakeRef::Index(0), name: "March".to_owned() };
+    animator.request(Request::Change(Change::Edit(rename, None)));
+    animator.steps(2);
+    let state = &mut animator.harness.state_mut().state;
+    let mut view = state.view.clone().unwrap();
+    let other = Arc::new(FileView { title: "other.glb".to_owned(), path: Some("other.glb".into()) });
+    view.file = Arc::clone(&other);
+    state.show(view);
+    let (file, text) = state.unsaved_markers().expect("of the new file too");
+    assert_ne!(file, first.0);
+    // Until it is saved the take is called as it was, afterwards as it is now.
+    let renamed = fixture::view("other.glb", fixture::skeleton(3), &[("March", 2.0, 21)]);
+    for mut opened in [fixture::full(), renamed] {
+        opened.file = Arc::clone(&other);
+        let mut again = Bench::new(Some(opened)).state;
+        assert_eq!(again.wanted_markers().as_ref(), Some(&file));
+        again.read_markers(&text);
+        assert_eq!(again.markers().len(), 1);
     }
 }

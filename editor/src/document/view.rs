@@ -77,6 +77,16 @@ pub struct FileView {
     pub path: Option<PathBuf>,
 }
 
+impl FileView {
+    /// What the program's own folder calls it: where the file is, whole, or the name of what has none.
+    pub fn key(&self) -> String {
+        match &self.path {
+            Some(path) => std::path::absolute(path).unwrap_or_else(|_| path.clone()).display().to_string(),
+            None => format!("built in: {}", self.title),
+        }
+    }
+}
+
 /// The newest state of the document. Panels read it; nobody changes it.
 #[derive(Clone, Debug)]
 pub struct View {

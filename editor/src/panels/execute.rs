@@ -277,6 +277,11 @@ impl State {
         let (now, repeat) = (self.now, self.playback.repeat);
         if self.playback.playing && self.playback.speed == speed {
             self.playback = self.playback.with(false, speed, repeat, now);
+            // Where it stops keys are made: where they are made, if they go to whole frames.
+            if self.keys.snap {
+                let rate = self.settings.frame_rate;
+                self.seek(ruler::time_of(ruler::frame_of(self.time(), rate), rate));
+            }
             return;
         }
         self.playback = self.playback.with(true, speed, repeat, now);

@@ -125,28 +125,26 @@ impl State {
         self.status.say(Level::Info, text);
     }
 
-    /// Aims the selected bones at the active one; one alone at the middle of the picture.
+    /// Aims the selected bones at the active one.
     pub(super) fn look(&mut self) -> Option<Effect> {
         let view = self.view.clone()?;
         let (take, time) = (self.playback.take, self.time());
         let active = self.selected()?;
-        let alone = self.selection.bones() == [active];
         let others: Vec<BoneIndex> = self.bones_to_pose().filter(|&bone| bone != active).collect();
-        if !alone
-            && others.is_empty()
-            && let Some(locked) = self.selection.bones().iter().copied().find(|&bone| bone != active)
-        {
-            self.say_locked(locked);
+        if others.is_empty() {
+            match self.selection.bones().iter().copied().find(|&bone| bone != active) {
+                Some(locked) => self.say_locked(locked),
+                None => {
+                    let text = "Select the bones that shall look, and last the one they shall look at";
+                    self.status.say(Level::Info, text);
+                }
+            }
             return None;
         }
         let animation = self.posed.update(&view, take, time);
         let skeleton = &view.loaded.model.animation.skeleton;
-        let poses = if alone {
-            look_at(skeleton, animation.poses(), &[active], self.camera.target)
-        } else {
-            let target = animation.to_root().get(active as usize)?.w_axis.truncate();
-            look_at(skeleton, animation.poses(), &others, target)
-        };
+        let target = animation.to_root().get(active as usize)?.w_axis.truncate();
+        let poses = look_at(skeleton, animation.poses(), &others, target);
         if poses.is_empty() {
             self.status.say(Level::Info, "There is nothing to turn to");
         }

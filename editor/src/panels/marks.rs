@@ -116,7 +116,7 @@ impl State {
         if self.marks.noted.as_ref().is_some_and(same) {
             return;
         }
-        let path = key_of(view);
+        let path = view.file.key();
         // What was opened just now has what was remembered of it.
         let first = self.marks.noted.replace(self.noted(view)).is_none();
         let marks =
@@ -137,7 +137,7 @@ impl State {
     pub(super) fn recall_marks(&mut self) {
         self.marks.noted = None;
         let Some(view) = self.view.clone() else { return };
-        let path = key_of(&view);
+        let path = view.file.key();
         let skeleton = &view.loaded.model.animation.skeleton;
         let index = |bone: &BoneRef| match bone {
             BoneRef::Index(bone) => Some(*bone).filter(|&bone| (bone as usize) < skeleton.len()),
@@ -161,13 +161,6 @@ impl State {
 }
 
 /// What a file is remembered by.
-fn key_of(view: &View) -> String {
-    match &view.file.path {
-        Some(path) => std::path::absolute(path).unwrap_or_else(|_| path.clone()).display().to_string(),
-        None => format!("built in: {}", view.file.title),
-    }
-}
-
 fn of(
     path: String,
     skeleton: &Skeleton,

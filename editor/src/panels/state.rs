@@ -201,6 +201,7 @@ impl State {
             self.playback = self.playback.seek(time, now);
         }
         self.settle_keys();
+        self.forget_unlisted_keys();
         self.posed.running = self.playback.moves(now);
         self.digest.update(self.view.as_ref(), self.playback.take, self.selection.active());
         if let Some(view) = &self.view {
@@ -225,6 +226,7 @@ impl State {
         let before = self.view.replace(view);
         if !fresh {
             self.follow_take(before.as_ref().map_or(&[], |view| &view.slots));
+            self.name_markers(before.as_ref());
             return self.keep_take();
         }
         let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());

@@ -33,6 +33,11 @@ impl ValueWindow {
         Self { low: middle - span * 0.58, span: span * 1.16 }.mended()
     }
 
+    /// Is all of `low..=high` in sight?
+    pub(super) fn holds(self, low: f32, high: f32) -> bool {
+        f64::from(low) >= self.low && f64::from(high) <= self.low + self.span
+    }
+
     fn mended(self) -> Self {
         let span = if self.span.is_finite() { self.span.clamp(SMALLEST, LARGEST) } else { 2.0 };
         let low = if self.low.is_finite() { self.low.clamp(-LARGEST, LARGEST) } else { -1.0 };

@@ -38,6 +38,8 @@ pub struct Curves {
     window: Option<ValueWindow>,
     /// What the values were fitted to.
     fitted: Option<Fitted>,
+    /// Did somebody choose other values since?
+    chosen_by_hand: bool,
 }
 
 #[derive(Debug, PartialEq)]
@@ -107,13 +109,16 @@ impl Curves {
             ids,
             chosen: (self.chosen.properties, self.chosen.components, self.chosen.form),
         };
-        if self.fitted.as_ref() != Some(&fitted)
-            && !more
-            && !self.hand.is_busy()
-            && let Some([low, high]) = self.shown.extent(self.chosen.components, None)
-        {
+        if more || self.hand.is_busy() {
+            return;
+        }
+        let Some([low, high]) = self.shown.extent(self.chosen.components, None) else { return };
+        let others = self.fitted.as_ref() != Some(&fitted);
+        // What an edit brought out of sight comes back into it, unless somebody looks at a part.
+        let outside = !self.chosen_by_hand && self.window.is_none_or(|window| !window.holds(low, high));
+        if others || outside {
             self.window = Some(ValueWindow::around(low, high));
-            self.fitted = Some(fitted);
+            (self.fitted, self.chosen_by_hand) = (Some(fitted), false);
         }
     }
 
@@ -160,7 +165,7 @@ impl Curves {
         self.wheel(ui, &response, &time, &value, requests);
         let panned = dope::pan(ui, &response, &time, requests);
         if panned != 0.0 {
-            self.window = Some(value.window.panned(f64::from(panned) / value.per_unit()));
+            self.look_at(value.window.panned(f64::from(panned) / value.per_unit()));
         }
         let within = Within {
             curves: &self.mesh.drawn,
@@ -179,6 +184,11 @@ impl Curves {
         dope::playhead(&painter, head, rect.bottom(), &time, state, theme);
     }
 
+    /// Somebody wants to see these values.
+    fn look_at(&mut self, window: ValueWindow) {
+        (self.window, self.chosen_by_hand) = (Some(window), true);
+    }
+
     /// The strip of numbers: dragged up and down it pans, the wheel over it zooms, a double click fits.
     fn values(&mut self, ui: &Ui, strip: Rect, canvas: &Response, value: &ValueScale) {
         let response = ui.interact(strip, ui.scope_id().with("values"), Sense::click_and_drag());
@@ -188,7 +198,7 @@ impl Curves {
             .on_hover_text("Values\nDrag to pan, wheel to zoom, double click to fit");
         if response.dragged_by(PointerButton::Primary) {
             let by = f64::from(response.drag_delta().y) / value.per_unit();
-            self.window = Some(value.window.panned(by));
+            self.look_at(value.window.panned(by));
         }
         if response.double_clicked() {
             self.fitted = None;
@@ -204,7 +214,7 @@ impl Curves {
             1.0
         };
         if (factor - 1.0).abs() > 1e-6 {
-            self.window = Some(value.window.zoomed(f64::from(value.value_at(pointer.y)), factor));
+            self.look_at(value.window.zoomed(f64::from(value.value_at(pointer.y)), factor));
         }
     }
 

@@ -3,7 +3,6 @@
 use crate::document::adapter::{Slot, TakeId};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 /// A time with a name.
@@ -36,8 +35,9 @@ const LONGEST: usize = 200;
 #[derive(Clone, Debug, Default)]
 pub struct Markers {
     takes: BTreeMap<TakeId, Vec<Marker>>,
-    /// The file in the store; none before a model is open.
-    file: Option<String>,
+    /// What the takes are called in the file that was opened.
+    names: BTreeMap<TakeId, String>,
+    /// What the model is called; empty before one is open.
     path: String,
     unsaved: bool,
     unread: bool,
@@ -51,23 +51,32 @@ struct Stored {
 }
 
 impl Markers {
-    /// For another model: none until they are [read](Self::read).
-    pub fn open(path: Option<&Path>, title: &str) -> Self {
-        let path = match path {
-            Some(path) => std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).display().to_string(),
-            None => format!("built in: {title}"),
-        };
-        let file = format!("markers/{:016x}.json", fingerprint(path.as_bytes()));
-        Self { file: Some(file), path, unread: true, ..Self::default() }
+    /// For another model, called `path`: none until they are [read](Self::read).
+    pub fn open(path: String) -> Self {
+        Self { path, unread: true, ..Self::default() }
+    }
+
+    /// The model is called so from now on, as it was saved elsewhere; its markers go with it.
+    pub fn rename(&mut self, path: String) {
+        if self.path != path {
+            self.path = path;
+            self.unsaved |= !self.takes.is_empty();
+        }
+    }
+
+    /// The file in the store.
+    fn file(&self) -> String {
+        format!("markers/{:016x}.json", fingerprint(self.path.as_bytes()))
     }
 
     /// The file that is to be read now; said once.
     pub fn wanted(&mut self) -> Option<String> {
-        self.file.clone().filter(|_| std::mem::take(&mut self.unread))
+        std::mem::take(&mut self.unread).then(|| self.file())
     }
 
     /// Takes the text of the file; a damaged one holds no markers.
     pub fn read(&mut self, text: &str, slots: &[Arc<Slot>]) {
+        self.names = slots.iter().map(|slot| (slot.id, slot.result.name.clone())).collect();
         let stored: Stored = serde_json::from_str(text).unwrap_or_default();
         if stored.path != self.path {
             return;
@@ -90,12 +99,12 @@ impl Markers {
         if !std::mem::take(&mut self.unsaved) {
             return None;
         }
-        let takes = slots.iter().rev().filter_map(|slot| {
-            let markers = self.takes.get(&slot.id).filter(|markers| !markers.is_empty())?;
-            Some((slot.original.name.clone(), markers.clone()))
-        });
-        let stored = Stored { path: self.path.clone(), takes: takes.collect() };
-        Some((self.file.clone()?, serde_json::to_string_pretty(&stored).unwrap_or_default()))
+        let of = |take: TakeId| self.takes.get(&take).filter(|markers| !markers.is_empty()).cloned();
+        // Until the file is saved its takes are called as they were; where two want a name, it is theirs who have it now.
+        let old = self.names.iter().filter_map(|(take, name)| Some((name.clone(), of(*take)?)));
+        let new = slots.iter().rev().filter_map(|slot| Some((slot.result.name.clone(), of(slot.id)?)));
+        let stored = Stored { path: self.path.clone(), takes: old.chain(new).collect() };
+        Some((self.file(), serde_json::to_string_pretty(&stored).unwrap_or_default()))
     }
 
     /// Those of a take, ascending.

@@ -29,6 +29,7 @@ pub use window::{TimeScale, TimeWindow};
 
 use super::settings::TimelineSettings;
 use super::state::State;
+use crate::document::View;
 use drag::KeyDrag;
 use dragonfly_anim::data::Take;
 use std::sync::Arc;
@@ -174,9 +175,17 @@ impl State {
     /// Another model is shown.
     pub(super) fn open_keys(&mut self) {
         self.keys.forget();
-        if let Some(loaded) = self.loaded() {
-            let markers = Markers::open(loaded.path.as_deref(), &loaded.title);
-            self.keys.markers = markers;
+        if let Some(view) = &self.view {
+            self.keys.markers = Markers::open(view.file.key());
+        }
+    }
+
+    /// A newer view of the same model is shown, which may be saved elsewhere now.
+    pub(super) fn name_markers(&mut self, before: Option<&View>) {
+        if let Some(view) = &self.view
+            && before.is_none_or(|before| before.file != view.file)
+        {
+            self.keys.markers.rename(view.file.key());
         }
     }
 

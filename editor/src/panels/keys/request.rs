@@ -71,7 +71,11 @@ impl State {
             KeysRequest::Flag(flag, bone, on) => self.flag(flag, bone, on),
             KeysRequest::Snap(on) => self.keys.snap = on,
             KeysRequest::OnlySelected(on) => self.keys.only_selected = on,
-            KeysRequest::Filter(text) => self.keys.filter = text,
+            KeysRequest::Filter(text) => {
+                self.keys.filter = text;
+                let listed = super::shown_bones(self);
+                self.keys.selection.drop_bones(|bone| !listed.contains(&bone));
+            }
             KeysRequest::Marker(deed) => {
                 if let Some(id) = self.slot().map(|slot| slot.id) {
                     self.keys.markers.change(id, deed);

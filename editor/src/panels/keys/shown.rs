@@ -4,6 +4,16 @@ use super::channel;
 use crate::panels::state::State;
 use dragonfly_anim::data::BoneIndex;
 
+impl State {
+    /// Keys that are not listed any more are not selected any more: what is deleted or moved is what is seen.
+    pub(in crate::panels) fn forget_unlisted_keys(&mut self) {
+        if self.keys.drag.is_none() && self.keys.only_selected && self.selected().is_some() {
+            let bones = &self.selection;
+            self.keys.selection.drop_bones(|bone| !bones.contains(bone));
+        }
+    }
+}
+
 /// The bones that the timeline lists, in the order of the tree: those with keys, and of these the selected ones where
 /// only they are wanted, and those that are called as the filter says.
 pub fn bones(state: &State) -> Vec<BoneIndex> {

@@ -7,10 +7,11 @@ use super::super::widgets;
 use egui::{RichText, Sense, TextStyle, Ui, vec2};
 
 pub(super) fn show(ui: &mut Ui, state: &State) {
-    let Some(loaded) = state.loaded() else { return };
+    let Some(view) = &state.view else { return };
+    let (loaded, file) = (&view.loaded, &view.file);
     let theme = Theme::of(ui);
     let model = &loaded.model;
-    ui.add(egui::Label::new(RichText::new(&loaded.title).heading()).truncate());
+    ui.add(egui::Label::new(RichText::new(&file.title).heading()).truncate());
     let kind = match (&loaded.path, loaded.format.as_str()) {
         (None, _) => "Part of the program".to_owned(),
         (Some(_), "glb") => "glTF 2.0, binary".to_owned(),
@@ -19,7 +20,7 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
         (Some(_), other) => other.to_uppercase(),
     };
     let kind = ui.label(RichText::new(kind).color(theme.weak));
-    if let Some(path) = &loaded.path {
+    if let Some(path) = &file.path {
         kind.on_hover_text(path.display().to_string());
     }
     widgets::caption(ui, "Animation");

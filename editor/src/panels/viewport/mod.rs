@@ -60,7 +60,7 @@ impl Panel for Viewport {
 
 /// What is seen: model and take, quietly, at the top left, as far as `right`; long names end with dots.
 fn caption(ui: &Ui, rect: Rect, right: f32, state: &State) {
-    let Some(loaded) = state.loaded() else { return };
+    let Some(view) = &state.view else { return };
     let theme = Theme::of(ui);
     let take = match state.playback.take {
         Some(take) => state.digest.takes.get(take).map_or("", |take| take.name.as_str()),
@@ -68,7 +68,7 @@ fn caption(ui: &Ui, rect: Rect, right: f32, state: &State) {
     };
     let at = pos2(rect.left() + 14.0, rect.top() + 12.0);
     let width = right - at.x - 12.0;
-    let bottom = name(ui, at, width, &loaded.title, "model", (style::BODY, theme.text));
+    let bottom = name(ui, at, width, &view.file.title, "model", (style::BODY, theme.text));
     if rect.width() > 640.0 {
         name(ui, pos2(at.x, bottom + 2.0), width, take, "take", (style::SMALL, theme.weak));
     }
