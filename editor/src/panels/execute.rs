@@ -1,6 +1,7 @@
 //! What requests and commands do to the state; what reaches beyond the panels comes back as effects.
 
 use super::commands::{self, Id};
+use super::dope;
 use super::keys::KeysRequest;
 use super::ruler;
 use super::saving::Deed;
@@ -276,13 +277,9 @@ impl State {
         let speed = self.settings.speed * direction;
         let (now, repeat) = (self.now, self.playback.repeat);
         if self.playback.playing && self.playback.speed == speed {
-            self.playback = self.playback.with(false, speed, repeat, now);
-            // Where it stops keys are made: where they are made, if they go to whole frames.
-            if self.keys.snap {
-                let rate = self.settings.frame_rate;
-                self.seek(ruler::time_of(ruler::frame_of(self.time(), rate), rate));
-            }
-            return;
+            // Keys will be made where it stops, and they may want to go to whole frames.
+            let time = self.time();
+            return self.stop_at(if self.keys.snap { dope::to_frame(time, self) } else { time });
         }
         self.playback = self.playback.with(true, speed, repeat, now);
         // A take that arrived at its end starts again.

@@ -160,7 +160,7 @@ impl State {
     }
 }
 
-/// What a file is remembered by.
+/// What is marked now, as it is kept.
 fn of(
     path: String,
     skeleton: &Skeleton,

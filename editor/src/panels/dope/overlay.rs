@@ -110,7 +110,7 @@ pub(super) fn pending(painter: &Painter, places: &Places, scale: &TimeScale, sta
 pub(super) fn nothing(painter: &Painter, places: &Places, state: &State, theme: &Theme) {
     let text = if !state.keys.filter.is_empty() {
         "No bone with keys is called that"
-    } else if state.keys.only_selected && state.selected().is_some() {
+    } else if state.lists_only_selected() {
         "The selected bones have no keys in this take"
     } else {
         "This take has no keys"

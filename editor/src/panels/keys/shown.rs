@@ -5,9 +5,14 @@ use crate::panels::state::State;
 use dragonfly_anim::data::BoneIndex;
 
 impl State {
+    /// Are only the selected bones listed? Where none is selected all are.
+    pub(in crate::panels) fn lists_only_selected(&self) -> bool {
+        self.keys.only_selected && self.selected().is_some()
+    }
+
     /// Keys that are not listed any more are not selected any more: what is deleted or moved is what is seen.
     pub(in crate::panels) fn forget_unlisted_keys(&mut self) {
-        if self.keys.drag.is_none() && self.keys.only_selected && self.selected().is_some() {
+        if self.keys.drag.is_none() && self.lists_only_selected() {
             let bones = &self.selection;
             self.keys.selection.drop_bones(|bone| !bones.contains(bone));
         }
@@ -18,7 +23,7 @@ impl State {
 /// only they are wanted, and those that are called as the filter says.
 pub fn bones(state: &State) -> Vec<BoneIndex> {
     let Some(take) = state.take() else { return Vec::new() };
-    let only = state.keys.only_selected && state.selected().is_some();
+    let only = state.lists_only_selected();
     let filter = state.keys.filter.to_lowercase();
     let wanted = |&bone: &BoneIndex| {
         (!only || state.selection.contains(bone))
