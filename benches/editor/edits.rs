@@ -119,7 +119,7 @@ pub(crate) fn run() {
         measure(&format!("editor/edits/drag_a_pose_where_there_is_{name}"), 200, |run| {
             let rotation = Some(Quat::from_rotation_x(run as f32 * 0.01).to_array());
             let pose = BonePose { bone: BoneRef::Index(7), translation: None, rotation, scale: None };
-            let edit = Edit::Set { take: take(), time, poses: vec![pose] };
+            let edit = Edit::Set { take: take(), time, poses: vec![pose], unstep: false };
             edited.apply(edit, Some(Gesture(1))).expect("a pose can be set");
             // What the panels and the picture still show.
             if shown.len() == 2 {

@@ -85,6 +85,7 @@ fn what_a_save_would_change_is_said_and_nothing_is_written() {
     let before: Vec<_> =
         std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
     let said = run(["edit", &fox(), "--edits", &edits, "--dry-run"]).expect(0);
+    assert!(said.text().starts_with("1 channel of 1 bone in 1 take, "), "{}", said.text());
     for word in ["take \"Run\", \"b_Head_05\"", "accessor", "bytes appended"] {
         assert!(said.text().contains(word), "{word} is missing in\n{}", said.text());
     }

@@ -55,7 +55,8 @@ fn an_edit_keeps_memory_in_proportion_to_what_it_touches() {
         let data = model(bones, 2000);
         let mut edited = Edited::new(ModelAdapter::new(&data));
         let (peak, ()) = counting::peak(|| {
-            let edit = Edit::Set { take: TakeRef::Index(0), time: 1.0, poses: vec![turned(3, 0.5)] };
+            let edit =
+                Edit::Set { take: TakeRef::Index(0), time: 1.0, poses: vec![turned(3, 0.5)], unstep: true };
             edited.apply(edit, None).unwrap();
         });
         peak
@@ -75,7 +76,7 @@ fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
         let mut most = 0;
         for step in 0..40 {
             let poses = vec![turned(3, step as f32 * 0.01), turned(4, step as f32 * 0.02)];
-            let edit = Edit::Set { take: TakeRef::Index(0), time, poses };
+            let edit = Edit::Set { take: TakeRef::Index(0), time, poses, unstep: true };
             let (count, done) = counting::count(|| edited.apply(edit, Some(Gesture(1))));
             done.unwrap();
             // Until there is memory for what is shown at the same time, it is asked for.

@@ -28,7 +28,7 @@ pub(crate) fn pose(name: &str) -> BonePose {
 }
 
 fn set(time: f32, pose: BonePose) -> Edit {
-    Edit::Set { take: walk(), time, poses: vec![pose] }
+    Edit::Set { take: walk(), time, poses: vec![pose], unstep: false }
 }
 
 fn sampled(model: &ModelAdapter, take: &Take, time: f32) -> Vec<Transform> {
@@ -82,6 +82,47 @@ fn a_value_that_is_set_is_what_the_result_holds_and_the_original_stays() {
     assert!(Arc::ptr_eq(&slot.result.tracks[1].rotation.values, &before.tracks[1].rotation.values));
 }
 
+/// In the take "stand": bone, seconds, metres along x.
+fn stands(name: &str, time: f32, x: f32, unstep: bool) -> Edit {
+    let wanted = BonePose { translation: Some([x, 0.0, 0.0]), ..pose(name) };
+    Edit::Set { take: TakeRef::Name("stand".to_owned()), time, poses: vec![wanted], unstep }
+}
+
+#[test]
+fn a_pose_put_on_what_stands_still_in_steps_is_moved_to_and_from() {
+    let mut model = model(40);
+    let between = |model: &ModelAdapter, bone: usize| {
+        let slot = &model.slots()[2];
+        let [at, middle] = [0.0, 0.25].map(|time| sampled(model, &slot.result, time)[bone].translation);
+        (at, middle)
+    };
+    let before = between(&model, 1).0;
+    model.apply(&stands("hip", 0.5, 9.0, true)).unwrap();
+    model.check().unwrap();
+    let (at, middle) = between(&model, 1);
+    assert_eq!(at, before);
+    assert!((middle - (before + Vec3::new(9.0, 0.0, 0.0)) * 0.5).length() < 1e-5, "{middle}");
+    // Only the channel that got a pose; and only where the edit says so.
+    let track = &model.slots()[2].result.tracks[1];
+    assert_eq!(track.rotation.interpolation, Interpolation::Step);
+    model.apply(&stands("root", 0.5, 9.0, false)).unwrap();
+    let (at, middle) = between(&model, 0);
+    assert_eq!(at, middle);
+}
+
+#[test]
+fn steps_that_somebody_made_stay_steps() {
+    // Keys one by one: a pose that holds, then another one.
+    let mut model = model(41);
+    model.apply(&stands("hip", 0.5, 9.0, false)).unwrap();
+    model.apply(&stands("hip", 0.7, 3.0, true)).unwrap();
+    assert_eq!(model.slots()[2].result.tracks[1].translation.interpolation, Interpolation::Step);
+    // More than two keys, however alike.
+    let hand = BonePose { translation: Some([1.0; 3]), ..pose("hand.L") };
+    model.apply(&Edit::Set { take: walk(), time: 0.3, poses: vec![hand], unstep: true }).unwrap();
+    assert_eq!(model.slots()[0].result.tracks[2].translation.interpolation, Interpolation::Step);
+}
+
 #[test]
 fn the_change_is_what_was_added_turned_and_multiplied() {
     let mut model = model(3);
@@ -91,7 +132,7 @@ fn the_change_is_what_was_added_turned_and_multiplied() {
         scale: Some([2.0, 1.0, 1.0]),
         ..pose("hand.L")
     };
-    model.apply(&Edit::Offset { take: walk(), time: 0.5, poses: vec![wanted] }).unwrap();
+    model.apply(&Edit::Offset { take: walk(), time: 0.5, poses: vec![wanted], unstep: false }).unwrap();
     model.check().unwrap();
     let slot = &model.slots()[0];
     let translation = slot.change(2, Property::Translation, 4);
@@ -212,7 +253,9 @@ fn a_take_keeps_a_key_and_a_model_a_take() {
     let mut model = model(9);
     let all = Edit::DeleteKeys { take: walk(), keys: vec![KeySet::default()] };
     assert_eq!(model.apply(&all).unwrap_err(), EditError::LastKey);
-    model.apply(&Edit::DeleteTake { take: walk() }).unwrap();
+    for name in ["walk", "stand"] {
+        model.apply(&Edit::DeleteTake { take: TakeRef::Name(name.to_owned()) }).unwrap();
+    }
     let last = Edit::DeleteTake { take: TakeRef::Index(0) };
     assert_eq!(model.apply(&last).unwrap_err(), EditError::LastTake);
 }
@@ -231,6 +274,18 @@ fn ripple_makes_room_and_closing_it_again_gives_the_take_back() {
     for (old, new) in before.tracks.iter().zip(&after.tracks) {
         assert_eq!(old.rotation.values, new.rotation.values);
     }
+}
+
+#[test]
+fn of_a_take_that_is_trimmed_to_one_time_the_pose_is_left_that_it_had_there() {
+    let mut model = model(12);
+    let before = Arc::clone(&model.slots()[0].result);
+    let trim = Edit::TrimTake { take: walk(), from: 0.3, to: 0.3 };
+    model.apply(&trim).unwrap();
+    model.check().unwrap();
+    let after = &model.slots()[0].result;
+    assert_eq!((after.start, after.length), (0.3, 0.0));
+    assert!(apart(&sampled(&model, &before, 0.3), &sampled(&model, after, 0.3)) < 1e-5);
 }
 
 #[test]
@@ -350,7 +405,7 @@ fn numbers_that_are_none_and_things_that_are_not_there_are_refused_and_nothing_c
         set(0.1, pose("root")),
         set(0.1, BonePose { rotation: Some([0.0; 4]), ..pose("root") }),
         set(0.1, pose("nobody")),
-        Edit::Set { take: TakeRef::Index(7), time: 0.0, poses: vec![translation(0.0)] },
+        Edit::Set { take: TakeRef::Index(7), time: 0.0, poses: vec![translation(0.0)], unstep: false },
         Edit::MoveKeys { take: walk(), keys: vec![KeySet::default()], by: -0.5 },
         Edit::MoveKeys { take: walk(), keys: Vec::new(), by: 0.5 },
         Edit::ScaleKeys { take: walk(), keys: vec![KeySet::default()], about: 0.0, factor: 0.0 },

@@ -130,6 +130,23 @@ fn a_handle_is_dragged_and_what_misses_it_goes_to_the_picture() {
 }
 
 #[test]
+fn a_press_on_a_handle_that_does_not_move_is_a_click_on_what_lies_behind_and_changes_nothing() {
+    for (by, click) in [(0.0, true), (1.0, true), (2.5, false)] {
+        let mut window = Window::new();
+        let tip = window.tip;
+        window.to(tip);
+        window.send(InputEvent::MouseDown(Button::Left));
+        // Nothing jumps where a drag turns out to be one.
+        window.to(tip - Vec2::Y * by);
+        assert_eq!(window.is_moved(), by > 0.0, "{by}");
+        window.send(InputEvent::MouseUp(Button::Left));
+        assert_eq!(window.control().take_click().is_some(), click, "{by}");
+        assert_eq!(window.is_moved(), !click, "{by}");
+        assert!(!window.control().gizmo.is_dragging());
+    }
+}
+
+#[test]
 fn escape_the_right_button_and_lost_input_take_the_drag_back() {
     for end in [InputEvent::KeyDown(Key::Escape), InputEvent::MouseDown(Button::Right), InputEvent::Lost] {
         let mut window = Window::new();

@@ -235,7 +235,18 @@ fn what_is_discarded_or_not_to_be_saved_lies_in_the_bin_and_is_not_offered_again
     killed(&folder.join("second"), &folder.join("third"));
     let mut third = Desk::new(&folder.join("third"));
     third.open(&path);
-    assert_eq!(third.offered()[0].labels, ["Rename take"]);
+    let offer = third.offered().remove(0);
+    assert_eq!(offer.labels, ["Rename take"]);
+    // Of what was saved and then undone it is said that it was.
+    third.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    third.shows(|view| view.history.done == 1);
+    third.save(SaveTo::Own);
+    third.change(Change::Undo);
+    third.view();
+    killed(&folder.join("third"), &folder.join("fourth"));
+    let mut fourth = Desk::new(&folder.join("fourth"));
+    fourth.open(&path);
+    assert_eq!(fourth.offered()[0].labels, ["Rename take (undone)"]);
 }
 
 #[test]

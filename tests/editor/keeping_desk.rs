@@ -95,7 +95,7 @@ pub(crate) fn turn(angle: f32) -> Edit {
         rotation: Some([0.0, 0.0, sine, cosine]),
         scale: None,
     };
-    Edit::Set { take: TakeRef::Index(0), time: 0.5, poses: vec![pose] }
+    Edit::Set { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false }
 }
 
 pub(crate) fn rename(name: &str) -> Edit {

@@ -10,8 +10,8 @@ use std::sync::Arc;
 /// Bones of the model: `root`, `hip`, `hand.L`, `hand.R`, `still`.
 pub(crate) const BONES: [&str; 5] = ["root", "hip", "hand.L", "hand.R", "still"];
 
-/// Two takes: "walk" (linear, step and cubic channels, morph weights; one column of times for most), "wave" (one key a
-/// channel).
+/// Three takes: "walk" (linear, step and cubic channels, morph weights; one column of times for most), "wave" (one key a
+/// channel), "stand" (two equal keys a channel, in steps: how exporters write what does not move).
 pub(crate) fn animation(random: &mut Random) -> AnimationData {
     let bones = BONES.iter().enumerate().map(|(index, name)| Bone {
         name: (*name).to_owned(),
@@ -33,6 +33,8 @@ pub(crate) fn animation(random: &mut Random) -> AnimationData {
         Track { bone: 4, ..Track::default() },
     ];
     let wave = (0..5).map(|bone| track(random, bone, &one, Interpolation::Linear)).collect();
+    let ends: Arc<[f32]> = Arc::new([0.0, 1.0]);
+    let stand = (0..5).map(|bone| standing(track(random, bone, &ends, Interpolation::Step))).collect();
     let take = |name: &str, tracks, length, morphs| Take {
         name: name.to_owned(),
         start: 0.0,
@@ -52,6 +54,7 @@ pub(crate) fn animation(random: &mut Random) -> AnimationData {
         takes: vec![
             Arc::new(take("walk", walk, 1.0, vec![morph])),
             Arc::new(take("wave", wave, 0.0, Vec::new())),
+            Arc::new(take("stand", stand, 1.0, Vec::new())),
         ],
     }
 }
@@ -76,4 +79,15 @@ fn track(random: &mut Random, bone: u32, times: &Arc<[f32]>, interpolation: Inte
         rotation: Channel::new(Arc::clone(times), rotation, interpolation),
         scale: Channel::new(Arc::clone(times), scale, interpolation),
     }
+}
+
+/// The same with the first of its keys only, again and again.
+fn standing(mut track: Track) -> Track {
+    fn first<T: Copy>(values: &mut Arc<[T]>) {
+        *values = vec![values[0]; values.len()].into();
+    }
+    first(&mut track.translation.values);
+    first(&mut track.rotation.values);
+    first(&mut track.scale.values);
+    track
 }

@@ -2,7 +2,9 @@
 
 use crate::fixture;
 use crate::shots;
-use dragonfly::document::{FileView, Progress, Stage, View};
+use dragonfly::document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly::document::{Change, FileView, Progress, Stage, View};
+use dragonfly::panels::commands::Id;
 use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
 use egui_kittest::Harness;
@@ -115,6 +117,92 @@ fn pictures_of_the_panels() {
         progress: Progress { stage: Stage::Decoding, done: 0.6 },
     });
     shoot("loading", bench, egui::Theme::Dark, 1.0);
+}
+
+#[test]
+fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
+    use crate::timeline_rig::Animator;
+    use dragonfly::panels::commands::Id;
+    let mut animator = Animator::new(fixture::full());
+    animator.request(Request::Seek(0.04));
+    animator.request(Request::Command(Id::Key));
+    let said = animator.said();
+    assert!(said.starts_with("Add keys  ·  Survey  ·  ") && said.ends_with(" keys more"), "{said}");
+    animator.request(Request::Command(Id::Undo));
+    assert_eq!(animator.said(), "Undone: Add keys  ·  Survey");
+    animator.request(Request::Command(Id::Redo));
+    assert_eq!(animator.said(), "Done again: Add keys  ·  Survey");
+    // A drag is said when it begins, and when it is given up.
+    let state = &animator.harness.state().state;
+    let gesture = state.new_gesture();
+    let lines = |animator: &Animator| animator.harness.state().state.status.lines().count();
+    let before = lines(&animator);
+    for x in 1..20 {
+        let poses = vec![BonePose {
+            bone: BoneRef::Index(3),
+            translation: Some([x as f32, 0.0, 0.0]),
+            rotation: None,
+            scale: None,
+        }];
+        let edit = animator.harness.state().state.pose_edit(poses).unwrap();
+        animator.request(Request::Change(Change::Edit(edit, Some(gesture))));
+    }
+    assert!(animator.said().starts_with("Move  ·  rib_00_left_middle  ·  Survey"), "{}", animator.said());
+    assert_eq!(lines(&animator), before + 1);
+    animator.request(Request::Change(Change::Cancel(gesture)));
+    assert!(animator.said().starts_with("Given up: Move"), "{}", animator.said());
+    // Several steps at once.
+    for name in ["a", "b"] {
+        let rename = Edit::RenameTake { take: TakeRef::Index(0), name: name.to_owned() };
+        animator.request(Request::Change(Change::Edit(rename, None)));
+    }
+    animator.request(Request::Change(Change::GoTo(0)));
+    assert_eq!(animator.said(), "Undone: 3 steps");
+}
+
+#[test]
+fn a_line_that_says_more_of_what_was_done_stays() {
+    use crate::timeline_rig::Animator;
+    use dragonfly::panels::keys::{BoneFlag, KeysRequest};
+    let mut animator = Animator::with_bone(3);
+    let copied = animator.harness.state_mut().state.execute(Request::Command(Id::CopyPose));
+    let Some(Effect::Copy(text)) = copied else { panic!("{copied:?}") };
+    let two = vec![3, 4];
+    animator.request(Request::SelectBones(two, dragonfly::control::bones::Choice::Replace));
+    let copied = animator.harness.state_mut().state.execute(Request::Command(Id::CopyPose));
+    let Some(Effect::Copy(both)) = copied else { panic!("{copied:?}") };
+    animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 4, true)));
+    animator.request(Request::PastePose { text: both, mirrored: false });
+    assert!(animator.said().ends_with("is locked and stays as it is"), "{}", animator.said());
+    animator.request(Request::PastePose { text, mirrored: false });
+    assert!(animator.said().starts_with("Paste pose"), "{}", animator.said());
+}
+
+#[test]
+fn what_is_part_of_the_program_and_was_saved_is_a_file() {
+    let mut bench = Bench::new(Some(fixture::full()));
+    let mut view = bench.state.view.clone().unwrap();
+    view.file = std::sync::Arc::new(FileView { title: "mine.glb".to_owned(), path: Some("mine.glb".into()) });
+    bench.state.show(view);
+    let mut harness = harness(bench);
+    harness.run_steps(4);
+    assert!(harness.query_by_label("Part of the program").is_none());
+    assert!(harness.query_by_label("glTF 2.0, binary").is_some());
+}
+
+#[test]
+fn nothing_moves_behind_a_question() {
+    use dragonfly::panels::saving::Question;
+    let mut bench = Bench::new(Some(fixture::full()));
+    bench.state.execute(Request::Command(Id::PlayPause));
+    assert!(bench.state.playback.playing);
+    bench.state.ask(Question::Where { copy: false, then: None });
+    assert!(!bench.state.playback.playing);
+    // Nor what is opened meanwhile.
+    let mut other = State::new(Settings::default(), Instant::now());
+    other.ask(Question::Where { copy: false, then: None });
+    other.show(fixture::full());
+    assert!(!other.playback.playing);
 }
 
 #[test]
@@ -306,6 +394,25 @@ fn the_palette_runs_what_is_found() {
     harness.run_steps(4);
     assert!(!harness.state().state.settings.look.grid);
     assert_eq!(harness.state().state.overlay, None);
+}
+
+#[test]
+fn the_palette_lists_what_is_called_so_before_what_is_about_it_and_shows_all_of_its_rows() {
+    let mut harness = harness(Bench::new(Some(fixture::full())));
+    harness.run_steps(4);
+    harness.key_press(egui::Key::F3);
+    harness.run_steps(4);
+    harness.get_by_label("Find a command").type_text("look");
+    harness.run_steps(4);
+    let place = |label: &str| {
+        let mut rows = harness.query_all_by_label(label);
+        rows.next().unwrap_or_else(|| panic!("{label} is not listed")).rect()
+    };
+    let (called, about) = (place("Look at"), place("Unsaved work…"));
+    assert!(called.top() < about.top(), "{called:?} {about:?}");
+    let card = place("Find a command");
+    let rows = ((about.bottom() - card.bottom()) / style::ROW).floor();
+    assert!(rows >= 2.0, "{rows} rows");
 }
 
 #[test]

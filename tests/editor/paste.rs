@@ -140,6 +140,7 @@ fn pasting_puts_on_what_there_is_and_passes_over_other_models_bones() {
         poses,
         mirrored,
         pending,
+        unstep: false,
     };
     let moved = |name: &str| BonePose { translation: Some([1.0, 2.0, 3.0]), ..pose(name) };
     model.apply(&paste(vec![moved("tail of another model"), moved("hand.L")], false, false)).unwrap();

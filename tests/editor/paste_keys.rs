@@ -64,7 +64,7 @@ fn keys_put_back_where_they_were_are_the_same_to_the_bit_with_tangents_and_chang
             rotation: Some([0.1, 0.2, 0.3, 0.9]),
             scale: None,
         };
-        model.apply(&Edit::Set { take: walk(), time: 0.3, poses: vec![turned] }).unwrap();
+        model.apply(&Edit::Set { take: walk(), time: 0.3, poses: vec![turned], unstep: false }).unwrap();
         let take = model.slots()[0].result.clone();
         let from = random.between(0.0, 0.8);
         let selection = selected(&take, [from, from + random.between(0.0, 0.5)]);

@@ -27,7 +27,7 @@ fn pend(time: f32, poses: Vec<BonePose>) -> Edit {
 }
 
 fn key(time: Option<f32>) -> Edit {
-    Edit::KeyPending { take: walk(), time, bones: Vec::new() }
+    Edit::KeyPending { take: walk(), time, bones: Vec::new(), unstep: false }
 }
 
 /// What is pending, as (time, bone, channel, first number).
@@ -108,11 +108,15 @@ fn a_key_that_is_set_counts_more_than_what_was_pending_there() {
     let mut model = model(4);
     let turn = BonePose { rotation: Some([0.0, 0.6, 0.0, 0.8]), ..moved("hip", [1.0, 0.0, 0.0]) };
     model.apply(&pend(0.3, vec![turn])).unwrap();
-    model.apply(&Edit::Set { take: walk(), time: 0.3, poses: vec![moved("hip", [5.0; 3])] }).unwrap();
+    model
+        .apply(&Edit::Set { take: walk(), time: 0.3, poses: vec![moved("hip", [5.0; 3])], unstep: false })
+        .unwrap();
     assert_eq!(waiting(&model), [(0.3, 1, Property::Rotation, 0.0)]);
     // An offset goes on top of what is seen.
     model.apply(&pend(0.5, vec![moved("root", [1.0, 2.0, 3.0])])).unwrap();
-    model.apply(&Edit::Offset { take: walk(), time: 0.5, poses: vec![moved("root", [1.0; 3])] }).unwrap();
+    model
+        .apply(&Edit::Offset { take: walk(), time: 0.5, poses: vec![moved("root", [1.0; 3])], unstep: false })
+        .unwrap();
     let mut poses = vec![Transform::IDENTITY; 5];
     sample_take(Some(&model.slots()[0].result), model.skeleton(), 0.5, &mut poses);
     assert!((poses[0].translation - Vec3::new(2.0, 3.0, 4.0)).length() < 1e-5);

@@ -62,6 +62,30 @@ fn tab_goes_on_to_the_next_number_and_enter_gives_the_keys_back() {
 }
 
 #[test]
+fn tab_goes_through_the_results_of_all_channels_before_it_comes_to_the_changes() {
+    let mut window = window();
+    window.get_by_label("Translation result X").click();
+    window.run_steps(2);
+    let mut met = Vec::new();
+    for _ in 0..10 {
+        met.push(
+            window
+                .root()
+                .children_recursive()
+                .find(|node| node.accesskit_node().is_focused())
+                .map(|node| node.accesskit_node().label().unwrap_or_default()),
+        );
+        window.key_press(Key::Tab);
+        window.run_steps(2);
+    }
+    let wanted = ["Translation", "Rotation", "Scale"]
+        .into_iter()
+        .flat_map(|channel| ["X", "Y", "Z"].map(|axis| format!("{channel} result {axis}")))
+        .chain(["Translation change X".to_owned()]);
+    assert_eq!(met.into_iter().flatten().collect::<Vec<_>>(), wanted.collect::<Vec<_>>());
+}
+
+#[test]
 fn what_is_typed_after_a_double_click_takes_the_place_of_the_number() {
     let mut window = window();
     let at = window.get_by_label("Translation result X").rect().center();

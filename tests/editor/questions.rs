@@ -19,7 +19,7 @@ fn offer(name: &str, steps: usize, ago: u64, file: Fate, reading: Reading, life:
         title: name.to_owned(),
         source: Some(Source::File(document.clone())),
         steps,
-        labels: vec!["Pose", "Move keys", "Rename take", "Pose", "Add keys"],
+        labels: ["Pose", "Move keys", "Rename take", "Pose", "Add keys"].map(str::to_owned).to_vec(),
         found: Recoverable {
             journal: format!("/home/mara/.local/state/dragonfly/journals/{name}.journal").into(),
             document: Some(document),
@@ -168,7 +168,7 @@ fn enter_does_what_is_meant_most_often() {
 #[test]
 fn each_button_of_the_unsaved_work_decides_about_the_one_that_is_shown() {
     for (button, decision) in [
-        ("Keep", Decision::Keep),
+        ("Restore", Decision::Keep),
         ("Open beside", Decision::Beside),
         ("Later", Decision::Later),
         ("Discard", Decision::Discard),

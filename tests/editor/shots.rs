@@ -52,7 +52,7 @@ fn edited() -> Workbench {
     let turn = |bone: u32, x: f32| {
         let rotation = Some(glam::Quat::from_rotation_x(x).to_array());
         let poses = vec![BonePose { bone: BoneRef::Index(bone), translation: None, rotation, scale: None }];
-        Change::Edit(Edit::Set { take: take(), time: 1.3, poses }, None)
+        Change::Edit(Edit::Set { take: take(), time: 1.3, poses, unstep: true }, None)
     };
     for step in 0..14 {
         bench.change(turn(step + 1, 0.1 * step as f32));

@@ -53,6 +53,17 @@ fn takes_are_made_copied_and_deleted_but_the_last_one_stays() {
 }
 
 #[test]
+fn start_and_length_are_asked_for_by_a_command_too() {
+    let mut window = Workbench::full().window();
+    assert!(window.query_by_label("Length").is_none());
+    give(&mut window, Id::RetimeTake);
+    assert!(window.query_by_label("Length").is_some());
+    type_into(&mut window, "Length", "2", Key::Enter);
+    let view = window.state().state.view.clone().unwrap();
+    assert_eq!(view.takes[0].length, 2.0);
+}
+
+#[test]
 fn a_take_is_renamed_where_it_stands() {
     let mut window = Workbench::full().window();
     window.get_by_label("Walk").click();

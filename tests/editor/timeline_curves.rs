@@ -153,6 +153,7 @@ fn turn(animator: &mut Animator, key: usize, degrees: f32) {
             rotation: Some(glam::Quat::from_rotation_z(degrees.to_radians()).to_array()),
             scale: None,
         }],
+        unstep: false,
     };
     animator.request(Request::Change(Change::Edit(edit, None)));
     animator.steps(2);

@@ -183,7 +183,33 @@ fn alt_drags_a_copy_and_two_makes_room() {
 }
 
 #[test]
-fn the_end_of_the_bar_scales_about_the_playhead() {
+fn keys_stay_selected_when_room_is_made_or_taken_away_before_them() {
+    let mut animator = Animator::with_bone(3);
+    let (from, to) = (animator.at(animator.key(8) - 0.04, 4), animator.at(animator.key(11) + 0.04, 2));
+    animator.drag(from, to);
+    animator.release(to);
+    assert_eq!(animator.selected(), 4);
+    animator.request(Request::Seek(animator.key(9)));
+    for id in [Id::RippleOpen, Id::RippleOpen, Id::RippleClose] {
+        animator.request(Request::Command(id));
+        assert_eq!(animator.selected(), 4, "{id:?}");
+    }
+    assert_eq!(animator.edited.steps().1, 3);
+    // The same four: one before the gap, three behind.
+    animator.request(Request::Command(Id::DeleteKeys));
+    let times = animator.times(3);
+    assert_eq!(times.len(), 37);
+    assert!(times.iter().all(|&time| !(0.68..0.97).contains(&time)), "{times:?}");
+}
+
+#[test]
+fn the_end_of_the_bar_scales_about_the_other_end_and_with_alt_about_the_playhead() {
+    for alt in [false, true] {
+        scale_by_the_end(alt);
+    }
+}
+
+fn scale_by_the_end(alt: bool) {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Seek(0.0));
     let (from, to) = (animator.at(animator.key(1) - 0.04, 4), animator.at(animator.key(10) + 0.04, 2));
@@ -192,13 +218,15 @@ fn the_end_of_the_bar_scales_about_the_playhead() {
     assert_eq!(animator.selected(), 10);
     let grip = animator.harness.get_by_label("Scale keys by their end").rect().center();
     let end = grip + vec2(animator.at(2.0, 0).x - animator.at(1.0, 0).x, 0.0);
+    animator.hold(if alt { Modifiers::ALT } else { Modifiers::NONE });
     animator.drag(grip, end);
     animator.release(end);
     let Some(Edit::ScaleKeys { about, factor, .. }) = animator.edits().last() else {
         panic!("{:?}", animator.edits())
     };
-    assert_eq!(*about, 0.0);
-    let wanted = (animator.key(10) + 1.0) / animator.key(10);
+    let stays = if alt { 0.0 } else { animator.key(1) };
+    assert!((about - stays).abs() < 1e-5, "{about} for {stays}");
+    let wanted = (animator.key(10) + 1.0 - stays) / (animator.key(10) - stays);
     assert!((factor - wanted).abs() < 0.05, "{factor} for {wanted}");
     assert_eq!(animator.selected(), 10);
 }

@@ -8,7 +8,7 @@ use dragonfly::document::{Change, FileView};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{KeysRequest, MarkerDeed};
-use egui::vec2;
+use egui::{PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 
@@ -62,6 +62,49 @@ fn markers_come_back_with_the_file_and_a_damaged_text_brings_none() {
         other.read_markers(damaged);
         assert!(other.markers().len() <= 1);
     }
+}
+
+#[test]
+fn a_copy_of_a_take_has_its_markers_and_the_second_part_of_one_those_behind_the_cut() {
+    let times = |animator: &Animator| names(animator).iter().map(|(time, _)| *time).collect::<Vec<_>>();
+    let mut animator = Animator::with_bone(3);
+    for time in [0.5, 1.0, 2.0] {
+        marker(&mut animator, MarkerDeed::Add(time));
+    }
+    marker(&mut animator, MarkerDeed::Rename(2, "turn".to_owned()));
+    animator.request(Request::Command(Id::DuplicateTake));
+    assert_eq!(animator.harness.state().state.playback.take, Some(1), "the copy is shown");
+    assert_eq!(times(&animator), [0.5, 1.0, 2.0]);
+    assert_eq!(names(&animator)[2].1, "turn");
+    marker(&mut animator, MarkerDeed::Delete(0));
+    animator.request(Request::ShowTake(Some(0)));
+    assert_eq!(times(&animator).len(), 3, "each has its own");
+    animator.request(Request::Seek(1.5));
+    animator.request(Request::Command(Id::SplitTake));
+    animator.request(Request::ShowTake(Some(1)));
+    assert_eq!(names(&animator), [(0.5, "turn".to_owned())]);
+    // What is made of nothing has none.
+    animator.request(Request::Command(Id::NewTake));
+    assert!(names(&animator).is_empty());
+}
+
+#[test]
+fn what_is_typed_takes_the_place_of_a_markers_name() {
+    let mut animator = Animator::with_bone(3);
+    marker(&mut animator, MarkerDeed::Add(1.0));
+    let place = animator.harness.get_by_label("Marker Marker 1").rect().left_center() + vec2(6.0, 0.0);
+    animator.move_to(place);
+    animator.button(place, PointerButton::Secondary, true);
+    animator.button(place, PointerButton::Secondary, false);
+    animator.steps(2);
+    animator.harness.get_by_label("Rename").click();
+    animator.steps(2);
+    assert!(animator.harness.query_by_label("Name of the marker").is_some());
+    animator.harness.event(egui::Event::Text("contact".to_owned()));
+    animator.steps(2);
+    animator.harness.key_press(egui::Key::Enter);
+    animator.steps(2);
+    assert_eq!(names(&animator), [(1.0, "contact".to_owned())]);
 }
 
 #[test]

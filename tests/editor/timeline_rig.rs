@@ -5,7 +5,7 @@ use crate::panels::{Bench, harness_of};
 use dragonfly::document::adapter::ModelAdapter;
 use dragonfly::document::edit::Edit;
 use dragonfly::document::history::Edited;
-use dragonfly::document::{Change, View};
+use dragonfly::document::{Change, HistoryView, View};
 use dragonfly::panels::{Effect, Request};
 use egui::{Event, Modifiers, PointerButton, Pos2, Rect, Vec2, pos2};
 use egui_kittest::Harness;
@@ -87,6 +87,7 @@ impl Animator {
                 generation,
                 takes: adapter.results().cloned().collect(),
                 slots: adapter.slots().into(),
+                history: std::sync::Arc::new(HistoryView::of(&self.edited)),
                 ..self.first.clone()
             };
             self.harness.state_mut().state.show(view);
@@ -195,6 +196,12 @@ impl Animator {
     /// The time of a key of the fixture.
     pub(crate) fn key(&self, index: usize) -> f32 {
         index as f32 * 3.417 / 40.0
+    }
+
+    /// What the line at the bottom says.
+    pub(crate) fn said(&self) -> String {
+        let line = self.harness.state().state.status.last();
+        line.map_or_else(String::new, |line| line.text.clone())
     }
 
     /// Edits asked for so far.

@@ -35,13 +35,19 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
     match random.below(28) {
         26 | 27 => Edit::PasteKeys { take, time, channels: vec![any_channel(random, bone, property)] },
         22 | 23 => Edit::Pend { take, time, poses },
-        24 => Edit::KeyPending { take, time: (random.below(2) == 0).then_some(time), bones },
+        24 => Edit::KeyPending {
+            take,
+            time: (random.below(2) == 0).then_some(time),
+            bones,
+            unstep: random.below(2) == 0,
+        },
         25 if random.below(2) == 0 => Edit::DropPending { take, time: None, bones },
         25 => {
-            Edit::Paste { take, time, poses, mirrored: random.below(2) == 0, pending: random.below(2) == 0 }
+            let [mirrored, pending, unstep] = std::array::from_fn(|_| random.below(2) == 0);
+            Edit::Paste { take, time, poses, mirrored, pending, unstep }
         }
-        0..=2 => Edit::Set { take, time, poses },
-        3 => Edit::Offset { take, time, poses },
+        0..=2 => Edit::Set { take, time, poses, unstep: random.below(2) == 0 },
+        3 => Edit::Offset { take, time, poses, unstep: random.below(2) == 0 },
         4 => Edit::Reset {
             take,
             time,
@@ -209,7 +215,7 @@ fn all_edits_of_a_gesture_are_one_step_and_each_begins_where_the_gesture_began()
     let gesture = Some(Gesture(1));
     let lift = |by| {
         let poses = vec![BonePose { translation: Some([0.0, by, 0.0]), ..pose("root") }];
-        Edit::Offset { take: walk(), time: 0.5, poses }
+        Edit::Offset { take: walk(), time: 0.5, poses, unstep: false }
     };
     for step in 1..=10 {
         edited.apply(lift(step as f32 * 0.1), gesture).unwrap();
@@ -259,8 +265,11 @@ fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
                 })
                 .collect();
             let take = take.clone();
-            let edit =
-                if offset { Edit::Offset { take, time, poses } } else { Edit::Set { take, time, poses } };
+            let edit = if offset {
+                Edit::Offset { take, time, poses, unstep: true }
+            } else {
+                Edit::Set { take, time, poses, unstep: true }
+            };
             let mut alone = start.clone();
             let before = edited.adapter().clone();
             let done = edited.apply(edit.clone(), Some(Gesture(5)));

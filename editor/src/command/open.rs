@@ -23,10 +23,10 @@ pub(super) struct Arguments {
     #[arg(long, hide = true)]
     never_pause: bool,
     /// Where settings are kept, instead of the usual place
-    #[arg(long, value_name = "FOLDER", hide = true)]
+    #[arg(long, value_name = "FOLDER")]
     settings: Option<PathBuf>,
     /// Where unsaved work is recorded, instead of the usual place
-    #[arg(long, value_name = "FOLDER", hide = true)]
+    #[arg(long, value_name = "FOLDER")]
     autosave: Option<PathBuf>,
     /// Does these edits once the model is there, one JSON object a line
     #[arg(long, value_name = "EDITS", hide = true)]

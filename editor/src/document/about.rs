@@ -130,7 +130,14 @@ mod tests {
                 BonePose { bone, translation: None, rotation: None, scale: None }
             };
             let poses = bones.iter().map(pose).collect();
-            let edit = Edit::Paste { take: TakeRef::Index(0), time: 0.0, poses, mirrored, pending: false };
+            let edit = Edit::Paste {
+                take: TakeRef::Index(0),
+                time: 0.0,
+                poses,
+                mirrored,
+                pending: false,
+                unstep: false,
+            };
             about(&adapter, &edit).to_string()
         };
         assert_eq!(paste(false, &["hand.L"]), "hand.L  ·  Walk");

@@ -19,8 +19,8 @@ pub struct Offer {
     pub source: Option<Source>,
     /// Steps that are in no file.
     pub steps: usize,
-    /// What the last of them did, the newest first; not more than a few.
-    pub labels: Vec<&'static str>,
+    /// What they did, the newest first, not more than a few; of steps that were saved and then undone, that they were.
+    pub labels: Vec<String>,
     /// The journal it is in.
     pub found: Recoverable,
 }
@@ -179,16 +179,24 @@ impl Story {
     }
 
     /// How many steps lie between what was saved and what was there last, and what they did.
-    fn unsaved(&self) -> (usize, Vec<&'static str>) {
+    fn unsaved(&self) -> (usize, Vec<String>) {
         let saved = match self.saved {
-            Some(saved) => saved,
-            None if self.was_saved => return (self.done.max(1), self.last()),
+            Some(saved) => saved.min(self.steps.len()),
+            None if self.was_saved => return (self.done.max(1), self.last(0)),
             None => 0,
         };
-        (self.done.abs_diff(saved), self.last())
+        let labels = if self.done < saved {
+            // The one that was undone last lies first.
+            let undone = self.steps[self.done..saved].iter().take(SHOWN);
+            undone.map(|(label, _)| format!("{label} (undone)")).collect()
+        } else {
+            self.last(saved)
+        };
+        (self.done.abs_diff(saved), labels)
     }
 
-    fn last(&self) -> Vec<&'static str> {
-        self.steps[..self.done].iter().rev().take(SHOWN).map(|(label, _)| *label).collect()
+    /// What was done from a step on, the newest first.
+    fn last(&self, from: usize) -> Vec<String> {
+        self.steps[from..self.done].iter().rev().take(SHOWN).map(|(label, _)| (*label).to_owned()).collect()
     }
 }

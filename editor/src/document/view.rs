@@ -62,6 +62,18 @@ impl HistoryView {
         Self { steps: labels, about, done, saved: edited.is_saved(), saved_at: edited.saved() }
     }
 
+    /// What was done last since it was opened or saved, as a sentence; `None` where nothing was.
+    pub fn last_unsaved(&self) -> Option<String> {
+        let label = |at: usize| self.steps.get(at).copied();
+        match self.saved_at {
+            Some(saved) if saved == self.done => None,
+            Some(saved) if saved > self.done => {
+                Some(format!("Undone since it was saved: {}", label(self.done)?))
+            }
+            _ => Some(format!("The last one: {}", label(self.done.checked_sub(1)?)?)),
+        }
+    }
+
     /// What undo would take back, and what redo would bring back.
     pub fn labels(&self) -> [Option<&'static str>; 2] {
         [self.done.checked_sub(1), Some(self.done)].map(|at| self.steps.get(at?).copied())

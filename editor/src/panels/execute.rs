@@ -18,7 +18,11 @@ use crate::playback::Repeat;
 impl State {
     /// Does what a panel asked for.
     pub fn execute(&mut self, request: Request) -> Option<Effect> {
+        let said = self.status.said();
         let effect = self.perform(request);
+        if matches!(effect, Some(Effect::Change(_))) {
+            self.status.keep_last(self.status.said() != said);
+        }
         self.bound_playback();
         self.keep_settings();
         self.unlocked(effect?)
@@ -186,6 +190,7 @@ impl State {
             | Id::MoveTakeDown
             | Id::SplitTake
             | Id::TrimTake
+            | Id::RetimeTake
             | Id::ReverseTake => return self.take_command(id),
 
             Id::ClearSelection => {

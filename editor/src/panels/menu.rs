@@ -70,6 +70,10 @@ fn pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
             Id::ToggleIk => state.ik.on,
             _ => false,
         };
+        // The pose that is pasted as it is stands beside the one that is mirrored.
+        if command.id == Id::PasteMirrored {
+            item(ui, state, Id::PastePose, false, requests);
+        }
         item(ui, state, command.id, on, requests);
         if matches!(
             command.id,

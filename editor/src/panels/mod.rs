@@ -42,6 +42,7 @@ pub mod style;
 pub mod takes;
 pub mod theme;
 pub mod timeline;
+mod told;
 mod transport;
 pub mod viewport;
 mod widgets;

@@ -79,7 +79,9 @@ impl Overlays {
         }
         let mut run = enter.then(|| found[self.chosen].id);
         ui.spacing_mut().item_spacing.y = 0.0;
-        ScrollArea::vertical().max_height(12.0 * ROW).show(ui, |ui| {
+        // Said outright: a card that has just grown believes that there is no more room than before.
+        let height = (found.len() as f32 * ROW).min(12.0 * ROW);
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             for (index, command) in found.iter().enumerate() {
                 let response = palette_row(ui, state, command, index == self.chosen);
                 if index == self.chosen && (up || down) {
@@ -136,16 +138,15 @@ fn search(query: &str, state: &State) -> Vec<&'static Command> {
         };
         words.iter().all(|word| has(word))
     };
-    let (mut first, second): (Vec<&Command>, Vec<&Command>) = commands::all()
+    let mut found: Vec<&Command> = commands::all()
         .filter(|command| command.id != Id::Palette)
         .filter(|command| {
             has(&format!("{} {} {}", commands::category_of(command.id).title(), command.title, command.help))
         })
-        .partition(|command| has(command.title));
-    first.extend(second);
-    // What cannot be given now stands last, with its reason.
-    first.sort_by_key(|command| !command.when.holds(state));
-    first
+        .collect();
+    // What is called so stands before what is about it; then what cannot be given now stands last, with its reason.
+    found.sort_by_key(|command| (!has(command.title), !command.when.holds(state)));
+    found
 }
 
 fn palette_row(ui: &mut Ui, state: &State, command: &Command, chosen: bool) -> egui::Response {

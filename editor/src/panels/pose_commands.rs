@@ -31,7 +31,7 @@ impl State {
     pub(super) fn key_here(&mut self) -> Option<Effect> {
         let (take, time) = (self.take_ref()?, self.time());
         Some(done(if self.pending_here().is_some() {
-            Edit::KeyPending { take, time: Some(time), bones: self.pending_free(Some(time))? }
+            Edit::KeyPending { take, time: Some(time), bones: self.pending_free(Some(time))?, unstep: true }
         } else {
             self.added_keys()?
         }))
@@ -51,7 +51,7 @@ impl State {
     /// Keys what is pending anywhere in the take.
     pub(super) fn key_pending(&mut self) -> Option<Effect> {
         let bones = self.pending_free(None)?;
-        Some(done(Edit::KeyPending { take: self.take_ref()?, time: None, bones }))
+        Some(done(Edit::KeyPending { take: self.take_ref()?, time: None, bones, unstep: true }))
     }
 
     /// Gives up what is pending in the take.
@@ -136,7 +136,7 @@ impl State {
                 return None;
             }
         }
-        Some(done(Edit::Paste { take, time, poses, mirrored, pending }))
+        Some(done(Edit::Paste { take, time, poses, mirrored, pending, unstep: true }))
     }
 
     /// Takes the selected bones back to the pose that was read, or to the rest pose; these channels of them.

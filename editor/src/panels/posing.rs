@@ -22,7 +22,7 @@ impl State {
     /// The same at any time.
     pub(super) fn edit_of(&self, take: TakeRef, time: f32, poses: Vec<BonePose>) -> Edit {
         if self.settings.auto_key {
-            Edit::Set { take, time, poses }
+            Edit::Set { take, time, poses, unstep: true }
         } else {
             Edit::Pend { take, time, poses }
         }

@@ -111,6 +111,14 @@ impl State {
         self.questions.retain(|(_, other)| std::mem::discriminant(other) != same);
         self.asked += 1;
         self.questions.push_back((self.asked, question));
+        self.stand_still();
+    }
+
+    /// Nothing moves behind a question.
+    fn stand_still(&mut self) {
+        if self.playback.playing {
+            self.stop_at(self.time());
+        }
     }
 
     /// Asks before everything else where a file is now, or says that it is another one.
@@ -118,6 +126,7 @@ impl State {
         self.questions.retain(|(_, question)| !matches!(question, Question::Find { .. }));
         self.asked += 1;
         self.questions.push_front((self.asked, Question::Find { offer, other }));
+        self.stand_still();
     }
 
     /// Somebody said where the file of this work is: it is neither offered nor asked for any more.

@@ -45,6 +45,9 @@ impl State {
 
     /// The graphics thread told which bones lie under a click, the nearest first.
     pub fn picked(&mut self, at: Pos2, bones: &[BoneIndex], choice: Choice) {
+        if bones.is_empty() && self.on_handle {
+            return;
+        }
         let bone = if choice == Choice::Replace {
             self.cycle.click(Vec2::new(at.x, at.y), bones)
         } else {

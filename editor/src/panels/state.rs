@@ -130,6 +130,8 @@ pub struct State {
     pub trail: Trail,
     /// Repeated clicks go through what lies behind.
     pub cycle: ClickCycle,
+    /// Was the last click on a handle of the gizmo? Then it is no click beside everything.
+    pub(super) on_handle: bool,
     /// What is remembered of each file.
     pub marks: super::marks::Marks,
     /// What the list of takes is about to do.
@@ -179,6 +181,7 @@ impl State {
             dragging: Dragging::default(),
             trail: Trail::default(),
             cycle: ClickCycle::default(),
+            on_handle: false,
             marks: super::marks::Marks::default(),
             takes: super::takes::TakesState::default(),
             gestures: Cell::new(0),
@@ -226,7 +229,8 @@ impl State {
         let before = self.view.replace(view);
         if !fresh {
             self.follow_take(before.as_ref().map_or(&[], |view| &view.slots));
-            self.name_markers(before.as_ref());
+            self.keep_markers(before.as_ref());
+            self.tell(before.as_ref());
             return self.keep_take();
         }
         let bones = self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());
@@ -242,9 +246,19 @@ impl State {
         self.recall_marks();
         let has_takes = self.view.as_ref().is_some_and(|view| !view.takes.is_empty());
         self.show_take(has_takes.then_some(0));
-        self.playback = self.playback.with(has_takes, self.settings.speed, self.settings.repeat, self.now);
+        let plays = has_takes && self.question().is_none();
+        self.playback = self.playback.with(plays, self.settings.speed, self.settings.repeat, self.now);
         self.frame_model();
         self.framed = true;
+    }
+
+    /// Says what was done since `before`.
+    fn tell(&mut self, before: Option<&View>) {
+        if let Some(done) =
+            before.zip(self.view.as_ref()).and_then(|(old, new)| super::told::between(old, new))
+        {
+            self.status.remark(done);
+        }
     }
 
     /// Shows a take from its start; keeps playing or standing.

@@ -28,6 +28,10 @@ pub struct Line {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Status {
     lines: VecDeque<Line>,
+    /// Lines said so far.
+    said: u64,
+    /// The last line says more than the next remark would.
+    weighs_more: bool,
 }
 
 /// How many lines are kept.
@@ -37,6 +41,7 @@ impl Status {
     /// Says `text`; the same again only counts.
     pub fn say(&mut self, level: Level, text: impl Into<String>) {
         let text = text.into();
+        self.said += 1;
         match level {
             Level::Info => tracing::info!(target: "dragonfly::status", "{text}"),
             Level::Warning => tracing::info!(target: "dragonfly::status", level = "warning", "{text}"),
@@ -53,6 +58,23 @@ impl Status {
             self.lines.pop_front();
         }
         self.lines.push_back(Line { level, text, times: 1 });
+    }
+
+    /// How many lines were said so far.
+    pub(super) fn said(&self) -> u64 {
+        self.said
+    }
+
+    /// The line that was said last is of what is done now and says more than a remark about it would.
+    pub(super) fn keep_last(&mut self, keep: bool) {
+        self.weighs_more = keep;
+    }
+
+    /// Says what was done, unless the line that is there says more of it.
+    pub(super) fn remark(&mut self, text: impl Into<String>) {
+        if !std::mem::take(&mut self.weighs_more) {
+            self.say(Level::Info, text);
+        }
     }
 
     /// The newest line.

@@ -72,8 +72,14 @@ fn apply(style: &mut egui::Style, theme: &Theme) {
     spacing.menu_width = 240.0;
     spacing.tooltip_width = 320.0;
     spacing.icon_width = 16.0;
-    spacing.scroll =
-        ScrollStyle { bar_width: 8.0, floating_width: 4.0, bar_inner_margin: 2.0, ..ScrollStyle::floating() };
+    spacing.scroll = ScrollStyle {
+        bar_width: 8.0,
+        floating_width: 4.0,
+        bar_inner_margin: 2.0,
+        // That there is more is seen without searching for it.
+        dormant_handle_opacity: 0.35,
+        ..ScrollStyle::floating()
+    };
 
     let visuals = &mut style.visuals;
     visuals.dark_mode = theme.dark;

@@ -19,12 +19,25 @@ pub struct GizmoControl {
     /// Was the drag begun by a key, so that no button is held?
     by_key: bool,
     answer: Option<GizmoAnswer>,
-    /// Where the ball in the middle was pressed, and with which keys, as long as the pointer has not moved: such a press is
-    /// a click on what lies behind.
-    pressed: Option<Mouse>,
+    /// Where a handle was pressed, as long as the pointer has not moved: such a press is a click on what lies behind.
+    pressed: Option<Pressed>,
     clicked: Option<Mouse>,
     refused: bool,
 }
+
+/// A press that may still be a click.
+#[derive(Clone, Copy, Debug)]
+struct Pressed {
+    /// Where, and with which keys.
+    mouse: Mouse,
+    /// Points that the pointer may go from there.
+    slack: f32,
+    /// Does nothing move before?
+    waits: bool,
+}
+
+/// Points: a hand that holds a ring or an arrow may mean the least of turns.
+const STEADY: f32 = 1.5;
 
 impl Default for GizmoControl {
     fn default() -> Self {
@@ -65,7 +78,7 @@ impl GizmoControl {
         self.by_key
     }
 
-    /// A click on what lies behind the ball in the middle, since this was asked last.
+    /// A click on what lies behind a handle, since this was asked last.
     pub fn take_click(&mut self) -> Option<Mouse> {
         self.clicked.take()
     }
@@ -105,10 +118,11 @@ impl BaseControl for GizmoControl {
     fn mouse_move(&mut self, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
         let at = mouse.at - self.corner;
         if self.gizmo.is_dragging() {
-            if self.pressed.is_some_and(|pressed| pressed.at.distance(mouse.at) <= CLICK) {
+            self.pressed =
+                self.pressed.filter(|pressed| pressed.mouse.at.distance(mouse.at) <= pressed.slack);
+            if self.pressed.is_some_and(|pressed| pressed.waits) {
                 return Pass::Stop;
             }
-            self.pressed = None;
             let answer = self.gizmo.pointer(at, mouse.modifiers);
             return self.note(answer, framework);
         }
@@ -131,9 +145,10 @@ impl BaseControl for GizmoControl {
                     self.refused = true;
                     return Pass::Stop;
                 }
-                // The ball is large, and bones lie behind it.
-                let covers = handle == Some(Handle::Centre) && self.gizmo.tool == Tool::Rotate;
-                self.pressed = covers.then_some(mouse);
+                // The ball is large: it hides more bones than it turns.
+                let ball = handle == Some(Handle::Centre) && self.gizmo.tool == Tool::Rotate;
+                let slack = if ball { CLICK } else { STEADY };
+                self.pressed = handle.is_some().then_some(Pressed { mouse, slack, waits: ball });
                 let begins = handle.is_some() && self.gizmo.begin(handle, at);
                 if begins { GizmoAnswer::Changed } else { GizmoAnswer::Ignored }
             }
@@ -147,7 +162,7 @@ impl BaseControl for GizmoControl {
         if button != Button::Left || self.by_key {
             return Pass::ToParent;
         }
-        self.clicked = self.pressed.take();
+        self.clicked = self.pressed.take().map(|pressed| pressed.mouse);
         let answer = if self.clicked.is_some() { self.gizmo.cancel() } else { self.gizmo.confirm() };
         self.note(answer, framework)
     }

@@ -46,6 +46,8 @@ impl Drag {
                 },
                 // A key that was added for it.
                 Op::Splice(_, gone, back) if gone.len() == 1 && back.is_empty() => {}
+                // A channel in steps that became linear for it; once is enough.
+                Op::Replace(..) => {}
                 _ => return None,
             }
         }

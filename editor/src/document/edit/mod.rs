@@ -43,6 +43,10 @@ pub enum Edit {
         time: f32,
         /// The poses wanted; one for each bone.
         poses: Vec<BonePose>,
+        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
+        /// that the pose is moved to, not jumped to.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        unstep: bool,
     },
     /// Gives bones poses at several times at once: several [`Self::Set`] in one step.
     SetMany {
@@ -50,6 +54,10 @@ pub enum Edit {
         take: TakeRef,
         /// The times, each with its poses.
         at: Vec<PoseAt>,
+        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
+        /// that the pose is moved to, not jumped to.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        unstep: bool,
     },
     /// Moves, turns, scales bones on top of the pose they have at a time: translations are added (parent space),
     /// rotations multiplied from the left (parent space), scales multiplied.
@@ -60,6 +68,10 @@ pub enum Edit {
         time: f32,
         /// What comes on top; one for each bone.
         poses: Vec<BonePose>,
+        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
+        /// that the pose is moved to, not jumped to.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        unstep: bool,
     },
     /// Takes changes back at a time.
     Reset {
@@ -101,6 +113,10 @@ pub enum Edit {
         /// As pending poses instead of keys.
         #[serde(default)]
         pending: bool,
+        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
+        /// that the pose is moved to, not jumped to.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        unstep: bool,
     },
     /// Turns pending poses into keys.
     KeyPending {
@@ -112,6 +128,10 @@ pub enum Edit {
         /// Which bones; all where empty.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         bones: Vec<BoneRef>,
+        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
+        /// that the pose is moved to, not jumped to.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        unstep: bool,
     },
     /// Gives pending poses up.
     DropPending {

@@ -90,6 +90,7 @@ pub enum Id {
     MoveTakeDown,
     SplitTake,
     TrimTake,
+    RetimeTake,
     ReverseTake,
 
     ClearSelection,

@@ -284,9 +284,10 @@ impl Canvas<'_> {
             for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
                 let center = pos2(x, self.value.y_of(numbers[at]));
                 if bounds.contains(center) {
-                    let fill = if selected { theme.accent } else { color(theme, at) };
-                    pen.diamond(&mut self.mesh, center, RADIUS + 1.0, theme.sunken);
-                    pen.diamond(&mut self.mesh, center, RADIUS, fill);
+                    // A selected key keeps the colour of its axis: several may lie side by side.
+                    let (edge, rim) = if selected { (theme.text, 2.0) } else { (theme.sunken, 1.0) };
+                    pen.diamond(&mut self.mesh, center, RADIUS + rim, edge);
+                    pen.diamond(&mut self.mesh, center, RADIUS, color(theme, at));
                 }
             }
         }

@@ -52,7 +52,9 @@ pub(super) fn value_edit(take: TakeRef, keys: &[ValueKey], component: usize, by:
     match at.len() {
         0 => None,
         // One time is what every program that reads edits knows.
-        1 => at.into_iter().next().map(|PoseAt { time, poses }| Edit::Set { take, time, poses }),
-        _ => Some(Edit::SetMany { take, at }),
+        1 => {
+            at.into_iter().next().map(|PoseAt { time, poses }| Edit::Set { take, time, poses, unstep: true })
+        }
+        _ => Some(Edit::SetMany { take, at, unstep: true }),
     }
 }

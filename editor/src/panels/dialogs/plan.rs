@@ -18,18 +18,26 @@ pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder
     if nothing {
         ask.says("Nothing: the file will be the same, byte for byte.");
     } else {
-        ask.says("Everything that is not in this list keeps its bytes.");
+        // How much it is stands over the list, where there is one.
+        let lines = match lines {
+            [summary, list @ ..] if !list.is_empty() => {
+                ask.says(format!("{summary}."));
+                list
+            }
+            lines => lines,
+        };
+        ask.adds("Everything that is not in this list keeps its bytes.".to_owned());
         let theme = Theme::of(ask.ui);
         Frame::NONE.fill(theme.sunken).corner_radius(style::RADIUS).inner_margin(2.0 * GRID).show(
             ask.ui,
             |ui| {
                 ui.spacing_mut().item_spacing.y = 0.0;
                 let height = (lines.len() as f32 * LINE).min(320.0);
-                ScrollArea::both().max_height(height).auto_shrink([false, true]).show_rows(
-                    ui,
-                    LINE,
-                    lines.len(),
-                    |ui, range| {
+                ScrollArea::both()
+                    .max_height(height)
+                    .min_scrolled_height(height)
+                    .auto_shrink([false, true])
+                    .show_rows(ui, LINE, lines.len(), |ui, range| {
                         for line in &lines[range] {
                             let text = RichText::new(line).monospace().size(style::SMALL);
                             let room = vec2(ui.available_width(), LINE);
@@ -38,8 +46,7 @@ pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder
                                 ui.add(Label::new(text).extend());
                             });
                         }
-                    },
-                );
+                    });
             },
         );
     }

@@ -25,7 +25,7 @@ pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut
     let Some(offer) = offers.get(*chosen) else { return };
     about(ask, offer);
     let keep =
-        ("Keep", "Opens it as it was, with everything that can be undone", Tone::First, Decision::Keep);
+        ("Restore", "Opens it as it was, with everything that can be undone", Tone::First, Decision::Keep);
     let beside = (
         "Open beside",
         "Opens it as a document of its own; nothing becomes of the file",
@@ -61,7 +61,7 @@ pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut
 
 fn list(ask: &mut Ask<'_>, offers: &[Offer], chosen: &mut usize) {
     let height = (offers.len() as f32 * ROW).min(6.0 * ROW);
-    ScrollArea::vertical().max_height(height).show(ask.ui, |ui| {
+    ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ask.ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         for (index, offer) in offers.iter().enumerate() {
             let (rect, response) = widgets::row(ui, &offer.title, index == *chosen, false);
@@ -92,7 +92,8 @@ fn about(ask: &mut Ask<'_>, offer: &Offer) {
         let facts = [widgets::count(offer.steps, "step", "steps"), ago(offer.age())];
         ui.label(widgets::dot_separated(&facts));
         if !offer.labels.is_empty() {
-            let last = format!("Last: {}", offer.labels.join(", "));
+            let what = if offer.steps > offer.labels.len() { "The last of them" } else { "What was done" };
+            let last = format!("{what}: {}", offer.labels.join(", "));
             ui.label(RichText::new(last).color(theme.weak));
         }
     });

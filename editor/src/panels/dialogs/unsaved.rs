@@ -14,10 +14,7 @@ enum Choice {
 
 pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
     ask.ui.set_width(440.0);
-    let (title, steps) = ask.state.view.as_ref().map_or((String::new(), 0), |view| {
-        let history = &view.history;
-        (view.file.title.clone(), history.done)
-    });
+    let title = ask.state.view.as_ref().map_or(String::new(), |view| view.file.title.clone());
     ask.title(&format!("Save {title}?"));
     ask.says(match then {
         Then::Quit => "It has changes that are in no file yet, and the program is about to end.".to_owned(),
@@ -25,10 +22,8 @@ pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
             format!("It has changes that are in no file yet, and {} is about to be opened.", source.title())
         }
     });
-    let last =
-        ask.state.view.as_ref().and_then(|view| view.history.steps.get(steps.wrapping_sub(1)).copied());
-    if let Some(last) = last {
-        ask.adds(format!("The last one: {last}"));
+    if let Some(last) = ask.state.view.as_ref().and_then(|view| view.history.last_unsaved()) {
+        ask.adds(last);
     }
     let save = ("Save", "Saves, then goes on", Tone::First, Choice::Save);
     let cancel = ("Cancel", "Goes back to work", Tone::Plain, Choice::Cancel);

@@ -4,6 +4,7 @@ use super::ROW;
 use super::place::Places;
 use super::rows::{RowKind, Rows};
 use crate::control::bones::Choice;
+use crate::panels::bone_menu;
 use crate::panels::commands::{self, Id};
 use crate::panels::icons::Icon;
 use crate::panels::keys::{BoneFlag, KeysRequest};
@@ -18,7 +19,7 @@ use egui::{
 };
 
 /// Width of the mark of a bone.
-const FLAG: f32 = 17.0;
+const FLAG: f32 = 20.0;
 
 /// Draws the names of the rows in sight.
 pub(super) fn show(
@@ -102,6 +103,7 @@ fn bone_row(
     if response.hovered() {
         requests.push(Request::Hover(bone));
     }
+    bone_menu::show(&response, state, Some(bone), requests);
     if response.clicked() {
         let modifiers = ui.input(|input| input.modifiers);
         let choice = if modifiers.command {
@@ -131,7 +133,7 @@ fn bone_row(
     if wide {
         for (at, flag) in BoneFlag::ALL.into_iter().enumerate() {
             let left = rect.right() - 6.0 - FLAG * (3 - at) as f32;
-            let place = Rect::from_min_size(pos2(left, rect.top() + 1.5), vec2(FLAG, ROW - 3.0));
+            let place = Rect::from_min_size(pos2(left, rect.top() + 1.0), vec2(FLAG, ROW - 2.0));
             mark(ui, place.intersect(visible), flag, bone, name, over, state, requests);
         }
     }
@@ -165,7 +167,7 @@ fn mark(
             ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.hover);
         }
         let letter = flag.name().get(..1).unwrap_or_default();
-        ui.painter().text(rect.center(), Align2::CENTER_CENTER, letter, FontId::proportional(10.5), color);
+        ui.painter().text(rect.center(), Align2::CENTER_CENTER, letter, FontId::proportional(12.0), color);
         widgets::focus_ring(ui, &response, rect);
     }
     if response.on_hover_text(format!("{}\n{}", flag.name(), flag.help())).clicked() {

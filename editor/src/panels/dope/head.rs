@@ -29,7 +29,8 @@ pub(super) struct Head {
 
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
-    about: f32,
+    /// The end that is not held, seconds.
+    other: f32,
     grabbed: f32,
     begun: bool,
 }
@@ -139,7 +140,7 @@ impl Head {
         self.bar(ui, places, scale, drawn, state, requests);
     }
 
-    /// The bar over the selected keys: its ends scale them about the playhead.
+    /// The bar over the selected keys: its ends scale them about each other, with Alt about the playhead.
     fn bar(
         &mut self,
         ui: &Ui,
@@ -177,9 +178,9 @@ impl Head {
             }
             let response = ui.interact(grip, ui.scope_id().with(name), Sense::drag());
             response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Button, true, name));
-            let response = response
-                .on_hover_cursor(CursorIcon::ResizeHorizontal)
-                .on_hover_text(format!("{name}\nAbout the playhead; Ctrl turns snapping round"));
+            let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(format!(
+                "{name}\nThe other end stays; with Alt the playhead does\nCtrl inverts snapping"
+            ));
             let lit = response.hovered() || response.dragged();
             let color = if lit { theme.accent } else { theme.accent.gamma_multiply(0.7) };
             painter.rect_filled(
@@ -203,11 +204,8 @@ impl Head {
         requests: &mut Vec<Request>,
     ) {
         if response.drag_started_by(PointerButton::Primary) {
-            // About the playhead; about the other end where the playhead stands on the end that is held.
-            let now = state.time();
             let other = if end == from { to } else { from };
-            let about = if (now - end).abs() > state.frame_seconds() * 0.5 { now } else { other };
-            self.scaling = Some(Scaling { about, grabbed: end, begun: false });
+            self.scaling = Some(Scaling { other, grabbed: end, begun: false });
         }
         let Some(scaling) = &mut self.scaling else { return };
         let cancelled = ui.input(|input| input.pointer.secondary_down() || input.key_down(egui::Key::Escape));
@@ -223,14 +221,18 @@ impl Head {
             let snap = state.keys.snap != ui.input(|input| input.modifiers.command);
             let time = scale.time_at(pointer.x);
             let time = if snap { to_frame(time, state) } else { time };
-            let factor = (time - scaling.about) / (scaling.grabbed - scaling.about);
+            // Asked anew each time: a hand may think of it in the midst of the drag.
+            let now = state.time();
+            let by_playhead = ui.input(|input| input.modifiers.alt)
+                && (now - scaling.grabbed).abs() > state.frame_seconds() * 0.5;
+            let about = if by_playhead { now } else { scaling.other };
+            let factor = (time - about) / (scaling.grabbed - about);
             // Zero would bring all keys to one time; a thousandth is as near as it gets.
             let factor =
                 if factor.abs() < 1e-3 { 1e-3_f32.copysign(factor) } else { factor.clamp(-1e3, 1e3) };
             if factor.is_finite() {
                 scaling.begun = true;
-                requests
-                    .push(Request::Timeline(KeysRequest::Drag(Deed::Scale { about: scaling.about, factor })));
+                requests.push(Request::Timeline(KeysRequest::Drag(Deed::Scale { about, factor })));
             }
         }
         if response.drag_stopped() && self.scaling.take().is_some() {

@@ -14,9 +14,18 @@ use egui::{
 /// What is held or renamed.
 #[derive(Debug, Default)]
 pub(super) struct MarkerLane {
-    renaming: Option<(usize, String, bool)>,
+    renaming: Option<(usize, String, Stage)>,
     /// A marker on its way: it moves when it is let go, so that the order stays while it is held.
     held: Option<(usize, f32)>,
+}
+
+/// How far the typing of a name is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    Fresh,
+    /// The cursor is on its way into the field.
+    Asked,
+    Typing,
 }
 
 impl MarkerLane {
@@ -79,7 +88,7 @@ impl MarkerLane {
                 seek = Some(marker.time);
             }
             if response.double_clicked() {
-                self.renaming = Some((index, marker.name.clone(), true));
+                self.renaming = Some((index, marker.name.clone(), Stage::Fresh));
             }
             if self.held.is_some_and(|(held, _)| held == index)
                 && ui.input(|input| input.key_down(egui::Key::Escape))
@@ -103,7 +112,7 @@ impl MarkerLane {
             }
             response.context_menu(|ui| {
                 if ui.add(Button::new("Rename").frame_when_inactive(false)).clicked() {
-                    self.renaming = Some((index, marker.name.clone(), true));
+                    self.renaming = Some((index, marker.name.clone(), Stage::Fresh));
                     ui.close();
                 }
                 if ui.add(Button::new("Delete marker").frame_when_inactive(false)).clicked() {
@@ -122,18 +131,28 @@ impl MarkerLane {
 
     /// The field in which a name is typed.
     fn rename(&mut self, ui: &mut Ui, lane: Rect, scale: &TimeScale, state: &State) -> Option<MarkerDeed> {
-        let (index, name, fresh) = self.renaming.as_mut()?;
+        let (index, name, stage) = self.renaming.as_mut()?;
         let Some(marker) = state.markers().get(*index) else {
             self.renaming = None;
             return None;
         };
         let left = scale.x_of(marker.time).clamp(lane.left(), (lane.right() - 120.0).max(lane.left()));
         let rect = Rect::from_min_size(pos2(left, lane.top() - 3.0), vec2(120.0, lane.height() + 6.0));
-        let response = ui.put(rect, TextEdit::singleline(name).font(TextStyle::Small).hint_text("Name"));
+        let id = egui::Id::unique("name of a marker");
+        if *stage == Stage::Asked && ui.memory(|memory| memory.has_focus(id)) {
+            *stage = Stage::Typing;
+            // What is typed takes the place of the old name.
+            let mut cursor = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+            cursor.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(name)));
+            cursor.store(ui.ctx(), id);
+        }
+        let field = TextEdit::singleline(name).id(id).font(TextStyle::Small).hint_text("Name");
+        let response = ui.put(rect, field);
         response.widget_info(|| {
             WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Name of the marker")
         });
-        if std::mem::take(fresh) {
+        if *stage == Stage::Fresh {
+            *stage = Stage::Asked;
             response.request_focus();
             return None;
         }

@@ -65,11 +65,15 @@ impl State {
         let corner = self.viewport.min;
         let there = |at: Vec2| pos2(corner.x + at.x, corner.y + at.y);
         match self.hands.picture_mut().take_outcome() {
-            Some(Outcome::Pick(at, choice)) => effects.push(Effect::Pick(there(at), choice)),
+            Some(Outcome::Pick(at, choice)) => {
+                self.on_handle = false;
+                effects.push(Effect::Pick(there(at), choice));
+            }
             Some(Outcome::Catch(region, choice)) => effects.push(Effect::Catch(region, choice)),
             None => {}
         }
         if let Some(mouse) = self.hands.gizmo_mut().take_click() {
+            self.on_handle = true;
             effects.push(Effect::Pick(pos2(mouse.at.x, mouse.at.y), Choice::of(mouse.modifiers)));
         }
         if self.hands.gizmo_mut().take_refused() {

@@ -73,7 +73,9 @@ impl State {
         let step = frames * self.frame_seconds();
         // Closing takes away what lies behind the time shown, so what comes after it is moved.
         let from = if frames < 0.0 { from - step } else { from };
-        Some(Effect::Change(Change::Edit(Edit::Ripple { take, from, by: step }, None)))
+        // Where there is no key to move the document says so.
+        self.do_keys(Deed::Ripple { from, by: step })
+            .or(Some(Effect::Change(Change::Edit(Edit::Ripple { take, from, by: step }, None))))
     }
 
     /// Sets how the channels with selected keys find what lies between. Channels of different kinds are several steps.

@@ -1,6 +1,7 @@
 //! Markers: times with names, kept beside the program's settings and never in the model's file.
 
 use crate::document::adapter::{Slot, TakeId};
+use dragonfly_anim::data::{Take, Track};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -107,6 +108,41 @@ impl Markers {
         Some((self.file(), serde_json::to_string_pretty(&stored).unwrap_or_default()))
     }
 
+    /// Gives takes that are new the markers of those they were made of: copies all, the second part of a take that was
+    /// cut in two those behind the cut. Where the markers come from they stay, so nothing is lost when that is undone.
+    pub(super) fn take_along(&mut self, before: &[Arc<Slot>], now: &[Arc<Slot>]) {
+        let is_new = |slot: &Slot| before.iter().all(|old| old.id != slot.id);
+        for (at, slot) in now.iter().enumerate().filter(|(_, slot)| is_new(slot)) {
+            if self.takes.contains_key(&slot.id) {
+                continue;
+            }
+            // A new take stands behind the one that it was made of, if nobody wanted it elsewhere.
+            let behind = at.checked_sub(1).and_then(|at| now.get(at));
+            let copied = |other: &&Arc<Slot>| same_keys(&other.result, &slot.result);
+            let old = || before.iter().find(copied);
+            let (from, cut) = match behind {
+                Some(first) if !copied(&first) && old().is_none() => {
+                    let Some(whole) = before.iter().find(|whole| whole.id == first.id) else { continue };
+                    // Nothing was taken from the one before: this one was made of none.
+                    if Arc::ptr_eq(&whole.result, &first.result) {
+                        continue;
+                    }
+                    (first.id, first.result.start + first.result.length)
+                }
+                Some(first) if copied(&first) => (first.id, 0.0),
+                _ => match old() {
+                    Some(old) => (old.id, 0.0),
+                    None => continue,
+                },
+            };
+            let behind_cut = self.of(from).iter().filter(|marker| marker.time >= cut);
+            let along: Vec<Marker> =
+                behind_cut.map(|marker| Marker { time: marker.time - cut, ..marker.clone() }).collect();
+            self.unsaved |= !along.is_empty();
+            self.takes.insert(slot.id, along);
+        }
+    }
+
     /// Those of a take, ascending.
     pub fn of(&self, take: TakeId) -> &[Marker] {
         self.takes.get(&take).map_or(&[], Vec::as_slice)
@@ -139,6 +175,16 @@ impl Markers {
         *markers = sorted(std::mem::take(markers));
         self.unsaved = true;
     }
+}
+
+/// Is one a copy of the other? Copies share the columns of their channels.
+fn same_keys(a: &Take, b: &Take) -> bool {
+    let shares = |(a, b): (&Track, &Track)| {
+        (!a.rotation.is_empty() && Arc::ptr_eq(&a.rotation.values, &b.rotation.values))
+            || (!a.translation.is_empty() && Arc::ptr_eq(&a.translation.values, &b.translation.values))
+            || (!a.scale.is_empty() && Arc::ptr_eq(&a.scale.values, &b.scale.values))
+    };
+    a.keys() == b.keys() && a.tracks.iter().zip(&b.tracks).any(shares)
 }
 
 fn sorted(mut markers: Vec<Marker>) -> Vec<Marker> {

@@ -180,12 +180,14 @@ impl State {
         }
     }
 
-    /// A newer view of the same model is shown, which may be saved elsewhere now.
-    pub(super) fn name_markers(&mut self, before: Option<&View>) {
-        if let Some(view) = &self.view
-            && before.is_none_or(|before| before.file != view.file)
-        {
+    /// A newer view of the same model is shown, which may be saved elsewhere now and have other takes.
+    pub(super) fn keep_markers(&mut self, before: Option<&View>) {
+        let Some(view) = &self.view else { return };
+        if before.is_none_or(|before| before.file != view.file) {
             self.keys.markers.rename(view.file.key());
+        }
+        if let Some(before) = before.filter(|before| before.slots.len() < view.slots.len()) {
+            self.keys.markers.take_along(&before.slots, &view.slots);
         }
     }
 
@@ -206,6 +208,7 @@ impl State {
                 (Some(take), Deed::Move(_) | Deed::Scale { .. } | Deed::Duplicate(_) | Deed::Snap(_)) => {
                     drag.moved(take)
                 }
+                (Some(take), Deed::Ripple { from, by }) => self.keys.selection.rippled(take, *from, *by),
                 _ => self.keys.selection.clone(),
             };
         }

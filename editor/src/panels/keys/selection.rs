@@ -4,7 +4,7 @@ use super::channel::{self, ChannelId};
 use super::intervals::{Intervals, WHOLE};
 use super::shift::Shift;
 use crate::control::bones::Choice;
-use crate::document::edit::{BoneRef, KeySet, Property};
+use crate::document::edit::{BoneRef, KeySet, Property, SAME_TIME};
 use dragonfly_anim::data::{BoneIndex, Take};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -116,6 +116,26 @@ impl KeySelection {
                 moved = Intervals::singles(keys);
             }
             moved.tidy(after);
+            (!moved.is_empty()).then_some((channel, moved))
+        });
+        Self { channels: Arc::new(moved.collect()) }
+    }
+
+    /// The same keys after everything from a time on was moved: `new` is the take in which they are.
+    pub fn rippled(&self, new: &Take, from: f32, by: f32) -> Self {
+        let from = from - SAME_TIME;
+        let late = |time: f32| if time.is_finite() { time + by } else { time };
+        let moved = self.channels().filter_map(|(channel, intervals)| {
+            let times = channel::times(new, channel);
+            let stretches = intervals.stretches().iter().flat_map(|&[begin, end]| {
+                // What lay in a gap that was closed is gone, and other keys may lie there now.
+                let stays = end.min(from + by.min(0.0)).next_down();
+                let before = (begin < from).then_some([begin, stays]);
+                let behind = (end >= from).then(|| [late(begin.max(from)), late(end)]);
+                [before, behind].into_iter().flatten()
+            });
+            let mut moved = Intervals::of(stretches);
+            moved.tidy(times);
             (!moved.is_empty()).then_some((channel, moved))
         });
         Self { channels: Arc::new(moved.collect()) }

@@ -9,6 +9,9 @@ use egui::{
     StrokeKind, TextEdit, Ui,
 };
 
+/// Points between the edge and the text, where the cursor stands.
+const MARGIN: i8 = 5;
+
 impl NumberField<'_> {
     /// Enter accepts and gives the keys back to the commands, Tab goes on to the next field; where there is no number they
     /// stay and say why.
@@ -68,11 +71,11 @@ impl NumberField<'_> {
         let field = TextEdit::singleline(&mut typing.text)
             .id(self.id)
             .frame(Frame::NONE)
-            .margin(Margin::symmetric(5, 0))
+            .margin(Margin::symmetric(MARGIN, 0))
             .font(FontId::monospace(style::NUMBER))
             .align(Align2::RIGHT_CENTER)
             .char_limit(LONGEST)
-            .desired_width(rect.width());
+            .desired_width(rect.width() - 2.0 * f32::from(MARGIN));
         let response = ui.place(rect, field);
         if response.changed() {
             typing.refused = None;

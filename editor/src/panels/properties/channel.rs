@@ -62,57 +62,103 @@ pub(super) fn heads(ui: &mut Ui) {
     }
 }
 
+/// The place of a channel's rows.
+#[derive(Clone, Copy)]
+pub(super) struct Rows {
+    rect: Rect,
+    property: Property,
+    form: Form,
+    sliders: bool,
+}
+
+impl Rows {
+    /// Points from row to row.
+    fn step(&self) -> f32 {
+        FIELD + 2.0 + if self.sliders { SLIDER } else { 0.0 }
+    }
+
+    fn top(&self, index: usize) -> f32 {
+        self.rect.top() + index as f32 * self.step()
+    }
+}
+
 impl Table<'_> {
-    /// Draws the rows; was a field in use?
-    pub(super) fn show(
-        &self,
-        ui: &mut Ui,
-        hand: &mut Hand,
-        property: Property,
-        form: Form,
-        sliders: bool,
-        requests: &mut Vec<Request>,
-    ) -> bool {
+    /// Room for the rows of a channel, with the letters of its axes. Its fields come later, with those of all channels.
+    pub(super) fn room(&self, ui: &mut Ui, property: Property, form: Form, sliders: bool) -> Rows {
         let count = form.count();
         let step = FIELD + 2.0 + if sliders { SLIDER } else { 0.0 };
         let size = vec2(ui.available_width(), step * count as f32 - 2.0);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        let rows = Rows { rect, property, form, sliders };
         let theme = Theme::of(ui);
-        let row = |index: usize| rect.top() + index as f32 * step;
         let letters =
             ["X", "Y", "Z", "W"].into_iter().zip([theme.axes[0], theme.axes[1], theme.axes[2], theme.weak]);
         for (index, (letter, color)) in letters.take(count).enumerate() {
-            let at = pos2(rect.left(), row(index) + FIELD / 2.0);
+            let at = pos2(rect.left(), rows.top(index) + FIELD / 2.0);
             ui.painter().text(at, Align2::LEFT_CENTER, letter, FontId::proportional(11.0), color);
         }
+        rows
+    }
+
+    /// Draws the fields of all channels, column by column, so that Tab goes down through all of them; was one in use?
+    pub(super) fn fields(
+        &self,
+        ui: &mut Ui,
+        hand: &mut Hand,
+        channels: &[Rows],
+        requests: &mut Vec<Request>,
+    ) -> bool {
         let mut in_use = false;
-        let columns = columns(rect.left(), rect.width());
-        // Column by column, so that Tab goes down.
-        for &(column, x) in columns.iter().rev() {
-            let spot = Spot { property, column, form };
-            let shared = hand.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
-            for (index, value) in shared.into_iter().enumerate().take(count) {
-                let place = Rect::from_x_y_ranges(x, row(index)..=row(index) + FIELD);
-                in_use |= match column {
-                    Column::Original => {
-                        self.original(ui, place, hand, spot, index, value, requests);
-                        false
-                    }
-                    _ => self.field(ui, place, hand, spot, index, value, requests),
-                };
+        for column in Column::ALL.into_iter().rev() {
+            for rows in channels {
+                in_use |= self.column(ui, hand, rows, column, requests);
             }
         }
-        if sliders {
-            let spot = Spot { property, column: Column::Change, form };
-            let shared = hand.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
-            for (index, value) in shared.into_iter().enumerate().take(count) {
-                let top = row(index) + FIELD;
-                let place = Rect::from_min_max(
-                    pos2(rect.left() + LETTER + 6.0, top),
-                    pos2(rect.right() - 6.0, top + SLIDER - 1.0),
-                );
-                in_use |= self.slider(ui, place, hand, spot, index, value, requests);
-            }
+        for rows in channels.iter().filter(|rows| rows.sliders) {
+            in_use |= self.sliders(ui, hand, rows, requests);
+        }
+        in_use
+    }
+
+    fn column(
+        &self,
+        ui: &mut Ui,
+        hand: &mut Hand,
+        rows: &Rows,
+        column: Column,
+        requests: &mut Vec<Request>,
+    ) -> bool {
+        let Rows { rect, property, form, .. } = *rows;
+        let columns = columns(rect.left(), rect.width());
+        let Some(&(_, x)) = columns.iter().find(|(other, _)| *other == column) else { return false };
+        let spot = Spot { property, column, form };
+        let shared = hand.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
+        let mut in_use = false;
+        for (index, value) in shared.into_iter().enumerate().take(form.count()) {
+            let place = Rect::from_x_y_ranges(x, rows.top(index)..=rows.top(index) + FIELD);
+            in_use |= match column {
+                Column::Original => {
+                    self.original(ui, place, hand, spot, index, value, requests);
+                    false
+                }
+                _ => self.field(ui, place, hand, spot, index, value, requests),
+            };
+        }
+        in_use
+    }
+
+    fn sliders(&self, ui: &mut Ui, hand: &mut Hand, rows: &Rows, requests: &mut Vec<Request>) -> bool {
+        let Rows { rect, property, form, .. } = *rows;
+        let spot = Spot { property, column: Column::Change, form };
+        let shared = hand.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
+        let mut in_use = false;
+        for (index, value) in shared.into_iter().enumerate().take(form.count()) {
+            let top = rows.top(index) + FIELD;
+            let place = Rect::from_min_max(
+                pos2(rect.left() + LETTER + 6.0, top),
+                pos2(rect.right() - 6.0, top + SLIDER - 1.0),
+            );
+            in_use |= self.slider(ui, place, hand, spot, index, value, requests);
         }
         in_use
     }
@@ -187,7 +233,10 @@ impl Table<'_> {
             digits: self.digits(spot),
             range: f64::from(f32::MIN)..=f64::from(f32::MAX),
             locked: self.locked,
-            help: "",
+            help: match spot.form {
+                Form::Quaternion => "All four are brought to length 1 when you leave them.",
+                _ => "",
+            },
             quiet: spot.column == Column::Change && value == Some(unchanged(spot, index)),
         };
         let (heard, response) = field.show(ui, rect);

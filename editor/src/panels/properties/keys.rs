@@ -108,7 +108,7 @@ fn toggled(state: &State, property: Property, keyed: Keyed) -> Option<Edit> {
             let keys = vec![KeySet { bones, properties, at: Some(vec![time]), ..KeySet::default() }];
             Edit::DeleteKeys { take, keys }
         }
-        Keyed::Pending => Edit::KeyPending { take, time: Some(time), bones },
+        Keyed::Pending => Edit::KeyPending { take, time: Some(time), bones, unstep: true },
         _ => {
             let value = NewKey::Current;
             Edit::AddKeys { take, time, bones, properties, value, keyed_only: false }

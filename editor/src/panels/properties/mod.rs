@@ -105,19 +105,20 @@ impl Properties {
         channel::heads(ui);
         let look = state.settings.properties;
         ui.spacing_mut().item_spacing.y = 2.0;
+        let mut channels = Vec::with_capacity(4);
         for (at, property) in Property::ALL.into_iter().enumerate() {
             self.channel_head(ui, &table, property, requests);
             let form = if property == Property::Rotation { Form::Euler(look.euler) } else { Form::Vector };
-            self.in_use |= table.show(ui, &mut self.hand, property, form, look.sliders[at], requests);
+            channels.push(table.room(ui, property, form, look.sliders[at]));
             if property == Property::Rotation {
                 quaternion_head(ui, look, requests);
                 if look.quaternion {
-                    self.in_use |=
-                        table.show(ui, &mut self.hand, property, Form::Quaternion, false, requests);
+                    channels.push(table.room(ui, property, Form::Quaternion, false));
                 }
             }
             ui.add_space(GRID);
         }
+        self.in_use |= table.fields(ui, &mut self.hand, &channels, requests);
         ui.spacing_mut().item_spacing.y = GRID;
         place(ui, state, bone, size);
     }

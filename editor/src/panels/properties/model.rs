@@ -12,7 +12,8 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
     let theme = Theme::of(ui);
     let model = &loaded.model;
     ui.add(egui::Label::new(RichText::new(&file.title).heading()).truncate());
-    let kind = match (&loaded.path, loaded.format.as_str()) {
+    // What is part of the program may have been saved as a file.
+    let kind = match (file.path.as_ref().or(loaded.path.as_ref()), loaded.format.as_str()) {
         (None, _) => "Part of the program".to_owned(),
         (Some(_), "glb") => "glTF 2.0, binary".to_owned(),
         (Some(_), "gltf") => "glTF 2.0, text".to_owned(),

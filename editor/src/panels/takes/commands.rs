@@ -13,6 +13,8 @@ use std::sync::Arc;
 pub struct TakesState {
     /// The take whose name is being typed.
     pub renaming: Option<TakeId>,
+    /// Grows each time that start and length are asked for.
+    pub(super) times_asked: u64,
     /// Is the next take that appears to be shown?
     show_new: bool,
 }
@@ -29,6 +31,10 @@ impl State {
             Id::DuplicateTake => return self.create_take(Some((take, name))),
             Id::RenameTake => {
                 self.rename_take(Some(index));
+                return None;
+            }
+            Id::RetimeTake => {
+                self.takes.times_asked += 1;
                 return None;
             }
             Id::DeleteTake => Edit::DeleteTake { take },

@@ -26,6 +26,8 @@ use time::Times;
 #[derive(Debug, Default)]
 pub struct Takes {
     times: Times,
+    /// How often start and length were asked for when they were shown last.
+    times_shown: u64,
     rename: Option<(crate::document::adapter::TakeId, Rename)>,
     /// The take that is dragged to another place.
     moving: Option<usize>,
@@ -35,7 +37,7 @@ pub struct Takes {
 const MENU: &[&[Id]] = &[
     &[Id::NewTake, Id::DuplicateTake, Id::RenameTake],
     &[Id::MoveTakeUp, Id::MoveTakeDown],
-    &[Id::SplitTake, Id::TrimTake, Id::ReverseTake],
+    &[Id::SplitTake, Id::TrimTake, Id::RetimeTake, Id::ReverseTake],
     &[Id::DeleteTake],
 ];
 
@@ -100,6 +102,10 @@ impl Takes {
                 })
                 .inner
                 .on_hover_text("Start and length of the take, and what is left of it when it is trimmed");
+            let asked = state.takes.times_asked;
+            if std::mem::replace(&mut self.times_shown, asked) != asked {
+                egui::Popup::open_id(ui.ctx(), egui::Popup::default_response_id(&response));
+            }
             egui::Popup::menu(&response)
                 .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
                 .show(|ui| self.times.show(ui, state, requests));

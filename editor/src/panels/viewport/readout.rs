@@ -79,10 +79,10 @@ fn how(readout: &GizmoReadout<'_>) -> String {
         Handle::Ring => return "in the picture".to_owned(),
     };
     let space = match readout.space {
-        Space::Local => "own",
+        Space::Local => "local",
         Space::Parent => "parent",
         Space::World => "world",
-        Space::View => "picture",
+        Space::View => "view",
     };
     format!("{axes} {space}")
 }

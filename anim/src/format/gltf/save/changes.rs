@@ -125,6 +125,28 @@ impl Changes {
             && self.bytes_removed == 0
     }
 
+    /// How much it is, in one line for people.
+    pub fn summary(&self) -> String {
+        let mut takes: Vec<&str> = self.channels.iter().map(|channel| channel.take.as_str()).collect();
+        takes.dedup();
+        let mut bones: Vec<(&str, u32)> =
+            self.channels.iter().map(|channel| (channel.take.as_str(), channel.node)).collect();
+        bones.dedup();
+        let channels = (!self.channels.is_empty()).then(|| {
+            let of = format!("{} in {}", count(bones.len(), "bone"), count(takes.len(), "take"));
+            format!("{} of {of}", count(self.channels.len(), "channel"))
+        });
+        let some = |number: usize, what: &str| (number > 0).then(|| count(number, what));
+        let parts = [
+            channels,
+            some(self.accessors.len(), "accessor"),
+            some(self.tokens.len(), "place").map(|places| places + " in the JSON text"),
+            some(self.bytes_appended, "byte").map(|bytes| bytes + " more"),
+            some(self.bytes_removed, "byte").map(|bytes| bytes + " fewer"),
+        ];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
     /// The same as JSON text, in one line.
     pub fn to_json(&self) -> String {
         let takes: Vec<_> =
@@ -163,28 +185,35 @@ impl Changes {
     }
 }
 
+/// `1 channel`, `2 channels`.
+fn count(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
 fn word(change: &impl fmt::Debug) -> String {
     format!("{change:?}").to_lowercase()
 }
 
 impl fmt::Display for Changes {
-    /// A line a thing, for people.
+    /// For people: how much it is, then a line a thing; what happens alike to several channels of a bone is one.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_empty() {
             return writeln!(f, "nothing changes");
         }
+        writeln!(f, "{}", self.summary())?;
         for (name, change) in &self.takes {
             writeln!(f, "take \"{}\": {}", one_line(name), word(change))?;
         }
-        for channel in &self.channels {
-            let (take, bone) = (one_line(&channel.take), one_line(&channel.bone));
-            writeln!(
-                f,
-                "take \"{take}\", \"{bone}\" (node {}), {}: {}",
-                channel.node,
-                channel.path,
-                word(&channel.change)
-            )?;
+        let alike = |a: &ChangedChannel, b: &ChangedChannel| {
+            (a.node, a.change) == (b.node, b.change) && (&a.take, &a.bone) == (&b.take, &b.bone)
+        };
+        for channels in self.channels.chunk_by(alike) {
+            let Some(first) = channels.first() else { continue };
+            let (take, bone) = (one_line(&first.take), one_line(&first.bone));
+            let paths: Vec<_> = channels.iter().map(|channel| channel.path).collect();
+            let paths = paths.join(", ");
+            let change = word(&first.change);
+            writeln!(f, "take \"{take}\", \"{bone}\" (node {}), {paths}: {change}", first.node)?;
         }
         for node in &self.nodes {
             writeln!(f, "node {node}: its matrix becomes translation, rotation and scale")?;

@@ -70,7 +70,8 @@ fn channel<K: Kind>(work: &mut Work, place: Place, from: f32, to: f32) {
     if !on(from) && (first < from || kept == 0) {
         insert.push((0, current::<K>(work, slot, place, from)));
     }
-    if !on(to) && first < to && last > to {
+    // Where both cuts are one, one key holds the pose.
+    if !on(to) && first < to && last > to && to - from > SAME_TIME {
         insert.push(((kept + insert.len()) as u32, current::<K>(work, slot, place, to)));
     }
     if !remove.is_empty() || !insert.is_empty() {

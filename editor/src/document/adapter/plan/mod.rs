@@ -13,6 +13,7 @@ mod remap;
 mod spline;
 mod takes;
 mod timing;
+mod unstep;
 
 pub(super) use pose::{Way, changed, rotation, vector};
 
@@ -38,17 +39,18 @@ pub(super) struct Work {
 /// Does `edit` on `work`.
 pub(super) fn run(work: &mut Work, edit: &Edit) -> Result<(), EditError> {
     match edit {
-        Edit::Set { take, time, poses } => pose::set(work, take, *time, poses),
-        Edit::SetMany { take, at } => pose::set_many(work, take, at),
-        Edit::Offset { take, time, poses } => pose::offset(work, take, *time, poses),
+        Edit::Set { take, time, poses, unstep } => pose::set(work, take, *time, poses, *unstep),
+        Edit::SetMany { take, at, unstep } => pose::set_many(work, take, at, *unstep),
+        Edit::Offset { take, time, poses, unstep } => pose::offset(work, take, *time, poses, *unstep),
         Edit::Reset { take, time, bones, properties, to } => {
             pose::reset(work, take, *time, (bones, properties), *to)
         }
         Edit::Pend { take, time, poses } => pending::pend(work, take, *time, poses),
-        Edit::Paste { take, time, poses, mirrored, pending } => {
-            paste::paste(work, take, *time, poses, *mirrored, *pending)
+        Edit::Paste { take, time, poses, mirrored, pending, unstep } => {
+            let way = paste::Way { mirrored: *mirrored, pending: *pending, unstep: *unstep };
+            paste::paste(work, take, *time, poses, way)
         }
-        Edit::KeyPending { take, time, bones } => pending::key(work, take, *time, bones),
+        Edit::KeyPending { take, time, bones, unstep } => pending::key(work, take, *time, bones, *unstep),
         Edit::DropPending { take, time, bones } => pending::drop(work, take, *time, bones),
         Edit::AddKeys { take, time, bones, properties, value, keyed_only } => {
             keys::add(work, take, *time, (bones, properties), *value, *keyed_only)

@@ -10,19 +10,25 @@ use dragonfly_anim::data::Channel;
 use dragonfly_anim::sample::sample_channel;
 use glam::{Quat, Vec3};
 
+/// How a pose is pasted; see [`crate::document::edit::Edit::Paste`].
+pub(super) struct Way {
+    pub(super) mirrored: bool,
+    pub(super) pending: bool,
+    pub(super) unstep: bool,
+}
+
 pub(super) fn paste(
     work: &mut Work,
     take: &TakeRef,
     time: f32,
     poses: &[BonePose],
-    mirrored: bool,
-    pend: bool,
+    way: Way,
 ) -> Result<(), EditError> {
     let id = work.take(take)?;
     key_time(time, work.slot(id))?;
     let mut met = false;
     let mut wanted = Vec::new();
-    let mirror = mirrored.then(|| Mirror::of(&work.adapter.skeleton));
+    let mirror = way.mirrored.then(|| Mirror::of(&work.adapter.skeleton));
     for pose in poses {
         // What another model has and this one has not is passed over.
         let Ok(bone) = work.bone(&pose.bone) else { continue };
@@ -54,7 +60,11 @@ pub(super) fn paste(
     if wanted.is_empty() {
         return Err(EditError::Nothing("the bones are in this pose already"));
     }
-    if pend { pending::pend(work, take, time, &wanted) } else { pose::set(work, take, time, &wanted) }
+    if way.pending {
+        pending::pend(work, take, time, &wanted)
+    } else {
+        pose::set(work, take, time, &wanted, way.unstep)
+    }
 }
 
 /// The value, unless the channel has no keys and shows it anyway: a pose is pasted, not keys of everything.

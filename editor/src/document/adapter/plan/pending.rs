@@ -5,7 +5,7 @@ use super::super::op::{Op, Place};
 use super::super::pending::{PendingAt, remapped};
 use super::super::slot::TakeId;
 use super::pose::{self, Way, rotation, vector};
-use super::{EditError, Work, finite, key_time};
+use super::{EditError, Work, finite, key_time, unstep};
 use crate::document::edit::{BonePose, BoneRef, Property, TakeRef};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -51,9 +51,18 @@ pub(super) fn key(
     take: &TakeRef,
     time: Option<f32>,
     bones: &[BoneRef],
+    unstep: bool,
 ) -> Result<(), EditError> {
     let take = work.take(take)?;
-    for at in meant(work, take, time, bones)? {
+    let all = meant(work, take, time, bones)?;
+    if unstep {
+        // All of them first: once a channel has the first of its poses it does not stand still any more.
+        for pose in all.iter().flat_map(|at| &at.poses) {
+            let given = Property::ALL.into_iter().filter(|&property| pose.get(property).is_some());
+            given.for_each(|property| unstep::channel(work, take, pose.bone, property));
+        }
+    }
+    for at in all {
         for pose in &at.poses {
             for property in Property::ALL {
                 if let Some(value) = pose.get(property) {

@@ -6,17 +6,34 @@ use super::super::op::{Op, Place};
 use super::super::slot::Key;
 use super::keys::insert;
 use super::pending::overwritten;
-use super::{EditError, Named, Work, finite, key_at, key_time, rest};
+use super::{EditError, Named, Work, finite, key_at, key_time, rest, unstep};
 use crate::document::edit::{BonePose, NewKey, PoseAt, Property, ResetTo, TakeRef};
 use glam::{Quat, Vec3};
 
-pub(super) fn set(work: &mut Work, take: &TakeRef, time: f32, poses: &[BonePose]) -> Result<(), EditError> {
+pub(super) fn set(
+    work: &mut Work,
+    take: &TakeRef,
+    time: f32,
+    poses: &[BonePose],
+    unstep: bool,
+) -> Result<(), EditError> {
+    if unstep {
+        unstep::poses(work, take, poses)?;
+    }
     each(work, take, time, poses, Way::Set)
 }
 
-pub(super) fn set_many(work: &mut Work, take: &TakeRef, at: &[PoseAt]) -> Result<(), EditError> {
+pub(super) fn set_many(
+    work: &mut Work,
+    take: &TakeRef,
+    at: &[PoseAt],
+    unstep: bool,
+) -> Result<(), EditError> {
     if at.is_empty() {
         return Err(EditError::Nothing("no pose is given"));
+    }
+    if unstep {
+        at.iter().try_for_each(|at| unstep::poses(work, take, &at.poses))?;
     }
     at.iter().try_for_each(|at| each(work, take, at.time, &at.poses, Way::Set))
 }
@@ -26,7 +43,11 @@ pub(super) fn offset(
     take: &TakeRef,
     time: f32,
     poses: &[BonePose],
+    unstep: bool,
 ) -> Result<(), EditError> {
+    if unstep {
+        unstep::poses(work, take, poses)?;
+    }
     each(work, take, time, poses, Way::Offset)
 }
 

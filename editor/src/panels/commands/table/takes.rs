@@ -12,5 +12,6 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::MoveTakeDown, When::OtherTakes, "Move take down", &[key(CTRL, Key::PageDown)], "Puts the take one place later in the list"),
     command(Id::SplitTake, When::Take, "Split take here", &[], "Cuts the take in two at the time shown"),
     command(Id::TrimTake, When::Take, "Trim take to what plays", &[], "Takes away what lies outside of the play range"),
+    command(Id::RetimeTake, When::Take, "Start and length…", &[], "Moves and stretches the take in time: all its keys move along"),
     command(Id::ReverseTake, When::Take, "Reverse take", &[], "Lets the take run from its end to its start"),
 ];
