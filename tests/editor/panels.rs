@@ -180,10 +180,13 @@ fn a_line_that_says_more_of_what_was_done_stays() {
 
 #[test]
 fn what_is_part_of_the_program_and_was_saved_is_a_file() {
-    let mut bench = Bench::new(Some(fixture::full()));
-    let mut view = bench.state.view.clone().unwrap();
-    view.file = std::sync::Arc::new(FileView { title: "mine.glb".to_owned(), path: Some("mine.glb".into()) });
-    bench.state.show(view);
+    let source = dragonfly::document::Source::BuiltIn;
+    let loaded =
+        dragonfly::document::load_model(&source, &mut |_| {}, &dragonfly::document::Cancel::default());
+    let mut view = View::opened(1, std::sync::Arc::new(loaded.unwrap()));
+    let path = Some("mine.glb".into());
+    view.file = std::sync::Arc::new(FileView { title: "mine.glb".to_owned(), path });
+    let bench = Bench::new(Some(view));
     let mut harness = harness(bench);
     harness.run_steps(4);
     assert!(harness.query_by_label("Part of the program").is_none());

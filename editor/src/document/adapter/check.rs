@@ -103,6 +103,8 @@ fn channel_is_right<K: Kind>(slot: &Slot, result: &Take, bone: u32, property: Pr
     ensure(whole && original.values.len() == result.values.len(), || {
         format!("{}: columns of other lengths", at())
     })?;
+    let times_ascend = original.times.windows(2).all(|pair| pair[0] < pair[1]);
+    ensure(times_ascend, || format!("{}: times do not ascend", at()))?;
     if changes.is_empty() {
         return ensure(Arc::ptr_eq(&result.values, &original.values), || {
             format!("{}: values are not shared", at())
@@ -112,8 +114,6 @@ fn channel_is_right<K: Kind>(slot: &Slot, result: &Take, bone: u32, property: Pr
     ensure(ascend, || format!("{}: changes do not ascend", at()))?;
     let inside = changes.last().is_none_or(|(key, _)| (*key as usize) < original.len());
     ensure(inside, || format!("{}: a change of a key that is not there", at()))?;
-    let times_ascend = original.times.windows(2).all(|pair| pair[0] < pair[1]);
-    ensure(times_ascend, || format!("{}: times do not ascend", at()))?;
     for key in 0..original.len() {
         let as_read = triple::<K>(original, key);
         let change = slot.key_change(bone, property, key);

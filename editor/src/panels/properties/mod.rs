@@ -142,7 +142,7 @@ impl Properties {
             ui.spacing_mut().item_spacing.x = 0.0;
             ui.set_min_height(24.0);
             let room = ui.available_width();
-            ui.label(title);
+            ui.label(title).on_hover_text("In the space of the parent bone, whatever axes the gizmo has");
             if room > 180.0 {
                 ui.label(RichText::new(format!("  {unit}")).small().color(theme.faint));
             }
