@@ -45,7 +45,7 @@ fn refused() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "accessor out of range",
             document(r#""meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]"#),
-            "POSITION: there is no number 0",
+            "POSITION: it names number 0",
         ),
         ("image of nothing", document(r#""images":[{}]"#), "/images/0: an image needs"),
         (

@@ -68,6 +68,30 @@ fn a_changed_channel_gets_one_new_accessor_and_keeps_its_times() {
 }
 
 #[test]
+fn other_ways_between_the_keys_are_one_token_and_other_times_one_accessor() {
+    let fox = fox();
+    let mut takes = fox.takes();
+    let track = take_mut(&mut takes, 0).tracks.iter_mut().find(|track| track.rotation.len() > 2).unwrap();
+    track.rotation.interpolation = Interpolation::Step;
+    let changes = fox.saved(&takes, &NoFiles).changes;
+    println!("{changes}");
+    assert_eq!((changes.accessors.len(), changes.bytes_appended), (0, 0));
+    assert_eq!(changes.tokens.len(), 1);
+    assert!(changes.tokens[0].pointer.ends_with("/interpolation"), "{changes}");
+    let mut takes = fox.takes();
+    let track = take_mut(&mut takes, 0).tracks.iter_mut().find(|track| track.rotation.len() > 2).unwrap();
+    let keys = track.rotation.len();
+    track.rotation.times = track.rotation.times.iter().map(|time| time * 2.0).collect();
+    let changes = fox.saved(&takes, &NoFiles).changes;
+    println!("{changes}");
+    assert_eq!(
+        (changes.accessors.len(), changes.bytes_appended),
+        (1, keys * 4),
+        "the values are the file's own"
+    );
+}
+
+#[test]
 fn changed_times_are_shared_by_the_channels_that_share_them() {
     let fox = fox();
     let mut takes = fox.takes();

@@ -321,7 +321,7 @@ fn an_edit_is_shown_to_panels_and_picture_alike_and_a_wrong_one_is_refused_with_
         (&["Rename take"][..], 1, false)
     );
     document.change(rename(99));
-    let refused = |reply: &DocumentReply| matches!(reply, DocumentReply::Refused(reason) if reason == "there is no take 99");
+    let refused = |reply: &DocumentReply| matches!(reply, DocumentReply::Refused(reason) if reason == "There is no take 99");
     wait(&|| heard.0.borrow().iter().any(refused));
     document.change(Change::Undo);
     wait(&|| newest().is_some_and(|view| view.generation == 3));

@@ -86,7 +86,7 @@ fn what_a_save_would_change_is_said_and_nothing_is_written() {
         std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
     let said = run(["edit", &fox(), "--edits", &edits, "--dry-run"]).expect(0);
     assert!(said.text().starts_with("1 channel of 1 bone in 1 take, "), "{}", said.text());
-    for word in ["take \"Run\", \"b_Head_05\"", "accessor", "bytes appended"] {
+    for word in ["take \"Run\", \"b_Head_05\"", "accessor", "bytes appended", "will be written"] {
         assert!(said.text().contains(word), "{word} is missing in\n{}", said.text());
     }
     let after: Vec<_> =
@@ -94,6 +94,22 @@ fn what_a_save_would_change_is_said_and_nothing_is_written() {
     assert_eq!(before, after);
     let nothing = run(["edit", &fox(), "--dry-run"]).expect(0);
     assert_eq!(nothing.text(), "nothing changes\n");
+}
+
+#[test]
+fn a_name_that_says_another_format_is_refused() {
+    let folder = Folder::new("edit-ending");
+    let edits = edits(&folder, TURN);
+    for ending in ["gltf", "fbx", "DFM"] {
+        let out = text(&folder.join(&format!("out.{ending}")));
+        let said = run(["edit", &fox(), "--edits", &edits, "-o", &out]).expect(2);
+        assert!(said.stderr.contains("the file is a .glb and stays one"), "{}", said.stderr);
+        assert!(!std::path::Path::new(&out).exists());
+    }
+    // What is no format, or the same in other letters, is the person's to choose.
+    for name in ["out.vrm", "out.GLB", "out"] {
+        run(["edit", &fox(), "--edits", &edits, "-o", &text(&folder.join(name))]).expect(0);
+    }
 }
 
 #[test]

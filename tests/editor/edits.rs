@@ -280,12 +280,26 @@ fn ripple_makes_room_and_closing_it_again_gives_the_take_back() {
 fn of_a_take_that_is_trimmed_to_one_time_the_pose_is_left_that_it_had_there() {
     let mut model = model(12);
     let before = Arc::clone(&model.slots()[0].result);
-    let trim = Edit::TrimTake { take: walk(), from: 0.3, to: 0.3 };
+    let trim = Edit::TrimTake { take: walk(), from: 0.3, to: 0.3, to_start: false };
     model.apply(&trim).unwrap();
     model.check().unwrap();
     let after = &model.slots()[0].result;
     assert_eq!((after.start, after.length), (0.3, 0.0));
     assert!(apart(&sampled(&model, &before, 0.3), &sampled(&model, after, 0.3)) < 1e-5);
+}
+
+#[test]
+fn what_a_trim_leaves_can_move_to_where_the_take_began() {
+    let mut model = model(13);
+    let before = Arc::clone(&model.slots()[0].result);
+    model.apply(&Edit::TrimTake { take: walk(), from: 0.3, to: 0.8, to_start: true }).unwrap();
+    model.check().unwrap();
+    let after = &model.slots()[0].result;
+    assert_eq!(after.start, before.start);
+    assert!((after.length - 0.5).abs() < 1e-6);
+    for time in [0.0, 0.2, 0.5] {
+        assert!(apart(&sampled(&model, &before, time + 0.3), &sampled(&model, after, time)) < 1e-4, "{time}");
+    }
 }
 
 #[test]
@@ -411,7 +425,7 @@ fn numbers_that_are_none_and_things_that_are_not_there_are_refused_and_nothing_c
         Edit::ScaleKeys { take: walk(), keys: vec![KeySet::default()], about: 0.0, factor: 0.0 },
         Edit::SnapKeys { take: walk(), keys: vec![KeySet::default()], rate: 0.0 },
         Edit::SplitTake { take: walk(), time: 1.0, name: String::new() },
-        Edit::TrimTake { take: walk(), from: 0.5, to: 0.25 },
+        Edit::TrimTake { take: walk(), from: 0.5, to: 0.25, to_start: false },
         Edit::RetimeTake { take: walk(), start: None, length: Some(1e-9) },
         Edit::RetimeTake { take: walk(), start: Some(-1.0), length: None },
     ];

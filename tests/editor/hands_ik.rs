@@ -110,6 +110,49 @@ fn the_end_of_a_chain_comes_to_where_the_pointer_is() {
 }
 
 #[test]
+fn a_pinned_tip_is_held_at_every_frame_that_plays_in_one_step() {
+    let mut hand = arm(2, Id::ToolMove);
+    hand.command(Id::Pin);
+    let (tip, direction) = (place(&hand, 2), facing(&hand, 2));
+    let takes = hand.state.view.clone().expect("open").takes;
+    let at = |hand: &mut Hand, time: f32| {
+        hand.state.execute(Request::Seek(time));
+        hand.state.begin(hand.state.now);
+        let view = hand.state.view.clone().expect("open");
+        hand.state.posed.update(&view, hand.state.playback.take, time);
+        (place(hand, 2).distance(tip), facing(hand, 2).angle_between(direction))
+    };
+    assert!(at(&mut hand, 0.3).0 > 0.05, "without it the tip moves");
+    let outside = [0.0, 1.0].map(|time| at(&mut hand, time).0);
+    at(&mut hand, 0.5);
+    hand.state.execute(Request::Timeline(KeysRequest::Range(Some([0.25, 0.76]))));
+    hand.command(Id::BakePins);
+    assert_eq!(hand.steps().len(), 1, "{:?} {:?}", hand.steps(), hand.refused);
+    // At frames, at the ends of what plays, and nearly so between them.
+    let frames = (8..=22).map(|frame| frame as f32 / 30.0);
+    for time in frames.chain([0.25, 0.76]) {
+        let (apart, turned) = at(&mut hand, time);
+        assert!(apart < 1e-4 && turned < 1e-3, "at {time} s: {apart} m, {turned} rad");
+        assert!(at(&mut hand, (time + 0.011).min(0.76)).0 < 2e-3, "behind {time} s");
+    }
+    for (time, outside) in [0.0, 1.0].into_iter().zip(outside) {
+        assert!((at(&mut hand, time).0 - outside).abs() < 1e-5, "what does not play stays");
+    }
+    hand.command(Id::Undo);
+    assert_eq!(hand.state.view.as_ref().expect("open").takes, takes, "bit for bit");
+}
+
+#[test]
+fn what_cannot_hold_a_pin_is_said() {
+    let mut hand = arm(0, Id::ToolMove);
+    hand.command(Id::Pin);
+    hand.command(Id::BakePins);
+    assert!(hand.steps().is_empty());
+    let said = &hand.state.status.last().expect("a line").text;
+    assert!(said.contains("Nothing above"), "{said}");
+}
+
+#[test]
 fn a_pinned_tip_stays_while_the_root_is_moved_and_turned() {
     for (tool, handle) in [
         (Id::ToolMove, Handle::Centre),

@@ -4,7 +4,7 @@ use crate::timeline_rig::Animator;
 use dragonfly::control::bones::Choice;
 use dragonfly::document::Change;
 use dragonfly::document::edit::{BonePose, BoneRef, Edit, Property, TakeRef};
-use dragonfly::panels::commands::Id;
+use dragonfly::panels::commands::{Id, KeySettings, Preset};
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, Request};
 use dragonfly::posing::clipboard;
@@ -32,6 +32,45 @@ fn bones(animator: &Animator) -> Vec<BoneRef> {
         Some(Edit::Paste { poses, .. }) => poses.iter().map(|pose| pose.bone.clone()).collect(),
         Some(Edit::KeyPending { bones, .. } | Edit::DropPending { bones, .. }) => bones.clone(),
         other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_is_typed_for_a_drag_that_was_refused_is_no_command() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Keys(KeySettings { preset: Preset::Blender, ..KeySettings::default() }));
+    animator.request(Request::Command(Id::ToggleGrid));
+    animator.request(Request::Timeline(KeysRequest::OnlySelected(false)));
+    animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 3, true)));
+    animator.request(Request::Command(Id::SelectAllKeys));
+    assert!(animator.selected() > 0, "of the other bones");
+    let viewport = animator.harness.get_by_label("Viewport").rect().center();
+    animator.move_to(viewport);
+    let camera = animator.harness.state().state.camera;
+    for key in [egui::Key::R, egui::Key::X, egui::Key::Num3, egui::Key::Num0, egui::Key::Enter] {
+        animator.harness.key_press(key);
+        animator.steps(2);
+    }
+    assert!(animator.said().contains("is locked"), "{}", animator.said());
+    assert!(animator.edits().is_empty(), "{:?}", animator.edits());
+    assert_eq!(animator.harness.state().state.camera, camera);
+    assert_eq!(animator.harness.state().state.playback.take, Some(0));
+    // Afterwards keys mean what they mean.
+    animator.harness.key_press(egui::Key::X);
+    animator.steps(2);
+    assert!(matches!(animator.edits()[..], [Edit::DeleteKeys { .. }]), "{:?}", animator.edits());
+}
+
+#[test]
+fn bones_are_muted_soloed_and_locked_by_commands_too() {
+    let mut animator = Animator::with_bone(3);
+    for (id, flag) in
+        [(Id::MuteBones, BoneFlag::Mute), (Id::SoloBones, BoneFlag::Solo), (Id::LockBones, BoneFlag::Lock)]
+    {
+        for on in [true, false] {
+            animator.request(Request::Command(id));
+            assert_eq!(animator.harness.state().state.keys.flags.has(flag, 3), on, "{id:?}");
+        }
     }
 }
 
@@ -120,7 +159,7 @@ fn what_is_done_to_the_whole_take_goes_for_locked_bones_too() {
     let take = TakeRef::Index(0);
     for edit in [
         Edit::RetimeTake { take: take.clone(), start: None, length: Some(2.0) },
-        Edit::TrimTake { take, from: 0.5, to: 1.5 },
+        Edit::TrimTake { take, from: 0.5, to: 1.5, to_start: false },
     ] {
         animator.request(Request::Change(Change::Edit(edit, None)));
         assert_eq!(animator.times(LEFT as usize), animator.times(RIGHT as usize), "in step");

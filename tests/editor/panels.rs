@@ -194,6 +194,20 @@ fn what_is_part_of_the_program_and_was_saved_is_a_file() {
 }
 
 #[test]
+fn a_low_picture_has_all_tools_of_the_hand() {
+    for height in [700.0, 720.0, 1100.0] {
+        let bench = Bench::new(Some(fixture::full()));
+        let mut harness = harness_of(bench, egui::vec2(1280.0, height), 1.0, egui::Theme::Dark);
+        harness.run_steps(4);
+        let picture = harness.get_by_label("Viewport").rect();
+        for tool in ["Rotate", "IK", "Pin / free", "Ghosts", "Motion path"] {
+            let button = harness.get_by_label(tool).rect();
+            assert!(picture.contains_rect(button), "{tool} at {height}: {button:?} in {picture:?}");
+        }
+    }
+}
+
+#[test]
 fn nothing_moves_behind_a_question() {
     use dragonfly::panels::saving::Question;
     let mut bench = Bench::new(Some(fixture::full()));

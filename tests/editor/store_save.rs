@@ -245,6 +245,21 @@ fn a_new_file_takes_nobodys_place() {
 }
 
 #[test]
+fn a_file_that_is_write_protected_is_not_replaced() {
+    let folder = Folder::new("save-protected");
+    let path = folder.join("model.glb");
+    replace(&path, b"old").unwrap();
+    for mode in [0o444, 0o400, 0o555] {
+        fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
+        let error = replace(&path, b"new").unwrap_err();
+        assert!(matches!(error, SaveError::Protected { .. }), "{error:?}");
+        assert!(error.to_string().ends_with("is write-protected; it was not overwritten"), "{error}");
+        assert_eq!((fs::read(&path).unwrap(), count(folder.path())), (b"old".to_vec(), 1));
+        assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, mode);
+    }
+}
+
+#[test]
 fn what_is_no_file_is_not_replaced() {
     let folder = Folder::new("save-no-file");
     fs::create_dir(folder.join("folder")).unwrap();
@@ -297,7 +312,7 @@ fn a_read_only_disk_and_a_file_that_must_not_change_stay_as_they_are() {
     let error = replace(&path, b"second");
     assert!(said(Command::new("chattr").arg("-i").arg(&path)));
     let error = error.unwrap_err().to_string();
-    assert!(error.ends_with("the old file: no permission"), "{error}");
+    assert!(error.ends_with("is write-protected; it was not overwritten"), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"first");
     assert_eq!(count(folder.path()), 2, "nothing is left beside it");
 }

@@ -192,16 +192,11 @@ fn a_take_is_split_reversed_and_trimmed() {
     window.get_by_label("Trim").click();
     window.run_steps(3);
     let take = window.state().state.take().unwrap();
-    assert!(
-        (take.start - 0.25).abs() < 1e-6 && (take.length - 0.5).abs() < 1e-6,
-        "{} {}",
-        take.start,
-        take.length
-    );
-    type_into(&mut window, "Start", "0", Key::Enter);
+    assert!(take.start == 0.0 && (take.length - 0.5).abs() < 1e-6, "{} {}", take.start, take.length);
+    type_into(&mut window, "Start", "1/2", Key::Enter);
     type_into(&mut window, "Length", "2", Key::Enter);
     let take = window.state().state.take().unwrap();
-    assert!(take.start == 0.0 && (take.length - 2.0).abs() < 1e-5);
+    assert!(take.start == 0.5 && (take.length - 2.0).abs() < 1e-5);
     let steps = window.state().steps();
     drag(&mut window, "Length", vec2(50.0, 0.0), Modifiers::NONE);
     assert!((window.state().state.take().unwrap().length - 2.5).abs() < 1e-3);
@@ -224,7 +219,7 @@ fn the_list_is_there_without_takes() {
 }
 
 #[test]
-fn trimming_leaves_the_play_range_whether_time_runs_or_stands() {
+fn trimming_leaves_what_is_in_the_play_range_whether_time_runs_or_stands() {
     for playing in [false, true] {
         let mut window = Workbench::full().window();
         window.state_mut().state.playback.playing = playing;
@@ -239,6 +234,8 @@ fn trimming_leaves_the_play_range_whether_time_runs_or_stands() {
         let range = KeysRequest::Range(Some([0.5, 1.25]));
         window.state_mut().state.execute(Request::Timeline(range));
         give(&mut window, Id::TrimTake);
-        assert_eq!(bounds(&window), [0.5, 1.25], "playing: {playing}");
+        // What is left plays from where the take began.
+        assert_eq!(bounds(&window), [0.0, 0.75], "playing: {playing}");
+        assert_eq!(window.state().state.keys.range(), None);
     }
 }

@@ -1,5 +1,6 @@
 //! What a hand does in the timeline: it selects, moves, copies, scales, and takes it back.
 
+use crate::fixture;
 use crate::timeline_rig::Animator;
 use dragonfly::document::Change;
 use dragonfly::document::edit::Edit;
@@ -180,6 +181,53 @@ fn alt_drags_a_copy_and_two_makes_room() {
     };
     assert!((from - animator.key(8)).abs() < 1e-4 && *by > 0.0);
     assert!((animator.times(9)[40] - 3.417 - by).abs() < 1e-3, "other bones make room too");
+}
+
+#[test]
+fn time_that_is_dragged_goes_to_keys_and_frames() {
+    let mut animator = Animator::with_bone(3);
+    let time = |animator: &Animator| animator.harness.state().state.time();
+    let ruler = animator.harness.get_by_label("Time track").rect().center().y;
+    let at = |animator: &Animator, time: f32| egui::pos2(animator.at(time, 0).x, ruler);
+    // The keys of this model lie on no frames.
+    let near = at(&animator, animator.key(8)) + vec2(2.0, 0.0);
+    animator.click(near);
+    assert_eq!(time(&animator), animator.times(3)[8], "to the bit, so that a pose there is no second key");
+    let between = at(&animator, animator.key(8) + 0.04);
+    animator.click(between);
+    let frames = time(&animator) * 30.0;
+    assert!((frames - frames.round()).abs() < 1e-3, "{frames}");
+    animator.hold(Modifiers::COMMAND);
+    animator.click(near);
+    assert_ne!(time(&animator), animator.times(3)[8], "Ctrl lets it go anywhere");
+}
+
+#[test]
+fn a_row_that_is_clicked_keeps_the_others_listed_until_something_else_is_selected() {
+    let mut animator = Animator::new(fixture::full());
+    let rows =
+        |animator: &Animator| dragonfly::panels::keys::shown_bones(&animator.harness.state().state).len();
+    let all = rows(&animator);
+    assert!(all > 3);
+    for name in ["spine_00", "rib_00_left_inner"] {
+        let row = animator.harness.get_by_label(&format!("Keys of {name}")).rect().center();
+        animator.click(row);
+        assert_eq!(animator.harness.state().state.selection.bones().len(), 1, "{name}");
+        assert_eq!(rows(&animator), all, "{name}");
+    }
+    animator.request(Request::Select(Some(3)));
+    assert_eq!(rows(&animator), 1);
+}
+
+#[test]
+fn nothing_selected_is_no_key_selected_either() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Command(Id::SelectAllKeys));
+    assert_eq!(animator.selected(), 41);
+    animator.request(Request::Command(Id::ClearSelection));
+    assert_eq!(animator.selected(), 0);
+    animator.request(Request::Command(Id::DeleteKeys));
+    assert!(animator.edits().is_empty());
 }
 
 #[test]

@@ -94,7 +94,7 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
         17 => Edit::RenameTake { take, name },
         18 => Edit::MoveTake { take, to: random.below(4) },
         19 => Edit::SplitTake { take, time, name },
-        20 => Edit::TrimTake { take, from: time * 0.5, to: time },
+        20 => Edit::TrimTake { take, from: time * 0.5, to: time, to_start: random.below(2) == 0 },
         _ if random.below(2) == 0 => Edit::ReverseTake { take },
         _ => Edit::RetimeTake {
             take,

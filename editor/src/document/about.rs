@@ -26,14 +26,19 @@ pub(super) fn about(adapter: &ModelAdapter, edit: &Edit) -> Arc<str> {
 }
 
 fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
-    let pasted;
+    let indices: Vec<BoneRef>;
     let named: Vec<&BoneRef> = match edit {
         Edit::Set { poses, .. } | Edit::Offset { poses, .. } | Edit::Pend { poses, .. } => {
             poses.iter().map(|pose| &pose.bone).collect()
         }
+        Edit::SetMany { at, .. } => {
+            let all = at.iter().flat_map(|at| &at.poses).filter_map(|pose| adapter.bone(&pose.bone).ok());
+            indices = all.collect::<BTreeSet<u32>>().into_iter().map(BoneRef::Index).collect();
+            indices.iter().collect()
+        }
         Edit::Paste { poses, mirrored, .. } => {
-            pasted = changed_by_paste(adapter, poses, *mirrored);
-            pasted.iter().collect()
+            indices = changed_by_paste(adapter, poses, *mirrored);
+            indices.iter().collect()
         }
         Edit::KeyPending { bones, .. }
         | Edit::DropPending { bones, .. }
@@ -44,8 +49,8 @@ fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
         Edit::PasteKeys { channels, .. } => {
             let found: BTreeSet<u32> =
                 channels.iter().filter_map(|channel| adapter.bone(&channel.bone).ok()).collect();
-            pasted = found.into_iter().map(BoneRef::Index).collect();
-            pasted.iter().collect()
+            indices = found.into_iter().map(BoneRef::Index).collect();
+            indices.iter().collect()
         }
         Edit::DeleteKeys { keys, .. }
         | Edit::MoveKeys { keys, .. }
@@ -56,13 +61,22 @@ fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
     };
     match named.as_slice() {
         [] => None,
-        [one] => {
-            let bone = adapter.bone(one).ok()?;
-            let name = adapter.skeleton().bones.get(bone as usize).map_or("", |bone| bone.name.as_str());
-            Some(if name.is_empty() { format!("Bone {bone}") } else { short(name) })
+        [one] => bone_name(adapter, one),
+        several => {
+            // One may be named more than once, with other channels or times.
+            let apart: BTreeSet<u32> = several.iter().filter_map(|bone| adapter.bone(bone).ok()).collect();
+            match apart.len() {
+                1 => bone_name(adapter, several[0]),
+                count => Some(format!("{count} bones")),
+            }
         }
-        several => Some(format!("{} bones", several.len())),
     }
+}
+
+fn bone_name(adapter: &ModelAdapter, bone: &BoneRef) -> Option<String> {
+    let bone = adapter.bone(bone).ok()?;
+    let name = adapter.skeleton().bones.get(bone as usize).map_or("", |bone| bone.name.as_str());
+    Some(if name.is_empty() { format!("Bone {bone}") } else { short(name) })
 }
 
 /// The bones that get a pasted pose: with a mirrored one those on the other side. What this model lacks is passed over.
@@ -145,6 +159,20 @@ mod tests {
         assert_eq!(paste(true, &["hips"]), "hips  ·  Walk");
         assert_eq!(paste(true, &["hand.R", "tail of another model"]), "hand.L  ·  Walk");
         assert_eq!(paste(false, &["hand.L", "hips"]), "2 bones  ·  Walk");
+    }
+
+    #[test]
+    fn a_bone_that_is_named_more_than_once_is_one() {
+        let skeleton = Skeleton { bones: ["hips", "hand.L"].into_iter().map(bone).collect() };
+        let adapter =
+            ModelAdapter::new(&AnimationData { skeleton: Arc::new(skeleton), takes: vec![take("Walk")] });
+        let named = |keys: &str| {
+            let json = format!(r#"{{"edit":"duplicate_keys","take":"Walk","by":1,"keys":[{keys}]}}"#);
+            about(&adapter, &serde_json::from_str(&json).expect("an edit")).to_string()
+        };
+        let hips = r#"{"bones":["hips"],"at":[1]}"#;
+        assert_eq!(named(&format!(r#"{hips},{{"bones":[0],"from":2}}"#)), "hips  ·  Walk");
+        assert_eq!(named(&format!(r#"{hips},{{"bones":["hips","hand.L"],"from":2}}"#)), "2 bones  ·  Walk");
     }
 
     #[test]

@@ -38,5 +38,5 @@ pub use open::Change;
 pub use owner::{Document, Setup};
 pub use recovering::Decision;
 pub use save_plan::{SaveError, SavePlan};
-pub use saving::{NotSaved, SaveOrder, SaveTo, SavedFile, Then};
+pub use saving::{NotSaved, SaveOrder, SaveTo, SavedFile, Then, fits};
 pub use view::{DecodedImage, FileView, HistoryView, LoadedModel, View};

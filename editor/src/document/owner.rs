@@ -232,7 +232,7 @@ impl Document {
         match open.change(change, now) {
             Ok(true) => self.changed(),
             Ok(false) => {}
-            Err(error) => self.reply(DocumentReply::Refused(error.to_string())),
+            Err(error) => self.reply(DocumentReply::Refused(sentence(&error.to_string()))),
         }
         self.tell_trouble();
     }
@@ -367,4 +367,10 @@ impl Worker for Shared {
         }
         true
     }
+}
+
+/// With a capital letter, as it stands alone.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -184,20 +184,32 @@ impl Open {
     }
 }
 
+/// Endings that say what is in a file; programs believe them.
+const FORMATS: [&str; 10] = ["glb", "gltf", "dfm", "fbx", "obj", "dae", "bvh", "m3d", "x", "blend"];
+
+/// Does a name not say that the file is of another format than that with this `ending`?
+///
+/// # Errors
+/// Why it should not be called so.
+pub fn fits(path: &Path, ending: &str) -> Result<(), String> {
+    let is = |format: &&str| path.extension().is_some_and(|other| other.eq_ignore_ascii_case(format));
+    if is(&ending) || !FORMATS.iter().any(|format| is(&format)) {
+        return Ok(());
+    }
+    Err(format!(
+        "{}: the file is a .{ending} and stays one, since every byte that was not edited is kept; give it that ending",
+        path.display()
+    ))
+}
+
 /// `path` with the ending of the format, which is added where there is none.
 fn with_ending(path: &Path, ending: &str) -> Result<PathBuf, String> {
     if path.file_name().is_none() {
         return Err(format!("{}: is no name of a file", path.display()));
     }
+    fits(path, ending)?;
     match path.extension() {
         Some(other) if other.eq_ignore_ascii_case(ending) => Ok(path.to_path_buf()),
-        Some(other) if ["glb", "gltf", "dfm"].iter().any(|format| other.eq_ignore_ascii_case(format)) => {
-            Err(format!(
-                "{}: the file is a .{ending} and stays one, since every byte that was not edited is kept; give it \
-                 that ending",
-                path.display()
-            ))
-        }
         _ => {
             let mut name = path.as_os_str().to_owned();
             name.push(".");

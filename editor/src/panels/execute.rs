@@ -9,7 +9,7 @@ use super::settings::{IkSettings, SCALES, SPEEDS, ThemeChoice, TimelineSettings}
 use super::state::{Effect, Overlay, Request, State};
 use super::status::Level;
 use crate::camera::Side;
-use crate::document::edit::Between;
+use crate::document::edit::{Between, Edit};
 use crate::document::edit::{Property, ResetTo};
 use crate::document::{Change, Source};
 use crate::graphics::{BoneLook, Shading};
@@ -20,6 +20,10 @@ impl State {
     pub fn execute(&mut self, request: Request) -> Option<Effect> {
         let said = self.status.said();
         let effect = self.perform(request);
+        if let Some(Effect::Change(Change::Edit(Edit::TrimTake { to_start: true, .. }, _))) = &effect {
+            // What played is all there is then, and lies elsewhere.
+            self.keys_request(KeysRequest::Range(None));
+        }
         if matches!(effect, Some(Effect::Change(_))) {
             self.status.keep_last(self.status.said() != said);
         }
@@ -128,6 +132,7 @@ impl State {
             Id::ResetToRest => return self.reset_pose(&Property::ALL, ResetTo::Rest),
             Id::Pin => self.toggle_pins(),
             Id::FreePins => self.free_pins(),
+            Id::BakePins => return self.bake_pins(),
             Id::ToggleIk => self.toggle_ik(),
             Id::LongerIk => self.lengthen_ik(1),
             Id::ShorterIk => self.lengthen_ik(-1),
@@ -196,6 +201,8 @@ impl State {
             Id::ClearSelection => {
                 if self.overlay.take().is_none() {
                     self.selection.clear();
+                    // Of keys, too: what nobody sees selected is not deleted.
+                    self.keys.selection = Default::default();
                 }
             }
             Id::SelectParent => self.select_parent(),
@@ -212,6 +219,9 @@ impl State {
             | Id::ExtendMirror
             | Id::HideSelected
             | Id::HideOthers
+            | Id::MuteBones
+            | Id::SoloBones
+            | Id::LockBones
             | Id::ShowAll => self.selection_command(id),
 
             Id::ToolSelect

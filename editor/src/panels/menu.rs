@@ -59,7 +59,8 @@ pub(super) fn item(ui: &mut Ui, state: &State, id: Id, on: bool, requests: &mut 
 
 fn list(ui: &mut Ui, state: &State, categories: &[Category], requests: &mut Vec<Request>) {
     for command in categories.iter().flat_map(|category| commands::of(*category)) {
-        item(ui, state, command.id, false, requests);
+        let on = command.id == Id::ToggleSnap && state.keys.snap;
+        item(ui, state, command.id, on, requests);
     }
 }
 

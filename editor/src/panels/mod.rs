@@ -2,6 +2,7 @@
 //!
 //! A new panel is a file here and a line in [`all`].
 
+mod baking;
 mod bone_menu;
 pub mod commands;
 pub mod curves;
@@ -10,6 +11,7 @@ pub mod digest;
 mod dope;
 pub mod dragging;
 mod execute;
+mod frame_rate;
 mod framing;
 pub mod hands;
 pub mod hierarchy;

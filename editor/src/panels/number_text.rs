@@ -27,6 +27,7 @@ impl Digits {
             Self::Fitting if size >= 1000.0 => format!("{value:.0}"),
             Self::Fitting if size >= 100.0 => format!("{value:.1}"),
             Self::Fitting if size >= 10.0 => format!("{value:.2}"),
+            Self::Fitting if size > 0.0 && size < 0.01 => format!("{value:.5}"),
             Self::Fitting => format!("{value:.3}"),
         })
     }

@@ -108,6 +108,10 @@ impl Overlays {
         let response = response.accessible_name("Path of the model");
         if fresh {
             response.request_focus();
+            // What was typed last is there to be corrected, or to be typed over.
+            let mut cursor = TextEdit::load_state(ui.ctx(), response.id).unwrap_or_default();
+            cursor.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(&self.path)));
+            cursor.store(ui.ctx(), response.id);
         }
         let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         ui.add_space(GRID);

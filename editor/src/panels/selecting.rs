@@ -1,6 +1,7 @@
 //! Commands about which bones are selected and which are seen.
 
 use super::commands::Id;
+use super::keys::{BoneFlag, KeysRequest};
 use super::state::State;
 use super::status::Level;
 use crate::control::bones::{Choice, MirrorPairs};
@@ -11,6 +12,12 @@ use glam::Vec2;
 impl State {
     /// A command of the selection; nothing for another.
     pub(super) fn selection_command(&mut self, id: Id) {
+        match id {
+            Id::MuteBones => return self.flag_selected(BoneFlag::Mute),
+            Id::SoloBones => return self.flag_selected(BoneFlag::Solo),
+            Id::LockBones => return self.flag_selected(BoneFlag::Lock),
+            _ => {}
+        }
         let Some(view) = &self.view else { return };
         let skeleton = &view.loaded.model.animation.skeleton;
         let (selection, hidden) = (&mut self.selection, &mut self.hidden);
@@ -30,6 +37,21 @@ impl State {
             Id::ShowAll => hidden.show_all(selection),
             _ => {}
         }
+    }
+
+    /// Marks the selected bones, or takes the mark of all of them where all have it.
+    fn flag_selected(&mut self, flag: BoneFlag) {
+        let bones = self.selection.bones().to_vec();
+        let on = !bones.iter().all(|&bone| self.keys.flags.has(flag, bone));
+        for &bone in &bones {
+            self.keys_request(KeysRequest::Flag(flag, bone, on));
+        }
+        let what = match *bones {
+            [bone] => self.bone_name(bone),
+            _ => super::widgets::count(bones.len(), "bone", "bones"),
+        };
+        let verb = if on { "on" } else { "off" };
+        self.status.say(Level::Info, format!("{} {verb}: {what}", flag.name()));
     }
 
     fn select_mirror(&mut self, extend: bool) {

@@ -130,6 +130,8 @@ pub struct State {
     pub trail: Trail,
     /// Repeated clicks go through what lies behind.
     pub cycle: ClickCycle,
+    /// When a drag was refused that a key asked for: what is typed for it is no command.
+    pub(super) refused_drag: Option<Instant>,
     /// Was the last click on a handle of the gizmo? Then it is no click beside everything.
     pub(super) on_handle: bool,
     /// What is remembered of each file.
@@ -181,6 +183,7 @@ impl State {
             dragging: Dragging::default(),
             trail: Trail::default(),
             cycle: ClickCycle::default(),
+            refused_drag: None,
             on_handle: false,
             marks: super::marks::Marks::default(),
             takes: super::takes::TakesState::default(),
@@ -244,9 +247,12 @@ impl State {
         self.framed = false;
         self.open_keys();
         self.recall_marks();
+        self.guess_frame_rate();
         let has_takes = self.view.as_ref().is_some_and(|view| !view.takes.is_empty());
         self.show_take(has_takes.then_some(0));
-        let plays = has_takes && self.question().is_none();
+        // Who has work brought back wants to go on where it stood.
+        let restored = self.view.as_ref().is_some_and(|view| !view.history.steps.is_empty());
+        let plays = has_takes && !restored && self.question().is_none();
         self.playback = self.playback.with(plays, self.settings.speed, self.settings.repeat, self.now);
         self.frame_model();
         self.framed = true;

@@ -112,6 +112,13 @@ impl Hold {
         self
     }
 
+    /// The same with the pins of `other`, where and how they stood there: to hold them in other poses of the same skeleton.
+    #[must_use]
+    pub fn with_pins_of(mut self, other: &Self) -> Self {
+        self.pins.clone_from(&other.pins);
+        self
+    }
+
     /// Where a place of the scene lies in the space of a bone's parent, as that stood when the drag began; `None` where it
     /// has no volume.
     pub fn in_parent(&self, bone: BoneIndex, place: Vec3) -> Option<Vec3> {
@@ -213,6 +220,22 @@ pub fn poses_of_drag(hold: &mut Hold, poses: &[BonePose], goals: &[Goal]) -> Vec
     }
     solve(hold, &rows, &held);
     results(hold, &given, &turned)
+}
+
+/// The poses (relative to the parents) of the rows of bones that bring all pins to where and how they stood, though nothing
+/// is moved: for pins of another time. What hangs on nothing cannot be held. What cannot be reached is come near to.
+pub fn poses_of_pins(hold: &mut Hold) -> Vec<BonePose> {
+    hold.poses.copy_from_slice(&hold.begun);
+    hold.to_root.copy_from_slice(&hold.begun_to_root);
+    let hangs = |pin: &&Stood| parent_of(&hold.skeleton, pin.bone).is_some();
+    let held: Vec<Stood> = hold.pins.iter().filter(hangs).copied().collect();
+    let mut turned: BTreeSet<BoneIndex> = BTreeSet::new();
+    for pin in &held {
+        let bones = row(&hold.skeleton, pin.bone, hold.mode.length).chain([pin.bone]);
+        turned.extend(bones.filter(|bone| !hold.fixed.contains_key(bone)));
+    }
+    solve(hold, &[], &held);
+    results(hold, &[], &turned)
 }
 
 /// The rows that reach, then those that hold: twice, as one may move what another stands on.

@@ -10,5 +10,5 @@ mod look;
 pub mod mirror;
 mod reach;
 
-pub use hold::{Goal, Hold, IkMode, LONGEST_CHAIN, poses_of_drag};
+pub use hold::{Goal, Hold, IkMode, LONGEST_CHAIN, poses_of_drag, poses_of_pins};
 pub use look::{forward_of, look_at};

@@ -53,6 +53,12 @@ pub enum SaveError {
         /// The file.
         path: PathBuf,
     },
+    /// Nobody may write it, or you may not.
+    #[error("{path}: is write-protected; it was not overwritten", path = .path.display())]
+    Protected {
+        /// The file.
+        path: PathBuf,
+    },
     /// A folder, pipe, device or socket.
     #[error("{path}: is not a regular file", path = .path.display())]
     NotRegular {

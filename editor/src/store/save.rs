@@ -67,6 +67,9 @@ pub fn save(
 ) -> Result<Saved, SaveError> {
     let target = resolved(files, path)?;
     let old = regular(files, &target)?;
+    if let Some(old) = &old {
+        not_protected(files, &target, old)?;
+    }
     in_place::not_cut_off(files, &target)?;
     expect(files, &target, options.expected)?;
     let mut notices = Vec::new();
@@ -124,6 +127,17 @@ pub(super) fn regular(files: &dyn Vfs, target: &Path) -> Result<Option<FileData>
         Some(data) if data.kind != Kind::File => Err(SaveError::NotRegular { path: target.to_path_buf() }),
         other => Ok(other),
     }
+}
+
+/// May it be written? A file can be replaced in a folder that one may write to, whatever it is itself; but who protects a
+/// file, as systems for versions do, means its content.
+fn not_protected(files: &dyn Vfs, target: &Path, old: &FileData) -> Result<(), SaveError> {
+    let denied = |error: &io::Error| error.kind() == io::ErrorKind::PermissionDenied;
+    let nobody = old.mode & 0o222 == 0;
+    if nobody || again(|| files.open_to_write(target)).is_err_and(|error| denied(&error)) {
+        return Err(SaveError::Protected { path: target.to_path_buf() });
+    }
+    Ok(())
 }
 
 /// Is there what is expected?

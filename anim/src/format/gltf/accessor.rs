@@ -349,6 +349,6 @@ pub(super) fn invalid(place: Place, code: &'static str, reason: String) -> Impor
 
 /// The value at `from` is an index that names nothing.
 pub(super) fn unresolved(from: &str, index: usize) -> ImportError {
-    let reason = format!("there is no number {index}");
+    let reason = format!("it names number {index}, which the file does not have");
     invalid(Place::Pointer(from.to_owned()), code::UNRESOLVED_REFERENCE, reason)
 }

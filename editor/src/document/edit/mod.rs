@@ -304,6 +304,9 @@ pub enum Edit {
         from: f32,
         /// Seconds, not before `from`.
         to: f32,
+        /// What is left moves to where the take began.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        to_start: bool,
     },
     /// Plays a take from its end: each key changes its place in the range of the take.
     ReverseTake {

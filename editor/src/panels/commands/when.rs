@@ -24,6 +24,8 @@ pub enum When {
     Pending,
     /// A bone is pinned.
     Pinned,
+    /// A bone is pinned and a take is shown.
+    PinnedInTake,
     /// Something was done.
     Undo,
     /// Something was undone.
@@ -50,6 +52,7 @@ impl When {
             Self::Keys => state.take().is_some() && !state.keys.selection.is_empty(),
             Self::Pending => state.pending_times().next().is_some(),
             Self::Pinned => !state.pins.is_empty(),
+            Self::PinnedInTake => !state.pins.is_empty() && state.take().is_some(),
             Self::Undo => history.is_some_and(|history| history.done > 0),
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
             Self::Unsaved => history.is_some_and(|history| !history.saved),
@@ -70,6 +73,7 @@ impl When {
             Self::Keys => "No key is selected",
             Self::Pending => "No pose is pending in this take",
             Self::Pinned => "No bone is pinned",
+            Self::PinnedInTake => "It takes a pinned bone and a take",
             Self::Undo => "Nothing was done yet",
             Self::Redo => "Nothing was undone",
             Self::Unsaved => "Everything is saved",

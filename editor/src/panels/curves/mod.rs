@@ -245,7 +245,7 @@ impl Curves {
         let (at, align) = if bones.is_empty() {
             (canvas.center(), Align2::CENTER_CENTER)
         } else {
-            (canvas.left_top() + egui::vec2(8.0, 6.0), Align2::LEFT_TOP)
+            (canvas.right_top() + egui::vec2(-8.0, 6.0), Align2::RIGHT_TOP)
         };
         let color = if bones.is_empty() { theme.faint } else { theme.weak };
         let galley = painter.layout_no_wrap(text, FontId::proportional(11.0), color);

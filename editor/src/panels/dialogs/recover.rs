@@ -28,7 +28,7 @@ pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut
         ("Restore", "Opens it as it was, with everything that can be undone", Tone::First, Decision::Keep);
     let beside = (
         "Open beside",
-        "Opens it as a document of its own; nothing becomes of the file",
+        "Opens it as a document of its own; the file stays as it is",
         Tone::Plain,
         Decision::Beside,
     );

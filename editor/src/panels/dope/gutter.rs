@@ -87,7 +87,9 @@ fn bone_row(
     }
     let over = ui.rect_contains_pointer(visible);
     let wide = rect.width() > 150.0;
-    let flags = if wide { 3.0 * FLAG + 8.0 } else { 6.0 };
+    // A name has the room of the marks where there are none to be seen.
+    let marked = over || BoneFlag::ALL.into_iter().any(|flag| state.keys.flags.has(flag, bone));
+    let flags = if wide && marked { 3.0 * FLAG + 8.0 } else { 6.0 };
     let label =
         Rect::from_min_max(pos2(rect.left() + 28.0, rect.top()), pos2(rect.right() - flags, rect.bottom()));
     let response = ui.interact(label.intersect(visible), ui.scope_id().with(("bone", bone)), Sense::click());
@@ -113,7 +115,7 @@ fn bone_row(
         } else {
             Choice::Replace
         };
-        requests.push(Request::SelectBones(vec![bone], choice));
+        requests.push(Request::Timeline(KeysRequest::SelectRow(bone, choice)));
     }
 
     let triangle =

@@ -27,6 +27,9 @@ pub(super) struct Head {
     extent: Option<(Drawn, Option<[f32; 2]>)>,
 }
 
+/// Points: how near a key must be to be under the pointer.
+const NEAR: f32 = 4.0;
+
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
     /// The end that is not held, seconds.
@@ -100,8 +103,8 @@ impl Scrub {
             && let Some(pointer) = response.interact_pointer_pos()
         {
             let time = scale.time_at(pointer.x);
-            let time = if modifiers.command { to_frame(time, state) } else { time };
-            requests.push(Request::Seek(time));
+            let snap = state.keys.snap != modifiers.command;
+            requests.push(Request::Seek(if snap { to_key_or_frame(time, scale, state) } else { time }));
         }
         if !down && let Some(command) = self.resume.take() {
             requests.push(Request::Command(command));
@@ -239,6 +242,15 @@ impl Head {
             requests.push(Request::Timeline(KeysRequest::Release));
         }
     }
+}
+
+/// The key under the pointer, or else the frame nearest to a time, seconds: a pose that is put a hair beside a key would be
+/// a second key.
+fn to_key_or_frame(time: f32, scale: &TimeScale, state: &State) -> f32 {
+    let reach = scale.seconds(NEAR).min(state.frame_seconds() * 0.5);
+    let beside = [true, false].into_iter().filter_map(|forward| state.key_beside_of(time, forward));
+    let nearest = beside.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()));
+    nearest.filter(|key| (key - time).abs() <= reach).unwrap_or_else(|| to_frame(time, state))
 }
 
 /// The frame nearest to a time, seconds.

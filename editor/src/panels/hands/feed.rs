@@ -7,6 +7,7 @@ use super::place;
 use crate::control::{Button, InputEvent, Key, Modifiers};
 use crate::panels::state::{Effect, State};
 use egui::{Context, Event, Order, PointerButton, Popup, Pos2, RawInput};
+use std::time::{Duration, Instant};
 
 /// Gives the scene the events of `input` from `from` on, and takes out what only it is to hear. Tells whether the picture
 /// may look different now.
@@ -95,6 +96,9 @@ fn hear(
             if types && !drags {
                 return Heard::Nothing;
             }
+            if let Some(heard) = typed_for_nothing(state, key_of(*key, written), written) {
+                return heard;
+            }
             let Some(key) = key_of(*key, written) else {
                 return if drags { Heard::Alone } else { Heard::Nothing };
             };
@@ -128,6 +132,28 @@ fn hear(
         _ => Heard::Nothing,
     }
 }
+
+/// A drag that a key asked for was refused just now: its axis, its number and the key that ends it are for nothing else. `R`,
+/// `X`, `30`, Enter would else delete keys and change the view.
+fn typed_for_nothing(state: &mut State, key: Option<Key>, written: Option<char>) -> Option<Heard> {
+    let at = state.refused_drag.take()?;
+    let goes_on = match key? {
+        Key::Letter(letter) => "xyz0123456789.,-+*/()".contains(letter),
+        Key::Backspace => true,
+        Key::Enter | Key::Escape => {
+            return (at.elapsed() < PATIENCE).then_some(Heard::Alone);
+        }
+        _ => false,
+    };
+    if !goes_on || at.elapsed() >= PATIENCE {
+        return None;
+    }
+    state.refused_drag = Some(Instant::now());
+    Some(if written.is_some() { Heard::AloneWithText } else { Heard::Alone })
+}
+
+/// As long as this after the last key more is expected.
+const PATIENCE: Duration = Duration::from_millis(1500);
 
 /// These keys are held besides.
 fn hold(state: &mut State, modifiers: egui::Modifiers, effects: &mut Vec<Effect>) {

@@ -4,6 +4,7 @@ use crate::control::Catch;
 use crate::control::gizmo::{Pivot, Space, Tool};
 use crate::panels::commands::Id;
 use crate::panels::state::{Effect, State};
+use std::time::Instant;
 
 impl State {
     /// A command of the tools; nothing for another.
@@ -52,6 +53,7 @@ impl State {
         self.grasp();
         self.hands.look(&self.camera);
         if !self.hands.gizmo().editable {
+            self.refused_drag = Some(Instant::now());
             return self.refuse();
         }
         if !self.hands.begin_by_key() {

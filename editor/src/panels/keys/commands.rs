@@ -103,7 +103,13 @@ impl State {
 
     /// Puts a marker at the time shown.
     pub(in crate::panels) fn add_marker(&mut self) -> Option<Effect> {
-        self.keys_request(KeysRequest::Marker(MarkerDeed::Add(self.time())))
+        let time = self.time();
+        let effect = self.keys_request(KeysRequest::Marker(MarkerDeed::Add(time)));
+        if let Some(marker) = self.markers().iter().find(|marker| (marker.time - time).abs() < 1e-4) {
+            let text = format!("{} at {time:.3} s: double click its flag to name it", marker.name);
+            self.status.say(Level::Info, text);
+        }
+        effect
     }
 
     /// Goes to the marker beside.

@@ -111,30 +111,9 @@ impl Markers {
     /// Gives takes that are new the markers of those they were made of: copies all, the second part of a take that was
     /// cut in two those behind the cut. Where the markers come from they stay, so nothing is lost when that is undone.
     pub(super) fn take_along(&mut self, before: &[Arc<Slot>], now: &[Arc<Slot>]) {
-        let is_new = |slot: &Slot| before.iter().all(|old| old.id != slot.id);
-        for (at, slot) in now.iter().enumerate().filter(|(_, slot)| is_new(slot)) {
-            if self.takes.contains_key(&slot.id) {
-                continue;
-            }
-            // A new take stands behind the one that it was made of, if nobody wanted it elsewhere.
-            let behind = at.checked_sub(1).and_then(|at| now.get(at));
-            let copied = |other: &&Arc<Slot>| same_keys(&other.result, &slot.result);
-            let old = || before.iter().find(copied);
-            let (from, cut) = match behind {
-                Some(first) if !copied(&first) && old().is_none() => {
-                    let Some(whole) = before.iter().find(|whole| whole.id == first.id) else { continue };
-                    // Nothing was taken from the one before: this one was made of none.
-                    if Arc::ptr_eq(&whole.result, &first.result) {
-                        continue;
-                    }
-                    (first.id, first.result.start + first.result.length)
-                }
-                Some(first) if copied(&first) => (first.id, 0.0),
-                _ => match old() {
-                    Some(old) => (old.id, 0.0),
-                    None => continue,
-                },
-            };
+        for (at, slot) in now.iter().enumerate() {
+            let known = self.takes.contains_key(&slot.id) || before.iter().any(|old| old.id == slot.id);
+            let Some((from, cut)) = made_of(before, now, at).filter(|_| !known) else { continue };
             let behind_cut = self.of(from).iter().filter(|marker| marker.time >= cut);
             let along: Vec<Marker> =
                 behind_cut.map(|marker| Marker { time: marker.time - cut, ..marker.clone() }).collect();
@@ -175,6 +154,22 @@ impl Markers {
         *markers = sorted(std::mem::take(markers));
         self.unsaved = true;
     }
+}
+
+/// Of which take the new one at a place of the list was made, and where its begin lies in that.
+fn made_of(before: &[Arc<Slot>], now: &[Arc<Slot>], at: usize) -> Option<(TakeId, f32)> {
+    let new = now.get(at)?;
+    let is_copied = |other: &&Arc<Slot>| same_keys(&other.result, &new.result);
+    // It stands behind the one that it was made of, if nobody wanted it elsewhere.
+    let first = at.checked_sub(1).and_then(|at| now.get(at));
+    if let Some(copied) = first.filter(is_copied).or_else(|| before.iter().find(is_copied)) {
+        return Some((copied.id, 0.0));
+    }
+    // The second part of one that was cut: that ends where this one begins.
+    let first = first?;
+    let whole = before.iter().find(|whole| whole.id == first.id)?;
+    let is_cut = !Arc::ptr_eq(&whole.result, &first.result);
+    is_cut.then(|| (first.id, first.result.end()))
 }
 
 /// Is one a copy of the other? Copies share the columns of their channels.

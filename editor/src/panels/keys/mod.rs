@@ -31,7 +31,7 @@ use super::settings::TimelineSettings;
 use super::state::State;
 use crate::document::View;
 use drag::KeyDrag;
-use dragonfly_anim::data::Take;
+use dragonfly_anim::data::{BoneIndex, Take};
 use std::sync::Arc;
 
 /// See the module.
@@ -43,6 +43,9 @@ pub struct Keys {
     pub snap: bool,
     /// Are only the selected bones listed, where any are selected?
     pub only_selected: bool,
+    /// Bones that were listed when one of their rows was clicked, and what was selected by it: the others stay listed as long
+    /// as that is selected.
+    kept: Option<(Vec<BoneIndex>, Vec<BoneIndex>)>,
     /// Part of the names of the bones that are listed; empty for all.
     pub filter: String,
     /// Marks of bones.
@@ -66,6 +69,7 @@ impl Default for Keys {
             selection: KeySelection::default(),
             snap: true,
             only_selected: true,
+            kept: None,
             filter: String::new(),
             flags: BoneFlags::default(),
             markers: Markers::default(),

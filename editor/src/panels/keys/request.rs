@@ -33,6 +33,8 @@ pub enum KeysRequest {
         /// How.
         choice: Choice,
     },
+    /// Selects a bone by its row, and keeps the rows that are listed.
+    SelectRow(BoneIndex, Choice),
     /// Selects no key.
     Deselect,
     /// Shows this part of time, or the whole take.
@@ -63,6 +65,11 @@ impl State {
         match request {
             KeysRequest::Select { channels, stretch, choice } => self.select_keys(&channels, stretch, choice),
             KeysRequest::SelectKeys { parts, choice } => self.select_parts(&parts, choice),
+            KeysRequest::SelectRow(bone, choice) => {
+                let listed = super::shown_bones(self);
+                self.selection.choose(&[bone], choice);
+                self.keys.kept = Some((listed, self.selection.bones().to_vec()));
+            }
             KeysRequest::Deselect => self.keys.selection = KeySelection::default(),
             KeysRequest::Window(window) => self.show_window(window),
             KeysRequest::Drag(deed) => return self.drag_keys(deed),

@@ -13,9 +13,16 @@ impl State {
     /// Keys that are not listed any more are not selected any more: what is deleted or moved is what is seen.
     pub(in crate::panels) fn forget_unlisted_keys(&mut self) {
         if self.keys.drag.is_none() && self.lists_only_selected() {
-            let bones = &self.selection;
-            self.keys.selection.drop_bones(|bone| !bones.contains(bone));
+            let mut keys = std::mem::take(&mut self.keys.selection);
+            keys.drop_bones(|bone| !self.is_wanted(bone));
+            self.keys.selection = keys;
         }
+    }
+
+    /// Is a bone listed where only those are that are selected, or whose rows were there when one of them was clicked?
+    fn is_wanted(&self, bone: BoneIndex) -> bool {
+        let kept = self.keys.kept.as_ref().filter(|(_, by)| by == self.selection.bones());
+        kept.map_or_else(|| self.selection.contains(bone), |(listed, _)| listed.contains(&bone))
     }
 }
 
@@ -26,7 +33,7 @@ pub fn bones(state: &State) -> Vec<BoneIndex> {
     let only = state.lists_only_selected();
     let filter = state.keys.filter.to_lowercase();
     let wanted = |&bone: &BoneIndex| {
-        (!only || state.selection.contains(bone))
+        (!only || state.is_wanted(bone))
             && channel::channels(take, bone).next().is_some()
             && (filter.is_empty() || state.bone_name(bone).to_lowercase().contains(&filter))
     };

@@ -28,8 +28,10 @@ pub(super) struct Table<'a> {
     pub(super) pair: Pair,
     /// Why nothing can be changed, if so.
     pub(super) locked: Option<&'a str>,
-    /// Radius of the model: how far a translation is likely to go.
+    /// Radius of the model in the parent's space: how far a translation is likely to go.
     pub(super) size: f64,
+    /// Metres of the scene that 1 is in the parent's space.
+    pub(super) metres: f64,
 }
 
 /// Columns for which there is room, and where they are.
@@ -221,22 +223,26 @@ impl Table<'_> {
             _ => Quantity::Number,
         };
         let (speed, snap) = self.steps(spot);
+        let help = match (spot.property, spot.form) {
+            (_, Form::Quaternion) => "All four are brought to length 1 when you leave them.".to_owned(),
+            (Property::Translation, _) if !self.is_metric() => {
+                format!("In the parent's space, where 1 is {} m", Digits::Fitting.text(self.metres))
+            }
+            _ => String::new(),
+        };
         let field = NumberField {
             id,
             name: &name(spot, index),
             value,
             quantity,
-            unit: unit(spot),
+            unit: self.unit(spot),
             speed,
             snap,
             grain: self.grain(spot.property, spot.form),
             digits: self.digits(spot),
             range: f64::from(f32::MIN)..=f64::from(f32::MAX),
             locked: self.locked,
-            help: match spot.form {
-                Form::Quaternion => "All four are brought to length 1 when you leave them.",
-                _ => "",
-            },
+            help: &help,
             quiet: spot.column == Column::Change && value == Some(unchanged(spot, index)),
         };
         let (heard, response) = field.show(ui, rect);
@@ -311,22 +317,27 @@ impl Table<'_> {
         }
     }
 
+    /// Are numbers of the parent's space metres?
+    pub(super) fn is_metric(&self) -> bool {
+        (self.metres - 1.0).abs() < 0.01
+    }
+
+    /// `m`, `°`, `×`: behind the number.
+    fn unit(&self, spot: Spot) -> &'static str {
+        match (spot.property, spot.form, spot.column) {
+            (Property::Translation, ..) if self.is_metric() => "m",
+            (_, Form::Euler(_), _) => "°",
+            (Property::Scale, _, Column::Change) => "×",
+            _ => "",
+        }
+    }
+
     fn digits(&self, spot: Spot) -> Digits {
         match spot.form {
             Form::Euler(_) => Digits::Fixed(2),
             Form::Quaternion => Digits::Fixed(4),
             Form::Vector => Digits::Fitting,
         }
-    }
-}
-
-/// `m`, `°`, `×`: behind the number.
-pub(super) fn unit(spot: Spot) -> &'static str {
-    match (spot.property, spot.form, spot.column) {
-        (Property::Translation, ..) => "m",
-        (_, Form::Euler(_), _) => "°",
-        (Property::Scale, _, Column::Change) => "×",
-        _ => "",
     }
 }
 

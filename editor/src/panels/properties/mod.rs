@@ -100,7 +100,8 @@ impl Properties {
         }
         let size = f64::from(loaded.bounds.sphere.radius);
         let size = if size.is_finite() && size > 1e-9 { size } else { 1.0 };
-        let table = Table { state, bone, pair, locked, size };
+        let metres = metres(state, bone);
+        let table = Table { state, bone, pair, locked, size: size / metres, metres };
         ui.add_space(GRID);
         channel::heads(ui);
         let look = state.settings.properties;
@@ -132,7 +133,7 @@ impl Properties {
         requests: &mut Vec<Request>,
     ) {
         let (title, unit, at) = match property {
-            Property::Translation => ("Translation", "m", 0),
+            Property::Translation => ("Translation", if table.is_metric() { "m" } else { "" }, 0),
             Property::Rotation => ("Rotation", "°", 1),
             Property::Scale => ("Scale", "×", 2),
         };
@@ -215,6 +216,21 @@ fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>
             requests.push(Request::Select(Some(parent)));
         }
     });
+}
+
+/// How many metres of the scene 1 is in the space of a bone's parent, as it stands; 1 where that cannot be said. Files whose
+/// skeleton is in centimetres have a node above it that is a hundredth in size.
+fn metres(state: &State, bone: BoneIndex) -> f64 {
+    let parent =
+        state.loaded().and_then(|loaded| loaded.model.animation.skeleton.bones.get(bone as usize)?.parent);
+    let to_root = state
+        .posed
+        .animation()
+        .zip(parent)
+        .and_then(|(animation, parent)| animation.to_root().get(parent as usize).copied());
+    let volume = to_root.map_or(1.0, |to_root| f64::from(to_root.determinant().abs()));
+    let metres = volume.cbrt();
+    if metres.is_finite() && metres > 1e-9 { metres } else { 1.0 }
 }
 
 /// The order of the three turns.

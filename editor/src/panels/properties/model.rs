@@ -39,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
         fact(ui, "Images", &widgets::grouped(model.images.len()));
     }
     let size = loaded.bounds.max - loaded.bounds.min;
-    widgets::caption(ui, "Size");
+    widgets::caption(ui, "Size in the first pose");
     for (axis, size) in ["X", "Y", "Z"].into_iter().zip(size.to_array()) {
         fact(ui, axis, &format!("{} m", Digits::Fitting.text(f64::from(size))));
     }

@@ -52,7 +52,7 @@ impl State {
                     self.status.say(Level::Info, text);
                     return None;
                 }
-                Edit::TrimTake { take, from, to }
+                Edit::TrimTake { take, from, to, to_start: true }
             }
             Id::ReverseTake => Edit::ReverseTake { take },
             _ => return None,
@@ -101,7 +101,12 @@ impl State {
             && let Some(index) = slots.iter().position(is_new)
         {
             self.takes.show_new = false;
+            let time = self.time();
             self.show_take(Some(index));
+            let (start, length) = self.take_bounds();
+            if (start..=start + length).contains(&time) {
+                self.playback = self.playback.seek(time, self.now);
+            }
             return;
         }
         let Some(index) = self.playback.take else { return };

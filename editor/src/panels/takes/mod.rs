@@ -29,6 +29,8 @@ pub struct Takes {
     /// How often start and length were asked for when they were shown last.
     times_shown: u64,
     rename: Option<(crate::document::adapter::TakeId, Rename)>,
+    /// Bytes with which all names begin and that are not shown: some programs write the skeleton's name before each.
+    prefix: usize,
     /// The take that is dragged to another place.
     moving: Option<usize>,
 }
@@ -61,6 +63,7 @@ impl Panel for Takes {
         self.buttons(ui, state, requests);
         ui.spacing_mut().item_spacing.y = 0.0;
         let count = state.digest.takes.len();
+        self.prefix = shared_prefix(state.digest.takes.iter().map(|take| take.name.as_str()));
         // The rest pose stands first: it is always there.
         ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, count + 1, |ui, range| {
             let top = ui.cursor().top() - range.start as f32 * ROW;
@@ -68,7 +71,7 @@ impl Panel for Takes {
                 match index.checked_sub(1) {
                     None => {
                         let selected = state.playback.take.is_none();
-                        let response = row(ui, "Rest pose", "", "", selected, Sense::click());
+                        let response = row(ui, "Rest pose", "Rest pose", ["", ""], selected, Sense::click());
                         if response.clicked() {
                             requests.push(Request::ShowTake(None));
                         }
@@ -121,7 +124,8 @@ impl Takes {
         }
         let (keys, length) = (widgets::grouped(take.keys), format!("{:.2} s", take.length));
         let selected = state.playback.take == Some(index);
-        let response = row(ui, &take.name, &keys, &length, selected, Sense::click_and_drag());
+        let shown = take.name.get(self.prefix..).unwrap_or(&take.name);
+        let response = row(ui, &take.name, shown, [&keys, &length], selected, Sense::click_and_drag());
         if response.clicked() || response.secondary_clicked() {
             requests.push(Request::ShowTake(Some(index)));
         }
@@ -196,6 +200,16 @@ impl Takes {
     }
 }
 
+/// How many bytes all names share at their begin, up to a `|` and with it; none where a name would be empty without them.
+fn shared_prefix<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> usize {
+    let Some(first) = names.next() else { return 0 };
+    let Some(end) = first.rfind('|').map(|at| at + 1) else { return 0 };
+    let prefix = &first[..end];
+    let rest = |name: &str| name.strip_prefix(prefix).is_some_and(|rest| !rest.is_empty());
+    let several = names.clone().next().is_some();
+    if several && rest(first) && names.all(rest) { end } else { 0 }
+}
+
 /// A button for a command that is grey where it cannot be given.
 fn command(ui: &mut Ui, state: &State, icon: Icon, id: Id, requests: &mut Vec<Request>) {
     let when = super::commands::get(id).when;
@@ -208,7 +222,14 @@ fn command(ui: &mut Ui, state: &State, icon: Icon, id: Id, requests: &mut Vec<Re
 const KEYS_WIDTH: f32 = 48.0;
 
 /// Name at the left, number of keys and length at the right.
-fn row(ui: &mut Ui, name: &str, keys: &str, length: &str, selected: bool, sense: Sense) -> Response {
+fn row(
+    ui: &mut Ui,
+    name: &str,
+    shown: &str,
+    [keys, length]: [&str; 2],
+    selected: bool,
+    sense: Sense,
+) -> Response {
     let theme = Theme::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), sense);
     response.widget_info(|| WidgetInfo::selected(Role::ListItem, ui.is_enabled(), selected, name));
@@ -233,11 +254,26 @@ fn row(ui: &mut Ui, name: &str, keys: &str, length: &str, selected: bool, sense:
     }
     // Takes of one file often begin with the same word, so the name goes before how many keys there are.
     let keys_right = (rect.right() - 76.0).min(right);
-    let wanted = widgets::text_width(ui, name, &TextStyle::Body);
+    let wanted = widgets::text_width(ui, shown, &TextStyle::Body);
     if !keys.is_empty() && keys_right - KEYS_WIDTH - (rect.left() + 12.0) > wanted {
         right = widgets::number_at(ui, keys_right, y, keys, theme.faint) - 8.0;
     }
     let text = Rect::from_min_max(pos2(rect.left() + 12.0, rect.top()), pos2(right, rect.bottom()));
-    widgets::text_in(ui, text, name, &TextStyle::Body, color);
+    widgets::text_in(ui, text, shown, &TextStyle::Body, color);
     response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_all_names_begin_with_is_not_shown() {
+        let prefix = |names: &[&str]| shared_prefix(names.iter().copied());
+        assert_eq!(prefix(&["Armature|Walk", "Armature|Run"]), 9);
+        assert_eq!(prefix(&["a|b|Walk", "a|b|Run"]), 4);
+        for names in [&["Walk", "Run"][..], &["Armature|Walk"], &["A|Walk", "B|Run"], &["A|", "A|Run"], &[]] {
+            assert_eq!(prefix(names), 0, "{names:?}");
+        }
+    }
 }

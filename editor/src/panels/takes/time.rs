@@ -39,7 +39,7 @@ impl Times {
         };
         let (start, length) = (f64::from(shown.start), f64::from(shown.length));
         let locked = (length <= 0.0).then_some("All keys are at one time");
-        ui.label(RichText::new("Keys move along with these").small().color(Theme::of(ui).weak));
+        ui.label(RichText::new("Moves and stretches all keys").small().color(Theme::of(ui).weak));
         let heard = number(ui, "Start", start, 0.0..=LONGEST, None);
         let retime = take.clone();
         self.edit(state, start, heard, requests, |start| Edit::RetimeTake {
@@ -54,7 +54,7 @@ impl Times {
             length: Some(length),
         });
         ui.separator();
-        ui.label(RichText::new("Only what lies between stays").small().color(Theme::of(ui).weak));
+        ui.label(RichText::new("Cuts away what lies outside").small().color(Theme::of(ui).weak));
         let id = state
             .view
             .as_ref()
@@ -92,7 +92,8 @@ impl Times {
             .on_disabled_hover_text("All of the take lies between these times");
         if button.clicked() {
             let [from, to] = range.map(|time| time as f32);
-            requests.push(Request::Change(Change::Edit(Edit::TrimTake { take, from, to }, None)));
+            let trim = Edit::TrimTake { take, from, to, to_start: true };
+            requests.push(Request::Change(Change::Edit(trim, None)));
             self.trim = None;
         }
     }

@@ -9,7 +9,8 @@ use crate::panels::widgets::{column_button, hint_beside, icon_button};
 use crate::panels::{Request, State, menu};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
-/// Draws them; tells where they are. A low picture has the tools alone, a very low one nothing: keys and menus have it all.
+/// Draws them; tells where they are. In a low picture they stand in two columns, in a narrow one some are left out, and in a
+/// very low one all: keys and menus have it all.
 pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
     let hand = &state.settings.hand;
     let top = rect.top() + 52.0;
@@ -20,13 +21,19 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
     };
     let heights = [height(11.0, 3.0), height(9.0, 2.0), height(6.0, 1.0), height(4.0, 0.0)];
     let fits = heights.iter().position(|&height| height <= room).filter(|_| rect.width() >= 240.0)?;
-    let at = Rect::from_min_size(pos2(rect.left() + 10.0, top), vec2(32.0, heights[fits]));
+    let two = matches!(fits, 1 | 2) && rect.width() >= 320.0;
+    let (width, high) = if two { (58.0, heights[2]) } else { (32.0, heights[fits]) };
+    let at = Rect::from_min_size(pos2(rect.left() + 10.0, top), vec2(width, high));
     glass(ui, at);
-    let mut ui = ui.new_child(
-        UiBuilder::new().max_rect(at.shrink(GRID)).layout(Layout::top_down(Align::Center)).id_salt("hand"),
-    );
-    let ui = &mut ui;
-    ui.spacing_mut().item_spacing.y = 2.0;
+    let mut column = |left: f32, salt: &str| {
+        let place = Rect::from_min_size(pos2(at.left() + left, at.top()), vec2(32.0, high)).shrink(GRID);
+        let layout = Layout::top_down(Align::Center);
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(place).layout(layout).id_salt(salt));
+        ui.spacing_mut().item_spacing.y = 2.0;
+        ui
+    };
+    let (mut first, mut second) = (column(0.0, "hand"), two.then(|| column(26.0, "hand, second")));
+    let ui = &mut first;
     for (icon, id, tool) in [
         (Icon::Select, Id::ToolSelect, None),
         (Icon::Move, Id::ToolMove, Some(Tool::Move)),
@@ -40,11 +47,19 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
         choice(ui, state, space_icon(hand.space), space_name(hand.space), &SPACES, requests);
         choice(ui, state, pivot_icon(hand.pivot), pivot_name(hand.pivot), &PIVOTS, requests);
     }
-    if fits <= 1 {
-        divider_across(ui);
+    let ui = match &mut second {
+        Some(second) => second,
+        None => {
+            if fits <= 1 {
+                divider_across(ui);
+            }
+            ui
+        }
+    };
+    if fits <= 1 || two {
         ik::tools(ui, state, requests);
     }
-    if fits == 0 {
+    if fits == 0 || two {
         divider_across(ui);
         column_button(ui, Icon::Ghosts, Id::ToggleGhosts, hand.ghosts.shown, requests);
         column_button(ui, Icon::Path, Id::TogglePath, hand.path, requests);

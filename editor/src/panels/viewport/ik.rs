@@ -32,6 +32,7 @@ fn length(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         ui.separator();
         menu::item(ui, state, Id::Pin, false, requests);
         menu::item(ui, state, Id::FreePins, false, requests);
+        menu::item(ui, state, Id::BakePins, false, requests);
     });
     let [longer, shorter] = [Id::LongerIk, Id::ShorterIk].map(|id| commands::shortcut_text(ui.ctx(), id));
     let pole = state

@@ -10,13 +10,24 @@ use super::json::token::quoted;
 use super::json::tree::{Id, Kind};
 use super::needs::{NeedId, Needs};
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
-/// The key times of a sampler.
+/// The numbers of a sampler: key times, or values.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Input {
+pub(super) enum Numbers {
     /// Those of an accessor that is there and holds them.
     Kept(usize),
     Needed(NeedId),
+}
+
+impl Numbers {
+    /// Their accessor; `accessors` are those that the needs became.
+    fn accessor(self, accessors: &[usize]) -> usize {
+        match self {
+            Self::Kept(accessor) => accessor,
+            Self::Needed(need) => accessors[need],
+        }
+    }
 }
 
 /// A sampler that is written.
@@ -24,8 +35,8 @@ pub(super) enum Input {
 pub(super) struct SamplerDraft {
     /// Which of the animation's; the count and above for new ones.
     pub(super) number: usize,
-    pub(super) input: Input,
-    pub(super) output: NeedId,
+    pub(super) input: Numbers,
+    pub(super) output: Numbers,
     interpolation: &'static str,
 }
 
@@ -74,8 +85,8 @@ impl Draft {
         let Some(animation) = animation else {
             for (number, channel) in edits.iter().enumerate() {
                 let Action::Set(keys) = &channel.action else { continue };
-                let input = Input::Needed(needs.input(&keys.times, None));
-                let output = needs.output(keys, None);
+                let input = Numbers::Needed(needs.input(&keys.times, None));
+                let output = Numbers::Needed(needs.output(keys, None));
                 draft.samplers.push(SamplerDraft {
                     number,
                     input,
@@ -97,6 +108,10 @@ impl Draft {
             let old = there.and_then(|there| animation.channels[there].sampler);
             let before = |name| old.and_then(|old| pool.accessor(document, animation, old, name));
             let kept = before("input").filter(|&input| document.holds_times(input, &keys.times));
+            // Where only times, or what lies between the keys, are others, the file's own values stay.
+            let in_order =
+                |times: &Arc<[f32]>| before("input").is_some_and(|old| document.holds_times(old, times));
+            let values = before("output").filter(|_| channel.values_of.as_ref().is_some_and(in_order));
             let number = match old.filter(|&old| pool.is_alone(old)) {
                 Some(own) => own,
                 None => {
@@ -108,10 +123,13 @@ impl Draft {
             };
             let before = |name| pool.accessor(document, animation, number, name);
             let input = match kept {
-                Some(kept) => Input::Kept(kept),
-                None => Input::Needed(needs.input(&keys.times, before("input"))),
+                Some(kept) => Numbers::Kept(kept),
+                None => Numbers::Needed(needs.input(&keys.times, before("input"))),
             };
-            let output = needs.output(keys, before("output"));
+            let output = match values {
+                Some(values) => Numbers::Kept(values),
+                None => Numbers::Needed(needs.output(keys, before("output"))),
+            };
             draft.samplers.push(SamplerDraft { number, input, output, interpolation: keys.interpolation });
             match there {
                 Some(there) if old != Some(number) => draft.channels.push(ChannelDraft::Moved(there, number)),
@@ -227,11 +245,7 @@ fn fresh_channel((node, path): Target, sampler: usize) -> Fresh {
 impl SamplerDraft {
     /// Numbers of its accessors.
     fn accessors(&self, accessors: &[usize]) -> (usize, usize) {
-        let input = match self.input {
-            Input::Kept(input) => input,
-            Input::Needed(need) => accessors[need],
-        };
-        (input, accessors[self.output])
+        (self.input.accessor(accessors), self.output.accessor(accessors))
     }
 
     fn fresh(&self, input: usize, output: usize) -> Fresh {

@@ -2,6 +2,7 @@
 
 use crate::format::one_line;
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// What happens to a take.
@@ -127,11 +128,8 @@ impl Changes {
 
     /// How much it is, in one line for people.
     pub fn summary(&self) -> String {
-        let mut takes: Vec<&str> = self.channels.iter().map(|channel| channel.take.as_str()).collect();
-        takes.dedup();
-        let mut bones: Vec<(&str, u32)> =
-            self.channels.iter().map(|channel| (channel.take.as_str(), channel.node)).collect();
-        bones.dedup();
+        let takes: BTreeSet<&str> = self.channels.iter().map(|channel| channel.take.as_str()).collect();
+        let bones: BTreeSet<u32> = self.channels.iter().map(|channel| channel.node).collect();
         let channels = (!self.channels.is_empty()).then(|| {
             let of = format!("{} in {}", count(bones.len(), "bone"), count(takes.len(), "take"));
             format!("{} of {of}", count(self.channels.len(), "channel"))
@@ -250,7 +248,7 @@ impl fmt::Display for Changes {
             }
         }
         for file in &self.files {
-            writeln!(f, "file {} is written", one_line(file))?;
+            writeln!(f, "file {} will be written", one_line(file))?;
         }
         for file in &self.files_left {
             writeln!(f, "file {} is not needed any more", one_line(file))?;

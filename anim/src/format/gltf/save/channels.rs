@@ -6,6 +6,7 @@ use super::error::SaveError;
 use crate::data::{Channel, Interpolation, ModelData, MorphTrack, Take, Track};
 use crate::limits::CLIP_SECONDS;
 use glam::Vec3;
+use std::sync::Arc;
 
 /// What becomes of a channel.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub(super) struct ChannelEdit {
     /// Name of the bone, or `mesh 3`.
     pub(super) label: String,
     pub(super) action: Action,
+    /// The times with which it was opened, where its values are, one by one, those that were opened.
+    pub(super) values_of: Option<Arc<[f32]>>,
 }
 
 /// The three columns of a track.
@@ -83,7 +86,9 @@ fn edit(
         return Err(SaveError::Mismatch { place, reason: "the file has no such channel".to_owned() });
     }
     let action = if after.times().is_empty() { Action::Remove } else { Action::Set(keys(after, owner)?) };
-    Ok(ChannelEdit { target, label: owner.bone.to_owned(), action })
+    let stays = matches!(&action, Action::Set(keys) if before.holds(&keys.values));
+    let values_of = stays.then(|| Arc::clone(before.times()));
+    Ok(ChannelEdit { target, label: owner.bone.to_owned(), action, values_of })
 }
 
 /// Morph weights, by mesh instance.
@@ -167,5 +172,5 @@ pub(super) fn placeholder(
     let owner = Owner { take: &now.name, bone: &bone.name, path: Path::Translation, may_be_negative: false };
     let keys = keys(Column::Vector(&channel), owner)?;
     let target = (bone.node.unwrap_or_default(), Path::Translation);
-    Ok(Some(ChannelEdit { target, label: bone.name.clone(), action: Action::Set(keys) }))
+    Ok(Some(ChannelEdit { target, label: bone.name.clone(), action: Action::Set(keys), values_of: None }))
 }

@@ -62,6 +62,11 @@ impl Column<'_> {
         }
     }
 
+    /// Are these its numbers, bit for bit?
+    pub(super) fn holds(&self, numbers: &[f32]) -> bool {
+        !numbers.is_empty() && same_bits(&self.numbers(), numbers)
+    }
+
     /// Are all bits the same? Two columns without keys are, whatever else they say.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         if self.times().is_empty() && other.times().is_empty() {

@@ -1,6 +1,6 @@
 //! From takes to the bytes that change.
 
-use super::animation::{Draft, Input};
+use super::animation::{Draft, Numbers};
 use super::buffer::{Tail, Target};
 use super::changes::{ChangedChannel, Changes, ChannelChange, TakeChange, WrittenAccessor};
 use super::channels::{Action, ChannelEdit, edits, placeholder};
@@ -268,9 +268,10 @@ fn pinned(document: &Document<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
                 pinned.extend(document.json.index_member(sampler, "output"));
             }
         }
-        pinned.extend(take.draft.samplers.iter().filter_map(|sampler| match sampler.input {
-            Input::Kept(accessor) => Some(accessor),
-            Input::Needed(_) => None,
+        let numbers = take.draft.samplers.iter().flat_map(|sampler| [sampler.input, sampler.output]);
+        pinned.extend(numbers.filter_map(|numbers| match numbers {
+            Numbers::Kept(accessor) => Some(accessor),
+            Numbers::Needed(_) => None,
         }));
     }
     pinned

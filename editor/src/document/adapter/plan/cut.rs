@@ -26,7 +26,13 @@ pub(super) fn split(work: &mut Work, take: &TakeRef, time: f32, name: &str) -> R
     apply(work, id, Clock { from: time, about: 0.0, stretch: 1.0 })
 }
 
-pub(super) fn trim(work: &mut Work, take: &TakeRef, from: f32, to: f32) -> Result<(), EditError> {
+pub(super) fn trim(
+    work: &mut Work,
+    take: &TakeRef,
+    from: f32,
+    to: f32,
+    to_start: bool,
+) -> Result<(), EditError> {
     let take = work.take(take)?;
     let (start, end) = (work.slot(take).original.start, work.slot(take).original.end());
     for time in [from, to] {
@@ -36,9 +42,13 @@ pub(super) fn trim(work: &mut Work, take: &TakeRef, from: f32, to: f32) -> Resul
         }
     }
     if to < from {
-        return Err(EditError::Number { what: "the end before the begin", value: to });
+        return Err(EditError::Number { what: "an end before the begin", value: to });
     }
-    cut(work, take, from.max(start), to.min(end))
+    cut(work, take, from.max(start), to.min(end))?;
+    if to_start {
+        return apply(work, take, Clock { from: from.max(start), about: start, stretch: 1.0 });
+    }
+    Ok(())
 }
 
 /// Leaves what lies between two times in all channels.

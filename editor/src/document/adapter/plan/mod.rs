@@ -74,7 +74,7 @@ pub(super) fn run(work: &mut Work, edit: &Edit) -> Result<(), EditError> {
         Edit::RenameTake { take, name } => takes::rename(work, take, name),
         Edit::MoveTake { take, to } => takes::reorder(work, take, *to),
         Edit::SplitTake { take, time, name } => cut::split(work, take, *time, name),
-        Edit::TrimTake { take, from, to } => cut::trim(work, take, *from, *to),
+        Edit::TrimTake { take, from, to, to_start } => cut::trim(work, take, *from, *to, *to_start),
         Edit::ReverseTake { take } => remap::reverse(work, take),
         Edit::RetimeTake { take, start, length } => remap::retime(work, take, *start, *length),
     }

@@ -14,7 +14,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::KeysFaster, When::Keys, "Keys twice as fast", &[], "Halves the distances of the selected keys to the playhead"),
     command(Id::KeysReverse, When::Keys, "Mirror keys about the playhead", &[key(CTRL, Key::M)], "Turns the selected keys round in time"),
     command(Id::SnapKeys, When::Keys, "Snap keys to frames", &[key(SHIFT, Key::S)], "Moves the selected keys to whole frames"),
-    command(Id::ToggleSnap, When::Always, "Snap while dragging keys", &[], "Dragged keys go to whole frames; Ctrl turns it round for one drag"),
+    command(Id::ToggleSnap, When::Always, "Snap while dragging keys", &[], "Dragged keys go to whole frames; Ctrl inverts that"),
     command(Id::InterpolateStep, When::Keys, "Step between keys", &[], "Channels of the selected keys hold each key until the next"),
     command(Id::InterpolateLinear, When::Keys, "Linear between keys", &[], "Channels of the selected keys run straight from key to key"),
     command(Id::InterpolateSpline, When::Keys, "Spline between keys", &[], "Channels of the selected keys run smoothly, with tangents that can be dragged"),

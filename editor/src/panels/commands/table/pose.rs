@@ -21,6 +21,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::IkPole, When::Bone, "Bend towards this bone", &[], "Elbows and knees of IK bend towards the active bone; again: as they are"),
     command(Id::Pin, When::Bone, "Pin / free", &[key(NONE, Key::N)], "The selected bones stay where and how they are while others move"),
     command(Id::FreePins, When::Pinned, "Free all pins", &[key(ALT, Key::N)], "No bone is pinned any more"),
+    command(Id::BakePins, When::PinnedInTake, "Hold pins over what plays", &[], "Keeps pinned bones where they are now at every frame of the play range, or of the take: the bones above get keys"),
     command(Id::LookAt, When::BoneInTake, "Look at", &[key(ALT, Key::L)], "Turns the selected bones towards the active one, which is the one selected last"),
     command(Id::MirrorPairs, When::Model, "Mirror pairs…", &[], "Shows which bone is the other side of which"),
 ];

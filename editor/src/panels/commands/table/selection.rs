@@ -19,5 +19,8 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::HideSelected, When::Bone, "Hide bones", &[key(NONE, Key::H)], "Selected bones are not drawn and not picked"),
     command(Id::HideOthers, When::Bone, "Hide other bones", &[key(SHIFT, Key::H)], "All but the selected bones are not drawn and not picked"),
     command(Id::ShowAll, When::Model, "Show all bones", &[key(ALT, Key::H)], "Hidden bones are shown again, and selected"),
+    command(Id::MuteBones, When::Bone, "Mute bones", &[], "The picture shows the selected bones at rest, or as they move again; their keys stay"),
+    command(Id::SoloBones, When::Bone, "Solo bones", &[], "The picture shows all other bones at rest, or as they move again"),
+    command(Id::LockBones, When::Bone, "Lock bones", &[], "The selected bones are not edited any more, or are again"),
     command(Id::Find, When::Model, "Find a bone", &[key(CTRL, Key::F)], "Puts the cursor into the search field of the skeleton"),
 ];

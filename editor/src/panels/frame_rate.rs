@@ -1,0 +1,86 @@
+//! At how many frames a second the keys of a model were made, guessed from where they lie: files do not say it.
+
+use super::state::State;
+use super::status::Level;
+use dragonfly_anim::data::Take;
+use std::sync::Arc;
+
+/// What animations are made at, the most usual first among those of which one holds the other's frames.
+const RATES: [u32; 8] = [24, 25, 30, 48, 50, 60, 100, 120];
+/// Parts of a frame: further from a whole one is not on it. Times are written in single precision, and often rounded.
+const ON: f64 = 0.02;
+/// Keys that are looked at, of a channel and of all.
+const MOST: (usize, usize) = (500, 20_000);
+/// Keys that say something; fewer lie on frames by chance.
+const LEAST: usize = 3;
+
+impl State {
+    /// Counts in the frames that the keys of a model lie on, where they do not lie on those that are counted in.
+    pub(super) fn guess_frame_rate(&mut self) {
+        let Some(view) = &self.view else { return };
+        let now = self.settings.frame_rate;
+        if let Some(rate) = rate_of(&view.takes, now).filter(|&rate| rate != now) {
+            self.settings.frame_rate = rate;
+            let text = format!("Its keys lie on {rate} frames a second: the timeline counts in these now");
+            self.status.say(Level::Info, text);
+        }
+    }
+}
+
+/// The rate on whose frames nearly all keys lie: `now`, or else the first that is usual. `None` where none is so, or where
+/// there are too few keys to tell.
+fn rate_of(takes: &[Arc<Take>], now: u32) -> Option<u32> {
+    let tracks = takes.iter().flat_map(|take| &take.tracks);
+    let columns = tracks.flat_map(|track| [&track.translation.times, &track.rotation.times]);
+    let keys = columns.flat_map(|times| times.iter().take(MOST.0)).take(MOST.1);
+    let times: Vec<f64> = keys.map(|&time| f64::from(time)).filter(|time| *time > 0.0).collect();
+    let fits = |rate: &u32| {
+        let on = |time: &&f64| (*time * f64::from(*rate) - (*time * f64::from(*rate)).round()).abs() < ON;
+        // The last key of a take is often where somebody cut it.
+        times.iter().filter(on).count() * 100 >= times.len() * 95
+    };
+    let mut apart = times.clone();
+    apart.sort_by(f64::total_cmp);
+    apart.dedup();
+    if apart.len() < LEAST {
+        return None;
+    }
+    [now].into_iter().chain(RATES).find(fits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dragonfly_anim::data::{Channel, Interpolation, Track};
+    use glam::Vec3;
+
+    fn take(times: impl IntoIterator<Item = f32>) -> Vec<Arc<Take>> {
+        let times: Arc<[f32]> = times.into_iter().collect();
+        let values = vec![Vec3::ZERO; times.len()];
+        let translation = Channel::new(times, values, Interpolation::Linear);
+        let track = Track { bone: 0, translation, ..Track::default() };
+        vec![Arc::new(Take { tracks: vec![track], ..Take::default() })]
+    }
+
+    #[test]
+    fn keys_say_at_which_rate_they_were_made() {
+        let every = |rate: f32| take((0..40).map(|key| key as f32 / rate));
+        for (rate, now) in [(24, 30), (25, 30), (30, 24), (60, 24), (60, 30), (120, 30)] {
+            assert_eq!(rate_of(&every(rate as f32), now), Some(rate), "{rate}");
+        }
+        // Where those that are counted in will do, they stay.
+        assert_eq!(rate_of(&every(30.0), 60), Some(60));
+        assert_eq!(rate_of(&take((0..9).map(|key| key as f32)), 30), Some(30));
+        // Rounded to milliseconds, as some exporters do; and with an end that somebody cut.
+        let rounded = (0..40).map(|key| (key as f32 / 24.0 * 1e3).round() / 1e3);
+        assert_eq!(rate_of(&take(rounded.chain([1.6301])), 30), Some(24));
+    }
+
+    #[test]
+    fn keys_anywhere_and_few_of_them_say_nothing() {
+        let anywhere = take((0..40).map(|key| key as f32 * 0.0854));
+        assert_eq!(rate_of(&anywhere, 30), None);
+        assert_eq!(rate_of(&take([0.0, 0.041_667, 0.083_333]), 30), None);
+        assert_eq!(rate_of(&[], 30), None);
+    }
+}
