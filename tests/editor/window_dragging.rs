@@ -142,7 +142,7 @@ fn what_is_dragged_while_the_keyboard_goes_elsewhere_is_taken_back_and_nothing_s
         visit.screen.press(key::RIGHT);
         visit.until("one frame later", |visit| {
             let time: f32 = visit.shown("time").parse().ok()?;
-            ((time - 1.0 / 30.0).abs() < 1e-3).then_some(())
+            ((time - 1.0 / 24.0).abs() < 1e-3).then_some(())
         });
         visit.screen.press(key::HOME);
         visit.until_shown("time", "0.0");

@@ -71,6 +71,12 @@ impl Visit {
     #[track_caller]
     pub(crate) fn stand_still(&mut self) {
         self.screen.press(key::SPACE);
+        self.go_to_the_start();
+    }
+
+    /// Goes to the start, where time stands: also when work was brought back.
+    #[track_caller]
+    pub(crate) fn go_to_the_start(&mut self) {
         self.screen.press(key::HOME);
         self.until_shown("time", "0.0");
     }
@@ -208,12 +214,12 @@ impl Visit {
         inside
     }
 
-    /// Goes some frames on, to a time without keys; which one, seconds.
+    /// Goes some frames on, of those that the keys of the fox lie on; to which time, seconds.
     #[track_caller]
     pub(crate) fn go_on(&mut self, frames: usize) -> f32 {
         let start = self.shown("time");
         (0..frames).for_each(|_| self.screen.press(key::RIGHT));
-        let time = start.parse::<f32>().expect("seconds") + frames as f32 / 30.0;
+        let time = start.parse::<f32>().expect("seconds") + frames as f32 / 24.0;
         self.until("the time", |visit| {
             let shown: f32 = visit.shown("time").parse().ok()?;
             ((shown - time).abs() < 1e-3).then_some(shown)

@@ -193,7 +193,7 @@ const FORMATS: [&str; 10] = ["glb", "gltf", "dfm", "fbx", "obj", "dae", "bvh", "
 /// Why it should not be called so.
 pub fn fits(path: &Path, ending: &str) -> Result<(), String> {
     let is = |format: &&str| path.extension().is_some_and(|other| other.eq_ignore_ascii_case(format));
-    if is(&ending) || !FORMATS.iter().any(|format| is(&format)) {
+    if is(&ending) || !FORMATS.iter().any(is) {
         return Ok(());
     }
     Err(format!(

@@ -9,8 +9,9 @@ use std::sync::Arc;
 const RATES: [u32; 8] = [24, 25, 30, 48, 50, 60, 100, 120];
 /// Parts of a frame: further from a whole one is not on it. Times are written in single precision, and often rounded.
 const ON: f64 = 0.02;
-/// Keys that are looked at, of a channel and of all.
-const MOST: (usize, usize) = (500, 20_000);
+/// Keys that are looked at, of a channel and of a take, and takes.
+const MOST: (usize, usize) = (500, 5_000);
+const MOST_TAKES: usize = 100;
 /// Keys that say something; fewer lie on frames by chance.
 const LEAST: usize = 3;
 
@@ -27,11 +28,18 @@ impl State {
     }
 }
 
-/// The rate on whose frames nearly all keys lie: `now`, or else the first that is usual. `None` where none is so, or where
-/// there are too few keys to tell.
+/// The rate on whose frames the keys of most takes lie, that of earlier ones where as many lie on others; `None` where there
+/// are too few keys to tell, or they lie anywhere.
 fn rate_of(takes: &[Arc<Take>], now: u32) -> Option<u32> {
-    let tracks = takes.iter().flat_map(|take| &take.tracks);
-    let columns = tracks.flat_map(|track| [&track.translation.times, &track.rotation.times]);
+    let rates: Vec<u32> = takes.iter().take(MOST_TAKES).filter_map(|take| rate_of_take(take, now)).collect();
+    let votes = |rate: u32| rates.iter().filter(|&&other| other == rate).count();
+    // Of several that are greatest `max_by_key` takes the last one.
+    rates.iter().rev().copied().max_by_key(|&rate| votes(rate))
+}
+
+/// The rate on whose frames nearly all keys of a take lie: `now`, or else the first that is usual.
+fn rate_of_take(take: &Take, now: u32) -> Option<u32> {
+    let columns = take.tracks.iter().flat_map(|track| [&track.translation.times, &track.rotation.times]);
     let keys = columns.flat_map(|times| times.iter().take(MOST.0)).take(MOST.1);
     let times: Vec<f64> = keys.map(|&time| f64::from(time)).filter(|time| *time > 0.0).collect();
     let fits = |rate: &u32| {
@@ -74,6 +82,14 @@ mod tests {
         // Rounded to milliseconds, as some exporters do; and with an end that somebody cut.
         let rounded = (0..40).map(|key| (key as f32 / 24.0 * 1e3).round() / 1e3);
         assert_eq!(rate_of(&take(rounded.chain([1.6301])), 30), Some(24));
+    }
+
+    #[test]
+    fn the_rate_of_most_takes_is_taken_not_one_that_holds_all_of_them() {
+        let at = |rate: f32| take((0..40).map(|key| key as f32 / rate)).remove(0);
+        assert_eq!(rate_of(&[at(24.0), at(24.0), at(120.0)], 30), Some(24));
+        assert_eq!(rate_of(&[at(25.0), at(24.0)], 30), Some(25), "the first where none has more");
+        assert_eq!(rate_of(&[at(24.0), at(30.0), at(30.0)], 30), Some(30));
     }
 
     #[test]
