@@ -28,17 +28,20 @@ impl State {
     }
 }
 
-/// The rate on whose frames the keys of most takes lie, that of earlier ones where as many lie on others; `None` where there
-/// are too few keys to tell, or they lie anywhere.
+/// The rate on whose frames the keys of most takes lie, and of at least half of them; that of earlier ones where as many lie
+/// on others. `None` where there are too few keys to tell, or they lie anywhere.
 fn rate_of(takes: &[Arc<Take>], now: u32) -> Option<u32> {
-    let rates: Vec<u32> = takes.iter().take(MOST_TAKES).filter_map(|take| rate_of_take(take, now)).collect();
-    let votes = |rate: u32| rates.iter().filter(|&&other| other == rate).count();
+    let told: Vec<Option<u32>> =
+        takes.iter().take(MOST_TAKES).filter_map(|take| rate_of_take(take, now)).collect();
+    let votes = |rate: u32| told.iter().filter(|&&other| other == Some(rate)).count();
     // Of several that are greatest `max_by_key` takes the last one.
-    rates.iter().rev().copied().max_by_key(|&rate| votes(rate))
+    let most = told.iter().rev().copied().flatten().max_by_key(|&rate| votes(rate))?;
+    (votes(most) * 2 >= told.len()).then_some(most)
 }
 
-/// The rate on whose frames nearly all keys of a take lie: `now`, or else the first that is usual.
-fn rate_of_take(take: &Take, now: u32) -> Option<u32> {
+/// The rate on whose frames nearly all keys of a take lie: `now`, or else the first that is usual, or none; `None` where
+/// there are too few keys to tell.
+fn rate_of_take(take: &Take, now: u32) -> Option<Option<u32>> {
     let columns = take.tracks.iter().flat_map(|track| [&track.translation.times, &track.rotation.times]);
     let keys = columns.flat_map(|times| times.iter().take(MOST.0)).take(MOST.1);
     let times: Vec<f64> = keys.map(|&time| f64::from(time)).filter(|time| *time > 0.0).collect();
@@ -53,7 +56,7 @@ fn rate_of_take(take: &Take, now: u32) -> Option<u32> {
     if apart.len() < LEAST {
         return None;
     }
-    [now].into_iter().chain(RATES).find(fits)
+    Some([now].into_iter().chain(RATES).find(fits))
 }
 
 #[cfg(test)]
@@ -89,6 +92,8 @@ mod tests {
         let at = |rate: f32| take((0..40).map(|key| key as f32 / rate)).remove(0);
         assert_eq!(rate_of(&[at(24.0), at(24.0), at(120.0)], 30), Some(24));
         assert_eq!(rate_of(&[at(25.0), at(24.0)], 30), Some(25), "the first where none has more");
+        let anywhere = || take((0..40).map(|key| key as f32 * 0.0854)).remove(0);
+        assert_eq!(rate_of(&[anywhere(), at(24.0), anywhere()], 30), None, "one of three says little");
         assert_eq!(rate_of(&[at(24.0), at(30.0), at(30.0)], 30), Some(30));
     }
 
