@@ -139,7 +139,7 @@ fn refused() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "missing animation target",
             edited(|f| _ = f.set("/animations/0/channels/0/target/node", json!(77))),
-            "no number 77",
+            "names number 77",
         ),
     ]
 }
