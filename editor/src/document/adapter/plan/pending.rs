@@ -5,7 +5,7 @@ use super::super::op::{Op, Place};
 use super::super::pending::{PendingAt, remapped};
 use super::super::slot::TakeId;
 use super::pose::{self, Way, rotation, vector};
-use super::{EditError, Work, finite, key_time, unstep};
+use super::{EditError, Work, finite, key_time};
 use crate::document::edit::{BonePose, BoneRef, Property, TakeRef};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -54,20 +54,12 @@ pub(super) fn key(
     unstep: bool,
 ) -> Result<(), EditError> {
     let take = work.take(take)?;
-    let all = meant(work, take, time, bones)?;
-    if unstep {
-        // All of them first: once a channel has the first of its poses it does not stand still any more.
-        for pose in all.iter().flat_map(|at| &at.poses) {
-            let given = Property::ALL.into_iter().filter(|&property| pose.get(property).is_some());
-            given.for_each(|property| unstep::channel(work, take, pose.bone, property));
-        }
-    }
-    for at in all {
+    for at in meant(work, take, time, bones)? {
         for pose in &at.poses {
             for property in Property::ALL {
                 if let Some(value) = pose.get(property) {
                     let place = Place { take, bone: pose.bone, property };
-                    with_kind!(property, one::<K>(work, place, at.time, value))?;
+                    with_kind!(property, one::<K>(work, place, at.time, value, unstep))?;
                 }
             }
         }
@@ -76,8 +68,14 @@ pub(super) fn key(
     Ok(())
 }
 
-fn one<K: Kind>(work: &mut Work, place: Place, time: f32, value: [f32; 4]) -> Result<(), EditError> {
-    pose::one::<K>(work, place, time, K::value(value), Way::Set)
+fn one<K: Kind>(
+    work: &mut Work,
+    place: Place,
+    time: f32,
+    value: [f32; 4],
+    unstep: bool,
+) -> Result<(), EditError> {
+    pose::one::<K>(work, place, time, K::value(value), Way::Set, unstep)
 }
 
 pub(super) fn drop(

@@ -17,10 +17,7 @@ pub(super) fn set(
     poses: &[BonePose],
     unstep: bool,
 ) -> Result<(), EditError> {
-    if unstep {
-        unstep::poses(work, take, poses)?;
-    }
-    each(work, take, time, poses, Way::Set)
+    each(work, take, time, poses, Way::Set, unstep)
 }
 
 pub(super) fn set_many(
@@ -32,10 +29,7 @@ pub(super) fn set_many(
     if at.is_empty() {
         return Err(EditError::Nothing("no pose is given"));
     }
-    if unstep {
-        at.iter().try_for_each(|at| unstep::poses(work, take, &at.poses))?;
-    }
-    at.iter().try_for_each(|at| each(work, take, at.time, &at.poses, Way::Set))
+    at.iter().try_for_each(|at| each(work, take, at.time, &at.poses, Way::Set, unstep))
 }
 
 pub(super) fn offset(
@@ -45,10 +39,7 @@ pub(super) fn offset(
     poses: &[BonePose],
     unstep: bool,
 ) -> Result<(), EditError> {
-    if unstep {
-        unstep::poses(work, take, poses)?;
-    }
-    each(work, take, time, poses, Way::Offset)
+    each(work, take, time, poses, Way::Offset, unstep)
 }
 
 pub(super) fn reset(
@@ -88,7 +79,14 @@ pub(in super::super) enum Way {
     Offset,
 }
 
-fn each(work: &mut Work, take: &TakeRef, time: f32, poses: &[BonePose], way: Way) -> Result<(), EditError> {
+fn each(
+    work: &mut Work,
+    take: &TakeRef,
+    time: f32,
+    poses: &[BonePose],
+    way: Way,
+    unstep: bool,
+) -> Result<(), EditError> {
     let take = work.take(take)?;
     key_time(time, work.slot(take))?;
     let mut touched = Vec::new();
@@ -100,13 +98,13 @@ fn each(work: &mut Work, take: &TakeRef, time: f32, poses: &[BonePose], way: Way
         let place = |property| Place { take, bone, property };
         if let Some(translation) = pose.translation {
             let wanted = vector("a translation", translation)?;
-            one::<Translation>(work, place(Property::Translation), time, wanted, way)?;
+            one::<Translation>(work, place(Property::Translation), time, wanted, way, unstep)?;
         }
         if let Some(numbers) = pose.rotation {
-            one::<Rotation>(work, place(Property::Rotation), time, rotation(numbers)?, way)?;
+            one::<Rotation>(work, place(Property::Rotation), time, rotation(numbers)?, way, unstep)?;
         }
         if let Some(scale) = pose.scale {
-            one::<Scale>(work, place(Property::Scale), time, vector("a scale", scale)?, way)?;
+            one::<Scale>(work, place(Property::Scale), time, vector("a scale", scale)?, way, unstep)?;
         }
         let given = [pose.translation.is_some(), pose.rotation.is_some(), pose.scale.is_some()];
         let given = Property::ALL.into_iter().zip(given).filter(|(_, given)| *given);
@@ -123,7 +121,11 @@ pub(super) fn one<K: Kind>(
     time: f32,
     wanted: K::Value,
     way: Way,
+    unstep: bool,
 ) -> Result<(), EditError> {
+    if unstep {
+        unstep::channel::<K>(work, place);
+    }
     // On top of what is shown there.
     let pending =
         work.slot(place.take).pending_at(time).and_then(|at| at.of(place.bone)?.get(place.property));
