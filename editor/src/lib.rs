@@ -12,3 +12,4 @@ pub mod playback;
 pub mod posing;
 pub mod protocol;
 pub mod store;
+pub mod text;

@@ -14,6 +14,9 @@ pub enum Repeat {
     PingPong,
 }
 
+/// Latest time that can be looked at, seconds: a day.
+pub const LATEST: f32 = 86_400.0;
+
 /// At the instant `anchor` the take stood at `anchor_time`, and moves on from there at `speed`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Playback {
@@ -23,7 +26,7 @@ pub struct Playback {
     pub start: f32,
     /// Seconds from begin to end; zero for a single pose.
     pub length: f32,
-    /// Seconds inside the take at `anchor`.
+    /// Seconds in the take at `anchor`; while it stands also beside it.
     pub anchor_time: f64,
     /// When `anchor_time` was true.
     pub anchor: Instant,
@@ -50,13 +53,12 @@ impl Playback {
         }
     }
 
-    /// Seconds in the take at `now`, within `start ..= start + length`.
+    /// Seconds in the take at `now`; within `start ..= start + length` while it plays.
     pub fn time_at(&self, now: Instant) -> f32 {
-        let passed = if self.playing {
-            now.saturating_duration_since(self.anchor).as_secs_f64() * f64::from(self.speed)
-        } else {
-            0.0
-        };
+        if !self.playing {
+            return self.anchor_time as f32;
+        }
+        let passed = now.saturating_duration_since(self.anchor).as_secs_f64() * f64::from(self.speed);
         let (start, length) = (f64::from(self.start), f64::from(self.length));
         // Also catches a length that is not a number: nothing to move in.
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "the negation is how NaN is caught")]
@@ -66,7 +68,7 @@ impl Playback {
         let inside = self.anchor_time - start + passed;
         let wrapped = match self.repeat {
             Repeat::Once => inside.clamp(0.0, length),
-            // Exactly the end stays the end, so that a paused last frame is shown and not the first.
+            // Exactly the end stays the end: who begins to play there backwards begins there.
             Repeat::Loop if (0.0..=length).contains(&inside) => inside,
             Repeat::Loop => inside.rem_euclid(length),
             Repeat::PingPong => {
@@ -92,10 +94,15 @@ impl Playback {
         if self.speed < 0.0 { time <= self.start } else { time >= self.start + self.length }
     }
 
-    /// The same, anchored at `now` and standing at `time` seconds.
+    /// The same, anchored at `now` and at `time` seconds; while it plays as near to that as the take goes. While it stands
+    /// time may lie beside the take: a key that is put there makes it longer.
     pub fn seek(mut self, time: f32, now: Instant) -> Self {
-        self.anchor_time = f64::from(time.clamp(self.start, self.start + self.length.max(0.0)));
-        self.anchor = now;
+        let (mut first, mut last) = (self.start, self.start + self.length.max(0.0));
+        if !self.playing && self.take.is_some() {
+            (first, last) = (first.min(0.0), last.max(LATEST));
+        }
+        let time = if time.is_finite() { time.clamp(first, last) } else { self.start };
+        (self.anchor_time, self.anchor) = (f64::from(time), now);
         self
     }
 

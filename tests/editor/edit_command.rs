@@ -168,6 +168,30 @@ fn what_cannot_be_done_is_code_2_with_its_line_and_writes_nothing() {
 }
 
 #[test]
+fn a_take_is_given_a_name_that_no_other_has() {
+    let folder = Folder::new("edit-names");
+    let output = folder.join("out.glb");
+    for (edit, reason) in [
+        (r#"{"edit":"rename_take","take":"Run","name":"Walk"}"#, "another take is called \"Walk\""),
+        (r#"{"edit":"rename_take","take":"Run","name":" "}"#, "a take needs a name"),
+        (r#"{"edit":"create_take","name":""}"#, "a take needs a name"),
+        (r#"{"edit":"create_take","name":"Run","copy":"Walk"}"#, "another take is called \"Run\""),
+        (
+            r#"{"edit":"split_take","take":"Run","time":0.5,"name":"Survey"}"#,
+            "another take is called \"Survey\"",
+        ),
+    ] {
+        let lines = edits(&folder, &format!("{edit}\n"));
+        let told = run(["edit", &fox(), "--edits", &lines, "-o", &text(&output)]).expect(2);
+        assert!(told.stderr.contains(&format!("line 1: {reason}")), "{}", told.stderr);
+        assert!(!output.exists());
+    }
+    let lines = edits(&folder, r#"{"edit":"rename_take","take":"Run","name":"Run"}"#);
+    let told = run(["edit", &fox(), "--edits", &lines, "-o", &text(&output)]).expect(2);
+    assert!(told.stderr.contains("called that already"), "{}", told.stderr);
+}
+
+#[test]
 fn the_list_of_edits_and_their_schema_can_be_read_by_programs() {
     let list = run(["edit", "--list", "--json"]).expect(0).json();
     let names: Vec<&str> = list["edits"]

@@ -6,8 +6,8 @@
 use crate::journal_scenarios::forged_with;
 use crate::keeping_desk::{Desk, fox};
 use crate::program::{Folder, data};
-use dragonfly::document::edit::{EXAMPLES, Edit};
-use dragonfly::document::{Change, Decision, DocumentMessage, View};
+use dragonfly::document::edit::{EXAMPLES, Edit, TakeRef};
+use dragonfly::document::{Change, Decision, DocumentMessage, DocumentReply, View};
 use dragonfly::store::{FileStamp, RealFiles};
 use std::fs;
 use std::path::Path;
@@ -18,8 +18,8 @@ fn first_edits() -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// Opens Fox beside a journal with these records, and takes the work back.
-fn had_back(name: &str, records: &[(u8, &[u8])]) -> (Desk, View) {
+/// Opens Fox beside a journal with these records, and takes the work of so many steps back.
+fn had_back(name: &str, records: &[(u8, &[u8])], steps: usize) -> (Desk, View) {
     let folder = Folder::new(name);
     let path = fox(&folder);
     let autosave = folder.join("autosave");
@@ -30,8 +30,7 @@ fn had_back(name: &str, records: &[(u8, &[u8])]) -> (Desk, View) {
     let offer = desk.offered().remove(0);
     assert_eq!(offer.warnings(), [""; 0]);
     desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-    let all = first_edits().len();
-    let view = desk.shows(|view| view.history.done == all);
+    let view = desk.shows(|view| view.history.done == steps);
     (desk, view)
 }
 
@@ -66,14 +65,35 @@ fn first_takes() -> Vec<(String, i32, usize)> {
     takes.map(|(name, length, keys)| (name.to_owned(), length, keys)).into()
 }
 
+fn recorded(edit: &str) -> Vec<u8> {
+    format!(r#"{{"do":"edit","edit":{edit}}}"#).into_bytes()
+}
+
+#[test]
+fn names_that_are_refused_now_are_had_back() {
+    let rename = |take: u32, name: &str| {
+        recorded(&format!(r#"{{"edit":"rename_take","take":{take},"name":"{name}"}}"#))
+    };
+    let [nameless, same] = [rename(0, ""), rename(1, "Run")];
+    let (mut desk, view) = had_back("old-names", &[(2, &nameless), (2, &same)], 2);
+    let names: Vec<_> = takes(&view).into_iter().map(|take| take.0).collect();
+    assert_eq!(names, ["", "Run", "Run"]);
+    let again = Edit::RenameTake { take: TakeRef::Index(2), name: String::new() };
+    desk.tell(DocumentMessage::Change(Change::Edit(again, None)));
+    let refused = desk.hears(|reply| match reply {
+        DocumentReply::Refused(reason) => Some(reason.clone()),
+        _ => None,
+    });
+    assert_eq!(refused, "A take needs a name");
+}
+
 #[test]
 fn edits_of_every_version_are_done_again() {
     let begin = br#"{"do":"begin","version":1}"#.to_vec();
-    let edits =
-        first_edits().into_iter().map(|edit| format!(r#"{{"do":"edit","edit":{edit}}}"#).into_bytes());
+    let edits = first_edits().into_iter().map(|edit| recorded(&edit));
     let records: Vec<Vec<u8>> = std::iter::once(begin).chain(edits).collect();
     let records: Vec<(u8, &[u8])> = records.iter().map(|record| (2, &record[..])).collect();
-    let (mut desk, view) = had_back("old-edits", &records);
+    let (mut desk, view) = had_back("old-edits", &records, records.len() - 1);
     assert_eq!(takes(&view), first_takes());
     desk.change(Change::GoTo(0));
     let names: Vec<_> = takes(&desk.view()).into_iter().map(|take| take.0).collect();
@@ -87,7 +107,7 @@ fn a_snapshot_of_every_version_is_had_back() {
     let text = format!(r#"{{"about":{about},"steps":[{edits}],"done":{all},"saved":null,"has_base":false}}"#);
     let mut snapshot = (text.len() as u32).to_le_bytes().to_vec();
     snapshot.extend(text.bytes());
-    let (_, view) = had_back("old-snapshot", &[(1, &snapshot)]);
+    let (_, view) = had_back("old-snapshot", &[(1, &snapshot)], all);
     assert_eq!(takes(&view), first_takes());
 }
 

@@ -161,6 +161,55 @@ fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
 }
 
 #[test]
+fn keys_that_give_way_to_others_are_counted() {
+    use crate::timeline_rig::Animator;
+    use dragonfly::control::bones::Choice;
+    use dragonfly::document::edit::Property;
+    use dragonfly::panels::commands::Id;
+    use dragonfly::panels::keys::KeysRequest;
+    let mut animator = Animator::with_bone(3);
+    let select = |animator: &mut Animator, first: usize, last: usize| {
+        let channels = std::sync::Arc::new([(3, Property::Rotation)]);
+        let stretch = [animator.key(first), animator.key(last)];
+        animator.request(Request::Timeline(KeysRequest::Select {
+            channels,
+            stretch,
+            choice: Choice::Replace,
+        }));
+        assert_eq!(animator.selected(), last - first + 1);
+    };
+    // Three keys, the first of which comes to lie on the last but one.
+    select(&mut animator, 2, 4);
+    let to = animator.key(39);
+    animator.request(Request::Seek(to));
+    animator.request(Request::Command(Id::DuplicateKeys));
+    animator.steps(2);
+    let said = animator.said();
+    assert!(
+        said.starts_with("Duplicate keys  ·  ") && said.ends_with("1 more  ·  2 keys replaced"),
+        "{said}"
+    );
+    // Moved beside all others.
+    select(&mut animator, 0, 0);
+    animator.request(Request::Timeline(KeysRequest::Drag(dragonfly::panels::keys::Deed::Move(0.03))));
+    animator.request(Request::Timeline(KeysRequest::Release));
+    animator.steps(2);
+    assert!(
+        animator.said().starts_with("Move keys") && !animator.said().contains("replaced"),
+        "{}",
+        animator.said()
+    );
+    select(&mut animator, 1, 1);
+    let text = animator.harness.state_mut().state.execute(Request::Command(Id::CopyPose));
+    let Some(Effect::Copy(text)) = text else { panic!("{text:?}") };
+    let to = animator.key(6);
+    animator.request(Request::Seek(to));
+    animator.request(Request::PastePose { text, mirrored: false });
+    animator.steps(2);
+    assert!(animator.said().ends_with("1 key replaced"), "{}", animator.said());
+}
+
+#[test]
 fn a_line_that_says_more_of_what_was_done_stays() {
     use crate::timeline_rig::Animator;
     use dragonfly::panels::keys::{BoneFlag, KeysRequest};
@@ -399,14 +448,22 @@ fn a_press_on_the_timeline_moves_the_time_before_it_is_a_click_or_a_drag() {
     assert_eq!(harness.state().state.time(), time);
 }
 
-#[test]
-fn the_palette_runs_what_is_found() {
+const PALETTE: &str = "Find a command or a take";
+
+/// The palette, with something typed into it.
+fn palette(text: &str) -> Harness<'static, Bench> {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
     harness.key_press(egui::Key::F3);
     harness.run_steps(4);
-    harness.get_by_label("Find a command").type_text("ground");
+    harness.get_by_label(PALETTE).type_text(text);
     harness.run_steps(4);
+    harness
+}
+
+#[test]
+fn the_palette_runs_what_is_found() {
+    let mut harness = palette("ground");
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);
     assert!(!harness.state().state.settings.look.grid);
@@ -414,32 +471,34 @@ fn the_palette_runs_what_is_found() {
 }
 
 #[test]
+fn the_palette_shows_a_take_that_is_searched() {
+    let mut harness = palette("");
+    assert!(harness.query_all_by_label("Walk").count() == 1, "in the list of takes alone");
+    harness.get_by_label(PALETTE).type_text("walk");
+    harness.run_steps(4);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(4);
+    assert_eq!(harness.state().state.playback.take, Some(1));
+    assert_eq!(harness.state().state.overlay, None);
+}
+
+#[test]
 fn the_palette_lists_what_is_called_so_before_what_is_about_it_and_shows_all_of_its_rows() {
-    let mut harness = harness(Bench::new(Some(fixture::full())));
-    harness.run_steps(4);
-    harness.key_press(egui::Key::F3);
-    harness.run_steps(4);
-    harness.get_by_label("Find a command").type_text("look");
-    harness.run_steps(4);
+    let harness = palette("look");
     let place = |label: &str| {
         let mut rows = harness.query_all_by_label(label);
         rows.next().unwrap_or_else(|| panic!("{label} is not listed")).rect()
     };
     let (called, about) = (place("Look at"), place("Unsaved work…"));
     assert!(called.top() < about.top(), "{called:?} {about:?}");
-    let card = place("Find a command");
+    let card = place(PALETTE);
     let rows = ((about.bottom() - card.bottom()) / style::ROW).floor();
     assert!(rows >= 2.0, "{rows} rows");
 }
 
 #[test]
 fn the_palette_finds_one_where_several_are_asked_for() {
-    let mut harness = harness(Bench::new(Some(fixture::full())));
-    harness.run_steps(4);
-    harness.key_press(egui::Key::F3);
-    harness.run_steps(4);
-    harness.get_by_label("Find a command").type_text("shortcuts");
-    harness.run_steps(4);
+    let mut harness = palette("shortcuts");
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);
     assert_eq!(harness.state().state.overlay, Some(dragonfly::panels::state::Overlay::Shortcuts));

@@ -136,8 +136,11 @@ fn any_text_is_looked_for() {
     let seed = seed(0x5ea4);
     println!("seed {seed}");
     let mut random = Random::new(seed);
-    for field in ["Find a bone", "Filter bones of the timeline"] {
-        let mut window = bench().window_of_any_text();
+    let names: Vec<String> = (0..20).map(|_| nasty::any(&mut random)).collect();
+    for field in ["Find a bone", "Filter bones of the timeline", "Find a take"] {
+        let takes: Vec<(&str, f32, usize)> = names.iter().map(|name| (name.as_str(), 1.0, 3)).collect();
+        let view = fixture::view("model", fixture::skeleton(9), &takes);
+        let mut window = Workbench::new(Some(view)).window_of_any_text();
         for _ in 0..times(1_000) {
             window.get_by_label(field).focus();
             window.event(Event::Text(nasty::any(&mut random)));

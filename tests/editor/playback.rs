@@ -55,6 +55,21 @@ fn the_last_frame_of_a_loop_can_be_looked_at() {
 }
 
 #[test]
+fn what_stands_may_stand_beside_the_take_and_what_plays_may_not() {
+    let now = Instant::now();
+    let plays = playback(now, 2.0, Repeat::Loop);
+    let stands = Playback { playing: false, ..plays };
+    for (wanted, standing, playing) in
+        [(7.5, 7.5, 3.0), (0.25, 0.25, 1.0), (-1.0, 0.0, 1.0), (1e9, 86_400.0, 3.0), (f32::NAN, 1.0, 1.0)]
+    {
+        assert_eq!(stands.seek(wanted, now).time_at(later(now, 9.0)), standing);
+        assert_eq!(plays.seek(wanted, now).time_at(now), playing);
+    }
+    // The rest pose has no time.
+    assert_eq!(Playback { take: None, ..Playback::rest(now) }.seek(2.0, now).time_at(now), 0.0);
+}
+
+#[test]
 fn pressing_anything_never_makes_the_time_jump() {
     let seed = seed(7);
     println!("seed {seed}");

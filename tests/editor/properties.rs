@@ -62,6 +62,35 @@ fn tab_goes_on_to_the_next_number_and_enter_gives_the_keys_back() {
 }
 
 #[test]
+fn after_enter_tab_goes_on_where_the_keyboard_was_last() {
+    let mut window = window();
+    let focused = |window: &Window| {
+        let root = window.root();
+        let node = root.children_recursive().find(|node| node.accesskit_node().is_focused());
+        node.and_then(|node| node.accesskit_node().label())
+    };
+    type_into(&mut window, "Translation result X", "1", Key::Enter);
+    assert_eq!(focused(&window), None);
+    window.key_press(Key::Tab);
+    window.run_steps(2);
+    assert_eq!(focused(&window).as_deref(), Some("Translation result Y"));
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::SHIFT, Key::Tab);
+    window.run_steps(3);
+    assert_eq!(focused(&window).as_deref(), Some("Translation result X"), "and back");
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    // A click begins anew, and what is gone cannot be gone on from.
+    window.get_by_label("Walk").click();
+    window.run_steps(2);
+    window.key_press(Key::Tab);
+    window.run_steps(2);
+    assert_eq!(focused(&window).as_deref(), Some("File"));
+    assert_eq!(window.state().steps(), (1, 1));
+}
+
+#[test]
 fn tab_goes_through_the_results_of_all_channels_before_it_comes_to_the_changes() {
     let mut window = window();
     window.get_by_label("Translation result X").click();
@@ -232,6 +261,21 @@ fn a_wrong_number_that_is_left_with_a_click_is_forgotten_and_says_so() {
     assert_eq!(window.state().changes, []);
     type_into(&mut window, "Scale result Y", "2", Key::Enter);
     assert!(!is_marked(&window.get_by_label("Scale result Y")));
+}
+
+#[test]
+fn that_a_number_was_refused_is_said_for_a_while_only() {
+    let mut window = window();
+    window.get_by_label("Scale result Y").click();
+    window.run_steps(2);
+    window.event(egui::Event::Text("2 +".to_owned()));
+    window.run_steps(1);
+    window.get_by_label("Find a bone").click();
+    window.run_steps(60);
+    assert!(is_marked(&window.get_by_label("Scale result Y")), "a second later it is still said");
+    window.run_steps(400);
+    assert!(!is_marked(&window.get_by_label("Scale result Y")), "seven seconds later it is not");
+    assert_eq!((value(&window, "Scale result Y"), window.state().steps()), (Some(1.0), (0, 0)));
 }
 
 #[test]

@@ -228,6 +228,7 @@ fn what_is_wrong_is_an_answer_and_the_conversation_goes_on() {
         (r#"{"edit":"fly"}"#, "fly"),
         (r#"{"do":"dance"}"#, "dance"),
         (r#"{"do":"edit","edit":{"edit":"delete_take","take":0,"twice":1}}"#, "twice"),
+        (r#"{"do":"edit","edit":{"edit":"rename_take","take":0,"name":""}}"#, "needs a name"),
         (r#"{"do":"undo"}"#, "no such step"),
         (r#"{"do":"go_to","steps":7}"#, "no such step"),
         (r#"{"do":"save"}"#, "has no file"),

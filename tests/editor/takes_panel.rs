@@ -64,6 +64,71 @@ fn start_and_length_are_asked_for_by_a_command_too() {
 }
 
 #[test]
+fn start_and_length_are_given_in_frames_too() {
+    let mut window = Workbench::full().window();
+    window.state_mut().state.settings.frame_rate = 24;
+    give(&mut window, Id::RetimeTake);
+    type_into(&mut window, "Length in frames", "48", Key::Enter);
+    let length = |window: &Window| window.state().state.view.as_ref().unwrap().takes[0].length;
+    assert_eq!(length(&window), 2.0);
+    type_into(&mut window, "Start in frames", "12", Key::Enter);
+    let take = &window.state().state.view.as_ref().unwrap().takes[0];
+    assert_eq!((take.start, take.length), (0.5, 2.0));
+    let shown = |window: &Window, field: &str| window.get_by_label(field).accesskit_node().numeric_value();
+    assert_eq!(shown(&window, "Length"), Some(2.0), "both show the same");
+    assert_eq!(shown(&window, "Start in frames"), Some(12.0));
+    // The last frame, though single precision puts it a hair behind the end.
+    type_into(&mut window, "Length", "1/3", Key::Enter);
+    type_into(&mut window, "To in frames", "20", Key::Enter);
+    assert_eq!(window.state().refused, [""; 0]);
+    assert!(window.get_by_label("To in frames").accesskit_node().data().invalid().is_none());
+}
+
+#[test]
+fn many_takes_are_searched_and_the_one_that_is_shown_is_in_sight() {
+    let names: Vec<String> =
+        (0..40).map(|index| format!("Rig|{}_{index:02}", ["Walk", "Run"][index % 2])).collect();
+    let takes: Vec<(&str, f32, usize)> = names.iter().map(|name| (name.as_str(), 1.0, 3)).collect();
+    let view = fixture::view("model", fixture::skeleton(3), &takes);
+    let mut window = Workbench::new(Some(view)).window();
+    let search = |window: &mut Window, text: &str| {
+        window.get_by_label("Find a take").focus();
+        window.run_steps(1);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        window.event(egui::Event::Text(text.to_owned()));
+        window.run_steps(3);
+    };
+    search(&mut window, "run_2");
+    assert!(window.query_by_label("Rig|Run_21").is_some() && window.query_by_label("Rig|Run_29").is_some());
+    assert!(window.query_by_label("Rig|Run_01").is_none() && window.query_by_label("Rest pose").is_none());
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert_eq!(shown(&window), Some(21), "Enter shows the first that is found");
+    search(&mut window, "nobody");
+    assert!(window.query_by_label("No take is called that").is_some());
+    window.get_by_label("Clear search").click();
+    window.run_steps(3);
+    window.get_by_label("Rest pose");
+    window.state_mut().state.show_take(Some(38));
+    window.run_steps(3);
+    let list = window.get_by_label("Rig|Walk_38").rect();
+    assert!(
+        window.query_by_label("Rest pose").is_none() && list.bottom() < 1000.0,
+        "it is scrolled to: {list:?}"
+    );
+    // A name is typed where it stands, though another one is searched.
+    search(&mut window, "run_03");
+    give(&mut window, Id::RenameTake);
+    assert!(window.query_by_label("Name of the take").is_some());
+}
+
+#[test]
+fn few_takes_are_not_searched() {
+    let window = Workbench::full().window();
+    assert!(window.query_by_label("Find a take").is_none());
+}
+
+#[test]
 fn a_take_is_renamed_where_it_stands() {
     let mut window = Workbench::full().window();
     window.get_by_label("Walk").click();
@@ -89,6 +154,14 @@ fn a_take_is_renamed_where_it_stands() {
     assert_eq!(names(&window)[1], "Stroll");
     assert!(window.query_by_label("Name of the take").is_some(), "an empty name is refused where it stands");
     assert!(window.query_by_label("A take needs a name").is_some());
+    window.event(egui::Event::Text("Run".to_owned()));
+    window.run_steps(1);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert!(
+        window.query_by_label("Another take is called \"Run\"").is_some(),
+        "and so is one that another has"
+    );
     window.key_press(Key::Escape);
     window.run_steps(3);
     assert!(window.query_by_label("Name of the take").is_none());

@@ -142,6 +142,59 @@ fn the_fields_take_sums_and_refuse_what_is_no_number() {
     }
 }
 
+#[test]
+fn a_selected_key_shows_its_value_where_several_components_are_drawn() {
+    let mut animator = Animator::with_bone(3);
+    let names = ["Value X", "Value Y", "Value Z", "Time of the key"];
+    let there = |animator: &Animator| names.map(|name| animator.harness.query_by_label(name).is_some());
+    assert_eq!(there(&animator), [false; 4], "without a key there is no number");
+    let at = place(&animator, 8);
+    animator.click(at);
+    // At this width there is room for one: that of the curve that was clicked.
+    assert_eq!(there(&animator), [false, false, true, true]);
+    animator.harness.get_by_label("Component Z").click();
+    animator.steps(2);
+    assert_eq!(there(&animator), [true, false, false, true], "what is not drawn is not shown");
+    animator.harness.set_size(vec2(1920.0, 1080.0));
+    animator.harness.get_by_label("Component Z").click();
+    animator.steps(4);
+    assert_eq!(there(&animator), [true; 4], "all of them where there is room");
+}
+
+#[test]
+fn the_numbers_of_a_key_are_dragged_as_one_step_and_given_up_with_escape() {
+    use egui_kittest::kittest::NodeT;
+    let mut animator = Animator::with_bone(3);
+    let at = place(&animator, 8);
+    animator.click(at);
+    let (value, time) = (angle(&animator, 8), animator.key(8));
+    let shown = |animator: &Animator, name: &str| {
+        animator.harness.get_by_label(name).accesskit_node().numeric_value().unwrap() as f32
+    };
+    assert!((shown(&animator, "Value Z") - value).abs() < 0.01);
+    let field = animator.harness.get_by_label("Value Z").rect().center();
+    animator.drag(field, field + vec2(30.0, 0.0));
+    let held = angle(&animator, 8);
+    assert!(held > value + 1.0, "{value} → {held}");
+    assert!((shown(&animator, "Value Z") - held).abs() < 0.01, "the number goes along");
+    animator.release(field + vec2(30.0, 0.0));
+    assert_eq!((angle(&animator, 8), animator.edited.steps().1), (held, 1));
+    let field = animator.harness.get_by_label("Time of the key").rect().center();
+    animator.drag(field, field + vec2(12.0, 0.0));
+    assert!(shown(&animator, "Time of the key") > time + 0.05);
+    animator.harness.key_press(Key::Escape);
+    animator.steps(3);
+    animator.release(field + vec2(12.0, 0.0));
+    assert_eq!(animator.edited.steps().1, 1, "Escape takes it back");
+    assert!((shown(&animator, "Time of the key") - time).abs() < 1e-3);
+    animator.drag(field, field + vec2(12.0, 0.0));
+    animator.release(field + vec2(12.0, 0.0));
+    assert_eq!((animator.edited.steps().1, animator.selected()), (2, 1));
+    let moved = shown(&animator, "Time of the key");
+    let frames = moved * animator.harness.state().state.settings.frame_rate as f32;
+    assert!(moved > time + 0.05 && (frames - frames.round()).abs() < 1e-3, "to a frame: {moved} s");
+}
+
 /// Turns a key of bone 3 about z, as a gizmo would.
 fn turn(animator: &mut Animator, key: usize, degrees: f32) {
     let edit = Edit::Set {

@@ -8,7 +8,7 @@ use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, Deed, KeysRequest};
 use dragonfly::playback::Repeat;
-use egui::{Key, Modifiers, PointerButton, vec2};
+use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 
 const FRAME: f32 = 1.0 / 30.0;
@@ -217,6 +217,58 @@ fn a_row_that_is_clicked_keeps_the_others_listed_until_something_else_is_selecte
     }
     animator.request(Request::Select(Some(3)));
     assert_eq!(rows(&animator), 1);
+}
+
+#[test]
+fn a_take_grows_where_a_pose_is_keyed_behind_its_end() {
+    let mut animator = Animator::with_bone(3);
+    animator.harness.state_mut().state.playback.playing = true;
+    animator.request(Request::Command(Id::NewTake));
+    let state = |animator: &Animator| animator.harness.state().state.take_bounds();
+    let time = |animator: &Animator| animator.harness.state().state.time();
+    assert_eq!(state(&animator), (0.0, 0.0), "one pose, and nothing to play");
+    animator.request(Request::Command(Id::PlayPause));
+    assert!(!animator.harness.state().state.playback.playing);
+    assert!(animator.said().ends_with("there is nothing to play"), "{}", animator.said());
+    // By a click in the ruler, by frames, by a number.
+    let ruler = animator.harness.get_by_label("Time track").rect();
+    let at = pos2(animator.x_in(animator.keys(), 0.5), ruler.center().y);
+    animator.click(at);
+    assert_eq!(time(&animator), 0.5);
+    for _ in 0..15 {
+        animator.request(Request::Command(Id::NextFrame));
+    }
+    assert!((time(&animator) - 1.0).abs() < 1e-6);
+    animator.request(Request::Command(Id::Key));
+    assert_eq!(state(&animator), (0.0, 1.0));
+    animator.request(Request::Seek(20.0));
+    let window = animator.harness.state().state.keys.window(animator.harness.state().state.take().unwrap());
+    assert!(
+        window.start <= 0.0 && window.start + window.length > 20.0,
+        "the playhead is in sight: {window:?}"
+    );
+    animator.request(Request::Command(Id::Key));
+    assert_eq!(state(&animator), (0.0, 20.0));
+    // Undone, time stays where the hand put it; playing begins at the begin.
+    animator.request(Request::Command(Id::Undo));
+    assert_eq!((state(&animator), time(&animator)), ((0.0, 1.0), 20.0));
+    animator.request(Request::Command(Id::PlayPause));
+    assert!(animator.harness.state().state.playback.playing && time(&animator) < 1.0);
+    animator.request(Request::Command(Id::PlayPause));
+    assert!(time(&animator) <= 1.0);
+}
+
+#[test]
+fn the_edge_of_the_ruler_is_the_end_of_the_take() {
+    let mut animator = Animator::with_bone(3);
+    let ruler = animator.harness.get_by_label("Time track").rect();
+    let middle = ruler.center();
+    for beyond in [-2.0, 60.0] {
+        animator.drag(middle, pos2(ruler.right() + beyond, middle.y));
+        animator.release(pos2(ruler.right() + beyond, middle.y));
+        let state = &animator.harness.state().state;
+        assert_eq!(state.time(), state.take().unwrap().end(), "{beyond} points beside the edge");
+    }
 }
 
 #[test]

@@ -67,7 +67,7 @@ impl Animator {
         for change in changes {
             self.changes.push(change.clone());
             let done = match change {
-                Change::Edit(edit, gesture) => match self.edited.apply(edit, gesture) {
+                Change::Edit(edit, gesture) => match self.edited.ask(edit, gesture) {
                     Ok(()) => true,
                     Err(_) => {
                         self.harness.state_mut().state.keys_refused();

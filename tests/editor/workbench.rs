@@ -95,7 +95,7 @@ impl Workbench {
         self.changes.push(change.clone());
         let (Some(edited), Some(view)) = (&mut self.edited, self.state.view.clone()) else { return };
         let _there_was_something_to_do = match change {
-            Change::Edit(edit, gesture) => match edited.apply(edit, gesture) {
+            Change::Edit(edit, gesture) => match edited.ask(edit, gesture) {
                 Ok(()) => true,
                 Err(error) => {
                     self.refused.push(error.to_string());

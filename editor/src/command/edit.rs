@@ -62,7 +62,8 @@ impl Command for Arguments {
         let mut adapter = ModelAdapter::new(&editable.model.animation);
         for (line, edit) in &edits {
             adapter
-                .apply(edit)
+                .allows(edit)
+                .and_then(|()| adapter.apply(edit))
                 .map_err(|error| Failure::input(self.edits_name(), format_args!("line {line}: {error}")))?;
         }
         let plan = if self.compact { editable.compact() } else { editable.plan(&adapter) };

@@ -63,6 +63,16 @@ impl Edited {
         (&self.steps, self.done)
     }
 
+    /// [`Self::apply`] where a person or a program asks for it now, and not a journal of what was done before.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be done or asked for; nothing has changed then.
+    pub fn ask(&mut self, edit: Edit, gesture: Option<Gesture>) -> Result<(), EditError> {
+        self.adapter.allows(&edit)?;
+        self.apply(edit, gesture)
+    }
+
     /// Does an edit as a step of its own, or as the newest form of a gesture: all edits of one gesture are one step,
     /// and each is meant for the document as it was when the gesture began.
     ///

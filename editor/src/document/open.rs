@@ -104,7 +104,7 @@ impl Open {
     pub(super) fn change(&mut self, change: Change, now: Instant) -> Result<bool, EditError> {
         let done = match change {
             Change::Edit(edit, gesture) => {
-                self.edited.apply(edit, gesture)?;
+                self.edited.ask(edit, gesture)?;
                 if let Some(step) = self.edited.steps().0.back() {
                     let edit = std::borrow::Cow::Borrowed(&step.edit);
                     self.keeper.record(&self.about, &Recorded::Edit { edit, gesture }, now);

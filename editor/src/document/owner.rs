@@ -8,6 +8,7 @@ use super::recovering::{Decision, Scan, Waiting};
 use super::saving::SaveOrder;
 use super::{Change, LoadError, Loader, Offer, Source, View, open_model};
 use crate::store::{Autosave, FileState};
+use crate::text::sentence;
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -367,10 +368,4 @@ impl Worker for Shared {
         }
         true
     }
-}
-
-/// With a capital letter, as it stands alone.
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

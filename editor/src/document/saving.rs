@@ -190,6 +190,7 @@ const FORMATS: [&str; 10] = ["glb", "gltf", "dfm", "fbx", "obj", "dae", "bvh", "
 /// Does a name not say that the file is of another format than that with this `ending`?
 ///
 /// # Errors
+///
 /// Why it should not be called so.
 pub fn fits(path: &Path, ending: &str) -> Result<(), String> {
     let is = |format: &&str| path.extension().is_some_and(|other| other.eq_ignore_ascii_case(format));

@@ -20,9 +20,11 @@ impl State {
     pub fn execute(&mut self, request: Request) -> Option<Effect> {
         let said = self.status.said();
         let effect = self.perform(request);
-        if let Some(Effect::Change(Change::Edit(Edit::TrimTake { to_start: true, .. }, _))) = &effect {
-            // What played is all there is then, and lies elsewhere.
+        if let Some(Effect::Change(Change::Edit(Edit::TrimTake { from, to, to_start: true, .. }, _))) = effect
+        {
+            // What played is all there is then, and lies elsewhere; so does the time that is shown.
             self.keys_request(KeysRequest::Range(None));
+            self.seek(self.time().clamp(from, to) - from + self.take_bounds().0);
         }
         if matches!(effect, Some(Effect::Change(_))) {
             self.status.keep_last(self.status.said() != said);
@@ -296,9 +298,15 @@ impl State {
             let time = self.time();
             return self.stop_at(if self.keys.snap { dope::to_frame(time, self) } else { time });
         }
+        let (start, length) = self.play_bounds();
+        if length <= 0.0 {
+            return self.status.say(Level::Info, "All keys are at one time: there is nothing to play");
+        }
+        let beside = !(start..=start + length).contains(&self.time());
+        (self.playback.start, self.playback.length) = (start, length);
         self.playback = self.playback.with(true, speed, repeat, now);
-        // A take that arrived at its end starts again.
-        if repeat == Repeat::Once && self.playback.at_end(now) {
+        // What stands beside the take, or arrived at its end, starts again.
+        if beside || (repeat == Repeat::Once && self.playback.at_end(now)) {
             let begin = self.playback.start + if direction < 0.0 { self.playback.length } else { 0.0 };
             self.playback = self.playback.seek(begin, now);
         }
@@ -306,12 +314,14 @@ impl State {
 
     fn seek(&mut self, time: f32) {
         self.playback = self.playback.seek(time, self.now);
+        self.bring_into_sight();
     }
 
     /// Goes to `time` and stays there: who steps wants to look.
     pub(super) fn stop_at(&mut self, time: f32) {
         let (speed, repeat) = (self.playback.speed, self.playback.repeat);
         self.playback = self.playback.with(false, speed, repeat, self.now).seek(time, self.now);
+        self.bring_into_sight();
     }
 
     fn step_frame(&mut self, direction: i64) {

@@ -1,12 +1,11 @@
 //! At how many frames a second the keys of a model were made, guessed from where they lie: files do not say it.
 
+use super::settings::FRAME_RATES;
 use super::state::State;
 use super::status::Level;
 use dragonfly_anim::data::Take;
 use std::sync::Arc;
 
-/// What animations are made at, the most usual first among those of which one holds the other's frames.
-const RATES: [u32; 8] = [24, 25, 30, 48, 50, 60, 100, 120];
 /// Parts of a frame: further from a whole one is not on it. Times are written in single precision, and often rounded.
 const ON: f64 = 0.02;
 /// Keys that are looked at, of a channel and of a take, and takes.
@@ -56,7 +55,8 @@ fn rate_of_take(take: &Take, now: u32) -> Option<Option<u32>> {
     if apart.len() < LEAST {
         return None;
     }
-    Some([now].into_iter().chain(RATES).find(fits))
+    // Of rates of which one holds the other's frames the lower one comes first.
+    Some([now].iter().chain(FRAME_RATES).copied().find(fits))
 }
 
 #[cfg(test)]
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn keys_say_at_which_rate_they_were_made() {
         let every = |rate: f32| take((0..40).map(|key| key as f32 / rate));
-        for (rate, now) in [(24, 30), (25, 30), (30, 24), (60, 24), (60, 30), (120, 30)] {
+        for (rate, now) in [(24, 30), (25, 30), (30, 24), (60, 24), (60, 30), (100, 30), (120, 30)] {
             assert_eq!(rate_of(&every(rate as f32), now), Some(rate), "{rate}");
         }
         // Where those that are counted in will do, they stay.

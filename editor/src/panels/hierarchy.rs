@@ -3,13 +3,13 @@
 use super::digest::Row;
 use super::icons::Icon;
 use super::state::{Request, State};
-use super::style::{GRID, ROW};
+use super::style::ROW;
 use super::theme::Theme;
-use super::{Panel, Place, widgets};
+use super::{Panel, Place, search_field, widgets};
 use crate::control::bones::Choice;
 use crate::document::LoadedModel;
 use dragonfly_anim::data::BoneIndex;
-use egui::{Rect, ScrollArea, Sense, TextEdit, TextStyle, Ui, pos2, vec2};
+use egui::{Rect, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ impl Panel for Hierarchy {
         if state.digest.rows.is_empty() {
             return widgets::empty(ui, "No bones", "This model has nothing that moves");
         }
-        let entered = self.search(ui, state);
+        let entered = search_field::show(ui, &mut self.query, "Find a bone", state.find);
         let rows = self.visible(state);
         if entered {
             let found = self.best(state, &rows);
@@ -63,44 +63,6 @@ impl Panel for Hierarchy {
 }
 
 impl Hierarchy {
-    /// The field; was what it finds taken with Enter?
-    fn search(&mut self, ui: &mut Ui, state: &State) -> bool {
-        let theme = Theme::of(ui);
-        ui.add_space(GRID);
-        let mut entered = false;
-        ui.horizontal(|ui| {
-            ui.add_space(2.0 * GRID);
-            let width = ui.available_width() - 2.0 * GRID;
-            let field = TextEdit::singleline(&mut self.query)
-                .hint_text("Find a bone")
-                .desired_width(width)
-                .margin(egui::Margin { left: 26, right: 24, top: 4, bottom: 4 });
-            let response = ui.add(field).accessible_name("Find a bone");
-            let rect = response.rect;
-            let lens = Rect::from_center_size(pos2(rect.left() + 13.0, rect.center().y), vec2(16.0, 16.0));
-            Icon::Search.paint(ui.painter(), lens, theme.faint);
-            if state.find {
-                response.request_focus();
-            }
-            entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-            if !self.query.is_empty() {
-                let cross =
-                    Rect::from_center_size(pos2(rect.right() - 13.0, rect.center().y), vec2(20.0, 20.0));
-                let clear = ui.interact(cross, response.id.with("clear"), Sense::click());
-                clear.widget_info(|| {
-                    egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, "Clear search")
-                });
-                let color = if clear.hovered() { theme.text } else { theme.weak };
-                Icon::Close.paint(ui.painter(), cross, color);
-                if clear.clicked() {
-                    self.query.clear();
-                }
-            }
-        });
-        ui.add_space(GRID);
-        entered
-    }
-
     /// What Enter takes: the bone that is called just so, else the first that is found.
     fn best(&self, state: &State, rows: &[(Row, bool)]) -> Option<BoneIndex> {
         let query = self.query.trim().to_lowercase();

@@ -154,8 +154,8 @@ impl Default for HandSettings {
     }
 }
 
-/// Frame rates that can be chosen for the display of time.
-pub const FRAME_RATES: &[u32] = &[24, 25, 30, 48, 50, 60, 90, 120];
+/// Frame rates that can be chosen for the display of time, ascending.
+pub const FRAME_RATES: &[u32] = &[24, 25, 30, 48, 50, 60, 90, 100, 120];
 /// Smallest and largest scale of the window's content.
 pub const SCALES: std::ops::RangeInclusive<f32> = 0.75..=2.0;
 /// Slowest and fastest playback.

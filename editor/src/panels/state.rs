@@ -252,7 +252,8 @@ impl State {
         self.show_take(has_takes.then_some(0));
         // Who has work brought back wants to go on where it stood.
         let restored = self.view.as_ref().is_some_and(|view| !view.history.steps.is_empty());
-        let plays = has_takes && !restored && self.question().is_none();
+        let moves = self.take_bounds().1 > 0.0;
+        let plays = moves && !restored && self.question().is_none();
         self.playback = self.playback.with(plays, self.settings.speed, self.settings.repeat, self.now);
         self.frame_model();
         self.framed = true;
@@ -273,6 +274,8 @@ impl State {
         let bounds = self.take_of(index).map(|take| (take.start, take.length));
         self.playback.take = bounds.and(index);
         (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
+        // A single pose does not play, and in it time can be moved to where the next one shall be.
+        self.playback.playing &= bounds.is_none_or(|(_, length)| length > 0.0);
         self.playback = self.playback.seek(self.playback.start, self.now);
     }
 
@@ -286,7 +289,9 @@ impl State {
             return;
         }
         self.playback.take = bounds.and(self.playback.take);
-        (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
+        let (start, length) = bounds.unwrap_or((0.0, 0.0));
+        (self.playback.start, self.playback.length) = (start, length);
+        self.playback.playing &= length > 0.0;
         self.playback = self.playback.seek(time, self.now);
     }
 

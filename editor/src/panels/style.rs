@@ -26,8 +26,9 @@ pub const NUMBER: f32 = 12.0;
 /// Size of captions and ticks.
 pub const SMALL: f32 = 11.0;
 
-/// Installs fonts and both themes.
+/// Installs fonts and both themes, and the way that Tab goes.
 pub fn install(context: &Context) {
+    context.add_plugin(super::tab::TabGoesOn::default());
     context.set_fonts(fonts());
     for theme in [egui::Theme::Dark, egui::Theme::Light] {
         context.style_mut_of(theme, |style| apply(style, Theme::get(theme == egui::Theme::Dark)));

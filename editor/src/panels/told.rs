@@ -1,7 +1,7 @@
 //! What was done to the document, for the line at the bottom: each step once, when it begins, when it is taken back, and
 //! when it is done again.
 
-use super::widgets::count;
+use super::widgets::{count, grouped};
 use crate::document::{HistoryView, View};
 use std::sync::Arc;
 
@@ -27,6 +27,22 @@ pub(super) fn between(old: &View, new: &View) -> Option<String> {
     }
     let last = now.done.checked_sub(1)?;
     Some([Some(step(now, last)), keys(old, new)].into_iter().flatten().collect::<Vec<_>>().join("  ·  "))
+}
+
+/// What keys that were moved, copied or pasted came to, where they took the place of others; `None` where they did not.
+/// The take had `before` keys, was to get `brought` more, and has `now`.
+pub(super) fn replaced(view: &View, before: usize, brought: usize, now: usize) -> Option<String> {
+    let replaced = (before + brought).checked_sub(now).filter(|&keys| keys > 0)?;
+    let last = view.history.done.checked_sub(1)?;
+    let more = now.checked_sub(before).filter(|&keys| keys > 0).map(|keys| format!("{} more", grouped(keys)));
+    let replaced = format!("{} replaced", count(replaced, "key", "keys"));
+    Some(
+        [Some(step(&view.history, last)), more, Some(replaced)]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join("  ·  "),
+    )
 }
 
 /// Are they the same steps, however many of them are done?

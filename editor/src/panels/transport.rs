@@ -9,12 +9,12 @@ use super::style::{CONTROL, GRID};
 use super::theme::Theme;
 use super::widgets::{command_button, icon_button};
 use crate::control::expression::{Quantity, evaluate};
-use crate::playback::Repeat;
+use crate::playback::{LATEST, Repeat};
 use egui::{Align, Button, DragValue, Layout, RichText, Ui, vec2};
 
 /// Draws the bar.
 pub(super) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-    let able = state.playback.take.is_some() && state.take_bounds().1 > 0.0;
+    let able = state.playback.take.is_some();
     ui.horizontal(|ui| {
         ui.set_height(32.0);
         ui.add_space(2.0 * GRID);
@@ -42,10 +42,12 @@ fn buttons(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     command_button(ui, Icon::First, Id::Start, false, requests);
     command_button(ui, Icon::KeyBack, Id::PreviousKey, false, requests);
     command_button(ui, Icon::FrameBack, Id::PreviousFrame, false, requests);
-    let icon = if backward { Icon::Pause } else { Icon::Reverse };
-    command_button(ui, icon, Id::PlayBackwards, backward, requests);
-    let icon = if forward { Icon::Pause } else { Icon::Play };
-    command_button(ui, icon, Id::PlayPause, forward, requests);
+    ui.add_enabled_ui(state.take_bounds().1 > 0.0, |ui| {
+        let icon = if backward { Icon::Pause } else { Icon::Reverse };
+        command_button(ui, icon, Id::PlayBackwards, backward, requests);
+        let icon = if forward { Icon::Pause } else { Icon::Play };
+        command_button(ui, icon, Id::PlayPause, forward, requests);
+    });
     command_button(ui, Icon::FrameForward, Id::NextFrame, false, requests);
     command_button(ui, Icon::KeyForward, Id::NextKey, false, requests);
     command_button(ui, Icon::Last, Id::End, false, requests);
@@ -111,17 +113,20 @@ fn time(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     ui.label(RichText::new(format!("/ {last}")).monospace().color(theme.weak));
     let mut frame = ruler::frame_of(state.time(), rate);
     let field = DragValue::new(&mut frame)
-        .range(ruler::frame_of(start, rate)..=last)
+        .range(ruler::frame_of(start.min(0.0), rate)..=ruler::frame_of(LATEST, rate))
         .speed(0.2)
         .update_while_editing(false)
         .custom_parser(number);
     let response = ui.add_sized(vec2(48.0, CONTROL), field).accessible_name("Frame");
-    if response.on_hover_text("Frame\nDrag, or click to type; 3*30+12 is fine").changed() {
+    if response
+        .on_hover_text("Frame\nDrag, or click to type; 3*30+12 is fine, and so is a frame behind the end")
+        .changed()
+    {
         requests.push(Request::Seek(ruler::time_of(frame, rate)));
     }
     let mut seconds = state.time();
     let field = DragValue::new(&mut seconds)
-        .range(start..=start + length)
+        .range(start.min(0.0)..=LATEST)
         .speed(0.005)
         .fixed_decimals(3)
         .suffix(" s")

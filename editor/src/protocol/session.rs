@@ -51,7 +51,7 @@ impl Session {
         };
         let done = match deed {
             Deed::Edit { edit, gesture } => {
-                self.edited.apply(edit.clone(), *gesture).map_err(|error| error.to_string())?;
+                self.edited.ask(edit.clone(), *gesture).map_err(|error| error.to_string())?;
                 true
             }
             Deed::Cancel { gesture } => self.edited.cancel(*gesture),

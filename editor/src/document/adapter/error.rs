@@ -62,6 +62,12 @@ pub enum EditError {
     /// A take keeps a key.
     #[error("a take keeps at least one key")]
     LastKey,
+    /// A name of nothing but spaces.
+    #[error("a take needs a name")]
+    NoName,
+    /// The name of another take.
+    #[error("another take is called {0:?}")]
+    NameTaken(String),
     /// A document keeps a take.
     #[error("a model keeps at least one take")]
     LastTake,

@@ -21,6 +21,7 @@ mod check;
 mod drag;
 mod error;
 mod kind;
+mod name;
 mod op;
 mod pending;
 mod plan;
@@ -32,6 +33,7 @@ pub use check::Broken;
 pub(in crate::document) use drag::Drag;
 pub use error::EditError;
 pub use kind::Numbers;
+pub use name::take_name;
 pub use pending::{Pending, PendingAt, PendingPose};
 pub use slot::{Changes, Slot, TakeId};
 

@@ -17,6 +17,8 @@ use std::sync::Arc;
 #[derive(Debug, Default)]
 pub(super) struct Hand {
     doing: Doing,
+    /// Of which component a key was taken hold of last.
+    component: usize,
 }
 
 #[derive(Debug, Default)]
@@ -95,6 +97,11 @@ impl OnKey {
 }
 
 impl Hand {
+    /// Of which component a key was taken hold of last, x first.
+    pub(super) fn component(&self) -> usize {
+        self.component
+    }
+
     pub(super) fn is_busy(&self) -> bool {
         !matches!(self.doing, Doing::Nothing)
     }
@@ -141,7 +148,11 @@ impl Hand {
             Doing::Nothing if input.pans => self.doing = Doing::Spent,
             Doing::Nothing => {
                 let at = input.pressed_at.unwrap_or(pointer);
-                self.doing = Doing::Pressed { at, on: within.under(at), modifiers: input.modifiers };
+                let on = within.under(at);
+                if let On::Key(key) = &on {
+                    self.component = key.component;
+                }
+                self.doing = Doing::Pressed { at, on, modifiers: input.modifiers };
             }
             Doing::Pressed { at, .. } if at.distance(pointer) > DRAG => {
                 self.begin(pointer, within, requests);

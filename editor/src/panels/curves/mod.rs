@@ -2,6 +2,7 @@
 
 mod axis;
 mod curve;
+mod fields;
 mod form;
 mod hand;
 mod paint;
@@ -19,6 +20,7 @@ use axis::{ValueScale, ValueWindow};
 use egui::{
     Align2, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2,
 };
+use fields::{About, Fields};
 use hand::{Hand, Within};
 use paint::CurveMesh;
 use shown::Shown;
@@ -33,6 +35,7 @@ pub struct Curves {
     mesh: CurveMesh,
     tangents: Tangents,
     hand: Hand,
+    fields: Fields,
     scrub: Scrub,
     /// Which values are shown; none until there are curves to fit.
     window: Option<ValueWindow>,
@@ -74,7 +77,12 @@ impl Panel for Curves {
         if let Some(drawn) = &drawn {
             self.follow(ui, state, drawn);
         }
-        let fit = toolbar::show(ui, &mut self.chosen, &self.mesh.drawn, drawn.as_ref(), state, requests);
+        let (fields, curves, component) = (&mut self.fields, &self.mesh.drawn, self.hand.component());
+        let window = self.window.unwrap_or_default();
+        let fit = toolbar::show(ui, &mut self.chosen, curves, state, requests, |ui, chosen, requests| {
+            let Some(drawn) = &drawn else { return };
+            fields.show(ui, &About { chosen, curves, drawn, window, component, state }, requests);
+        });
         let rect = ui.available_rect_before_wrap();
         if rect.height() < HEAD + 24.0 || rect.width() < STRIP + 40.0 {
             return;

@@ -1,24 +1,20 @@
-//! Over the curves: which of them, how rotations are read, what lies between keys, the numbers of the selected key.
+//! Over the curves: which of them, how rotations are read, what lies between keys.
 
 use super::curve::Curve;
 use super::form::Form;
 use super::hand::component_name;
 use super::paint::color;
 use super::shown::bit;
-use super::values::{ValueKey, value_edit};
-use crate::control::expression::{Quantity, evaluate};
-use crate::document::Change;
 use crate::document::edit::{Between, Property};
 use crate::panels::commands::{self, Id};
 use crate::panels::icons::Icon;
-use crate::panels::keys::{Deed, Drawn, KeysRequest};
 use crate::panels::state::{Request, State};
 use crate::panels::style::{CONTROL, GRID, RADIUS};
 use crate::panels::theme::Theme;
 use crate::panels::widgets::{self, icon_button};
 use dragonfly_anim::data::Interpolation;
 use egui::accesskit::Role;
-use egui::{Align2, Button, Color32, CornerRadius, DragValue, FontId, RichText, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align2, Button, Color32, CornerRadius, FontId, RichText, Sense, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
 
 /// What the person chose to see.
@@ -40,14 +36,14 @@ impl Default for Chosen {
 /// Height of the bar.
 pub(super) const HEIGHT: f32 = 32.0;
 
-/// Draws the bar; was "fit" asked for?
+/// Draws the bar, and at its right end what `rest` draws; was "fit" asked for?
 pub(super) fn show(
     ui: &mut Ui,
     chosen: &mut Chosen,
     curves: &[Arc<Curve>],
-    drawn: Option<&Drawn>,
     state: &State,
     requests: &mut Vec<Request>,
+    rest: impl FnOnce(&mut Ui, &Chosen, &mut Vec<Request>),
 ) -> bool {
     let mut fit = false;
     ui.horizontal(|ui| {
@@ -98,13 +94,10 @@ pub(super) fn show(
         {
             fit = true;
         }
-        if let Some(drawn) = drawn {
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                ui.add_space(2.0 * GRID);
-                ui.spacing_mut().item_spacing.x = GRID;
-                fields(ui, chosen, curves, drawn, state, requests);
-            });
-        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.add_space(2.0 * GRID);
+            rest(ui, chosen, requests);
+        });
     });
     fit
 }
@@ -158,73 +151,6 @@ fn between(ui: &mut Ui, curves: &[Arc<Curve>], state: &State, requests: &mut Vec
             }
         });
     }
-}
-
-/// Right to left: value and time of the one key that is selected.
-fn fields(
-    ui: &mut Ui,
-    chosen: &Chosen,
-    curves: &[Arc<Curve>],
-    drawn: &Drawn,
-    state: &State,
-    requests: &mut Vec<Request>,
-) {
-    if ui.available_width() < 148.0 {
-        return;
-    }
-    let Some((curve, key)) = only_key(curves, drawn) else { return };
-    let angle = curve.id.1 == Property::Rotation && curve.form() != Form::Quaternion;
-    let mut shown = (0..curve.width()).filter(|at| chosen.components & (1 << at) != 0);
-    let component = shown.next().unwrap_or(0);
-    let single = shown.next().is_none();
-    let numbers = curve.key(key);
-    if single {
-        let mut value = f64::from(numbers[component]);
-        let quantity = if angle { Quantity::Angle } else { Quantity::Number };
-        let field = DragValue::new(&mut value)
-            .speed(0.0)
-            .max_decimals(4)
-            .update_while_editing(false)
-            .custom_parser(move |text| evaluate(text, quantity).ok());
-        let name = format!("Value {}", component_name(component));
-        let response = ui.add_sized(vec2(68.0, CONTROL), field).accessible_name(name);
-        if response.on_hover_text("Value of the selected key\nClick to type; 45/2 is fine").changed()
-            && let (Some(take), Some(was)) = (state.take_ref(), ValueKey::of(curve, key))
-            && let Some(edit) = value_edit(take, &[was], component, value as f32 - numbers[component])
-        {
-            requests.push(Request::Change(Change::Edit(edit, None)));
-        }
-    }
-    let mut time = f64::from(curve.times()[key]);
-    let was = time;
-    let field = DragValue::new(&mut time)
-        .speed(0.0)
-        .max_decimals(4)
-        .suffix(" s")
-        .update_while_editing(false)
-        .custom_parser(|text| evaluate(text.trim_end_matches('s').trim(), Quantity::Number).ok());
-    let response = ui.add_sized(vec2(72.0, CONTROL), field).accessible_name("Time of the key");
-    if response.on_hover_text("Time of the selected key, seconds\nClick to type").changed() {
-        requests.push(Request::Timeline(KeysRequest::Drag(Deed::Move((time - was) as f32))));
-        requests.push(Request::Timeline(KeysRequest::Release));
-    }
-}
-
-/// The key that is selected, where it is one alone among the curves shown.
-fn only_key<'a>(curves: &'a [Arc<Curve>], drawn: &Drawn) -> Option<(&'a Arc<Curve>, usize)> {
-    let mut found = None;
-    for curve in curves {
-        let chosen = drawn.selection.of(curve.id);
-        if chosen.is_empty() {
-            continue;
-        }
-        let keys = chosen.keys(curve.times()).next()?;
-        if found.is_some() || keys.len() != 1 || chosen.stretches().len() > 1 {
-            return None;
-        }
-        found = Some((curve, keys.start));
-    }
-    found.filter(|(curve, key)| *key < curve.times().len())
 }
 
 fn divider(ui: &mut Ui) {

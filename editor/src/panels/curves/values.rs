@@ -21,6 +21,11 @@ impl ValueKey {
         Some(Self { id: curve.id, time, numbers: curve.key(key), form: curve.form() })
     }
 
+    /// How many numbers it has.
+    pub(super) fn width(&self) -> usize {
+        if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
+    }
+
     /// The pose that gives it these numbers.
     pub(super) fn pose(&self, numbers: Numbers) -> BonePose {
         let mut pose =

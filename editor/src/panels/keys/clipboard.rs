@@ -21,8 +21,15 @@ pub const MOST: usize = 100_000;
 /// Longest text that is looked at, bytes: that many keys fit in.
 const LONGEST: usize = 64 << 20;
 
-/// Keys that are selected once they are there: in a view newer than this.
-pub(super) type Awaited = (u64, Vec<(ChannelId, Vec<[f32; 2]>)>);
+/// Keys that are selected once they are there.
+#[derive(Clone, Debug)]
+pub(super) struct Awaited {
+    /// They are in a view newer than this.
+    generation: u64,
+    /// How many keys the take had before.
+    before: usize,
+    parts: Vec<(ChannelId, Vec<[f32; 2]>)>,
+}
 
 /// What is written.
 #[derive(Serialize, Deserialize)]
@@ -168,7 +175,8 @@ impl State {
             }
             BoneRef::Name(_) => None,
         });
-        self.keys.awaited = Some((generation, parts.collect()));
+        let (before, parts) = (self.take().map_or(0, Take::keys), parts.collect());
+        self.keys.awaited = Some(Awaited { generation, before, parts });
         Some(Effect::Change(Change::Edit(Edit::PasteKeys { take, time, channels }, None)))
     }
 
@@ -176,17 +184,19 @@ impl State {
     pub(super) fn select_pasted(&mut self, generation: u64) {
         let Some(slot) = self.slot() else { return };
         // A view that was on its way when they were pasted has not got them yet.
-        let there = |(before, parts): &Awaited| {
+        let there = |awaited: &Awaited| {
             let is_key = |bone, property, time| slot.key_at(bone, property, time).is_some();
             let any = |times: &[[f32; 2]], bone, property| {
                 times.iter().any(|[time, _]| is_key(bone, property, *time))
             };
-            generation > *before && parts.iter().any(|((bone, property), times)| any(times, *bone, *property))
+            generation > awaited.generation
+                && awaited.parts.iter().any(|((bone, property), times)| any(times, *bone, *property))
         };
         if self.keys.awaited.as_ref().is_some_and(there)
-            && let Some((_, parts)) = self.keys.awaited.take()
+            && let Some(Awaited { before, parts, .. }) = self.keys.awaited.take()
         {
             self.select_parts(&parts, Choice::Replace);
+            self.tell_replaced(before, parts.iter().map(|(_, times)| times.len()).sum());
         }
     }
 }

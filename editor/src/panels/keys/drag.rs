@@ -170,6 +170,16 @@ impl KeyDrag {
         self.released && (self.sent.is_none() || generation >= self.expects || late)
     }
 
+    /// Keys that it was to add to the take; `None` where it brought none anywhere.
+    pub fn brings(&self) -> Option<usize> {
+        self.sent.as_ref()?;
+        match self.deed {
+            Deed::Duplicate(_) => Some(self.moving.count(&self.base)),
+            Deed::Move(_) | Deed::Scale { .. } | Deed::Snap(_) => Some(0),
+            Deed::Ripple { .. } | Deed::Edit(_) => None,
+        }
+    }
+
     /// The keys that moved, in the take as it is now.
     pub fn moved(&self, take: &Take) -> KeySelection {
         match self.deed {

@@ -29,6 +29,7 @@ pub use window::{TimeScale, TimeWindow};
 
 use super::settings::TimelineSettings;
 use super::state::State;
+use super::told;
 use crate::document::View;
 use drag::KeyDrag;
 use dragonfly_anim::data::{BoneIndex, Take};
@@ -215,6 +216,18 @@ impl State {
                 (Some(take), Deed::Ripple { from, by }) => self.keys.selection.rippled(take, *from, *by),
                 _ => self.keys.selection.clone(),
             };
+            if let Some(brought) = drag.brings() {
+                self.tell_replaced(drag.base.keys(), brought);
+            }
+        }
+    }
+
+    /// Says how many keys of the take gave way to others.
+    fn tell_replaced(&mut self, before: usize, brought: usize) {
+        let now = self.take().map_or(0, Take::keys);
+        let told = self.view.as_ref().and_then(|view| told::replaced(view, before, brought, now));
+        if let Some(text) = told {
+            self.status.remark(text);
         }
     }
 

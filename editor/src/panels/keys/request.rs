@@ -59,6 +59,9 @@ pub enum KeysRequest {
     Range(Option<[f32; 2]>),
 }
 
+/// Part of the window that is left beside the playhead when that is brought into sight.
+const ROOM: f64 = 0.1;
+
 impl State {
     /// Does what a panel asked for.
     pub(in crate::panels) fn keys_request(&mut self, request: KeysRequest) -> Option<Effect> {
@@ -138,8 +141,27 @@ impl State {
 
     fn show_window(&mut self, window: Option<TimeWindow>) {
         let Some(take) = self.take() else { return };
-        let (first, last) = (f64::from(take.start), f64::from(take.end()));
+        let (first, last) = (f64::from(take.start), f64::from(take.end().max(self.time())));
         self.keys.window = window.map(|window| window.mended().near(first, last));
+    }
+
+    /// Shows the part of time with the playhead, where that stands and is out of sight.
+    pub(in crate::panels) fn bring_into_sight(&mut self) {
+        let Some(take) = self.take().filter(|_| !self.playback.playing) else { return };
+        let (time, window) = (f64::from(self.time()), self.keys.window(take));
+        let end = window.start + window.length;
+        if (window.start..=end).contains(&time) {
+            return;
+        }
+        self.show_window(Some(match self.keys.window {
+            // Who looks at a part goes on looking at as much.
+            Some(window) if time > end => window.panned(time - end + window.length * ROOM),
+            Some(window) => window.panned(time - window.start - window.length * ROOM),
+            None => {
+                let (first, last) = (window.start.min(time), end.max(time));
+                TimeWindow { start: first, length: (last - first) * (1.0 + ROOM) }
+            }
+        }));
     }
 
     /// A drag begins or goes on.

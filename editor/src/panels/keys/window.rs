@@ -14,6 +14,8 @@ pub struct TimeWindow {
 /// Seconds: the shortest and the longest part of time that can be shown.
 const SHORTEST: f64 = 0.01;
 const LONGEST: f64 = 1e6;
+/// Seconds: so much can be shown of any take, however short it is.
+const GROWS: f64 = 15.0;
 
 impl TimeWindow {
     /// A whole take; one second where it is a single pose.
@@ -41,10 +43,10 @@ impl TimeWindow {
         Self { start: self.start + by, ..self }.mended()
     }
 
-    /// At least a part of `first..=last` stays in sight, and no more than three times as much is shown.
+    /// At least a part of `first..=last` stays in sight, and no more than three times as much is shown, or what a short take
+    /// may grow to.
     pub fn near(self, first: f64, last: f64) -> Self {
-        let span = (last - first).max(1.0);
-        let length = self.length.min(span * 3.0).max(SHORTEST);
+        let length = self.length.min(((last - first) * 3.0).max(GROWS)).max(SHORTEST);
         let start = self.start.clamp(first - length * 0.9, (last - length * 0.1).max(first - length * 0.9));
         Self { start, length }.mended()
     }

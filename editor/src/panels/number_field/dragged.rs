@@ -17,18 +17,18 @@ impl NumberField<'_> {
             match self.read(&typing.text) {
                 Ok(value) => heard = Heard::Typed(value),
                 Err(reason) => {
-                    let refused = Refused::new(reason, self.value);
+                    let refused = Refused::new(ui, reason, self.value);
                     ui.data_mut(|data| data.insert_temp(id, refused));
                 }
             }
         }
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        let refused = ui.data_mut(|data| {
-            let refused = data.remove_temp::<Refused>(id)?.next(self.value)?;
-            data.insert_temp(id, refused.clone());
-            Some(refused)
-        });
+        let before = ui.data_mut(|data| data.remove_temp::<Refused>(id));
+        let refused = before.and_then(|refused| refused.next(ui, self.value));
+        if let Some(refused) = &refused {
+            ui.data_mut(|data| data.insert_temp(id, refused.clone()));
+        }
         self.paint(ui, rect, &response, refused.as_ref());
         self.describe(ui, &response, refused.as_ref().map(|refused| refused.reason.as_str()));
         if response.clicked() {

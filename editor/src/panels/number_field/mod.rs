@@ -11,8 +11,10 @@ mod typed;
 
 use super::number_text::Digits;
 use crate::control::expression::{Quantity, evaluate};
+use crate::text::sentence;
 use egui::{Id, Rect, Response, Sense, Ui};
 use std::ops::RangeInclusive;
+use std::time::Duration;
 
 /// Longest text that a field takes, letters.
 const LONGEST: usize = 1000;
@@ -85,23 +87,34 @@ struct Drag {
     told: f64,
 }
 
-/// What was refused when the cursor left the field, as long as the number stays the same.
+/// Seconds for which a field says that a number was refused, once the cursor has left it: nothing is wrong any more, since
+/// the old number stands there.
+const REFUSED: f64 = 6.0;
+
+/// What was refused when the cursor left the field; said for a while, as long as the number stays the same.
 #[derive(Clone, Debug, Default)]
 struct Refused {
     reason: String,
     value: Option<f64>,
+    /// egui's seconds at which it is forgotten.
+    until: f64,
     /// Frames in which the number may still become another one without anybody having changed it: fields that belong
     /// together show what was typed until the cursor has left them, as the parts of a quaternion do.
     settles: u8,
 }
 
 impl Refused {
-    fn new(reason: String, value: Option<f64>) -> Self {
-        Self { reason, value, settles: 2 }
+    fn new(ui: &Ui, reason: String, value: Option<f64>) -> Self {
+        Self { reason, value, until: ui.input(|input| input.time) + REFUSED, settles: 2 }
     }
 
     /// What is left of it in the next frame, in which the field shows `value`.
-    fn next(self, value: Option<f64>) -> Option<Self> {
+    fn next(self, ui: &Ui, value: Option<f64>) -> Option<Self> {
+        let left = self.until - ui.input(|input| input.time);
+        if left <= 0.0 {
+            return None;
+        }
+        ui.ctx().request_repaint_after(Duration::from_secs_f64(left));
         match self.settles {
             0 => Some(self).filter(|refused| refused.value == value),
             settles => Some(Self { value, settles: settles - 1, ..self }),
@@ -109,9 +122,9 @@ impl Refused {
     }
 }
 
-/// Shows at a field why the number typed last was not taken, as long as its number stays the same.
+/// Shows at a field for a while why the number typed last was not taken.
 pub fn refuse(ui: &Ui, id: Id, value: Option<f64>, reason: &str) {
-    let refused = Refused::new(reason.to_owned(), value);
+    let refused = Refused::new(ui, reason.to_owned(), value);
     ui.data_mut(|data| data.insert_temp(id, refused));
 }
 
@@ -156,10 +169,4 @@ impl NumberField<'_> {
     fn clamp(&self, value: f64) -> f64 {
         value.max(*self.range.start()).min(*self.range.end())
     }
-}
-
-/// With a capital letter.
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }

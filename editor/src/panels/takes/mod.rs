@@ -11,7 +11,7 @@ use super::icons::Icon;
 use super::state::{Request, State};
 use super::style::{GRID, RADIUS, ROW};
 use super::theme::Theme;
-use super::{Panel, Place, menu, widgets};
+use super::{Panel, Place, menu, search_field, widgets};
 use crate::document::Change;
 use crate::document::edit::{Edit, TakeRef};
 use egui::accesskit::Role;
@@ -31,9 +31,18 @@ pub struct Takes {
     rename: Option<(crate::document::adapter::TakeId, Rename)>,
     /// Bytes with which all names begin and that are not shown: some programs write the skeleton's name before each.
     prefix: usize,
+    /// Part of the names that are listed; empty for all.
+    query: String,
+    /// The take that was last scrolled to.
+    followed: Option<usize>,
+    /// How far the list is scrolled, points.
+    scrolled: f32,
     /// The take that is dragged to another place.
     moving: Option<usize>,
 }
+
+/// From so many takes on, they are searched: fewer are seen at a glance.
+const SEARCHED: usize = 12;
 
 /// What can be done with a take, in the order of the context menu.
 const MENU: &[&[Id]] = &[
@@ -61,30 +70,73 @@ impl Panel for Takes {
             return widgets::empty(ui, "", "Takes appear here");
         }
         self.buttons(ui, state, requests);
+        let found = self.search(ui, state, requests);
         ui.spacing_mut().item_spacing.y = 0.0;
+        if found.as_ref().is_some_and(Vec::is_empty) {
+            return widgets::empty(ui, "No take is called that", "");
+        }
         let count = state.digest.takes.len();
         self.prefix = shared_prefix(state.digest.takes.iter().map(|take| take.name.as_str()));
         // The rest pose stands first: it is always there.
-        ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, count + 1, |ui, range| {
+        let rows = found.as_ref().map_or(count + 1, Vec::len);
+        let take_at = |row: usize| found.as_ref().map_or(row.checked_sub(1), |found| Some(found[row]));
+        let mut area = ScrollArea::vertical().auto_shrink(false);
+        let take = state.playback.take;
+        if std::mem::replace(&mut self.followed, take) != take
+            && let Some(row) = (0..rows).find(|&row| take_at(row) == take)
+        {
+            let (top, height) = (row as f32 * ROW, ui.available_height());
+            let least = (top + ROW - height).max(0.0);
+            area = area.vertical_scroll_offset(self.scrolled.min(top).max(least));
+        }
+        let shown = area.show_rows(ui, ROW, rows, |ui, range| {
             let top = ui.cursor().top() - range.start as f32 * ROW;
-            for index in range {
-                match index.checked_sub(1) {
-                    None => {
-                        let selected = state.playback.take.is_none();
-                        let response = row(ui, "Rest pose", "Rest pose", ["", ""], selected, Sense::click());
-                        if response.clicked() {
-                            requests.push(Request::ShowTake(None));
-                        }
-                    }
+            for row in range {
+                match take_at(row) {
+                    None => rest_pose(ui, state, requests),
                     Some(take) => self.take(ui, state, take, requests),
                 }
             }
+            if found.is_some() {
+                // Between which takes it would come is not seen.
+                self.moving = None;
+            }
             self.drop_line(ui, top, count, requests);
         });
+        self.scrolled = shown.state.clamped_offset().y;
+    }
+}
+
+/// The row of the rest pose.
+fn rest_pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    let selected = state.playback.take.is_none();
+    if row(ui, "Rest pose", "Rest pose", ["", ""], selected, Sense::click()).clicked() {
+        requests.push(Request::ShowTake(None));
     }
 }
 
 impl Takes {
+    /// The takes that are searched; `None` where all are listed.
+    fn search(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) -> Option<Vec<usize>> {
+        let takes = &state.digest.takes;
+        if takes.len() < SEARCHED {
+            self.query.clear();
+            return None;
+        }
+        let entered = search_field::show(ui, &mut self.query, "Find a take", false);
+        let query = self.query.trim().to_lowercase();
+        // The one that is renamed may have another name than the one that is searched.
+        if query.is_empty() || state.takes.renaming.is_some() {
+            return None;
+        }
+        let is_found = |&at: &usize| takes[at].name.to_lowercase().contains(&query);
+        let found: Vec<usize> = (0..takes.len()).filter(is_found).collect();
+        if entered && let Some(&first) = found.first() {
+            requests.push(Request::ShowTake(Some(first)));
+        }
+        Some(found)
+    }
+
     fn buttons(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         ui.add_space(GRID);
         ui.horizontal_wrapped(|ui| {

@@ -4,7 +4,9 @@ use super::super::state::{Request, State};
 use super::super::style::RADIUS;
 use super::super::theme::Theme;
 use crate::document::Change;
+use crate::document::adapter::take_name;
 use crate::document::edit::{Edit, TakeRef};
+use crate::text::sentence;
 use egui::{CornerRadius, Frame, Id, Key, Margin, Modifiers, Rect, Stroke, StrokeKind, TextEdit, Ui};
 
 /// Longest name that can be typed, letters.
@@ -15,7 +17,8 @@ const LONGEST: usize = 10_000;
 pub(super) struct Rename {
     text: String,
     stage: Stage,
-    refused: bool,
+    /// Why it cannot be called so.
+    refused: Option<String>,
 }
 
 /// How far it is.
@@ -38,7 +41,9 @@ impl Rename {
         index: usize,
         requests: &mut Vec<Request>,
     ) -> bool {
-        let Some(take) = state.view.as_ref().and_then(|view| view.takes.get(index)) else { return false };
+        let Some(view) = &state.view else { return false };
+        let Some(take) = view.takes.get(index) else { return false };
+        let own = view.slots.get(index).map(|slot| slot.id);
         let id = Id::unique("name of a take");
         let has_focus = ui.memory(|memory| memory.has_focus(id));
         let first = self.stage == Stage::Fresh;
@@ -69,23 +74,26 @@ impl Rename {
             response.request_focus();
         }
         if response.changed() {
-            self.refused = false;
+            self.refused = None;
         }
-        let edge = if self.refused { theme.error } else { theme.accent };
+        let edge = if self.refused.is_some() { theme.error } else { theme.accent };
         let edge = Stroke::new(1.0, edge);
         ui.painter().rect_stroke(rect, CornerRadius::same(RADIUS), edge, StrokeKind::Inside);
-        if self.refused {
+        if let Some(reason) = &self.refused {
             let anchor = response.rect;
             egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id.with("hint"), anchor)
-                .show(|ui| ui.colored_label(theme.error, "A take needs a name"));
+                .show(|ui| ui.colored_label(theme.error, reason));
         }
-        let empty = self.text.trim().is_empty();
-        if enter && empty {
-            self.refused = true;
+        // What it is called already it may be called, whatever that is.
+        let changed = self.text != take.name;
+        let fits = if changed { take_name(&view.slots, &self.text, own) } else { Ok(()) };
+        if enter && let Err(reason) = &fits {
+            self.refused = Some(sentence(&reason.to_string()));
             return true;
         }
         let left = !first && !response.has_focus();
-        if (enter || left) && !escape && !empty && self.text != take.name {
+        // What does not fit and is left is refused by the document, which says why.
+        if (enter || left) && !escape && changed {
             let edit = Edit::RenameTake { take: TakeRef::Index(index), name: std::mem::take(&mut self.text) };
             requests.push(Request::Change(Change::Edit(edit, None)));
         }

@@ -11,13 +11,16 @@ use crate::document::Change;
 use crate::document::adapter::TakeId;
 use crate::document::edit::Edit;
 use crate::document::history::Gesture;
-use egui::{Id, Rect, RichText, Sense, TextStyle, Ui, pos2, vec2};
+use crate::playback::LATEST;
+use egui::{Id, Rect, RichText, Sense, TextStyle, Ui, vec2};
 use std::ops::RangeInclusive;
 
-/// Longest take, seconds: a day.
-const LONGEST: f64 = 86_400.0;
+/// Longest take, seconds.
+const LONGEST: f64 = LATEST as f64;
 /// Shortest length that can be given, seconds.
 const SHORTEST: f64 = 0.001;
+/// Smaller parts of a frame are what arithmetic leaves over.
+const GRAIN: f64 = 1e-3;
 
 /// The sheet.
 #[derive(Debug, Default)]
@@ -31,7 +34,8 @@ pub(super) struct Times {
 impl Times {
     /// Draws the fields for the take that is shown.
     pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-        ui.set_width(216.0);
+        ui.set_width(240.0);
+        let rate = f64::from(state.settings.frame_rate.max(1));
         ui.spacing_mut().item_spacing.y = GRID;
         let Some((take, shown)) = state.take_ref().zip(state.take()) else {
             ui.label(RichText::new("The rest pose has no time").color(Theme::of(ui).weak));
@@ -40,14 +44,14 @@ impl Times {
         let (start, length) = (f64::from(shown.start), f64::from(shown.length));
         let locked = (length <= 0.0).then_some("All keys are at one time");
         ui.label(RichText::new("Moves and stretches all keys").small().color(Theme::of(ui).weak));
-        let heard = number(ui, "Start", start, 0.0..=LONGEST, None);
+        let heard = number(ui, "Start", start, 0.0..=LONGEST, None, rate);
         let retime = take.clone();
         self.edit(state, start, heard, requests, |start| Edit::RetimeTake {
             take: retime.clone(),
             start: Some(start),
             length: None,
         });
-        let heard = number(ui, "Length", length, SHORTEST..=LONGEST, locked);
+        let heard = number(ui, "Length", length, SHORTEST..=LONGEST, locked, rate);
         self.edit(state, length, heard, requests, |length| Edit::RetimeTake {
             take: take.clone(),
             start: None,
@@ -70,7 +74,7 @@ impl Times {
         range = range.map(|time| time.min(end).max(start));
         for (at, name) in ["From", "To"].into_iter().enumerate() {
             let (low, high) = if at == 0 { (start, range[1]) } else { (range[0], end) };
-            match number(ui, name, range[at], low..=high, locked) {
+            match number(ui, name, range[at], low..=high, locked, rate) {
                 Heard::Typed(value) => self.trim = Some((id, with(range, at, value))),
                 Heard::Dragged(by) => {
                     let (_, from) = *self.held.get_or_insert((Gesture(0), range[at]));
@@ -133,11 +137,19 @@ fn with(mut range: [f64; 2], at: usize, value: f64) -> [f64; 2] {
     range
 }
 
-/// A name and a field for seconds on one line.
-fn number(ui: &mut Ui, name: &str, value: f64, range: RangeInclusive<f64>, locked: Option<&str>) -> Heard {
+/// A name and two fields for the same time on one line: seconds, and frames of which there are so many a second. What is
+/// heard is in seconds.
+fn number(
+    ui: &mut Ui,
+    name: &str,
+    value: f64,
+    range: RangeInclusive<f64>,
+    locked: Option<&str>,
+    rate: f64,
+) -> Heard {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
     widgets::text_in(ui, rect, name, &TextStyle::Body, Theme::of(ui).text);
-    let field = NumberField {
+    let seconds = NumberField {
         id: Id::unique(("time of a take", name)),
         name,
         value: Some(value),
@@ -147,11 +159,39 @@ fn number(ui: &mut Ui, name: &str, value: f64, range: RangeInclusive<f64>, locke
         snap: 0.1,
         grain: 1e-6,
         digits: Digits::Fixed(3),
-        range,
+        range: range.clone(),
         locked,
         help: "",
         quiet: false,
     };
-    let place = Rect::from_min_max(pos2(rect.right() - 104.0, rect.top()), rect.max);
-    field.show(ui, place).0
+    let frames = NumberField {
+        id: Id::unique(("time of a take in frames", name)),
+        name: &format!("{name} in frames"),
+        value: Some(value * rate),
+        unit: "f",
+        speed: 0.2,
+        snap: 1.0,
+        grain: GRAIN,
+        digits: if (value * rate - (value * rate).round()).abs() < GRAIN {
+            Digits::Fixed(0)
+        } else {
+            Digits::Fixed(2)
+        },
+        // What single precision left over of a whole frame does not put it outside.
+        range: range.start() * rate - GRAIN..=range.end() * rate + GRAIN,
+        help: "Counted as the timeline counts them",
+        ..seconds.clone()
+    };
+    let [left, middle] = [rect.right() - 184.0, rect.right() - 88.0];
+    let place = Rect::from_x_y_ranges(left..=middle - GRID, rect.y_range());
+    let heard = seconds.show(ui, place).0;
+    let place = Rect::from_x_y_ranges(middle..=rect.right(), rect.y_range());
+    match (heard, frames.show(ui, place).0) {
+        (Heard::Nothing, Heard::Typed(frames)) => {
+            Heard::Typed((frames / rate).max(*range.start()).min(*range.end()))
+        }
+        (Heard::Nothing, Heard::Dragged(by)) => Heard::Dragged(by / rate),
+        (Heard::Nothing, heard) => heard,
+        (heard, _) => heard,
+    }
 }

@@ -1,0 +1,212 @@
+//! The numbers of the one key that is selected: its values and its time, to be dragged or typed.
+
+use super::axis::ValueWindow;
+use super::curve::Curve;
+use super::form::Form;
+use super::hand::component_name;
+use super::paint::color;
+use super::toolbar::Chosen;
+use super::values::{ValueKey, value_edit};
+use crate::control::expression::Quantity;
+use crate::document::Change;
+use crate::document::edit::Property;
+use crate::panels::dope::to_frame;
+use crate::panels::keys::{Deed, Drawn, KeysRequest};
+use crate::panels::number_field::{Heard, NumberField};
+use crate::panels::number_text::Digits;
+use crate::panels::state::{Request, State};
+use crate::panels::style::{CONTROL, GRID};
+use crate::panels::theme::Theme;
+use crate::playback::LATEST;
+use egui::{Align2, FontId, Id, Rect, Sense, Ui, pos2, vec2};
+use std::sync::Arc;
+
+/// Width of a field.
+const WIDTH: f32 = 80.0;
+/// Width of the letter before a value.
+const LETTER: f32 = 12.0;
+
+/// See the module.
+#[derive(Debug, Default)]
+pub(super) struct Fields {
+    held: Option<Held>,
+}
+
+/// What a field is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Part {
+    Value(usize),
+    Time,
+}
+
+/// A field that is dragged: its key as it was when the drag began, and how far it is from there.
+#[derive(Clone, Copy, Debug)]
+struct Held {
+    part: Part,
+    key: ValueKey,
+    by: f32,
+}
+
+/// What the fields are about.
+pub(super) struct About<'a> {
+    pub(super) chosen: &'a Chosen,
+    pub(super) curves: &'a [Arc<Curve>],
+    pub(super) drawn: &'a Drawn,
+    pub(super) window: ValueWindow,
+    /// The component that was taken hold of last: shown where there is no room for all.
+    pub(super) component: usize,
+    pub(super) state: &'a State,
+}
+
+impl Fields {
+    /// From right to left: time, then as many values as there is room for.
+    pub(super) fn show(&mut self, ui: &mut Ui, about: &About<'_>, requests: &mut Vec<Request>) {
+        self.held.take_if(|held| held.by != 0.0 && !about.state.keys.drag().is_some_and(|drag| drag.held()));
+        let key = self.held.map(|held| held.key).or_else(|| only_key(about.curves, about.drawn));
+        let Some(key) = key.filter(|_| ui.available_width() >= WIDTH) else { return };
+        ui.spacing_mut().item_spacing.x = GRID;
+        self.time(ui, &key, about, requests);
+        let shown: Vec<usize> =
+            (0..key.width()).filter(|at| about.chosen.components & (1 << at) != 0).collect();
+        let room = (ui.available_width() / (WIDTH + LETTER + GRID)) as usize;
+        if shown.len() <= room {
+            for &component in shown.iter().rev() {
+                self.value(ui, &key, component, about, requests);
+            }
+        } else if room > 0 {
+            let touched = Some(about.component).filter(|component| shown.contains(component));
+            self.value(ui, &key, touched.unwrap_or(shown[0]), about, requests);
+        }
+    }
+
+    fn time(&mut self, ui: &mut Ui, key: &ValueKey, about: &About<'_>, requests: &mut Vec<Request>) {
+        let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, CONTROL), Sense::hover());
+        let frame = f64::from(about.state.frame_seconds());
+        let shown = key.time + self.by(Part::Time);
+        let field = NumberField {
+            name: "Time of the key",
+            value: Some(f64::from(shown)),
+            unit: "s",
+            speed: frame * 0.2,
+            snap: frame,
+            grain: 1e-6,
+            digits: Digits::Fixed(3),
+            range: 0.0..=f64::from(LATEST),
+            ..field(Part::Time)
+        };
+        let (heard, _) = field.show(ui, rect);
+        let snap = about.state.keys.snap != ui.input(|input| input.modifiers.command);
+        let deed = |by: f32| {
+            let to = key.time + by;
+            Some(Deed::Move(if snap { to_frame(to, about.state) } else { to } - key.time))
+        };
+        match heard {
+            Heard::Typed(value) => {
+                requests.push(Request::Timeline(KeysRequest::Drag(Deed::Move(value as f32 - key.time))));
+                requests.push(Request::Timeline(KeysRequest::Release));
+            }
+            heard => self.drag(heard, Part::Time, key, deed, requests),
+        }
+    }
+
+    fn value(
+        &mut self,
+        ui: &mut Ui,
+        key: &ValueKey,
+        component: usize,
+        about: &About<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let (rect, _) = ui.allocate_exact_size(vec2(LETTER + WIDTH, CONTROL), Sense::hover());
+        let letter = component_name(component);
+        let tone = color(Theme::of(ui), component);
+        let at = pos2(rect.left(), rect.center().y);
+        ui.painter().text(at, Align2::LEFT_CENTER, letter, FontId::proportional(11.0), tone);
+        let rect = Rect::from_min_max(pos2(rect.left() + LETTER, rect.top()), rect.max);
+        let angle = key.id.1 == Property::Rotation && key.form != Form::Quaternion;
+        let number = key.numbers[component];
+        let field = NumberField {
+            name: &format!("Value {letter}"),
+            value: Some(f64::from(number + self.by(Part::Value(component)))),
+            quantity: if angle { Quantity::Angle } else { Quantity::Number },
+            unit: if angle { "°" } else { "" },
+            // As far as the curve goes on the screen, about.
+            speed: about.window.span / 300.0,
+            snap: if angle { 15.0 } else { 0.1 },
+            grain: f64::from(number.abs()) * 1e-6 + 1e-7,
+            digits: if angle { Digits::Fixed(2) } else { Digits::Fitting },
+            ..field(Part::Value(component))
+        };
+        let (heard, _) = field.show(ui, rect);
+        let edit = |by: f32| value_edit(about.state.take_ref()?, &[*key], component, by);
+        match heard {
+            Heard::Typed(value) => {
+                let edit = edit(value as f32 - number);
+                requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, None))));
+            }
+            heard => self.drag(heard, Part::Value(component), key, |by| edit(by).map(Deed::Edit), requests),
+        }
+    }
+
+    /// How far a field is dragged.
+    fn by(&self, part: Part) -> f32 {
+        self.held.filter(|held| held.part == part).map_or(0.0, |held| held.by)
+    }
+
+    fn drag(
+        &mut self,
+        heard: Heard,
+        part: Part,
+        key: &ValueKey,
+        deed: impl Fn(f32) -> Option<Deed>,
+        requests: &mut Vec<Request>,
+    ) {
+        let request = match heard {
+            Heard::Dragged(by) => {
+                let by = by as f32;
+                self.held = Some(Held { part, key: *key, by });
+                deed(by).map(KeysRequest::Drag)
+            }
+            Heard::Released => self.held.take().map(|_| KeysRequest::Release),
+            Heard::Cancelled => self.held.take().map(|_| KeysRequest::Cancel),
+            Heard::Nothing | Heard::Touched | Heard::Typed(_) => None,
+        };
+        requests.extend(request.map(Request::Timeline));
+    }
+}
+
+/// What all the fields share.
+fn field<'a>(part: Part) -> NumberField<'a> {
+    NumberField {
+        id: Id::unique(("number of the selected key", part)),
+        name: "",
+        value: None,
+        quantity: Quantity::Number,
+        unit: "",
+        speed: 0.0,
+        snap: 0.0,
+        grain: 0.0,
+        digits: Digits::Fitting,
+        range: f64::from(f32::MIN)..=f64::from(f32::MAX),
+        locked: None,
+        help: "Of the selected key",
+        quiet: false,
+    }
+}
+
+/// The key that is selected, where it is one alone among the curves shown.
+fn only_key(curves: &[Arc<Curve>], drawn: &Drawn) -> Option<ValueKey> {
+    let mut found = None;
+    for curve in curves {
+        let chosen = drawn.selection.of(curve.id);
+        if chosen.is_empty() {
+            continue;
+        }
+        let keys = chosen.keys(curve.times()).next()?;
+        if found.is_some() || keys.len() != 1 || chosen.stretches().len() > 1 {
+            return None;
+        }
+        found = ValueKey::of(curve, keys.start);
+    }
+    found
+}

@@ -1,0 +1,170 @@
+//! The command palette: every command and every take, found by what is typed.
+
+use super::commands::{self, Command, Id};
+use super::state::{Request, State};
+use super::style::{self, ROW};
+use super::theme::Theme;
+use super::widgets;
+use egui::{
+    Align2, FontId, Key, Margin, Modifiers, Rect, RichText, ScrollArea, TextEdit, TextStyle, Ui, pos2,
+};
+
+/// Takes that are listed at most: who has more of one name types on.
+const TAKES: usize = 50;
+
+/// What is typed and chosen.
+#[derive(Debug, Default)]
+pub(super) struct Palette {
+    query: String,
+    chosen: usize,
+}
+
+/// Something that can be found.
+#[derive(Clone, Copy)]
+enum Entry<'a> {
+    Command(&'static Command),
+    /// Its place in the list, and its name.
+    Take(usize, &'a str),
+}
+
+impl Palette {
+    pub(super) fn show(&mut self, ui: &mut Ui, fresh: bool, state: &State, requests: &mut Vec<Request>) {
+        ui.set_width(460.0);
+        let (up, down, enter) = ui.input_mut(|input| {
+            let mut take = |key| input.consume_key(Modifiers::NONE, key);
+            (take(Key::ArrowUp), take(Key::ArrowDown), take(Key::Enter))
+        });
+        let name = "Find a command or a take";
+        let field = TextEdit::singleline(&mut self.query).hint_text(name).desired_width(f32::INFINITY);
+        let response = ui.add(field.margin(Margin::symmetric(10, 7))).accessible_name(name);
+        if fresh {
+            response.request_focus();
+        }
+        if response.changed() {
+            self.chosen = 0;
+        }
+        let found = search(&self.query, state);
+        if found.is_empty() {
+            ui.label(RichText::new("Nothing is called that").color(Theme::of(ui).weak));
+            return;
+        }
+        if down {
+            self.chosen += 1;
+        }
+        self.chosen = self.chosen.min(found.len() - 1);
+        if up {
+            self.chosen = self.chosen.saturating_sub(1);
+        }
+        let mut run = enter.then(|| found[self.chosen]);
+        ui.spacing_mut().item_spacing.y = 0.0;
+        // Said outright: a card that has just grown believes that there is no more room than before.
+        let height = (found.len() as f32 * ROW).min(12.0 * ROW);
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+            for (index, entry) in found.iter().enumerate() {
+                let response = entry.row(ui, state, index == self.chosen);
+                if index == self.chosen && (up || down) {
+                    response.scroll_to_me(None);
+                }
+                if response.clicked() {
+                    run = Some(*entry);
+                }
+            }
+        });
+        if let Some(entry) = run {
+            requests.push(Request::Overlay(None));
+            requests.push(entry.request());
+        }
+    }
+}
+
+/// Commands whose title, category or help has every word of `query`, and takes whose names have; those with it in the
+/// title first.
+fn search<'a>(query: &str, state: &'a State) -> Vec<Entry<'a>> {
+    let words: Vec<String> = query.to_lowercase().split_whitespace().map(str::to_owned).collect();
+    let has = |text: &str| {
+        let text = text.to_lowercase();
+        // One is meant by those who ask for several.
+        let has = |word: &str| {
+            text.contains(word)
+                || word.strip_suffix('s').is_some_and(|one| one.len() > 2 && text.contains(one))
+        };
+        words.iter().all(|word| has(word))
+    };
+    let commands = commands::all().filter(|command| command.id != Id::Palette).map(Entry::Command);
+    // An empty field shows what the program can do; takes stand in their own list.
+    let takes = if words.is_empty() { &[][..] } else { &state.digest.takes };
+    let takes = takes.iter().enumerate().map(|(index, take)| Entry::Take(index, &take.name));
+    let takes = takes.filter(|entry| has(&entry.about())).take(TAKES);
+    let mut found: Vec<Entry<'_>> = commands.filter(|entry| has(&entry.about())).chain(takes).collect();
+    // What is called so stands before what is about it; then what cannot be given now stands last, with its reason.
+    found.sort_by_key(|entry| (!has(entry.title()), !entry.is_able(state)));
+    found
+}
+
+impl<'a> Entry<'a> {
+    fn title(self) -> &'a str {
+        match self {
+            Self::Command(command) => command.title,
+            Self::Take(_, name) => name,
+        }
+    }
+
+    /// What it is one of.
+    fn category(self) -> &'static str {
+        match self {
+            Self::Command(command) => commands::category_of(command.id).title(),
+            Self::Take(..) => "Show take",
+        }
+    }
+
+    /// The text in which it is searched.
+    fn about(self) -> String {
+        let help = if let Self::Command(command) = self { command.help } else { "" };
+        format!("{} {} {help}", self.category(), self.title())
+    }
+
+    fn is_able(self, state: &State) -> bool {
+        match self {
+            Self::Command(command) => command.when.holds(state),
+            Self::Take(..) => true,
+        }
+    }
+
+    fn request(self) -> Request {
+        match self {
+            Self::Command(command) => Request::Command(command.id),
+            Self::Take(index, _) => Request::ShowTake(Some(index)),
+        }
+    }
+
+    fn row(self, ui: &mut Ui, state: &State, chosen: bool) -> egui::Response {
+        let theme = Theme::of(ui);
+        let (rect, response) = widgets::row(ui, self.title(), chosen, false);
+        let able = self.is_able(state);
+        let color = match (able, chosen) {
+            (false, _) => theme.faint,
+            (true, true) => theme.accent,
+            (true, false) => theme.text,
+        };
+        let inside = Rect::from_min_max(
+            pos2(rect.left() + 12.0, rect.top()),
+            pos2(rect.right() - 12.0, rect.bottom()),
+        );
+        let right = widgets::text_in(ui, inside, self.title(), &TextStyle::Body, color);
+        let font = FontId::proportional(style::SMALL);
+        let (shortcut, note) = match self {
+            Self::Command(command) if !able => {
+                (commands::shortcut_text(ui.ctx(), command.id), command.when.reason())
+            }
+            Self::Command(command) => (commands::shortcut_text(ui.ctx(), command.id), self.category()),
+            Self::Take(..) => (String::new(), self.category()),
+        };
+        let at = pos2(rect.right() - 12.0, rect.center().y);
+        let keys = ui.painter().text(at, Align2::RIGHT_CENTER, shortcut, font.clone(), theme.weak);
+        if right + 80.0 < keys.left() {
+            let at = pos2(right + 10.0, rect.center().y);
+            ui.painter().text(at, Align2::LEFT_CENTER, note, font, theme.faint);
+        }
+        response
+    }
+}
