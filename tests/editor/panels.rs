@@ -200,7 +200,7 @@ fn keys_that_give_way_to_others_are_counted() {
         animator.said()
     );
     select(&mut animator, 1, 1);
-    let text = animator.harness.state_mut().state.execute(Request::Command(Id::CopyPose));
+    let text = animator.harness.state_mut().state.execute(Request::Command(Id::CopyKeys));
     let Some(Effect::Copy(text)) = text else { panic!("{text:?}") };
     let to = animator.key(6);
     animator.request(Request::Seek(to));
@@ -574,7 +574,7 @@ fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
     state.show(with(2, 2.0));
     assert_eq!((state.playback.take, state.playback.length, state.time()), (Some(0), 2.0, 1.5));
     state.show(with(3, 1.0));
-    assert_eq!((state.playback.length, state.time()), (1.0, 1.0), "the end is where it ends now");
+    assert_eq!((state.playback.length, state.time()), (1.0, 1.5), "though it ends before that now");
     assert_eq!((state.selected(), state.camera), (selected, camera), "all else is as the person left it");
     state.begin(state.now);
     assert_eq!((state.digest.takes.len(), state.digest.takes[0].length), (3, 1.0));

@@ -108,7 +108,7 @@ fn many_takes_are_searched_and_the_one_that_is_shown_is_in_sight() {
     assert!(window.query_by_label("No take is called that").is_some());
     window.get_by_label("Clear search").click();
     window.run_steps(3);
-    window.get_by_label("Rest pose");
+    window.get_by_label("Rig|Run_21");
     window.state_mut().state.show_take(Some(38));
     window.run_steps(3);
     let list = window.get_by_label("Rig|Walk_38").rect();

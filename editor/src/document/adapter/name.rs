@@ -29,9 +29,7 @@ impl ModelAdapter {
     /// Why not.
     pub fn allows(&self, edit: &Edit) -> Result<(), EditError> {
         match edit {
-            Edit::RenameTake { take, name } => {
-                take_name(&self.slots, name, self.take(take).ok().map(|slot| slot.id))
-            }
+            Edit::RenameTake { take, name } => take_name(&self.slots, name, Some(self.take(take)?.id)),
             Edit::CreateTake { name, .. } | Edit::SplitTake { name, .. } => {
                 take_name(&self.slots, name, None)
             }

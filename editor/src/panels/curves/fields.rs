@@ -96,16 +96,18 @@ impl Fields {
         };
         let (heard, _) = field.show(ui, rect);
         let snap = about.state.keys.snap != ui.input(|input| input.modifiers.command);
-        let deed = |by: f32| {
-            let to = key.time + by;
-            Some(Deed::Move(if snap { to_frame(to, about.state) } else { to } - key.time))
+        let heard = match heard {
+            Heard::Dragged(by) if snap => {
+                Heard::Dragged(f64::from(to_frame(key.time + by as f32, about.state) - key.time))
+            }
+            heard => heard,
         };
         match heard {
             Heard::Typed(value) => {
                 requests.push(Request::Timeline(KeysRequest::Drag(Deed::Move(value as f32 - key.time))));
                 requests.push(Request::Timeline(KeysRequest::Release));
             }
-            heard => self.drag(heard, Part::Time, key, deed, requests),
+            heard => self.drag(heard, Part::Time, key, |by| Some(Deed::Move(by)), requests),
         }
     }
 

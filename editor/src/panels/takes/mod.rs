@@ -81,11 +81,12 @@ impl Panel for Takes {
         let rows = found.as_ref().map_or(count + 1, Vec::len);
         let take_at = |row: usize| found.as_ref().map_or(row.checked_sub(1), |found| Some(found[row]));
         let mut area = ScrollArea::vertical().auto_shrink(false);
-        let take = state.playback.take;
-        if std::mem::replace(&mut self.followed, take) != take
-            && let Some(row) = (0..rows).find(|&row| take_at(row) == take)
+        // Of takes that are searched the first ones are looked at.
+        let follow = state.playback.take.filter(|_| found.is_none());
+        if std::mem::replace(&mut self.followed, follow) != follow
+            && let Some(take) = follow
         {
-            let (top, height) = (row as f32 * ROW, ui.available_height());
+            let (top, height) = ((take + 1) as f32 * ROW, ui.available_height());
             let least = (top + ROW - height).max(0.0);
             area = area.vertical_scroll_offset(self.scrolled.min(top).max(least));
         }
