@@ -239,8 +239,12 @@ fn a_take_grows_where_a_pose_is_keyed_behind_its_end() {
         animator.request(Request::Command(Id::NextFrame));
     }
     assert!((time(&animator) - 1.0).abs() < 1e-6);
+    let x = animator.x_in(animator.keys(), 0.0);
     animator.request(Request::Command(Id::Key));
     assert_eq!(state(&animator), (0.0, 1.0));
+    let seen = animator.x_in(animator.keys(), 1.05);
+    assert!(animator.keys().x_range().contains(seen), "there is room to go on");
+    assert_eq!(animator.x_in(animator.keys(), 0.0), x);
     animator.request(Request::Seek(20.0));
     let window = animator.harness.state().state.keys.window(animator.harness.state().state.take().unwrap());
     assert!(

@@ -207,6 +207,7 @@ impl State {
             self.playback = self.playback.seek(time, now);
         }
         self.settle_keys();
+        self.keep_room();
         self.forget_unlisted_keys();
         self.posed.running = self.playback.moves(now);
         self.digest.update(self.view.as_ref(), self.playback.take, self.selection.active());
@@ -223,7 +224,7 @@ impl State {
         self.follow_path();
     }
 
-    /// Shows another document: its first take, playing from the start.
+    /// Shows another document: its first take that moves, playing from the start.
     pub fn show(&mut self, view: View) {
         let fresh = self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.loaded, &view.loaded));
         if fresh {
@@ -248,12 +249,14 @@ impl State {
         self.open_keys();
         self.recall_marks();
         self.guess_frame_rate();
-        let has_takes = self.view.as_ref().is_some_and(|view| !view.takes.is_empty());
-        self.show_take(has_takes.then_some(0));
+        let takes = self.view.as_ref().map_or(&[][..], |view| &view.takes);
+        // Some programs write a single pose before all that moves.
+        let moving = takes.iter().position(|take| take.length > 0.0);
+        let first = moving.or((!takes.is_empty()).then_some(0));
+        self.show_take(first);
         // Who has work brought back wants to go on where it stood.
         let restored = self.view.as_ref().is_some_and(|view| !view.history.steps.is_empty());
-        let moves = self.take_bounds().1 > 0.0;
-        let plays = moves && !restored && self.question().is_none();
+        let plays = moving.is_some() && !restored && self.question().is_none();
         self.playback = self.playback.with(plays, self.settings.speed, self.settings.repeat, self.now);
         self.frame_model();
         self.framed = true;

@@ -47,13 +47,17 @@ pub(in crate::panels) fn shade(
     let [from, to] = state.keys.range().unwrap_or([start, start + length]);
     let color = theme.gap.gamma_multiply(0.45);
     let (left, right) = (scale.x_of(from), scale.x_of(to));
+    // On dark ground the shade alone is hard to see.
+    let edge = Stroke::new(1.0, theme.line);
     if left > rect.left() {
         let outside = Rect::from_min_max(rect.min, pos2(left.min(rect.right()), rect.bottom()));
         painter.rect_filled(outside, CornerRadius::ZERO, color);
+        painter.vline(outside.right(), rect.y_range(), edge);
     }
     if right < rect.right() {
         let outside = Rect::from_min_max(pos2(right.max(rect.left()), rect.top()), rect.max);
         painter.rect_filled(outside, CornerRadius::ZERO, color);
+        painter.vline(outside.left(), rect.y_range(), edge);
     }
 }
 

@@ -55,6 +55,8 @@ pub struct Keys {
     pub markers: Markers,
     /// The part of time that is shown; none for the whole take.
     window: Option<TimeWindow>,
+    /// Begin and end of the take when nothing was dragged last, seconds.
+    seen: Option<[f32; 2]>,
     /// The part that plays, seconds; none for the whole take.
     range: Option<[f32; 2]>,
     drag: Option<KeyDrag>,
@@ -75,6 +77,7 @@ impl Default for Keys {
             flags: BoneFlags::default(),
             markers: Markers::default(),
             window: None,
+            seen: None,
             range: None,
             drag: None,
             has_hand: false,
@@ -200,6 +203,7 @@ impl State {
     pub(super) fn leave_take(&mut self) {
         self.keys.selection = KeySelection::default();
         (self.keys.window, self.keys.range, self.keys.drag) = (None, None, None);
+        self.keys.seen = None;
         self.keys.awaited = None;
     }
 

@@ -145,6 +145,22 @@ impl State {
         self.keys.window = window.map(|window| window.mended().near(first, last));
     }
 
+    /// Leaves room behind a take that has become longer where its end is seen: who makes it grow goes on there, and finds
+    /// everything where it was.
+    pub(in crate::panels) fn keep_room(&mut self) {
+        let Some(take) = self.take().filter(|_| self.keys.drag.is_none()) else { return };
+        let (start, end) = (take.start, take.end());
+        let Some([first, last]) = self.keys.seen.replace([start, end]).filter(|[_, last]| end > *last) else {
+            return;
+        };
+        let window = self.keys.window.unwrap_or_else(|| TimeWindow::whole(first, last - first));
+        if (window.start..=window.start + window.length).contains(&f64::from(last)) {
+            let to = f64::from(end) + f64::from(end - start) * ROOM;
+            let length = window.length.max(to - window.start);
+            self.show_window(Some(TimeWindow { length, ..window }));
+        }
+    }
+
     /// Shows the part of time with the playhead, where that stands and is out of sight.
     pub(in crate::panels) fn bring_into_sight(&mut self) {
         let Some(take) = self.take().filter(|_| !self.playback.playing) else { return };
@@ -153,14 +169,15 @@ impl State {
         if (window.start..=end).contains(&time) {
             return;
         }
-        self.show_window(Some(match self.keys.window {
+        let whole = window.start <= f64::from(take.start) && end >= f64::from(take.end());
+        self.show_window(Some(if whole {
+            let (first, last) = (window.start.min(time), end.max(time));
+            TimeWindow { start: first, length: (last - first) * (1.0 + ROOM) }
+        } else if time > end {
             // Who looks at a part goes on looking at as much.
-            Some(window) if time > end => window.panned(time - end + window.length * ROOM),
-            Some(window) => window.panned(time - window.start - window.length * ROOM),
-            None => {
-                let (first, last) = (window.start.min(time), end.max(time));
-                TimeWindow { start: first, length: (last - first) * (1.0 + ROOM) }
-            }
+            window.panned(time - end + window.length * ROOM)
+        } else {
+            window.panned(time - window.start - window.length * ROOM)
         }));
     }
 

@@ -35,9 +35,11 @@ impl NumberField<'_> {
             response.request_focus();
         }
         let dragged = self.drag(ui, &response);
+        let quiet = ui.ctx().dragged_id().is_none() && ui.memory(|memory| memory.focused().is_none());
         let response = match refused {
             Some(refused) => response.on_hover_text(refused.reason),
-            None if ui.ctx().dragged_id().is_none() => response.on_hover_ui(|ui| self.tooltip(ui)),
+            // It would lie over the fields below, one of which somebody may be typing into.
+            None if quiet => response.on_hover_ui(|ui| self.tooltip(ui)),
             None => response,
         };
         (dragged.unwrap_or(heard), response)

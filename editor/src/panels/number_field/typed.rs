@@ -70,12 +70,12 @@ impl NumberField<'_> {
         ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.sunken);
         let field = TextEdit::singleline(&mut typing.text)
             .id(self.id)
-            .frame(Frame::NONE)
-            .margin(Margin::symmetric(MARGIN, 0))
+            // A margin beside a frame is not heard of.
+            .frame(Frame::NONE.inner_margin(Margin::symmetric(MARGIN, 0)))
             .font(FontId::monospace(style::NUMBER))
             .align(Align2::RIGHT_CENTER)
             .char_limit(LONGEST)
-            .desired_width(rect.width() - 2.0 * f32::from(MARGIN));
+            .desired_width(rect.width());
         let response = ui.place(rect, field);
         if response.changed() {
             typing.refused = None;

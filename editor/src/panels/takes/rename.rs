@@ -64,8 +64,7 @@ impl Rename {
         ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.sunken);
         let field = TextEdit::singleline(&mut self.text)
             .id(id)
-            .frame(Frame::NONE)
-            .margin(Margin::symmetric(8, 0))
+            .frame(Frame::NONE.inner_margin(Margin::symmetric(8, 0)))
             .align(egui::Align2::LEFT_CENTER)
             .char_limit(LONGEST)
             .desired_width(rect.width());
