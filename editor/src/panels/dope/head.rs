@@ -29,8 +29,6 @@ pub(super) struct Head {
 
 /// Points: how near a key must be to be under the pointer.
 const NEAR: f32 = 4.0;
-/// Points behind the end of a take that belong to it, more than the ruler has there when it shows the whole take.
-const EDGE: f32 = 24.0;
 
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
@@ -104,7 +102,10 @@ impl Scrub {
         if (down || response.clicked_by(PointerButton::Primary))
             && let Some(pointer) = response.interact_pointer_pos()
         {
-            let time = scale.time_at(pointer.x.clamp(head.left(), head.right()));
+            // Beside what is shown its end is meant, so that the edge of the ruler is the end of a take that is seen whole.
+            let window = scale.window;
+            let time = f64::from(scale.time_at(pointer.x));
+            let time = time.clamp(window.start, window.start + window.length) as f32;
             let snap = state.keys.snap != modifiers.command;
             requests.push(Request::Seek(if snap { to_key_or_frame(time, scale, state) } else { time }));
         }
@@ -246,17 +247,13 @@ impl Head {
     }
 }
 
-/// The key under the pointer, or else the frame nearest to a time, seconds: a pose that is put a hair beside a key would be
-/// a second key.
+/// The key or the end of the take under the pointer, or else the frame nearest to a time, seconds: a pose that is put a
+/// hair beside a key would be a second key.
 fn to_key_or_frame(time: f32, scale: &TimeScale, state: &State) -> f32 {
-    let (start, length) = state.take_bounds();
-    // A hand that goes to the edge of the ruler means the end of the take.
-    if time > start + length && time < start + length + scale.seconds(EDGE) {
-        return start + length;
-    }
     let reach = scale.seconds(NEAR).min(state.frame_seconds() * 0.5);
     let beside = [true, false].into_iter().filter_map(|forward| state.key_beside_of(time, forward));
-    let nearest = beside.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()));
+    let end = state.take().map(|take| take.end());
+    let nearest = beside.chain(end).min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()));
     nearest.filter(|key| (key - time).abs() <= reach).unwrap_or_else(|| to_frame(time, state))
 }
 
