@@ -244,13 +244,19 @@ fn a_wrong_number_is_refused_where_it_stands() {
     }
 }
 
-#[test]
-fn a_wrong_number_that_is_left_with_a_click_is_forgotten_and_says_so() {
+/// A field with the cursor, and something in it that is no number.
+fn with_a_wrong_number() -> Window {
     let mut window = window();
     window.get_by_label("Scale result Y").click();
     window.run_steps(2);
     window.event(egui::Event::Text("2 +".to_owned()));
     window.run_steps(1);
+    window
+}
+
+#[test]
+fn a_wrong_number_that_is_left_with_a_click_is_forgotten_and_says_so() {
+    let mut window = with_a_wrong_number();
     window.get_by_label("Rest pose").click();
     window.run_steps(1);
     window.get_by_label("Survey").click();
@@ -265,11 +271,7 @@ fn a_wrong_number_that_is_left_with_a_click_is_forgotten_and_says_so() {
 
 #[test]
 fn that_a_number_was_refused_is_said_for_a_while_only() {
-    let mut window = window();
-    window.get_by_label("Scale result Y").click();
-    window.run_steps(2);
-    window.event(egui::Event::Text("2 +".to_owned()));
-    window.run_steps(1);
+    let mut window = with_a_wrong_number();
     window.get_by_label("Find a bone").click();
     window.run_steps(60);
     assert!(is_marked(&window.get_by_label("Scale result Y")), "a second later it is still said");

@@ -5,6 +5,7 @@ use super::shortcuts::ShortcutSheet;
 use super::state::{Overlay, Request, State};
 use super::style::GRID;
 use super::theme::Theme;
+use super::widgets;
 use crate::document::Source;
 use egui::{Align2, Id as WidgetId, Key, Modal, RichText, TextEdit, TextStyle, Ui, vec2};
 use std::path::PathBuf;
@@ -58,9 +59,7 @@ impl Overlays {
         if fresh {
             response.request_focus();
             // What was typed last is there to be corrected, or to be typed over.
-            let mut cursor = TextEdit::load_state(ui.ctx(), response.id).unwrap_or_default();
-            cursor.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(&self.path)));
-            cursor.store(ui.ctx(), response.id);
+            widgets::select_all(ui.ctx(), response.id, &self.path);
         }
         let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         ui.add_space(GRID);
@@ -101,7 +100,7 @@ pub(super) fn title(ui: &mut Ui, text: &str, requests: &mut Vec<Request>) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(text).heading());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if super::widgets::icon_button(ui, super::icons::Icon::Close, "Close", false).clicked() {
+            if widgets::icon_button(ui, super::icons::Icon::Close, "Close", false).clicked() {
                 requests.push(Request::Overlay(None));
             }
         });

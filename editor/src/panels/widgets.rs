@@ -6,9 +6,10 @@ use super::state::Request;
 use super::style::{self, GRID, RADIUS, ROW};
 use super::theme::Theme;
 use egui::accesskit::Role;
+use egui::text::CCursorRange;
 use egui::{
-    Align2, Color32, CornerRadius, FontId, Rect, RectAlign, Response, RichText, Sense, TextStyle, Tooltip,
-    Ui, WidgetInfo, WidgetText, pos2, vec2,
+    Align2, Color32, Context, CornerRadius, FontId, Id as WidgetId, Rect, RectAlign, Response, RichText,
+    Sense, TextEdit, TextStyle, Tooltip, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 
 /// A square button with an icon that does a command; lit when `on`. Its tooltip names the shortcut.
@@ -65,6 +66,13 @@ pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Resp
         focus_ring(ui, &response, rect);
     }
     response
+}
+
+/// So that what is typed next takes the place of `text`, all that stands in the text field `id`.
+pub(super) fn select_all(context: &Context, id: WidgetId, text: &str) {
+    let mut state = TextEdit::load_state(context, id).unwrap_or_default();
+    state.cursor.set_char_range(Some(CCursorRange::select_all_str(text)));
+    state.store(context, id);
 }
 
 /// Shows where the keyboard is.

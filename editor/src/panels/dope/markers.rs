@@ -142,9 +142,7 @@ impl MarkerLane {
         if *stage == Stage::Asked && ui.memory(|memory| memory.has_focus(id)) {
             *stage = Stage::Typing;
             // What is typed takes the place of the old name.
-            let mut cursor = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-            cursor.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(name)));
-            cursor.store(ui.ctx(), id);
+            widgets::select_all(ui.ctx(), id, name);
         }
         let field = TextEdit::singleline(name).id(id).font(TextStyle::Small).hint_text("Name");
         let response = ui.put(rect, field);

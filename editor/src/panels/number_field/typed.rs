@@ -4,6 +4,7 @@ use super::{Heard, LONGEST, NumberField, Refused, Typing};
 use crate::panels::number_text::exact;
 use crate::panels::style::{self, RADIUS};
 use crate::panels::theme::Theme;
+use crate::panels::widgets::select_all;
 use egui::{
     Align2, CornerRadius, FocusDirection, FontId, Frame, Key, Margin, Modifiers, Rect, Response, Stroke,
     StrokeKind, TextEdit, Ui,
@@ -52,7 +53,7 @@ impl NumberField<'_> {
         });
         let mut heard = if fresh { Heard::Touched } else { Heard::Nothing };
         if fresh {
-            self.select_all(ui, &typing.text);
+            select_all(ui.ctx(), self.id, &typing.text);
         }
         let steps = ui.input_mut(|input| {
             input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp) as f64
@@ -82,7 +83,7 @@ impl NumberField<'_> {
         }
         // The first click opened the field and the second would put the cursor somewhere in it; all is meant.
         if response.double_clicked() {
-            self.select_all(ui, &typing.text);
+            select_all(ui.ctx(), self.id, &typing.text);
         }
         let edge = if typing.refused.is_some() { theme.error } else { theme.accent };
         let stroke = Stroke::new(1.0, edge);
@@ -91,13 +92,6 @@ impl NumberField<'_> {
         self.describe(ui, &response, typing.refused.as_deref());
         ui.data_mut(|data| data.insert_temp(self.id, typing));
         (heard, response)
-    }
-
-    /// So that what is typed next takes the place of `text`.
-    pub(super) fn select_all(&self, ui: &Ui, text: &str) {
-        let mut state = TextEdit::load_state(ui.ctx(), self.id).unwrap_or_default();
-        state.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(text)));
-        state.store(ui.ctx(), self.id);
     }
 
     /// Why the text is not taken, or what an expression comes to.

@@ -3,6 +3,7 @@
 use super::super::state::{Request, State};
 use super::super::style::RADIUS;
 use super::super::theme::Theme;
+use super::super::widgets;
 use crate::document::Change;
 use crate::document::adapter::take_name;
 use crate::document::edit::{Edit, TakeRef};
@@ -52,9 +53,7 @@ impl Rename {
             self.stage = Stage::Asked;
         } else if self.stage == Stage::Asked && has_focus {
             self.stage = Stage::Typing;
-            let mut cursor = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-            cursor.cursor.set_char_range(Some(egui::text::CCursorRange::select_all_str(&self.text)));
-            cursor.store(ui.ctx(), id);
+            widgets::select_all(ui.ctx(), id, &self.text);
         }
         let (enter, escape) = ui.input_mut(|input| {
             let enter = has_focus && input.consume_key(Modifiers::NONE, Key::Enter);
