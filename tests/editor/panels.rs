@@ -560,6 +560,18 @@ fn what_reaches_beyond_the_panels_comes_back_as_an_effect() {
 }
 
 #[test]
+fn a_model_opens_with_its_first_take_that_moves_and_a_single_pose_stands() {
+    let shown = |takes: &[(&str, f32, usize)]| {
+        let mut state = State::new(Settings::default(), Instant::now());
+        state.show(fixture::view("model", fixture::skeleton(3), takes));
+        (state.playback.take, state.playback.playing)
+    };
+    assert_eq!(shown(&[("RESET", 0.0, 1), ("idle", 1.0, 5)]), (Some(1), true));
+    assert_eq!(shown(&[("RESET", 0.0, 1), ("T-pose", 0.0, 1)]), (Some(0), false));
+    assert_eq!(shown(&[]), (None, false));
+}
+
+#[test]
 fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
     let opened = fixture::full();
     let mut state = Bench::new(Some(opened.clone())).state;
