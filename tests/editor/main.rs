@@ -64,6 +64,7 @@ mod mounted;
 mod nasty;
 mod no_allocation;
 mod old_journals;
+mod palette;
 mod panels;
 mod panels_random;
 mod paste;

@@ -49,7 +49,7 @@ impl Bench {
     }
 }
 
-fn harness(bench: Bench) -> Harness<'static, Bench> {
+pub(crate) fn harness(bench: Bench) -> Harness<'static, Bench> {
     harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark)
 }
 
@@ -446,62 +446,6 @@ fn a_press_on_the_timeline_moves_the_time_before_it_is_a_click_or_a_drag() {
     });
     harness.run_steps(2);
     assert_eq!(harness.state().state.time(), time);
-}
-
-const PALETTE: &str = "Find a command or a take";
-
-/// The palette, with something typed into it.
-fn palette(text: &str) -> Harness<'static, Bench> {
-    let mut harness = harness(Bench::new(Some(fixture::full())));
-    harness.run_steps(4);
-    harness.key_press(egui::Key::F3);
-    harness.run_steps(4);
-    harness.get_by_label(PALETTE).type_text(text);
-    harness.run_steps(4);
-    harness
-}
-
-#[test]
-fn the_palette_runs_what_is_found() {
-    let mut harness = palette("ground");
-    harness.key_press(egui::Key::Enter);
-    harness.run_steps(4);
-    assert!(!harness.state().state.settings.look.grid);
-    assert_eq!(harness.state().state.overlay, None);
-}
-
-#[test]
-fn the_palette_shows_a_take_that_is_searched() {
-    let mut harness = palette("");
-    assert!(harness.query_all_by_label("Walk").count() == 1, "in the list of takes alone");
-    harness.get_by_label(PALETTE).type_text("walk");
-    harness.run_steps(4);
-    harness.key_press(egui::Key::Enter);
-    harness.run_steps(4);
-    assert_eq!(harness.state().state.playback.take, Some(1));
-    assert_eq!(harness.state().state.overlay, None);
-}
-
-#[test]
-fn the_palette_lists_what_is_called_so_before_what_is_about_it_and_shows_all_of_its_rows() {
-    let harness = palette("look");
-    let place = |label: &str| {
-        let mut rows = harness.query_all_by_label(label);
-        rows.next().unwrap_or_else(|| panic!("{label} is not listed")).rect()
-    };
-    let (called, about) = (place("Look at"), place("Unsaved work…"));
-    assert!(called.top() < about.top(), "{called:?} {about:?}");
-    let card = place(PALETTE);
-    let rows = ((about.bottom() - card.bottom()) / style::ROW).floor();
-    assert!(rows >= 2.0, "{rows} rows");
-}
-
-#[test]
-fn the_palette_finds_one_where_several_are_asked_for() {
-    let mut harness = palette("shortcuts");
-    harness.key_press(egui::Key::Enter);
-    harness.run_steps(4);
-    assert_eq!(harness.state().state.overlay, Some(dragonfly::panels::state::Overlay::Shortcuts));
 }
 
 #[test]
