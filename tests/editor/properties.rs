@@ -71,6 +71,9 @@ fn after_enter_tab_goes_on_where_the_keyboard_was_last() {
     };
     type_into(&mut window, "Translation result X", "1", Key::Enter);
     assert_eq!(focused(&window), None);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Tab);
+    window.run_steps(2);
+    assert_eq!(focused(&window), None, "with Ctrl it is another key");
     window.key_press(Key::Tab);
     window.run_steps(2);
     assert_eq!(focused(&window).as_deref(), Some("Translation result Y"));

@@ -35,6 +35,8 @@ fn is_press(event: &Event) -> bool {
     matches!(event, Event::PointerButton { pressed: true, .. })
 }
 
+/// With other keys than Shift it moves no focus.
 fn is_tab(event: &Event) -> bool {
-    matches!(event, Event::Key { key: Key::Tab, pressed: true, .. })
+    let Event::Key { key: Key::Tab, pressed: true, modifiers, .. } = event else { return false };
+    !modifiers.any() || modifiers.shift_only()
 }
