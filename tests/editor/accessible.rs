@@ -1,7 +1,7 @@
 //! Who cannot see the window hears what is in it: every control of the whole desk has a name.
 
 use crate::workbench::{Window, Workbench};
-use dragonfly::document::{Source, View, load_model};
+use dragonfly_document::{Source, View, load_model};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! A model made by code: a tube with three bones that bends, and a pane of glass that the last bone carries.
 
-use dragonfly::document::LoadedModel;
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::*;
+use dragonfly_document::LoadedModel;
 use glam::{Mat4, Quat, Vec3, Vec4};
 use std::sync::Arc;
 

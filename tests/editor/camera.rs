@@ -1,7 +1,7 @@
 //! The camera does what hands expect.
 
-use dragonfly::camera::{Camera, Projection, Side};
 use dragonfly_anim::bounds::Sphere;
+use dragonfly_picture::camera::{Camera, Projection, Side};
 use glam::{Vec2, Vec3};
 
 const SIZE: Vec2 = Vec2::new(800.0, 600.0);

@@ -85,7 +85,7 @@ impl Visit for Said {
 }
 
 /// What must not be: a buffer that is used in a way it was not made for.
-fn provoke(studio: &mut dragonfly::graphics::Studio) {
+fn provoke(studio: &mut dragonfly_picture::Studio) {
     let gpu = studio.stage().device().gpu();
     let _ = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("a mistake on purpose"),
@@ -110,5 +110,5 @@ fn an_error_of_ours_fails_the_test_that_made_it() {
 #[test]
 #[should_panic(expected = "unexpected graphics error")]
 fn a_line_about_an_error_of_ours_fails_the_test_that_started_the_program() {
-    none_in("ERROR dragonfly::graphics::fault: unexpected graphics error error=…", [OsStr::new("DISPLAY")]);
+    none_in("ERROR dragonfly_picture::fault: unexpected graphics error error=…", [OsStr::new("DISPLAY")]);
 }

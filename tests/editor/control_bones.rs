@@ -1,12 +1,12 @@
 //! Bones are chosen by click, region, neighbour and side, as hands expect.
 
 use crate::gizmo_rig::Rig;
+use dragonfly::control::ClickCycle;
 use dragonfly::control::Modifiers;
-use dragonfly::control::bones::{
-    BoneSelection, Choice, ClickCycle, HiddenBones, Lasso, MirrorPairs, Region, bones_in_region,
-};
 use dragonfly_anim::data::{Skeleton, Transform};
+use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones, MirrorPairs};
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_picture::pick::{Lasso, Region, bones_in_region};
 use glam::{Vec2, Vec3};
 use std::collections::BTreeSet;
 

@@ -2,9 +2,9 @@
 
 use crate::picture::{difference, settings};
 use crate::{arm, studio};
-use dragonfly::graphics::PictureSettings;
-use dragonfly::graphics::fault::{LossRecord, MAX_LOSSES, PATIENCE, Patience};
 use dragonfly_kit::process::{alone, resident_bytes};
+use dragonfly_picture::PictureSettings;
+use dragonfly_picture::fault::{LossRecord, MAX_LOSSES, PATIENCE, Patience};
 use std::time::{Duration, Instant};
 
 #[test]
@@ -77,7 +77,7 @@ fn three_losses_within_a_minute_are_too_many() {
 
 #[test]
 fn a_device_lost_too_often_draws_no_scene_until_asked() {
-    use dragonfly::graphics::stage::Event;
+    use dragonfly_picture::stage::Event;
     let Some(mut studio) = studio::studio() else { return };
     let loaded = arm::loaded();
     studio.render(&loaded, &settings()).unwrap();

@@ -3,9 +3,9 @@
 
 use crate::journal_writer::{Writer, nanoseconds};
 use crate::keeping_desk::{Desk, fox_at, rename, turn};
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, NewKey, TakeRef};
-use dragonfly::document::history::{Edited, Gesture};
-use dragonfly::document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Then};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, NewKey, TakeRef};
+use dragonfly_document::history::{Edited, Gesture};
+use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Then};
 use dragonfly_kit::random::Random;
 use std::io::Write;
 use std::path::Path;

@@ -1,12 +1,12 @@
 //! The document thread opens, fails, gives up, and always says so.
 
 use crate::arm;
-use dragonfly::document::edit::{Edit, TakeRef};
-use dragonfly::document::{
+use dragonfly_anim::data::Image;
+use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::{
     Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Opened, Progress, Setup,
     Source, View, images, load_model,
 };
-use dragonfly_anim::data::Image;
 use dragonfly_kit::eventually;
 use dragonfly_runtime::{Context, Receiver, Stage, Thread, ThreadHandle};
 use std::cell::RefCell;

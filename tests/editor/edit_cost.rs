@@ -1,10 +1,10 @@
 //! What edits cost: memory and time in proportion to what they touch.
 
 use crate::edits::pose;
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, KeySet, Property, TakeRef};
-use dragonfly::document::history::{Edited, Gesture};
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, KeySet, Property, TakeRef};
+use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::counting;
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;

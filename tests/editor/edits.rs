@@ -1,12 +1,12 @@
 //! Edits: what each does.
 
 use crate::made_take::animation;
-use dragonfly::document::adapter::{EditError, ModelAdapter};
-use dragonfly::document::edit::{
-    Between, BonePose, BoneRef, EXAMPLES, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
-};
 use dragonfly_anim::data::{Interpolation, Take, Transform};
 use dragonfly_anim::sample::sample_take;
+use dragonfly_document::adapter::{EditError, ModelAdapter};
+use dragonfly_document::edit::{
+    Between, BonePose, BoneRef, EXAMPLES, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
+};
 use dragonfly_kit::random::Random;
 use glam::{Quat, Vec3};
 use std::sync::Arc;

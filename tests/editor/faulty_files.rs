@@ -1,6 +1,6 @@
 //! A file system that fails at one call, or from one call on, as disks do once in years.
 
-use dragonfly::store::{Attribute, FileData, RealFiles, Vfs, VfsFile};
+use dragonfly_store::{Attribute, FileData, RealFiles, Vfs, VfsFile};
 use std::ffi::OsString;
 use std::fmt::{self, Debug, Formatter};
 use std::io;

@@ -1,10 +1,10 @@
 //! A model made by hand, so that panels can be tested without a file: a spine with ribs, three takes.
 
-use dragonfly::document::{LoadedModel, View};
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, Material, ModelData, Skeleton, Take, Track, Transform,
 };
+use dragonfly_document::{LoadedModel, View};
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 

@@ -1,11 +1,11 @@
 //! Where the eye goes to see the model.
 
 use crate::program::data;
-use dragonfly::control::gizmo::GizmoView;
-use dragonfly::document::{Cancel, Source, View, load_model};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Request, Settings, State};
 use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_document::{Cancel, Source, View, load_model};
+use dragonfly_picture::gizmo::GizmoView;
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
 use std::time::Instant;

@@ -3,11 +3,11 @@
 use crate::picture::difference;
 use crate::program::data;
 use crate::{arm, studio};
-use dragonfly::document::{Cancel, LoadedModel, Source, View, load_model};
-use dragonfly::graphics::ghosts::GhostSkins;
-use dragonfly::graphics::{Appearance, PictureSettings};
 use dragonfly::panels::settings::GhostSettings;
 use dragonfly_anim::data::{Channel, Interpolation};
+use dragonfly_document::{Cancel, LoadedModel, Source, View, load_model};
+use dragonfly_picture::ghosts::GhostSkins;
+use dragonfly_picture::{Appearance, PictureSettings};
 use glam::Vec3;
 use image::RgbaImage;
 use std::sync::Arc;

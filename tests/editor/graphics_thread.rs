@@ -2,13 +2,13 @@
 
 use crate::arm;
 use crate::complaints::NoComplaints;
-use dragonfly::camera::Camera;
-use dragonfly::document::{Document, DocumentReply, Source, View};
-use dragonfly::graphics::scene::Scene;
-use dragonfly::graphics::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
-use dragonfly::playback::Playback;
 use dragonfly_anim::data::{ModelData, Take};
+use dragonfly_document::{Document, DocumentReply, Source, View};
 use dragonfly_kit::eventually;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::playback::Playback;
+use dragonfly_picture::scene::Scene;
+use dragonfly_picture::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
 use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
 use glam::Vec3;
 use image::RgbaImage;

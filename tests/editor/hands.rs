@@ -2,14 +2,14 @@
 
 use crate::arm;
 use crate::hands_rig::Hand;
-use dragonfly::control::bones::Choice;
-use dragonfly::control::gizmo::{Axis, Handle, Tool};
 use dragonfly::control::{InputEvent, Key, Modifiers};
-use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, Request};
+use dragonfly_document::bones::Choice;
+use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly_kit::counting;
+use dragonfly_picture::gizmo::{Axis, Handle, Tool};
 use glam::{Quat, Vec2};
 use std::sync::Arc;
 

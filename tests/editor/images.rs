@@ -1,7 +1,7 @@
 //! No image makes the program panic, hang, or eat memory, whatever has happened to its bytes.
 
-use dragonfly::document::images::decode;
 use dragonfly_anim::data::Image;
+use dragonfly_document::images::decode;
 use dragonfly_kit::mutate::Mutator;
 use dragonfly_kit::random::seed;
 use image::{ImageFormat, RgbImage, RgbaImage};

@@ -3,11 +3,11 @@
 use crate::faulty_files::{Fault, FaultyFiles};
 use crate::mounted::quick_folder;
 use crate::program::Folder;
-use dragonfly::store::{
+use dragonfly_kit::counting;
+use dragonfly_store::{
     Autosave, Claim, Entry, Fate, FileStamp, Journal, JournalError, LONGEST_UNSYNCED, Life, Opening, Owner,
     Reading, RealFiles, Recoverable, SaveOptions, Vfs, save_document,
 };
-use dragonfly_kit::counting;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
@@ -164,7 +164,7 @@ fn a_program_killed_between_file_and_journal_knows_that_it_saved() {
     drop(journal);
     let found = only(&autosave);
     assert_eq!((found.unsaved, &found.file), (1, &Fate::Same), "killed before");
-    dragonfly::store::replace(&path, b"saved").unwrap();
+    dragonfly_store::replace(&path, b"saved").unwrap();
     let found = only(&autosave);
     assert_eq!((found.unsaved, &found.file), (0, &Fate::Same), "killed after");
     let mut journal = autosave.keep(&found, Claim::IfFree).unwrap().journal;
@@ -265,7 +265,7 @@ fn names_that_are_no_text_and_very_long_ones_are_documents_too() {
     for name in [&b"fox \xff\xfe.glb"[..], long.as_bytes(), "日本 🦊\n.glb".as_bytes(), b".hidden", b"-"]
     {
         let path = folder.path().join(std::ffi::OsStr::from_bytes(name));
-        dragonfly::store::replace(&path, b"model").unwrap();
+        dragonfly_store::replace(&path, b"model").unwrap();
         let mut journal = begin(&autosave, Some(&path), None);
         journal.append(b"one", Instant::now()).unwrap();
         drop(journal);

@@ -3,10 +3,10 @@
 
 use crate::journal::{autosave, begin, only};
 use crate::mounted::quick_folder;
-use dragonfly::store::{
+use dragonfly_kit::random::{Random, seed};
+use dragonfly_store::{
     Attribute, Autosave, Claim, Entry, FileData, JournalError, Reading, RealFiles, Recoverable, Vfs, VfsFile,
 };
-use dragonfly_kit::random::{Random, seed};
 use std::ffi::OsString;
 use std::fs;
 use std::io;
@@ -105,7 +105,7 @@ impl Vfs for InMemory {
 impl VfsFile for InMemory {
     fn metadata(&self) -> io::Result<FileData> {
         let size = self.0.len() as u64;
-        let kind = dragonfly::store::Kind::File;
+        let kind = dragonfly_store::Kind::File;
         Ok(FileData {
             kind,
             size,

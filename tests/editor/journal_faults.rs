@@ -3,7 +3,7 @@
 use crate::faulty_files::{Fault, FaultyFiles};
 use crate::journal::{autosave, begin, edits, only};
 use crate::mounted::quick_folder;
-use dragonfly::store::{
+use dragonfly_store::{
     Autosave, Bounds, Claim, Entry, FileStamp, Journal, JournalError, Life, Opening, RealFiles, Recoverable,
 };
 use std::fs;
@@ -61,7 +61,7 @@ fn count(folder: &Path) -> usize {
 fn every_call_that_can_fail_costs_no_edit_that_counted_as_done() {
     let folder = quick_folder("journal-faults");
     let path = folder.join("fox.glb");
-    let stamp = dragonfly::store::replace(&path, b"saved").unwrap().stamp;
+    let stamp = dragonfly_store::replace(&path, b"saved").unwrap().stamp;
     let (mut runs, mut noticed) = (0, 0);
     for fault in Fault::ALL {
         for number in 1.. {

@@ -4,8 +4,8 @@ use crate::journal::autosave;
 use crate::journal_writer::{Writer, check};
 use crate::mounted::quick_folder;
 use crate::program::takes_long;
-use dragonfly::store::{JournalError, Owner, RealFiles, replace};
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_store::{JournalError, Owner, RealFiles, replace};
 use std::fs;
 use std::time::Duration;
 

@@ -5,7 +5,7 @@ use crate::faulty_files::{Fault, FaultyFiles};
 use crate::journal::{autosave, begin, edits, only};
 use crate::mounted::{Mounted, may_mount, quick_folder};
 use crate::program::Folder;
-use dragonfly::store::{
+use dragonfly_store::{
     Autosave, Bounds, Claim, Entry, Fate, FileStamp, JournalError, Life, Opening, Owner, Reading, RealFiles,
     SaveOptions, replace, save_document,
 };
@@ -235,7 +235,7 @@ fn a_document_changed_meanwhile_is_said_to_be() {
     let mut journal = it.autosave.keep(&found, Claim::IfFree).unwrap().journal;
     let stamp = *journal.stamp().expect("that of the file as it was read");
     let options =
-        SaveOptions { expected: dragonfly::store::Expected::Stamp(&stamp), ..SaveOptions::default() };
+        SaveOptions { expected: dragonfly_store::Expected::Stamp(&stamp), ..SaveOptions::default() };
     let error = save_document(&RealFiles, &mut journal, &it.document, b"mine", &options).unwrap_err();
     assert!(error.to_string().contains("was changed on the disk by another program"), "{error}");
     assert_eq!(journal.unsaved(), 2);
@@ -252,7 +252,7 @@ fn a_deleted_document_can_be_saved_again() {
     assert!(!it.document.exists(), "not before it is asked for");
     let stamp = *journal.stamp().expect("a stamp");
     let options =
-        SaveOptions { expected: dragonfly::store::Expected::Stamp(&stamp), ..SaveOptions::default() };
+        SaveOptions { expected: dragonfly_store::Expected::Stamp(&stamp), ..SaveOptions::default() };
     save_document(&RealFiles, &mut journal, &it.document, b"mine", &options).unwrap();
     assert_eq!((fs::read(&it.document).unwrap(), journal.unsaved()), (b"mine".to_vec(), 0));
 }

@@ -2,11 +2,11 @@
 //! cut. It is this file of tests, started again.
 
 use crate::program::Folder;
-use dragonfly::store::{
+use dragonfly_kit::random::Random;
+use dragonfly_store::{
     Autosave, Claim, Entry, Expected, Fate, FileStamp, Opening, RealFiles, Resumed, SaveOptions,
     save_document,
 };
-use dragonfly_kit::random::Random;
 use std::ffi::OsStr;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -92,7 +92,7 @@ fn save_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
     let began = Instant::now();
     while began.elapsed() < LIMIT {
         saved += 1;
-        dragonfly::store::replace(&path, &document(saved))?;
+        dragonfly_store::replace(&path, &document(saved))?;
         if !say(&format!("s {saved}")) {
             break;
         }
@@ -104,7 +104,7 @@ fn write_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
     let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.join("autosave"))).expect("a folder");
     let path = folder.join("fox.glb");
     if !path.exists() {
-        dragonfly::store::replace(&path, &document(0))?;
+        dragonfly_store::replace(&path, &document(0))?;
     }
     let mut stamp = FileStamp::take(&RealFiles, &path)?;
     let Resumed { mut journal, entries, .. } = match autosave.begin(Some(&path), Some(&stamp))? {

@@ -3,10 +3,10 @@
 use crate::faulty_files::{Fault, FaultyFiles};
 use crate::keeping_desk::{Desk, autosave_in, autosave_with, fox, killed, rename, same_takes, turn};
 use crate::program::Folder;
-use dragonfly::document::history::Gesture;
-use dragonfly::document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Setup, Source, Then};
-use dragonfly::store::Entry;
+use dragonfly_document::history::Gesture;
+use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Setup, Source, Then};
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_store::Entry;
 use std::fs;
 
 #[test]
@@ -292,12 +292,12 @@ fn two_programs_with_one_file_are_told_of_each_other_and_both_are_recorded() {
     assert_eq!(third.offered().len(), 2);
     // Whoever saves last is warned.
     one.save(SaveTo::Own);
-    two.tell(DocumentMessage::Save(dragonfly::document::SaveOrder::own(None)));
+    two.tell(DocumentMessage::Save(dragonfly_document::SaveOrder::own(None)));
     let reason = two.hears(|reply| match reply {
         DocumentReply::NotSaved(_, reason) => Some(reason.clone()),
         _ => None,
     });
-    assert_eq!(reason, dragonfly::document::NotSaved::Changed);
+    assert_eq!(reason, dragonfly_document::NotSaved::Changed);
 }
 
 #[test]
@@ -518,7 +518,7 @@ fn work_on_a_file_that_is_gone_is_had_on_another_one_beside_it() {
     let bytes = fs::read(&other).unwrap();
     let mut desk = Desk::new(&folder.join("second"));
     let offer = desk.offered().remove(0);
-    let there = dragonfly::document::Offer { source: Some(Source::File(other.clone())), ..offer };
+    let there = dragonfly_document::Offer { source: Some(Source::File(other.clone())), ..offer };
     desk.tell(DocumentMessage::Decide(Box::new(there), Decision::Beside));
     let view = desk.shows(|view| view.history.done == 1);
     assert_eq!(view.file.path, None);

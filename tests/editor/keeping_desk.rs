@@ -1,13 +1,13 @@
 //! A document in its thread, as the window has it, without a window: what it is told, what it says, what it shows.
 
 use crate::program::{Folder, data};
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, TakeRef};
-use dragonfly::document::{
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::{
     Change, Document, DocumentHandle, DocumentMessage, DocumentReply, Offer, SaveOrder, SaveTo, SavedFile,
     Setup, Source, View,
 };
-use dragonfly::store::{Autosave, RealFiles, Vfs};
 use dragonfly_runtime::{Captured, Context, Receiver, Thread};
+use dragonfly_store::{Autosave, RealFiles, Vfs};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -67,7 +67,7 @@ pub(crate) fn fox_at(path: &Path) -> PathBuf {
     if !path.exists() {
         let bytes = std::fs::read(data("gltf/Fox.glb")).expect("a file");
         // On the disk, whatever becomes of the machine.
-        dragonfly::store::replace(path, &bytes).expect("a file");
+        dragonfly_store::replace(path, &bytes).expect("a file");
     }
     path.to_owned()
 }

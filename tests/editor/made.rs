@@ -1,8 +1,8 @@
 //! Small models made by code: a ball, a sheet, and whatever bones a test wants.
 
-use dragonfly::document::{DecodedImage, LoadedModel};
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::*;
+use dragonfly_document::{DecodedImage, LoadedModel};
 use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;

@@ -1,10 +1,10 @@
 //! Playing asks the allocator for nothing: the scene is computed into memory made when the model came.
 
 use crate::arm;
-use dragonfly::graphics::scene::Scene;
-use dragonfly::graphics::{BoneLook, Look};
-use dragonfly::playback::Playback;
 use dragonfly_kit::counting;
+use dragonfly_picture::playback::Playback;
+use dragonfly_picture::scene::Scene;
+use dragonfly_picture::{BoneLook, Look};
 use std::time::{Duration, Instant};
 
 #[test]

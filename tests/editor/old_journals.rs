@@ -6,9 +6,9 @@
 use crate::journal_scenarios::forged_with;
 use crate::keeping_desk::{Desk, fox};
 use crate::program::{Folder, data};
-use dragonfly::document::edit::{EXAMPLES, Edit, TakeRef};
-use dragonfly::document::{Change, Decision, DocumentMessage, DocumentReply, View};
-use dragonfly::store::{FileStamp, RealFiles};
+use dragonfly_document::edit::{EXAMPLES, Edit, TakeRef};
+use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, View};
+use dragonfly_store::{FileStamp, RealFiles};
 use std::fs;
 use std::path::Path;
 

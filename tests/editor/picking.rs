@@ -1,11 +1,11 @@
 //! Picking finds the bone that is drawn under the pointer, in its animated pose.
 
 use crate::arm;
-use dragonfly::camera::Camera;
-use dragonfly::graphics::pick::pick;
-use dragonfly::graphics::scene::Scene;
-use dragonfly::graphics::{BoneLook, Look};
-use dragonfly::playback::Playback;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::pick::pick;
+use dragonfly_picture::playback::Playback;
+use dragonfly_picture::scene::Scene;
+use dragonfly_picture::{BoneLook, Look};
 use glam::Vec3;
 use std::time::Instant;
 

@@ -1,13 +1,15 @@
 //! Picking finds all bones under the pointer, the nearest first, and those in a box or lasso.
 
 use crate::arm;
-use dragonfly::camera::Camera;
-use dragonfly::control::bones::{BoneSelection, Choice, ClickCycle, HiddenBones, Region};
-use dragonfly::graphics::pick::{pick, pick_all, pick_region};
-use dragonfly::graphics::scene::Scene;
-use dragonfly::graphics::{BoneLook, Look};
-use dragonfly::playback::Playback;
+use dragonfly::control::ClickCycle;
+use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones};
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::pick::Region;
+use dragonfly_picture::pick::{pick, pick_all, pick_region};
+use dragonfly_picture::playback::Playback;
+use dragonfly_picture::scene::Scene;
+use dragonfly_picture::{BoneLook, Look};
 use glam::{Vec2, Vec3};
 use std::time::Instant;
 

@@ -1,12 +1,12 @@
 //! A click on the scene finds bones that are drawn; where none is, the skin that they move; never a hidden one.
 
 use crate::arm;
-use dragonfly::camera::Camera;
-use dragonfly::control::bones::{BoneSelection, Choice, HiddenBones};
-use dragonfly::graphics::Look;
-use dragonfly::graphics::scene::Scene;
-use dragonfly::graphics::shape::Body;
-use dragonfly::playback::Playback;
+use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones};
+use dragonfly_picture::Look;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::playback::Playback;
+use dragonfly_picture::scene::Scene;
+use dragonfly_picture::shape::Body;
 use glam::Vec3;
 use std::sync::Arc;
 use std::time::Instant;

@@ -1,10 +1,11 @@
 //! A click on the skin means the bone that has most influence there, in the animated pose.
 
 use crate::arm;
-use dragonfly::camera::Ray;
-use dragonfly::control::bones::{BoneSelection, Choice, HiddenBones, SkinHit, pick_skin};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::hit::{HitPose, HitTree};
+use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones};
+use dragonfly_picture::camera::Ray;
+use dragonfly_picture::pick::{SkinHit, pick_skin};
 use glam::Vec3;
 use std::sync::Arc;
 

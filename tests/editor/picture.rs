@@ -2,9 +2,9 @@
 
 use crate::program::data;
 use crate::{arm, studio};
-use dragonfly::document::{Cancel, Source, View, load_model};
-use dragonfly::graphics::PictureSettings;
 use dragonfly::panels::{Settings, State};
+use dragonfly_document::{Cancel, Source, View, load_model};
+use dragonfly_picture::PictureSettings;
 use image::RgbaImage;
 use std::sync::Arc;
 use std::time::Instant;
@@ -53,7 +53,7 @@ fn the_background_may_be_open_or_any_colour() {
 
 #[test]
 fn every_look_draws_without_an_error() {
-    use dragonfly::graphics::{BoneLook, Look, Shading};
+    use dragonfly_picture::{BoneLook, Look, Shading};
     let Some(mut studio) = studio::studio() else { return };
     let loaded = arm::loaded();
     let mut before: Option<RgbaImage> = None;

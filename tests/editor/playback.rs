@@ -1,7 +1,7 @@
 //! Which time is on screen, at any moment, whatever was pressed before.
 
-use dragonfly::playback::{Playback, Repeat};
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_picture::playback::{Playback, Repeat};
 use std::time::{Duration, Instant};
 
 const REPEATS: [Repeat; 3] = [Repeat::Once, Repeat::Loop, Repeat::PingPong];

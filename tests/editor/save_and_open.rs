@@ -2,12 +2,12 @@
 
 use crate::program::{Folder, data};
 use crate::undo::{any_edit, same_take};
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::edit::BoneRef;
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::edit::BoneRef;
 
-use dragonfly::document::history::Edited;
-use dragonfly::document::{Cancel, Editable, Source};
 use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take};
+use dragonfly_document::history::Edited;
+use dragonfly_document::{Cancel, Editable, Source};
 use dragonfly_kit::random::{Random, seed};
 use glam::Quat;
 use std::path::{Path, PathBuf};

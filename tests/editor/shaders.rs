@@ -1,6 +1,6 @@
 //! Every shader in the program's list is valid WGSL, on its own, without a device.
 
-use dragonfly::graphics::shaders::ALL;
+use dragonfly_picture::shaders::ALL;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 #[test]

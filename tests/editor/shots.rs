@@ -2,9 +2,9 @@
 
 use crate::workbench::Workbench;
 use crate::{fixture, workbench};
-use dragonfly::document::Change;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use dragonfly::panels::{Request, style};
+use dragonfly_document::Change;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};

@@ -2,11 +2,11 @@
 //! whose vertices the processor moved.
 
 use crate::{made, picture, studio};
-use dragonfly::document::{Cancel, DecodedImage, LoadedModel, Source, load_model};
-use dragonfly::graphics::{PictureSettings, Shading, Studio};
 use dragonfly_anim::data::*;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::skin::skin_tangents;
+use dragonfly_document::{Cancel, DecodedImage, LoadedModel, Source, load_model};
+use dragonfly_picture::{PictureSettings, Shading, Studio};
 use glam::{Mat4, Quat, Vec3, Vec4};
 use image::RgbaImage;
 use std::sync::Arc;
@@ -73,7 +73,7 @@ fn check(studio: &mut Studio, loaded: &LoadedModel, time: f32) {
         let base = PictureSettings { background: Some([0; 4]), ..base };
         let camera = Some(studio.camera(&still, &base));
         let mut draw = |loaded, take, time| {
-            let look = dragonfly::graphics::Look { shading, ..base.look.clone() };
+            let look = dragonfly_picture::Look { shading, ..base.look.clone() };
             studio.render(loaded, &PictureSettings { take, time, camera, look, ..base.clone() }).unwrap()
         };
         let rest = draw(&moving, None, 0.0);

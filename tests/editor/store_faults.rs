@@ -4,7 +4,7 @@
 use crate::faulty_files::{Fault, FaultyFiles};
 use crate::mounted::quick_folder;
 use crate::program::Folder;
-use dragonfly::store::{
+use dragonfly_store::{
     Expected, FileStamp, FileState, RealFiles, SaveError, SaveOptions, VersionLimits, Versions, save,
 };
 use std::fs;
@@ -126,7 +126,7 @@ fn every_call_that_can_fail_leaves_the_old_file_or_the_new_one() {
     assert!(runs > 4 * 6 * 15, "only {runs} calls failed");
 }
 
-fn names_after(case: &Case, saved: &Result<dragonfly::store::Saved, SaveError>) -> Vec<String> {
+fn names_after(case: &Case, saved: &Result<dragonfly_store::Saved, SaveError>) -> Vec<String> {
     let there = case.old.is_some() || matches!(saved, Ok(_) | Err(SaveError::Unconfirmed { .. }));
     case.names.iter().filter(|_| there).map(|name| (*name).to_owned()).collect()
 }
@@ -154,7 +154,7 @@ fn a_disk_that_fails_for_good_leaves_the_old_content_or_the_new_one_whole() {
                         assert!(fs::read(old).unwrap() == OLD, "{place}");
                         let error = save(&RealFiles, &path, &new, &options).unwrap_err();
                         assert!(matches!(error, SaveError::CutOff { .. }), "{error}");
-                        dragonfly::store::put_back(&RealFiles, &path).unwrap();
+                        dragonfly_store::put_back(&RealFiles, &path).unwrap();
                         assert!(fs::read(&path).unwrap() == OLD, "{place}");
                         assert_eq!(names(&folder), case.names, "{place}");
                     }

@@ -2,7 +2,7 @@
 
 use crate::mounted::{Mounted, may_mount, quick_folder, said};
 use crate::program::Folder;
-use dragonfly::store::{
+use dragonfly_store::{
     Expected, FileStamp, FileState, RealFiles, SaveError, SaveOptions, Saved, Step, VersionLimits, Versions,
     Vfs, cut_off, put_away, replace, save,
 };
@@ -76,7 +76,7 @@ fn after_a_cut_in_place_nothing_is_overwritten_before_a_person_decides() {
     let error = replace(&path, b"newer").unwrap_err();
     assert!(error.to_string().contains(&old.display().to_string()), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"half of the n");
-    dragonfly::store::put_back(&RealFiles, &path).unwrap();
+    dragonfly_store::put_back(&RealFiles, &path).unwrap();
     assert_eq!(fs::read(&path).unwrap(), b"the old content");
     assert_eq!(cut_off(&RealFiles, &path).unwrap(), None);
     fs::write(folder.join(".one.glb.dragonfly-old"), "the old content").unwrap();
@@ -322,7 +322,7 @@ fn old_versions_are_kept_to_a_bound_and_at_least_three() {
     let folder = quick_folder("save-versions");
     let path = folder.join("model.glb");
     let limits = VersionLimits {
-        each: dragonfly::store::Bounds { least: 3, most: 5, bytes: 10 },
+        each: dragonfly_store::Bounds { least: 3, most: 5, bytes: 10 },
         largest: 1000,
         all: 2000,
     };

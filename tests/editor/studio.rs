@@ -1,7 +1,7 @@
 //! A device for tests; without any Vulkan adapter they say so and pass.
 
 use crate::complaints::NoComplaints;
-use dragonfly::graphics::{DeviceParameters, GraphicsError, Studio};
+use dragonfly_picture::{DeviceParameters, GraphicsError, Studio};
 use std::ops::{Deref, DerefMut};
 
 /// A studio in which nothing may be done wrong.

@@ -1,9 +1,9 @@
 //! What materials promise, pixel by pixel: masks, textures and their coordinates, vertex colours, Phong light, and sides.
 
 use crate::{made, picture, studio};
-use dragonfly::document::DecodedImage;
-use dragonfly::graphics::{PictureSettings, Studio};
 use dragonfly_anim::data::*;
+use dragonfly_document::DecodedImage;
+use dragonfly_picture::{PictureSettings, Studio};
 use glam::{Vec2, Vec3, Vec4};
 use image::RgbaImage;
 

@@ -206,7 +206,7 @@ fn any_text_is_a_name() {
                 |text: &str| text.chars().filter(|letter| !letter.is_whitespace()).collect::<String>();
             assert_eq!(plain(&kept), plain(&wanted));
         }
-        window.state_mut().change(dragonfly::document::Change::GoTo(0));
+        window.state_mut().change(dragonfly_document::Change::GoTo(0));
         window.run_steps(2);
         assert_eq!(names(&window)[1], "Walk");
     }
@@ -236,7 +236,7 @@ fn a_take_is_dragged_to_another_place_and_stays_shown() {
     );
     give(&mut window, Id::MoveTakeUp);
     assert_eq!(shown(&window), Some(0));
-    window.state_mut().change(dragonfly::document::Change::Undo);
+    window.state_mut().change(dragonfly_document::Change::Undo);
     window.run_steps(2);
     assert_eq!(shown(&window), Some(1), "undone, it is still the same take");
 }

@@ -2,12 +2,12 @@
 
 use crate::fixture;
 use crate::timeline_rig::Animator;
-use dragonfly::document::Change;
-use dragonfly::document::edit::Edit;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, Deed, KeysRequest};
-use dragonfly::playback::Repeat;
+use dragonfly_document::Change;
+use dragonfly_document::edit::Edit;
+use dragonfly_picture::playback::Repeat;
 use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -352,8 +352,8 @@ fn a_locked_bone_is_not_edited_and_says_so() {
     };
     assert!(said(&animator).contains("is locked"), "{}", said(&animator));
     // Neither from elsewhere.
-    let poses = vec![dragonfly::document::edit::BonePose {
-        bone: dragonfly::document::edit::BoneRef::Index(3),
+    let poses = vec![dragonfly_document::edit::BonePose {
+        bone: dragonfly_document::edit::BoneRef::Index(3),
         translation: Some([1.0, 0.0, 0.0]),
         rotation: None,
         scale: None,

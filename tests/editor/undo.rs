@@ -2,12 +2,12 @@
 
 use crate::edits::{model, pose, walk};
 use crate::made_take::{BONES, animation};
-use dragonfly::document::adapter::{ModelAdapter, Slot};
-use dragonfly::document::edit::{
+use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
+use dragonfly_document::adapter::{ModelAdapter, Slot};
+use dragonfly_document::edit::{
     Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
 };
-use dragonfly::document::history::{Edited, Gesture};
-use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
+use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 use std::sync::Arc;

@@ -5,7 +5,7 @@ use crate::keeping_desk::Desk;
 use crate::screen::{key, pass};
 use crate::window::{SOON, alone};
 use crate::window_visit::Visit;
-use dragonfly::control::gizmo::Handle;
+use dragonfly_picture::gizmo::Handle;
 use std::fs;
 use std::time::Duration;
 

@@ -5,7 +5,7 @@ use crate::program::{data, run};
 use crate::screen::key;
 use crate::window::alone;
 use crate::window_visit::Visit;
-use dragonfly::control::gizmo::{Axis, Handle, Space};
+use dragonfly_picture::gizmo::{Axis, Handle, Space};
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::Value;
 use std::path::{Path, PathBuf};

@@ -4,7 +4,7 @@ use crate::keeping_desk::{Desk, same_takes};
 use crate::screen::{key, pass};
 use crate::window::alone;
 use crate::window_visit::Visit;
-use dragonfly::document::Change;
+use dragonfly_document::Change;
 use dragonfly_kit::random::{Random, seed};
 use std::time::{Duration, Instant};
 
