@@ -26,6 +26,7 @@ pub mod blend;
 pub mod bounds;
 pub mod check;
 mod checksum;
+pub mod compare;
 pub mod compressed;
 pub mod data;
 pub mod evaluator;

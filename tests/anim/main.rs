@@ -13,6 +13,7 @@ mod budget;
 mod by_hand;
 mod chains;
 mod check;
+mod compare;
 mod compressed;
 mod cross_fades;
 mod damage;
