@@ -5,7 +5,8 @@ use crate::made_take::{BONES, animation};
 use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
 use dragonfly_document::adapter::{ModelAdapter, Slot};
 use dragonfly_document::edit::{
-    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
+    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, KeySet, NewKey, PoseAt, Property, ResetTo,
+    TakeRef,
 };
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::random::{Random, seed};
@@ -32,8 +33,14 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
         scale: (random.below(3) == 0).then(|| three(random)),
     }];
     let name = format!("take {}", random.below(100));
-    match random.below(28) {
+    match random.below(30) {
         26 | 27 => Edit::PasteKeys { take, time, channels: vec![any_channel(random, bone, property)] },
+        28 | 29 => {
+            let at = (0..random.below(3))
+                .map(|_| PoseAt { time: random.choice(&[0.0, 0.125, 0.4, 1.0]), poses: poses.clone() })
+                .collect();
+            Edit::SetMany { take, at, unstep: random.below(2) == 0 }
+        }
         22 | 23 => Edit::Pend { take, time, poses },
         24 => Edit::KeyPending {
             take,
@@ -63,7 +70,7 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
                 bones,
                 properties,
                 value,
-                keyed_only: false,
+                keyed_only: random.below(2) == 0,
             }
         }
         7 => Edit::DeleteKeys { take, keys: keys() },
@@ -83,8 +90,11 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
         }
         14 => {
             let numbers = if property == Property::Rotation { 4 } else { 3 };
-            let arrive = Some((0..numbers).map(|_| random.between(-1.0, 1.0)).collect());
-            Edit::SetTangents { take, time, bone, property, arrive, leave: None }
+            let tangent = |random: &mut Random| {
+                (random.below(3) > 0).then(|| (0..numbers).map(|_| random.between(-1.0, 1.0)).collect())
+            };
+            let [arrive, leave] = std::array::from_fn(|_| tangent(random));
+            Edit::SetTangents { take, time, bone, property, arrive, leave }
         }
         15 => {
             let copy = (random.below(3) > 0).then_some(take);
