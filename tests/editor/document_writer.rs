@@ -3,7 +3,7 @@
 
 use crate::journal_writer::{Writer, nanoseconds};
 use crate::keeping_desk::{Desk, fox_at, rename, turn};
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, NewKey, TakeRef};
+use dragonfly_document::edit::{AddKeys, BonePose, BoneRef, Edit, NewKey, ReverseTake, SetPending, TakeRef};
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Then};
 use dragonfly_kit::random::Random;
@@ -59,12 +59,12 @@ pub(crate) fn deed(number: u32) -> Deed {
             let (time, bones, properties) = (0.01 + random.unit() * 0.5, vec![bone()], Vec::new());
             let value = NewKey::default();
             Change::Edit(
-                Edit::AddKeys { take: take(), time, bones, properties, value, keyed_only: false },
+                Edit::AddKeys(AddKeys { take: take(), time, bones, properties, value, keyed_only: false }),
                 None,
             )
         }
-        8 => Change::Edit(Edit::Pend { take: take(), time: random.unit() * 0.5, poses: vec![pose()] }, None),
-        9 => Change::Edit(Edit::ReverseTake { take: TakeRef::Index(2) }, None),
+        8 => Change::Edit(Edit::SetPending(SetPending { take: take(), time: random.unit() * 0.5, poses: vec![pose()] }), None),
+        9 => Change::Edit(Edit::ReverseTake(ReverseTake { take: TakeRef::Index(2) }), None),
         _ => Change::Edit(turn(random.unit() * 3.0), None),
     })
 }

@@ -1,7 +1,7 @@
 //! A document in its thread, as the window has it, without a window: what it is told, what it says, what it shows.
 
 use crate::program::{Folder, data};
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, SetPose, TakeRef};
 use dragonfly_document::{
     Change, Document, DocumentHandle, DocumentMessage, DocumentReply, Offer, SaveOrder, SaveTo, SavedFile,
     Setup, Source, View,
@@ -95,11 +95,11 @@ pub(crate) fn turn(angle: f32) -> Edit {
         rotation: Some([0.0, 0.0, sine, cosine]),
         scale: None,
     };
-    Edit::Set { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false }
+    Edit::SetPose(SetPose { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false })
 }
 
 pub(crate) fn rename(name: &str) -> Edit {
-    Edit::RenameTake { take: TakeRef::Index(0), name: name.to_owned() }
+    Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() })
 }
 
 impl Desk {

@@ -6,7 +6,7 @@
 use crate::journal_scenarios::forged_with;
 use crate::keeping_desk::{Desk, fox};
 use crate::program::{Folder, data};
-use dragonfly_document::edit::{EXAMPLES, Edit, TakeRef};
+use dragonfly_document::edit::{EDITS, Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, View};
 use dragonfly_store::{FileStamp, RealFiles};
 use std::fs;
@@ -78,7 +78,7 @@ fn names_that_are_refused_now_are_had_back() {
     let (mut desk, view) = had_back("old-names", &[(2, &nameless), (2, &same)], 2);
     let names: Vec<_> = takes(&view).into_iter().map(|take| take.0).collect();
     assert_eq!(names, ["", "Run", "Run"]);
-    let again = Edit::RenameTake { take: TakeRef::Index(2), name: String::new() };
+    let again = Edit::RenameTake(RenameTake { take: TakeRef::Index(2), name: String::new() });
     desk.tell(DocumentMessage::Change(Change::Edit(again, None)));
     let refused = desk.hears(|reply| match reply {
         DocumentReply::Refused(reason) => Some(reason.clone()),
@@ -116,7 +116,7 @@ fn a_snapshot_of_every_version_is_had_back() {
 fn no_edit_is_missing_among_those_that_are_kept() {
     let kind = |json: &str| serde_json::from_str::<serde_json::Value>(json).unwrap()["edit"].to_string();
     let kept: Vec<String> = first_edits().iter().map(|edit| kind(edit)).collect();
-    for example in EXAMPLES {
+    for example in EDITS.iter().map(|kind| kind.example) {
         assert!(kept.contains(&kind(example.json)), "{} is not in edits-1.jsonl", kind(example.json));
     }
     for edit in first_edits() {

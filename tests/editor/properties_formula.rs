@@ -7,7 +7,7 @@ use dragonfly::panels::properties::turn;
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::joint::EulerOrder;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, SetPose, TakeRef};
 use dragonfly_kit::random::{Random, seed};
 use egui::Key;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -58,7 +58,7 @@ fn what_is_typed_is_the_pose_that_the_rules_say() {
         let poses = vec![BonePose { bone: BoneRef::Index(3), translation: None, rotation, scale: None }];
         window
             .state_mut()
-            .change(Change::Edit(Edit::Set { take: TakeRef::Index(0), time, poses, unstep: false }, None));
+            .change(Change::Edit(Edit::SetPose(SetPose { take: TakeRef::Index(0), time, poses, unstep: false }), None));
         window.run_steps(2);
         let column = random.choice(&["change", "result"]);
         let (channel, axis) = (random.choice(&["Translation", "Rotation", "Scale"]), random.below(3));

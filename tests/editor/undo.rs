@@ -4,10 +4,7 @@ use crate::edits::{model, pose, walk};
 use crate::made_take::{BONES, animation};
 use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
 use dragonfly_document::adapter::{ModelAdapter, Slot};
-use dragonfly_document::edit::{
-    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, KeySet, NewKey, PoseAt, Property, ResetTo,
-    TakeRef,
-};
+use dragonfly_document::edit::{AddKeys, Between, BonePose, BoneRef, CopiedChannel, CopiedKey, CreateTake, DeleteKeys, DeleteTake, DropPending, DuplicateKeys, Edit, KeyPending, KeySet, MoveKeys, MoveTake, NewKey, OffsetPose, PasteKeys, PastePose, PoseAt, Property, RenameTake, ResetPose, ResetTo, RetimeTake, ReverseTake, RippleKeys, ScaleKeys, SetInterpolation, SetPending, SetPose, SetPoses, SetTangents, SnapKeys, SplitTake, TakeRef, TrimTake};
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
@@ -34,59 +31,59 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
     }];
     let name = format!("take {}", random.below(100));
     match random.below(30) {
-        26 | 27 => Edit::PasteKeys { take, time, channels: vec![any_channel(random, bone, property)] },
+        26 | 27 => Edit::PasteKeys(PasteKeys { take, time, channels: vec![any_channel(random, bone, property)] }),
         28 | 29 => {
             let at = (0..random.below(3))
                 .map(|_| PoseAt { time: random.choice(&[0.0, 0.125, 0.4, 1.0]), poses: poses.clone() })
                 .collect();
-            Edit::SetMany { take, at, unstep: random.below(2) == 0 }
+            Edit::SetPoses(SetPoses { take, at, unstep: random.below(2) == 0 })
         }
-        22 | 23 => Edit::Pend { take, time, poses },
-        24 => Edit::KeyPending {
+        22 | 23 => Edit::SetPending(SetPending { take, time, poses }),
+        24 => Edit::KeyPending(KeyPending {
             take,
             time: (random.below(2) == 0).then_some(time),
             bones,
             unstep: random.below(2) == 0,
-        },
-        25 if random.below(2) == 0 => Edit::DropPending { take, time: None, bones },
+        }),
+        25 if random.below(2) == 0 => Edit::DropPending(DropPending { take, time: None, bones }),
         25 => {
             let [mirrored, pending, unstep] = std::array::from_fn(|_| random.below(2) == 0);
-            Edit::Paste { take, time, poses, mirrored, pending, unstep }
+            Edit::PastePose(PastePose { take, time, poses, mirrored, pending, unstep })
         }
-        0..=2 => Edit::Set { take, time, poses, unstep: random.below(2) == 0 },
-        3 => Edit::Offset { take, time, poses, unstep: random.below(2) == 0 },
-        4 => Edit::Reset {
+        0..=2 => Edit::SetPose(SetPose { take, time, poses, unstep: random.below(2) == 0 }),
+        3 => Edit::OffsetPose(OffsetPose { take, time, poses, unstep: random.below(2) == 0 }),
+        4 => Edit::ResetPose(ResetPose {
             take,
             time,
             bones,
             properties,
             to: random.choice(&[ResetTo::Original, ResetTo::Rest]),
-        },
+        }),
         5 | 6 => {
             let value = random.choice(&[NewKey::Predecessor, NewKey::Current]);
-            Edit::AddKeys {
+            Edit::AddKeys(AddKeys {
                 take,
                 time: random.between(0.0, 1.5),
                 bones,
                 properties,
                 value,
                 keyed_only: random.below(2) == 0,
-            }
+            })
         }
-        7 => Edit::DeleteKeys { take, keys: keys() },
-        8 => Edit::MoveKeys { take, keys: keys(), by: random.between(-0.2, 0.4) },
-        9 => Edit::ScaleKeys {
+        7 => Edit::DeleteKeys(DeleteKeys { take, keys: keys() }),
+        8 => Edit::MoveKeys(MoveKeys { take, keys: keys(), by: random.between(-0.2, 0.4) }),
+        9 => Edit::ScaleKeys(ScaleKeys {
             take,
             keys: keys(),
             about: time,
             factor: random.choice(&[0.5, 2.0, -1.0, 0.01]),
-        },
-        10 => Edit::DuplicateKeys { take, keys: keys(), by: random.between(-0.2, 0.5) },
-        11 => Edit::Ripple { take, from: time, by: random.between(-0.3, 0.3) },
-        12 => Edit::SnapKeys { take, keys: keys(), rate: random.choice(&[8.0, 24.0, 30.0]) },
+        }),
+        10 => Edit::DuplicateKeys(DuplicateKeys { take, keys: keys(), by: random.between(-0.2, 0.5) }),
+        11 => Edit::RippleKeys(RippleKeys { take, from: time, by: random.between(-0.3, 0.3) }),
+        12 => Edit::SnapKeys(SnapKeys { take, keys: keys(), rate: random.choice(&[8.0, 24.0, 30.0]) }),
         13 => {
             let interpolation = random.choice(&[Between::Step, Between::Linear, Between::CubicSpline]);
-            Edit::SetInterpolation { take, bones, properties, interpolation }
+            Edit::SetInterpolation(SetInterpolation { take, bones, properties, interpolation })
         }
         14 => {
             let numbers = if property == Property::Rotation { 4 } else { 3 };
@@ -94,23 +91,23 @@ pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> 
                 (random.below(3) > 0).then(|| (0..numbers).map(|_| random.between(-1.0, 1.0)).collect())
             };
             let [arrive, leave] = std::array::from_fn(|_| tangent(random));
-            Edit::SetTangents { take, time, bone, property, arrive, leave }
+            Edit::SetTangents(SetTangents { take, time, bone, property, arrive, leave })
         }
         15 => {
             let copy = (random.below(3) > 0).then_some(take);
-            Edit::CreateTake { name, copy, at: (random.below(2) == 0).then(|| random.below(4)) }
+            Edit::CreateTake(CreateTake { name, copy, at: (random.below(2) == 0).then(|| random.below(4)) })
         }
-        16 => Edit::DeleteTake { take },
-        17 => Edit::RenameTake { take, name },
-        18 => Edit::MoveTake { take, to: random.below(4) },
-        19 => Edit::SplitTake { take, time, name },
-        20 => Edit::TrimTake { take, from: time * 0.5, to: time, to_start: random.below(2) == 0 },
-        _ if random.below(2) == 0 => Edit::ReverseTake { take },
-        _ => Edit::RetimeTake {
+        16 => Edit::DeleteTake(DeleteTake { take }),
+        17 => Edit::RenameTake(RenameTake { take, name }),
+        18 => Edit::MoveTake(MoveTake { take, to: random.below(4) }),
+        19 => Edit::SplitTake(SplitTake { take, time, name }),
+        20 => Edit::TrimTake(TrimTake { take, from: time * 0.5, to: time, to_start: random.below(2) == 0 }),
+        _ if random.below(2) == 0 => Edit::ReverseTake(ReverseTake { take }),
+        _ => Edit::RetimeTake(RetimeTake {
             take,
             start: Some(random.between(0.0, 0.5)),
             length: Some(random.between(0.1, 2.0)),
-        },
+        }),
     }
 }
 
@@ -225,7 +222,7 @@ fn all_edits_of_a_gesture_are_one_step_and_each_begins_where_the_gesture_began()
     let gesture = Some(Gesture(1));
     let lift = |by| {
         let poses = vec![BonePose { translation: Some([0.0, by, 0.0]), ..pose("root") }];
-        Edit::Offset { take: walk(), time: 0.5, poses, unstep: false }
+        Edit::OffsetPose(OffsetPose { take: walk(), time: 0.5, poses, unstep: false })
     };
     for step in 1..=10 {
         edited.apply(lift(step as f32 * 0.1), gesture).unwrap();
@@ -276,9 +273,9 @@ fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
                 .collect();
             let take = take.clone();
             let edit = if offset {
-                Edit::Offset { take, time, poses, unstep: true }
+                Edit::OffsetPose(OffsetPose { take, time, poses, unstep: true })
             } else {
-                Edit::Set { take, time, poses, unstep: true }
+                Edit::SetPose(SetPose { take, time, poses, unstep: true })
             };
             let mut alone = start.clone();
             let before = edited.adapter().clone();
@@ -313,7 +310,7 @@ fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
 #[test]
 fn a_document_knows_whether_it_is_as_it_was_saved() {
     let mut edited = Edited::new(model(16));
-    let name = |name: &str| Edit::RenameTake { take: TakeRef::Index(0), name: name.to_owned() };
+    let name = |name: &str| Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
     assert!(edited.is_saved());
     edited.apply(name("a"), None).unwrap();
     edited.mark_saved();

@@ -1,7 +1,7 @@
 //! Undo and redo of everything, as a list in which one can go to any place.
 
 use super::about::about;
-use super::adapter::{Drag, EditError, Inverse, ModelAdapter};
+use super::adapter::{EditError, Inverse, ModelAdapter, PoseDrag};
 use super::edit::Edit;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -44,7 +44,7 @@ pub struct Edited {
     /// Were steps forgotten because there were too many?
     cut: bool,
     /// Where the last step is a pose that may still be dragged.
-    drag: Option<Drag>,
+    drag: Option<PoseDrag>,
 }
 
 impl Edited {
@@ -112,7 +112,7 @@ impl Edited {
         if self.saved.is_some_and(|saved| saved > self.steps.len()) {
             self.saved = None;
         }
-        self.drag = gesture.and_then(|_| Drag::of(&self.adapter, &edit, &inverse));
+        self.drag = gesture.and_then(|_| PoseDrag::of(&self.adapter, &edit, &inverse));
         let bytes = inverse.bytes();
         self.bytes += bytes;
         self.steps.push_back(Step { edit, gesture, about, inverse, bytes });
