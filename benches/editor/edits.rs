@@ -110,7 +110,8 @@ pub(crate) fn run() {
     let mut edited = Edited::new(ModelAdapter::new(&same));
     let keys = one_by_one();
     measure("editor/edits/drag_100_000_keys_named_one_by_one", 5, |run| {
-        let edit = Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by: 0.01 + run as f32 * 0.25 });
+        let edit =
+            Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by: 0.01 + run as f32 * 0.25 });
         edited.apply(edit, Some(Gesture(1))).expect("keys at the end move freely");
     });
     for (name, time) in [("a_key", 300.0), ("no_key", 300.004)] {

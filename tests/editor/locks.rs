@@ -6,7 +6,10 @@ use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{BonePose, BoneRef, DeleteKeys, DropPending, Edit, KeyPending, PastePose, Property, RetimeTake, SetPending, TakeRef, TrimTake};
+use dragonfly_document::edit::{
+    BonePose, BoneRef, DeleteKeys, DropPending, Edit, KeyPending, PastePose, Property, RetimeTake,
+    SetPending, TakeRef, TrimTake,
+};
 use dragonfly_document::posing::clipboard;
 use egui_kittest::kittest::Queryable;
 
@@ -29,8 +32,12 @@ fn turned(bone: u32) -> BonePose {
 /// Bones of the edit that was asked for last.
 fn bones(animator: &Animator) -> Vec<BoneRef> {
     match animator.edits().last() {
-        Some(Edit::PastePose(PastePose { poses, .. })) => poses.iter().map(|pose| pose.bone.clone()).collect(),
-        Some(Edit::KeyPending(KeyPending { bones, .. }) | Edit::DropPending(DropPending { bones, .. })) => bones.clone(),
+        Some(Edit::PastePose(PastePose { poses, .. })) => {
+            poses.iter().map(|pose| pose.bone.clone()).collect()
+        }
+        Some(Edit::KeyPending(KeyPending { bones, .. }) | Edit::DropPending(DropPending { bones, .. })) => {
+            bones.clone()
+        }
         other => panic!("{other:?}"),
     }
 }

@@ -1,6 +1,5 @@
 //! Keys copied, cut and pasted: exactly what they held, where the playhead is.
 
-use crate::edits::{model, walk};
 use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::clipboard::{copied, from_text, to_text};
@@ -11,7 +10,11 @@ use dragonfly_anim::data::{Interpolation, Take};
 use dragonfly_document::Change;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, PasteKeys, Property, SetPending, SetPose, TakeRef};
+use dragonfly_document::edit::{
+    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, PasteKeys, Property, SetPending, SetPose,
+    TakeRef,
+};
+use dragonfly_kit::document::made_take::{model, walk};
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Modifiers, PointerButton};
 
@@ -62,7 +65,9 @@ fn keys_put_back_where_they_were_are_the_same_to_the_bit_with_tangents_and_chang
             rotation: Some([0.1, 0.2, 0.3, 0.9]),
             scale: None,
         };
-        model.apply(&Edit::SetPose(SetPose { take: walk(), time: 0.3, poses: vec![turned], unstep: false })).unwrap();
+        model
+            .apply(&Edit::SetPose(SetPose { take: walk(), time: 0.3, poses: vec![turned], unstep: false }))
+            .unwrap();
         let take = model.slots()[0].result.clone();
         let from = random.between(0.0, 0.8);
         let selection = selected(&take, [from, from + random.between(0.0, 0.5)]);

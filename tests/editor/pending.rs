@@ -1,7 +1,5 @@
 //! With auto-key off a changed pose is seen, undone, kept, and in no key.
 
-use crate::edits::{model, pose, walk};
-use crate::fixture;
 use crate::panels::{Bench, harness_of};
 use crate::shots;
 use dragonfly::panels::commands::Id;
@@ -10,9 +8,14 @@ use dragonfly::panels::{Effect, Request, State};
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::sample::sample_take;
 use dragonfly_document::adapter::ModelAdapter;
-use dragonfly_document::edit::{AddKeys, BonePose, BoneRef, CreateTake, DropPending, Edit, KeyPending, NewKey, OffsetPose, Property, RetimeTake, ReverseTake, RippleKeys, SetPending, SetPose, SplitTake, TakeRef};
+use dragonfly_document::edit::{
+    AddKeys, BonePose, BoneRef, CreateTake, DropPending, Edit, KeyPending, NewKey, OffsetPose, Property,
+    RetimeTake, ReverseTake, RippleKeys, SetPending, SetPose, SplitTake, TakeRef,
+};
 use dragonfly_document::history::Edited;
 use dragonfly_document::{Change, View};
+use dragonfly_kit::document::fixture;
+use dragonfly_kit::document::made_take::{model, pose, walk};
 use dragonfly_picture::scene::Scene;
 use egui_kittest::kittest::Queryable;
 use glam::{Quat, Vec3};
@@ -109,13 +112,23 @@ fn a_key_that_is_set_counts_more_than_what_was_pending_there() {
     let turn = BonePose { rotation: Some([0.0, 0.6, 0.0, 0.8]), ..moved("hip", [1.0, 0.0, 0.0]) };
     model.apply(&pend(0.3, vec![turn])).unwrap();
     model
-        .apply(&Edit::SetPose(SetPose { take: walk(), time: 0.3, poses: vec![moved("hip", [5.0; 3])], unstep: false }))
+        .apply(&Edit::SetPose(SetPose {
+            take: walk(),
+            time: 0.3,
+            poses: vec![moved("hip", [5.0; 3])],
+            unstep: false,
+        }))
         .unwrap();
     assert_eq!(waiting(&model), [(0.3, 1, Property::Rotation, 0.0)]);
     // An offset goes on top of what is seen.
     model.apply(&pend(0.5, vec![moved("root", [1.0, 2.0, 3.0])])).unwrap();
     model
-        .apply(&Edit::OffsetPose(OffsetPose { take: walk(), time: 0.5, poses: vec![moved("root", [1.0; 3])], unstep: false }))
+        .apply(&Edit::OffsetPose(OffsetPose {
+            take: walk(),
+            time: 0.5,
+            poses: vec![moved("root", [1.0; 3])],
+            unstep: false,
+        }))
         .unwrap();
     let mut poses = vec![Transform::IDENTITY; 5];
     sample_take(Some(&model.slots()[0].result), model.skeleton(), 0.5, &mut poses);
@@ -140,7 +153,9 @@ fn pending_poses_go_along_with_the_take() {
     assert_eq!(times(&model, 0), [1.5, 3.0]);
     model.apply(&Edit::SplitTake(SplitTake { take: walk(), time: 2.0, name: "end".to_owned() })).unwrap();
     assert_eq!((times(&model, 0), times(&model, 1)), (vec![1.5], vec![1.0]));
-    model.apply(&Edit::CreateTake(CreateTake { name: "copy".to_owned(), copy: Some(walk()), at: None })).unwrap();
+    model
+        .apply(&Edit::CreateTake(CreateTake { name: "copy".to_owned(), copy: Some(walk()), at: None }))
+        .unwrap();
     assert_eq!(model.pending_poses(), 2, "a copy is of the keys");
     model.check().unwrap();
 }
@@ -170,7 +185,9 @@ fn pending_view(far: [f32; 3]) -> (View, Edited) {
     let view = fixture::full();
     let mut edited = Edited::new(ModelAdapter::new(&view.loaded.model.animation));
     let far = BonePose { bone: BoneRef::Index(1), translation: Some(far), rotation: None, scale: None };
-    edited.apply(Edit::SetPending(SetPending { take: TakeRef::Index(0), time: 0.4, poses: vec![far] }), None).unwrap();
+    edited
+        .apply(Edit::SetPending(SetPending { take: TakeRef::Index(0), time: 0.4, poses: vec![far] }), None)
+        .unwrap();
     (shown(&view, &edited), edited)
 }
 

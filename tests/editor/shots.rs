@@ -1,10 +1,11 @@
 //! Pictures of the panels, to be looked at: how they are made, and those of the panels that edit.
 
+use crate::workbench;
 use crate::workbench::Workbench;
-use crate::{fixture, workbench};
 use dragonfly::panels::{Request, style};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, ReverseTake, SetPose, TakeRef};
+use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};
@@ -57,7 +58,10 @@ fn edited() -> Workbench {
     for step in 0..14 {
         bench.change(turn(step + 1, 0.1 * step as f32));
     }
-    bench.change(Change::Edit(Edit::RenameTake(RenameTake { take: take(), name: "Look around".to_owned() }), None));
+    bench.change(Change::Edit(
+        Edit::RenameTake(RenameTake { take: take(), name: "Look around".to_owned() }),
+        None,
+    ));
     if let Some(edited) = &mut bench.edited {
         edited.mark_saved();
     }

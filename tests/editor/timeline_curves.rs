@@ -6,7 +6,10 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::KeysRequest;
 use dragonfly_anim::data::Interpolation;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{Between, BonePose, BoneRef, Edit, MoveKeys, Property, SetInterpolation, SetPose, SetPoses, SetTangents, TakeRef};
+use dragonfly_document::edit::{
+    Between, BonePose, BoneRef, Edit, MoveKeys, Property, SetInterpolation, SetPose, SetPoses, SetTangents,
+    TakeRef,
+};
 use egui::{Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::EulerRot;
@@ -38,7 +41,9 @@ fn a_key_dragged_up_changes_one_angle_as_one_step() {
     let after = angle(&animator, 8);
     assert!(after > before + 3.0, "{before} → {after}");
     assert!((angle(&animator, 7) - animator_angle(7)).abs() < 0.01, "the key beside stays");
-    assert!(matches!(animator.edits().last(), Some(Edit::SetPose(SetPose { poses, .. })) if poses[0].rotation.is_some()));
+    assert!(
+        matches!(animator.edits().last(), Some(Edit::SetPose(SetPose { poses, .. })) if poses[0].rotation.is_some())
+    );
     assert_eq!(animator.edited.steps().0.len(), 1);
     assert_eq!(animator.selected(), 1);
 }
@@ -77,7 +82,11 @@ fn a_key_dragged_sidewards_changes_its_time() {
     let by = animator.x_in(animator.curves(), 0.045) - animator.x_in(animator.curves(), 0.0);
     animator.drag(at, at + vec2(by, 0.0));
     animator.release(at + vec2(by, 0.0));
-    assert!(matches!(animator.edits().last(), Some(Edit::MoveKeys(MoveKeys { .. }))), "{:?}", animator.edits());
+    assert!(
+        matches!(animator.edits().last(), Some(Edit::MoveKeys(MoveKeys { .. }))),
+        "{:?}",
+        animator.edits()
+    );
     assert!((animator.times(3)[8] - animator.key(8)).abs() > 0.01);
 }
 

@@ -143,17 +143,16 @@ fn list(json: bool) -> Result<(), Failure> {
     }
     if !json {
         return print(|out| {
-            EDITS.iter().try_for_each(|kind| {
-                writeln!(out, "# {}\n{}\n", kind.example.description, kind.example.json)
-            })
+            EDITS
+                .iter()
+                .try_for_each(|kind| writeln!(out, "# {}\n{}\n", kind.example.description, kind.example.json))
         });
     }
     let value = |text| serde_json::from_str(text).unwrap_or_default();
-    let edits =
-        EDITS
-            .iter()
-            .map(|kind| Entry { example: value(kind.example.json), description: kind.example.description })
-            .collect();
+    let edits = EDITS
+        .iter()
+        .map(|kind| Entry { example: value(kind.example.json), description: kind.example.description })
+        .collect();
     print_json(&List { version: VERSION, edits })
 }
 

@@ -20,7 +20,10 @@ impl State {
     pub fn execute(&mut self, request: Request) -> Option<Effect> {
         let said = self.status.said();
         let effect = self.perform(request);
-        if let Some(Effect::Change(Change::Edit(Edit::TrimTake(TrimTake { from, to, to_start: true, .. }), _))) = effect
+        if let Some(Effect::Change(Change::Edit(
+            Edit::TrimTake(TrimTake { from, to, to_start: true, .. }),
+            _,
+        ))) = effect
         {
             // What played is all there is then, and lies elsewhere; so does the time that is shown.
             self.keys_request(KeysRequest::Range(None));

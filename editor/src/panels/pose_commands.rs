@@ -8,7 +8,10 @@ use dragonfly_anim::sample::{rest_pose, sample_track};
 use dragonfly_document::Change;
 use dragonfly_document::adapter::PendingAt;
 use dragonfly_document::bones::MirrorPairs;
-use dragonfly_document::edit::{AddKeys, BonePose, BoneRef, DropPending, Edit, KeyPending, NewKey, PastePose, Property, ResetPose, ResetTo};
+use dragonfly_document::edit::{
+    AddKeys, BonePose, BoneRef, DropPending, Edit, KeyPending, NewKey, PastePose, Property, ResetPose,
+    ResetTo,
+};
 use dragonfly_document::posing::clipboard;
 use std::sync::Arc;
 
@@ -31,7 +34,12 @@ impl State {
     pub(super) fn key_here(&mut self) -> Option<Effect> {
         let (take, time) = (self.take_ref()?, self.time());
         Some(done(if self.pending_here().is_some() {
-            Edit::KeyPending(KeyPending { take, time: Some(time), bones: self.pending_free(Some(time))?, unstep: true })
+            Edit::KeyPending(KeyPending {
+                take,
+                time: Some(time),
+                bones: self.pending_free(Some(time))?,
+                unstep: true,
+            })
         } else {
             self.added_keys()?
         }))

@@ -141,6 +141,13 @@ impl Handle {
         let (arrive, leave) = if here { (Some(own), other) } else { (other, Some(own)) };
         let (bone, property) = self.id;
         let time = *curve.times().get(self.key)?;
-        Some(Edit::SetTangents(SetTangents { take, time, bone: BoneRef::Index(bone), property, arrive, leave }))
+        Some(Edit::SetTangents(SetTangents {
+            take,
+            time,
+            bone: BoneRef::Index(bone),
+            property,
+            arrive,
+            leave,
+        }))
     }
 }

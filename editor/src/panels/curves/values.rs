@@ -57,9 +57,10 @@ pub(super) fn value_edit(take: TakeRef, keys: &[ValueKey], component: usize, by:
     match at.len() {
         0 => None,
         // One time is what every program that reads edits knows.
-        1 => {
-            at.into_iter().next().map(|PoseAt { time, poses }| Edit::SetPose(SetPose { take, time, poses, unstep: true }))
-        }
+        1 => at
+            .into_iter()
+            .next()
+            .map(|PoseAt { time, poses }| Edit::SetPose(SetPose { take, time, poses, unstep: true })),
         _ => Some(Edit::SetPoses(SetPoses { take, at, unstep: true })),
     }
 }

@@ -7,7 +7,9 @@ use super::selection::KeySelection;
 use super::shift::Shift;
 use dragonfly_anim::data::Take;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{DuplicateKeys, Edit, KeySet, MoveKeys, RippleKeys, SAME_TIME, ScaleKeys, SnapKeys, TakeRef};
+use dragonfly_document::edit::{
+    DuplicateKeys, Edit, KeySet, MoveKeys, RippleKeys, SAME_TIME, ScaleKeys, SnapKeys, TakeRef,
+};
 use dragonfly_document::history::Gesture;
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -9,7 +9,9 @@ use super::parts::Part;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::rest_pose;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{AddKeys, DeleteKeys, Edit, KeyPending, KeySet, NewKey, Property, ResetPose, ResetTo};
+use dragonfly_document::edit::{
+    AddKeys, DeleteKeys, Edit, KeyPending, KeySet, NewKey, Property, ResetPose, ResetTo,
+};
 use egui::Ui;
 
 /// What a channel has at the time shown.

@@ -5,7 +5,9 @@ use super::super::state::{Effect, State};
 use super::super::status::Level;
 use dragonfly_document::Change;
 use dragonfly_document::adapter::{Slot, TakeId};
-use dragonfly_document::edit::{CreateTake, DeleteTake, Edit, MoveTake, ReverseTake, SplitTake, TakeRef, TrimTake};
+use dragonfly_document::edit::{
+    CreateTake, DeleteTake, Edit, MoveTake, ReverseTake, SplitTake, TakeRef, TrimTake,
+};
 use std::sync::Arc;
 
 /// What the list of takes is about to do.

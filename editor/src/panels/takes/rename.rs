@@ -92,7 +92,10 @@ impl Rename {
         let left = !first && !response.has_focus();
         // What does not fit and is left is refused by the document, which says why.
         if (enter || left) && !escape && changed {
-            let edit = Edit::RenameTake(RenameTake { take: TakeRef::Index(index), name: std::mem::take(&mut self.text) });
+            let edit = Edit::RenameTake(RenameTake {
+                take: TakeRef::Index(index),
+                name: std::mem::take(&mut self.text),
+            });
             requests.push(Request::Change(Change::Edit(edit, None)));
         }
         !(enter || left || escape)

@@ -46,17 +46,13 @@ impl Times {
         ui.label(RichText::new("Moves and stretches all keys").small().color(Theme::of(ui).weak));
         let heard = number(ui, "Start", start, 0.0..=LONGEST, None, rate);
         let retime = take.clone();
-        self.edit(state, start, heard, requests, |start| Edit::RetimeTake(RetimeTake {
-            take: retime.clone(),
-            start: Some(start),
-            length: None,
-        }));
+        self.edit(state, start, heard, requests, |start| {
+            Edit::RetimeTake(RetimeTake { take: retime.clone(), start: Some(start), length: None })
+        });
         let heard = number(ui, "Length", length, SHORTEST..=LONGEST, locked, rate);
-        self.edit(state, length, heard, requests, |length| Edit::RetimeTake(RetimeTake {
-            take: take.clone(),
-            start: None,
-            length: Some(length),
-        }));
+        self.edit(state, length, heard, requests, |length| {
+            Edit::RetimeTake(RetimeTake { take: take.clone(), start: None, length: Some(length) })
+        });
         ui.separator();
         ui.label(RichText::new("Cuts away what lies outside").small().color(Theme::of(ui).weak));
         let id = state
