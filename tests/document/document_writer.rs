@@ -3,7 +3,7 @@
 
 use dragonfly_document::edit::{AddKeys, BonePose, BoneRef, Edit, NewKey, ReverseTake, SetPending, TakeRef};
 use dragonfly_document::history::{Edited, Gesture};
-use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Then};
+use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo};
 use dragonfly_kit::document::desk::{Desk, fox_at, rename, turn};
 use dragonfly_kit::random::Random;
 use dragonfly_kit::writer::{Writer, nanoseconds};
@@ -112,8 +112,10 @@ fn edit_on(folder: &Path, first: Option<u32>) {
             Deed::Change(change) => {
                 desk.change(change.clone());
                 // Answered behind it, when it is done and recorded.
-                desk.tell(DocumentMessage::Leave(Then::Quit));
-                desk.hears(|reply| matches!(reply, DocumentReply::Leave(..)).then_some(()));
+                desk.tell(DocumentMessage::Quit);
+                desk.hears(|reply| {
+                    matches!(reply, DocumentReply::Unsaved(_) | DocumentReply::MayQuit).then_some(())
+                });
             }
         }
         number += 1;

@@ -115,9 +115,10 @@ fn the_history_survives_saving_closing_and_starting_again() {
         desk.change(Change::GoTo(3));
         assert!(desk.view().history.saved);
         // Back where it was saved nothing needs to be asked or offered.
-        desk.tell(DocumentMessage::Leave(Then::Quit));
+        desk.tell(DocumentMessage::Quit);
         assert!(!desk.hears(|reply| match reply {
-            DocumentReply::Leave(_, unsaved) => Some(*unsaved),
+            DocumentReply::Unsaved(_) => Some(true),
+            DocumentReply::MayQuit => Some(false),
             _ => None,
         }));
         desk.end();
@@ -527,4 +528,28 @@ fn work_on_a_file_that_is_gone_is_had_on_another_one_beside_it() {
     assert_eq!(view.takes[0].name, "An older one");
     assert_eq!(view.takes[0].tracks, before.takes[0].tracks);
     assert!(!view.history.saved && fs::read(&other).unwrap() == bytes);
+}
+
+#[test]
+fn opening_a_model_asks_first_while_something_is_unsaved() {
+    let folder = Folder::new("opening-asks");
+    let mut desk = Desk::new(&folder.join("autosave"));
+    let open = |desk: &mut Desk, anyway| {
+        desk.tell(DocumentMessage::Open { source: Source::BuiltIn, anyway });
+        desk.hears(|reply| match reply {
+            DocumentReply::Unsaved(then) => {
+                assert_eq!(*then, Then::Open(Source::BuiltIn));
+                Some(false)
+            }
+            DocumentReply::Opened(_) => Some(true),
+            _ => None,
+        })
+    };
+    assert!(open(&mut desk, false), "nothing was open");
+    assert!(open(&mut desk, false), "nothing is unsaved");
+    desk.edit(rename("Hover"));
+    assert!(!open(&mut desk, false), "an edit is unsaved");
+    assert_eq!(desk.view().history.done, 1, "the model stays open");
+    assert!(open(&mut desk, true), "the user has decided");
+    assert_eq!(desk.view().history.done, 0);
 }

@@ -4,12 +4,12 @@ use super::handle::DocumentHandle;
 use super::job::{JobNews, LoadJob};
 use super::message::{DocumentMessage, DocumentReply, NewsBox, ScanBox};
 use super::open::Open;
-use super::recovering::{Decision, Scan, Waiting};
-use super::saving::SaveOrder;
+use super::saving::{SaveOrder, Then};
+use super::scan::{Decision, RecoveryScan};
 use super::{Change, LoadError, Loader, Offer, Source, View, open_model};
 use crate::text::sentence;
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
-use dragonfly_store::{Autosave, FileState};
+use dragonfly_store::{Autosave, FileState, Recoverable};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -43,9 +43,9 @@ pub struct Document {
     load: Loader,
     pub(super) autosave: Option<Autosave>,
     /// Unsaved work of what is open, of which nothing is decided yet.
-    pub(super) waiting: Option<Waiting>,
+    pub(super) waiting: Option<Recoverable>,
     /// What was found before the first model was there.
-    pub(super) scan: Option<Scan>,
+    pub(super) scan: Option<RecoveryScan>,
     /// Does a person wait for what is found?
     pub(super) searched: bool,
     /// How the file was when it was said that somebody else had changed it.
@@ -151,13 +151,26 @@ impl Document {
         let Some(autosave) = self.autosave.clone() else { return };
         let own = self.own.clone();
         let search = move || {
-            let _ = own.send(DocumentMessage::Found(ScanBox(Scan::of(&autosave))));
+            let _ = own.send(DocumentMessage::Found(ScanBox(RecoveryScan::of(&autosave))));
         };
         if let Err(error) = std::thread::Builder::new().name("recovery".to_owned()).spawn(search) {
             tracing::error!("unsaved work could not be looked for: {error}");
         }
     }
 
+    /// Opens a model, or replies that the open one has unsaved work.
+    fn open_or_ask(&mut self, source: Source, anyway: bool) {
+        if !anyway && self.has_unsaved_work() {
+            return self.reply(DocumentReply::Unsaved(Then::Open(source)));
+        }
+        self.open(source, None);
+    }
+
+    fn has_unsaved_work(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| !open.edited.is_saved())
+    }
+
+    /// Starts to load a model in the background; `offer` is the unsaved work that it is opened for.
     pub(super) fn open(&mut self, source: Source, offer: Option<(Offer, Decision)>) {
         self.tickets += 1;
         let (ticket, own) = (self.tickets, self.own.clone());
@@ -322,15 +335,16 @@ impl Receiver for Shared {
         let document = &mut *self.0.borrow_mut();
         let now = thread.now();
         match message {
-            DocumentMessage::Open(source) => document.open(source, None),
+            DocumentMessage::Open { source, anyway } => document.open_or_ask(source, anyway),
             DocumentMessage::CancelLoading => document.cancel(),
             DocumentMessage::Change(change) => document.change(change, now),
             DocumentMessage::Save(order) => document.save(order, now),
             DocumentMessage::Plan(order) => document.plan(order),
             DocumentMessage::Revert => document.revert(now),
-            DocumentMessage::Leave(then) => {
-                let unsaved = document.open.as_ref().is_some_and(|open| !open.edited.is_saved());
-                document.reply(DocumentReply::Leave(then, unsaved));
+            DocumentMessage::Quit => {
+                let unsaved = document.has_unsaved_work();
+                let reply = if unsaved { DocumentReply::Unsaved(Then::Quit) } else { DocumentReply::MayQuit };
+                document.reply(reply);
             }
             DocumentMessage::DoNotSave => {
                 if let Some(open) = &mut document.open {

@@ -1,88 +1,24 @@
-//! Unsaved work of an earlier time: found, offered, brought back.
+//! Unsaved work of an earlier session: offered, and restored.
 
 use super::Source;
 use super::message::DocumentReply;
 use super::offer::Offer;
 use super::owner::Document;
 use super::replay::replay;
-use dragonfly_store::{
-    Autosave, Bounds, Claim, Journal, JournalError, Opening, Reading, Recoverable, Resumed,
-};
+use super::scan::{Decision, RecoveryScan};
+use dragonfly_store::{Claim, Journal, JournalError, Opening, Recoverable, Resumed};
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// What becomes of unsaved work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Decision {
-    /// It goes on, with its history.
-    Keep,
-    /// It is opened as a document of its own, which has no file yet; where it is stays as it is.
-    Beside,
-    /// Into the bin.
-    Discard,
-    /// It is left where it is, and offered another time.
-    Later,
-}
-
-/// Unsaved work of what is open, of which nothing is decided yet.
-pub(super) struct Waiting(Recoverable);
-
-/// Journals with nothing but history that are kept.
-const HISTORIES: Bounds = Bounds { least: 20, most: 200, bytes: 1 << 30 };
-
-/// What was found in the autosave folder.
-#[derive(Debug, Default)]
-pub(super) struct Scan {
-    offers: Vec<Offer>,
-    /// Journals that cannot be read, and why.
-    unreadable: Vec<String>,
-}
-
-impl Scan {
-    /// Looks at everything; what only takes room is put away.
-    pub(super) fn of(autosave: &Autosave) -> Self {
-        let mut scan = Self::default();
-        if let Err(error) = autosave.tidy(HISTORIES) {
-            tracing::warn!("{error}");
-        }
-        let found = match autosave.recoverable() {
-            Ok(found) => found,
-            Err(error) => {
-                scan.unreadable.push(error.to_string());
-                return scan;
-            }
-        };
-        for found in found {
-            match &found.reading {
-                Reading::Newer(version) => scan.unreadable.push(format!(
-                    "{}: a newer version of this program recorded unsaved work here (format {version}); it was left as it is",
-                    found.journal.display()
-                )),
-                Reading::Damaged(reason) => scan.unreadable.push(format!(
-                    "{}: no unsaved work can be read here: {reason}; it was left as it is",
-                    found.journal.display()
-                )),
-                Reading::Whole | Reading::Cut(_) if found.is_offered() => match Offer::of(autosave, &found) {
-                    Ok(offer) if offer.steps > 0 => scan.offers.push(offer),
-                    Ok(_) => {}
-                    Err(reason) => scan.unreadable.push(reason),
-                },
-                Reading::Whole | Reading::Cut(_) => {}
-            }
-        }
-        scan
-    }
-}
-
 impl Document {
     /// Offers what was found, but for what is offered with the model that it belongs to.
-    pub(super) fn offer(&mut self, scan: Scan) {
+    pub(super) fn offer(&mut self, scan: RecoveryScan) {
         if self.job.is_some() {
             self.scan = Some(scan);
             return;
         }
         scan.unreadable.into_iter().for_each(|text| self.reply(DocumentReply::Warned(text)));
-        let waiting = self.waiting.as_ref().map(|waiting| &waiting.0.journal);
+        let waiting = self.waiting.as_ref().map(|waiting| &waiting.journal);
         let own = self.open.as_ref().and_then(|open| open.keeper.path());
         let taken =
             |offer: &Offer| Some(&offer.found.journal) == waiting || Some(&*offer.found.journal) == own;
@@ -150,7 +86,7 @@ impl Document {
             }
         };
         if offer.steps > 0 {
-            self.waiting = Some(Waiting(found));
+            self.waiting = Some(found);
             return self.reply(DocumentReply::Offers(vec![offer]));
         }
         // Nothing but history.
@@ -162,7 +98,7 @@ impl Document {
 
     /// Does what a person decided.
     pub(super) fn decide(&mut self, offer: Offer, decision: Decision) {
-        let own = self.waiting.take_if(|waiting| waiting.0.journal == offer.found.journal).is_some();
+        let own = self.waiting.take_if(|waiting| waiting.journal == offer.found.journal).is_some();
         match decision {
             Decision::Discard => {
                 if let Some(Err(error)) =
@@ -310,19 +246,5 @@ impl Document {
             Some(Err(error)) => error.to_string(),
             None => String::new(),
         }
-    }
-}
-
-/// For tests of what is found.
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_empty_folder_has_nothing_to_offer() {
-        let folder = std::env::temp_dir().join(format!("dragonfly-nothing-{}", std::process::id()));
-        let autosave = Autosave::new(std::sync::Arc::new(dragonfly_store::RealFiles), Some(folder)).unwrap();
-        let scan = Scan::of(&autosave);
-        assert!(scan.offers.is_empty() && scan.unreadable.is_empty(), "{scan:?}");
     }
 }

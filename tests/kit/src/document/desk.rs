@@ -161,7 +161,7 @@ impl Desk {
     #[track_caller]
     pub fn open_source(&mut self, source: Source) -> View {
         let before = self.shown.0.borrow().as_ref().map_or(0, |view| view.generation);
-        self.tell(DocumentMessage::Open(source));
+        self.tell(DocumentMessage::Open { source, anyway: true });
         self.hears(|reply| match reply {
             DocumentReply::Opened(_) => Some(()),
             DocumentReply::Failed { reason, .. } => panic!("{reason}"),
