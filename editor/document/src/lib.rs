@@ -15,7 +15,7 @@ pub mod history;
 pub mod images;
 mod import;
 mod job;
-mod keeper;
+mod journal_writer;
 mod load;
 mod message;
 mod offer;
