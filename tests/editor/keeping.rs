@@ -6,7 +6,7 @@ use crate::program::Folder;
 use dragonfly_document::history::Gesture;
 use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Setup, Source, Then};
 use dragonfly_kit::random::{Random, seed};
-use dragonfly_store::Entry;
+use dragonfly_store::JournalEntry;
 use std::fs;
 
 #[test]
@@ -20,7 +20,7 @@ fn an_edit_is_in_the_journal_before_it_is_seen() {
         desk.shows(|view| view.history.done == number);
         let keeper = autosave_in(&autosave);
         let found = keeper.recoverable().unwrap();
-        let edits = |entry: &Entry| matches!(entry, Entry::Edit(bytes) if bytes.windows(6).any(|part| part == b"\"edit\""));
+        let edits = |entry: &JournalEntry| matches!(entry, JournalEntry::Edit(bytes) if bytes.windows(6).any(|part| part == b"\"edit\""));
         let count = keeper.entries(&found[0]).unwrap().into_iter().filter(edits).count();
         assert_eq!(count, number, "what is seen is recorded");
     }

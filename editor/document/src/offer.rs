@@ -3,7 +3,9 @@
 use super::Source;
 use super::history::Gesture;
 use super::recorded::{About, Recorded, Snapshot};
-use dragonfly_store::{Autosave, Entry, Fate, FileStamp, Life, Reading, RealFiles, Recoverable};
+use dragonfly_store::{
+    Autosave, DocumentFileState, FileStamp, JournalEntry, OwnerStatus, Readability, RealFiles, Recoverable,
+};
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -35,7 +37,7 @@ impl Offer {
         Ok(Self::told(found, &entries))
     }
 
-    pub(super) fn told(found: &Recoverable, entries: &[Entry]) -> Self {
+    pub(super) fn told(found: &Recoverable, entries: &[JournalEntry]) -> Self {
         let mut story = Story::default();
         entries.iter().for_each(|entry| story.hear(entry));
         let source = match &found.document {
@@ -63,23 +65,25 @@ impl Offer {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         match &self.found.file {
-            Fate::Changed => warnings.push(
+            DocumentFileState::Changed => warnings.push(
                 "The file was changed since by another program. The work is done again on what it holds now."
                     .to_owned(),
             ),
-            Fate::Missing => warnings.push(
+            DocumentFileState::Missing => warnings.push(
                 "The file is not where it was. If it was moved or renamed, open it where it is now."
                     .to_owned(),
             ),
-            Fate::Unknown(reason) => warnings.push(format!("The file cannot be looked at: {reason}.")),
-            Fate::Same | Fate::Unsaved => {}
+            DocumentFileState::Unknown(reason) => {
+                warnings.push(format!("The file cannot be looked at: {reason}."))
+            }
+            DocumentFileState::Same | DocumentFileState::Unsaved => {}
         }
-        if let Reading::Cut(bytes) = self.found.reading {
+        if let Readability::Cut(bytes) = self.found.reading {
             warnings.push(format!(
                 "The last {bytes} bytes of the journal are damaged. All before them is whole."
             ));
         }
-        if let (Life::Elsewhere, Some(owner)) = (self.found.life, &self.found.owner) {
+        if let (OwnerStatus::OnOtherHost, Some(owner)) = (self.found.owner_status, &self.found.owner) {
             warnings.push(format!("It may still be in use by {owner}, which cannot be asked."));
         }
         warnings
@@ -87,7 +91,7 @@ impl Offer {
 
     /// Was the file moved, renamed or removed, so that somebody must say where it is?
     pub fn is_missing(&self) -> bool {
-        self.found.document.is_some() && self.found.file == Fate::Missing
+        self.found.document.is_some() && self.found.file == DocumentFileState::Missing
     }
 
     /// Is the file at `path` the one that the work was done on: does it hold the same?
@@ -110,7 +114,7 @@ impl Offer {
 
     /// Can the work be had back now?
     pub fn can_be_kept(&self) -> bool {
-        self.source.is_some() && self.found.file != Fate::Missing
+        self.source.is_some() && self.found.file != DocumentFileState::Missing
     }
 }
 
@@ -130,17 +134,17 @@ struct Story {
 }
 
 impl Story {
-    fn hear(&mut self, entry: &Entry) {
+    fn hear(&mut self, entry: &JournalEntry) {
         match entry {
-            Entry::Saved => (self.saved, self.was_saved) = (Some(self.done), true),
-            Entry::Snapshot(bytes) => {
+            JournalEntry::Saved => (self.saved, self.was_saved) = (Some(self.done), true),
+            JournalEntry::Snapshot(bytes) => {
                 let Some((snapshot, _)) = Snapshot::read(bytes) else { return };
                 self.about = Some(snapshot.about);
                 self.steps = snapshot.steps.iter().map(|edit| (edit.label(), None)).collect();
                 self.done = snapshot.done.min(self.steps.len());
                 (self.saved, self.was_saved) = (snapshot.saved, snapshot.saved != Some(0));
             }
-            Entry::Edit(bytes) => {
+            JournalEntry::Edit(bytes) => {
                 // What is not understood is told when the work is kept.
                 if let Ok(recorded) = serde_json::from_slice(bytes) {
                     self.record(recorded);

@@ -189,7 +189,7 @@ impl Open {
         let stamp = self.stamp();
         let (Some(mut journal), Some(autosave)) = (self.keeper.take(), autosave) else { return Ok(()) };
         let done = if (self.unwanted && !saved) || (saved && self.file.path.is_none()) {
-            if journal.is_empty() { journal.close() } else { autosave.put_away(journal).map(drop) }
+            if journal.is_empty() { journal.close() } else { autosave.discard_own(journal).map(drop) }
         } else {
             // Back at what was saved there is nothing to be had back, only history.
             let marked = match stamp.filter(|_| saved && journal.unsaved() > 0) {

@@ -6,7 +6,7 @@ use super::offer::Offer;
 use super::owner::Document;
 use super::replay::replay;
 use dragonfly_store::{
-    Autosave, Bounds, Claim, Journal, JournalError, Opening, Reading, Recoverable, Resumed,
+    Autosave, Claim, FolderLimits, Journal, JournalError, Opening, Readability, Recoverable, Resumed,
 };
 use std::path::PathBuf;
 use std::time::Instant;
@@ -28,7 +28,7 @@ pub enum Decision {
 pub(super) struct Waiting(Recoverable);
 
 /// Journals with nothing but history that are kept.
-const HISTORIES: Bounds = Bounds { least: 20, most: 200, bytes: 1 << 30 };
+const HISTORIES: FolderLimits = FolderLimits { least: 20, most: 200, bytes: 1 << 30 };
 
 /// What was found in the autosave folder.
 #[derive(Debug, Default)]
@@ -54,20 +54,20 @@ impl Scan {
         };
         for found in found {
             match &found.reading {
-                Reading::Newer(version) => scan.unreadable.push(format!(
+                Readability::Newer(version) => scan.unreadable.push(format!(
                     "{}: a newer version of this program recorded unsaved work here (format {version}); it was left as it is",
                     found.journal.display()
                 )),
-                Reading::Damaged(reason) => scan.unreadable.push(format!(
+                Readability::Damaged(reason) => scan.unreadable.push(format!(
                     "{}: no unsaved work can be read here: {reason}; it was left as it is",
                     found.journal.display()
                 )),
-                Reading::Whole | Reading::Cut(_) if found.is_offered() => match Offer::of(autosave, &found) {
+                Readability::Whole | Readability::Cut(_) if found.is_offered() => match Offer::of(autosave, &found) {
                     Ok(offer) if offer.steps > 0 => scan.offers.push(offer),
                     Ok(_) => {}
                     Err(reason) => scan.unreadable.push(reason),
                 },
-                Reading::Whole | Reading::Cut(_) => {}
+                Readability::Whole | Readability::Cut(_) => {}
             }
         }
         scan
@@ -131,7 +131,7 @@ impl Document {
     fn begin_beside(&mut self) {
         let (Some(open), Some(autosave)) = (&mut self.open, &self.autosave) else { return };
         let stamp = open.stamp();
-        match autosave.begin_beside(open.file.path.as_deref(), stamp.as_ref()) {
+        match autosave.begin_another(open.file.path.as_deref(), stamp.as_ref()) {
             Ok(journal) => {
                 open.keeper.set(journal);
             }
@@ -154,7 +154,7 @@ impl Document {
             return self.reply(DocumentReply::Offers(vec![offer]));
         }
         // Nothing but history.
-        match autosave.keep(&found, Claim::IfFree) {
+        match autosave.resume(&found, Claim::IfFree) {
             Ok(resumed) => self.go_on(resumed, &found, false),
             Err(_) => self.begin_beside(),
         }
@@ -209,16 +209,16 @@ impl Document {
         let (Some(open), Some(autosave)) = (&mut self.open, self.autosave.clone()) else { return };
         let beside = decision == Decision::Beside || offer.found.document.is_none();
         let resumed = if decision == Decision::Beside {
-            autosave.beside(&offer.found, None)
+            autosave.copy(&offer.found, None)
         } else if let Some(path) = offer.moved_to() {
             // A journal of the file where it is now; the other one is done with.
-            autosave.beside(&offer.found, Some(path)).inspect(|_| {
+            autosave.copy(&offer.found, Some(path)).inspect(|_| {
                 if let Err(error) = autosave.discard(&offer.found) {
                     tracing::warn!("{error}");
                 }
             })
         } else {
-            autosave.keep(&offer.found, Claim::Anyway)
+            autosave.resume(&offer.found, Claim::Anyway)
         };
         if beside {
             open.leave_file();
@@ -239,7 +239,8 @@ impl Document {
         let Some(open) = &mut self.open else { return };
         let Resumed { journal, entries, cut } = resumed;
         let replayed = replay(&open.loaded.model, &entries);
-        let fits = replayed.is_of(&open.loaded.model) && found.file == dragonfly_store::Fate::Same;
+        let fits =
+            replayed.is_of(&open.loaded.model) && found.file == dragonfly_store::DocumentFileState::Same;
         if !wanted && (replayed.stopped.is_some() || !fits || !replayed.edited.is_saved()) {
             let text = format!(
                 "The history of {} is of another state of the file, so it begins anew",
@@ -305,7 +306,7 @@ impl Document {
 
     /// Puts a journal into the bin, and says where it is.
     fn put_away(&self, journal: Journal, says: &str) -> String {
-        match self.autosave.as_ref().map(|autosave| autosave.put_away(journal)) {
+        match self.autosave.as_ref().map(|autosave| autosave.discard_own(journal)) {
             Some(Ok(path)) => format!("{says}{}", path.display()),
             Some(Err(error)) => error.to_string(),
             None => String::new(),

@@ -1,6 +1,6 @@
 //! How a save writes, and what came of it.
 
-use dragonfly_store::{Journal, SaveError as DiskError, Versions};
+use dragonfly_store::{FileSaveError as DiskError, Journal, Versions};
 use std::path::PathBuf;
 use thiserror::Error;
 
