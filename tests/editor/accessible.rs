@@ -41,7 +41,7 @@ fn nameless(window: &Window) -> Vec<String> {
 }
 
 fn fox() -> View {
-    let source = Source::File(crate::program::data("gltf/Fox.glb"));
+    let source = Source::File(dragonfly_kit::folder::data("gltf/Fox.glb"));
     let loaded = load_model(&source, &mut |_| {}, &Default::default()).expect("the fox");
     View::opened(1, Arc::new(loaded))
 }

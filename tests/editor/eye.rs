@@ -1,6 +1,5 @@
 //! The eyes in the tree of the skeleton, and the names over the picture.
 
-use crate::fixture;
 use crate::panels::Bench;
 use crate::shots;
 use crate::timeline_rig::Animator;
@@ -8,6 +7,7 @@ use dragonfly::panels::Request;
 use dragonfly::panels::commands::{self, Id};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_kit::document::fixture;
 use egui::Modifiers;
 use egui_kittest::kittest::Queryable;
 

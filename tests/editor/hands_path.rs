@@ -1,6 +1,5 @@
 //! The motion path of the selected bone, its keys that can be dragged, and ghosts.
 
-use crate::arm;
 use crate::hands_rig::{Hand, PICTURE};
 use dragonfly::control::Key;
 use dragonfly::panels::Request;
@@ -9,6 +8,7 @@ use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::settings::GhostSettings;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
+use dragonfly_kit::document::arm;
 use dragonfly_picture::gizmo::GizmoView;
 use glam::{Vec2, Vec3};
 use std::sync::Arc;

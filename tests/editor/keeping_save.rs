@@ -1,11 +1,12 @@
 //! Saving in the document's thread: the same bytes as everywhere, nothing overwritten unasked, the journal goes along.
 
-use crate::keeping_desk::{Desk, autosave_in, fox, killed, rename, same_takes, turn};
-use crate::program::{Folder, data, run};
+use crate::program::run;
 use dragonfly_document::edit::Edit;
 use dragonfly_document::{
     Change, DocumentMessage, DocumentReply, NotSaved, SaveOrder, SaveTo, Setup, Source, Then,
 };
+use dragonfly_kit::document::desk::{Desk, autosave_in, fox, killed, rename, same_takes, turn};
+use dragonfly_kit::folder::{Folder, data};
 use dragonfly_store::{FileState, RealFiles};
 use std::fs;
 use std::path::Path;

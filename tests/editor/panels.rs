@@ -1,12 +1,12 @@
 //! Every panel draws every document, and what a person does in it asks for the right thing.
 
-use crate::fixture;
 use crate::shots;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use dragonfly_document::{Change, FileView, Progress, Stage, View};
+use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::time::Instant;

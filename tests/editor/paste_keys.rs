@@ -1,6 +1,5 @@
 //! Keys copied, cut and pasted: exactly what they held, where the playhead is.
 
-use crate::edits::{model, walk};
 use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::clipboard::{copied, from_text, to_text};
@@ -14,6 +13,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{
     Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, Property, TakeRef,
 };
+use dragonfly_kit::document::made_take::{model, walk};
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Modifiers, PointerButton};
 

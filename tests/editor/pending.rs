@@ -1,7 +1,5 @@
 //! With auto-key off a changed pose is seen, undone, kept, and in no key.
 
-use crate::edits::{model, pose, walk};
-use crate::fixture;
 use crate::panels::{Bench, harness_of};
 use crate::shots;
 use dragonfly::panels::commands::Id;
@@ -13,6 +11,8 @@ use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, NewKey, Property, TakeRef};
 use dragonfly_document::history::Edited;
 use dragonfly_document::{Change, View};
+use dragonfly_kit::document::fixture;
+use dragonfly_kit::document::made_take::{model, pose, walk};
 use dragonfly_picture::scene::Scene;
 use egui_kittest::kittest::Queryable;
 use glam::{Quat, Vec3};

@@ -1,6 +1,5 @@
 //! Rows of bones that follow a hand, pins that hold, bones that look.
 
-use crate::fixture;
 use crate::gizmo_rig::Rig;
 use crate::panels::Bench;
 use dragonfly::panels::commands::Id;
@@ -12,6 +11,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit};
 use dragonfly_document::posing::{Goal, Hold, IkMode, look_at, poses_of_drag};
 use dragonfly_kit::counting;
+use dragonfly_kit::document::fixture;
 use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 use std::sync::Arc;

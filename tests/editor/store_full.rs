@@ -1,9 +1,9 @@
 //! A disk that fills up: at every level of free space each kind of writing either succeeds or leaves what was there, and
 //! says so.
 
-use crate::mounted::{Mounted, may_mount};
-use crate::program::Folder;
 use dragonfly::app::store::{SETTINGS, Store};
+use dragonfly_kit::folder::Folder;
+use dragonfly_kit::mounted::{Mounted, may_mount};
 use dragonfly_store::{
     Autosave, ExpectedFile, FileSaveError, JournalEntry, Opening, RealFiles, SaveOptions, Versions, replace,
     save,

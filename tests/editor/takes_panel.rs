@@ -1,10 +1,11 @@
 //! Takes are made, named, cut, put in order and deleted in their list.
 
+use crate::nasty;
 use crate::workbench::{Window, Workbench, button, drag, move_to, press, type_into};
-use crate::{fixture, nasty};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::KeysRequest;
+use dragonfly_kit::document::fixture;
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 

@@ -1,7 +1,6 @@
 //! How a person acts on the picture: what the mouse does there, as a machine that needs no window to be tested.
 
 mod base;
-mod cycle;
 pub mod expression;
 mod framework;
 pub mod gizmo;
@@ -13,7 +12,6 @@ mod places;
 mod viewport;
 
 pub use base::{Area, BaseControl, ControlId, Controls, Mouse, Pass, PassFlags};
-pub use cycle::ClickCycle;
 pub use framework::ControlFramework;
 pub use hands::Hands;
 pub use input::{InputEvent, PlaceError};

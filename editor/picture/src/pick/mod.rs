@@ -9,9 +9,11 @@ use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::HiddenBones;
 use glam::{Mat4, Vec2, Vec3, Vec4Swizzles};
 
+mod cycle;
 mod region;
 mod surface;
 
+pub use cycle::ClickCycle;
 pub use region::{Lasso, OwnedRegion, Region, bones_in_region};
 pub use surface::{SkinHit, pick_skin};
 
@@ -29,7 +31,7 @@ pub fn pick(scene: &Scene, position: [f32; 2]) -> Option<BoneIndex> {
 
 /// All bones at a pixel of the window, each once, as [`pick`] finds the first: those that the line of sight meets, the nearest
 /// first; where it meets none, those that it just misses, the nearest on the screen first. Not the hidden ones. For clicks
-/// that go through what lies behind (`ClickCycle`).
+/// that go through what lies behind ([`ClickCycle`]).
 pub fn pick_all(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
     out.clear();
     let Some(((ray, pixel), model)) = scene.ray(position).zip(scene.model()) else { return };
