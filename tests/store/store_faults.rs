@@ -128,7 +128,7 @@ fn every_call_that_can_fail_leaves_the_old_file_or_the_new_one() {
     assert!(runs > 4 * 6 * 15, "only {runs} calls failed");
 }
 
-fn names_after(case: &Case, saved: &Result<dragonfly_store::SavedFile, FileSaveError>) -> Vec<String> {
+fn names_after(case: &Case, saved: &Result<dragonfly_store::SaveOutcome, FileSaveError>) -> Vec<String> {
     let there = case.old.is_some() || matches!(saved, Ok(_) | Err(FileSaveError::Unconfirmed { .. }));
     case.names.iter().filter(|_| there).map(|name| (*name).to_owned()).collect()
 }

@@ -3,7 +3,7 @@
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mounted::{Mounted, may_mount, quick_folder, said};
 use dragonfly_store::{
-    ExpectedFile, FileSaveError, FileStamp, FileState, RealFiles, SaveOptions, SaveStep, SavedFile,
+    ExpectedFile, FileSaveError, FileStamp, FileState, RealFiles, SaveOptions, SaveOutcome, SaveStep,
     VersionLimits, Versions, Vfs, discard_old_content, interrupted_save, replace, save,
 };
 use std::fs;
@@ -16,7 +16,7 @@ fn count(folder: &Path) -> usize {
     fs::read_dir(folder).unwrap().count()
 }
 
-fn expecting(path: &Path, bytes: &[u8], stamp: &FileStamp) -> Result<SavedFile, FileSaveError> {
+fn expecting(path: &Path, bytes: &[u8], stamp: &FileStamp) -> Result<SaveOutcome, FileSaveError> {
     let options = SaveOptions { expected: ExpectedFile::Stamp(stamp), ..SaveOptions::default() };
     save(&RealFiles, path, bytes, &options)
 }

@@ -1,5 +1,6 @@
 //! The document thread: owns what is open, loads in jobs, publishes the newest view, keeps the journal.
 
+use super::fault::{FaultInjection, FaultPoint};
 use super::handle::DocumentHandle;
 use super::job::{JobNews, LoadJob};
 use super::message::{DocumentMessage, DocumentReply, NewsBox, ScanBox};
@@ -10,7 +11,7 @@ use super::{Change, LoadError, Loader, Offer, Source, View, open_model};
 use crate::text::sentence;
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use dragonfly_store::{Autosave, FileState};
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
@@ -22,13 +23,13 @@ pub struct Setup {
     pub load: Loader,
     /// Where unsaved work is recorded; nowhere when `None`.
     pub autosave: Option<Autosave>,
-    /// Panics at this change, once: for tests of what becomes of the work.
-    pub fail_at: Option<u32>,
+    /// Faults that a test injects.
+    pub faults: FaultInjection,
 }
 
 impl Default for Setup {
     fn default() -> Self {
-        Self { load: open_model, autosave: None, fail_at: None }
+        Self { load: open_model, autosave: None, faults: FaultInjection::default() }
     }
 }
 
@@ -50,8 +51,7 @@ pub struct Document {
     pub(super) searched: bool,
     /// How the file was when it was said that somebody else had changed it.
     noticed: Option<FileState>,
-    /// Changes until a panic that a test asked for.
-    fail_at: Rc<Cell<Option<u32>>>,
+    faults: FaultInjection,
     replies: Address<DocumentReply>,
     /// The same, where the newest view takes the place of one that waits.
     views: Address<DocumentReply>,
@@ -104,7 +104,6 @@ impl Document {
         // Fails only for a thread that has stopped, and then there is nobody to hear of it.
         let _ = thread.run(move |context| {
             let at = own.clone();
-            let fail_at = Rc::new(Cell::new(setup.fail_at));
             let make = move || Self {
                 open: None,
                 generation: 0,
@@ -117,7 +116,7 @@ impl Document {
                 scan: None,
                 searched: false,
                 noticed: None,
-                fail_at: Rc::clone(&fail_at),
+                faults: setup.faults.clone(),
                 views: replies.latest(),
                 picture: picture.latest(),
                 replies: replies.clone(),
@@ -223,10 +222,7 @@ impl Document {
     }
 
     fn change(&mut self, change: Change, now: Instant) {
-        if let Some(left) = self.fail_at.get() {
-            self.fail_at.set(left.checked_sub(1));
-            assert!(left != 1, "a test asked for it");
-        }
+        self.faults.reach(FaultPoint::Change);
         let Some(open) = &mut self.open else {
             return self.reply(DocumentReply::Refused("Nothing is open".to_owned()));
         };

@@ -3,6 +3,7 @@
 use super::fault::{Faults, LossRecord, Patience};
 use super::gpu::Gpu;
 use super::surface::{SurfaceSource, WindowSurface};
+use dragonfly_document::FaultInjection;
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Instant;
@@ -52,12 +53,15 @@ pub struct DeviceParameters {
     pub backends: wgpu::Backends,
     /// The window to draw into; `None` draws into textures only.
     pub source: Option<SurfaceSource>,
+    /// Faults that a test injects.
+    pub faults: FaultInjection,
 }
 
 impl Default for DeviceParameters {
     /// The platform's native interfaces, or what `WGPU_BACKEND` names; no window.
     fn default() -> Self {
-        Self { backends: wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY), source: None }
+        let backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
+        Self { backends, source: None, faults: FaultInjection::default() }
     }
 }
 

@@ -120,11 +120,6 @@ impl GraphicsHandle {
         self.send(GraphicsMessage::Control(Box::new(appearance)));
     }
 
-    /// Loses the device on purpose.
-    pub fn lose_device(&self) {
-        self.send(GraphicsMessage::LoseDevice);
-    }
-
     /// Draws the scene again after a pause.
     pub fn resume(&self) {
         self.send(GraphicsMessage::Resume);

@@ -279,7 +279,7 @@ impl Stage {
         self.target = None;
         self.stand_in = None;
         (self.scene_changed, self.window_changed) = (true, true);
-        if patience == Patience::Left {
+        if patience == Patience::Left || !self.device.parameters().faults.pauses() {
             self.events.push(Event::Recovered(reason));
             return;
         }

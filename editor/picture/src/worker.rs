@@ -7,11 +7,10 @@ use super::message::{GraphicsMessage, GraphicsReply};
 use super::pass::SharedPass;
 use super::pick::{pick, pick_region};
 use super::stage::{Event, Opened, Stage};
-use super::surface::SurfaceSource;
 use super::{GraphicsHandle, Look};
 use crate::camera::Camera;
 use crate::playback::Playback;
-use dragonfly_document::View;
+use dragonfly_document::{FaultInjection, FaultPoint, View};
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -38,8 +37,7 @@ pub struct Graphics {
     captures: Vec<PathBuf>,
     statistics: Rc<RefCell<Statistics>>,
     failed: bool,
-    /// So many drawings a test wants to fail.
-    fails: u32,
+    faults: FaultInjection,
 }
 
 /// What the presenter knows about frames.
@@ -54,12 +52,11 @@ impl Graphics {
     /// physical pixels, is created at the first call in that thread, which answers [`GraphicsReply::Ready`] or
     /// [`GraphicsReply::Fatal`].
     pub fn start(
-        source: SurfaceSource,
+        parameters: DeviceParameters,
         size: [u32; 2],
         replies: Address<GraphicsReply>,
     ) -> std::io::Result<GraphicsHandle> {
         let thread = Thread::start("graphics")?;
-        let parameters = DeviceParameters { source: Some(source), ..DeviceParameters::default() };
         Ok(Self::register(&thread.handle().clone(), Some(thread), parameters, size, replies))
     }
 
@@ -84,6 +81,7 @@ impl Graphics {
         let (own, shows) = (address.clone(), views.clone());
         // Fails only for a thread that has stopped, and then there is nobody to hear of it.
         let _ = thread.run(move |context| {
+            let faults = parameters.faults.clone();
             let graphics = Rc::new(RefCell::new(Self {
                 parameters: Some(parameters),
                 replies,
@@ -92,7 +90,7 @@ impl Graphics {
                 captures: Vec::new(),
                 statistics: Rc::default(),
                 failed: false,
-                fails: 0,
+                faults,
             }));
             // What is shown stays after a mistake: only the message is lost, or the drawing, which is done again.
             let again = move || {
@@ -133,7 +131,7 @@ impl Graphics {
         self.stage = Some(stage);
         self.reply(GraphicsReply::Ready { adapter, max_texture_side });
         for message in std::mem::take(&mut self.waiting) {
-            self.receive(message, thread);
+            self.handle(message, thread);
         }
         // The drawers are called from the next iteration on.
         thread.iterate_again();
@@ -203,6 +201,13 @@ impl Receiver for Graphics {
     type Message = GraphicsMessage;
 
     fn receive(&mut self, message: GraphicsMessage, thread: &mut Context) {
+        self.handle(message, thread);
+        self.faults.reach(FaultPoint::GraphicsMessage);
+    }
+}
+
+impl Graphics {
+    fn handle(&mut self, message: GraphicsMessage, thread: &mut Context) {
         let Some(stage) = self.stage.clone() else {
             if !self.failed {
                 if let GraphicsMessage::Show(_) = message {
@@ -249,15 +254,6 @@ impl Receiver for Graphics {
                 stage.scene.controls.receive(*appearance);
                 stage.touch_scene();
             }
-            GraphicsMessage::LoseDevice => {
-                stage.device().lose();
-                stage.touch_window();
-            }
-            GraphicsMessage::Fail { drawing } => {
-                assert!(drawing, "a test asked for it");
-                self.fails += 1;
-                stage.touch_window();
-            }
             GraphicsMessage::Resume => stage.resume(),
             GraphicsMessage::Capture(path) => {
                 self.captures.push(path);
@@ -274,7 +270,7 @@ impl Receiver for Views {
     type Message = View;
 
     fn receive(&mut self, view: View, thread: &mut Context) {
-        self.0.borrow_mut().receive(GraphicsMessage::Show(view), thread);
+        self.0.borrow_mut().handle(GraphicsMessage::Show(view), thread);
     }
 }
 
@@ -286,6 +282,10 @@ impl Worker for Graphics {
         let Some(stage) = self.stage.clone() else { return self.initialize(thread) };
         let stage = &mut *stage.borrow_mut();
         let now = thread.now();
+        if self.faults.loses_device(stage.frames(), stage.moves(now)) {
+            stage.device().lose();
+            stage.touch_window();
+        }
         if !stage.wants_frame(now) {
             return false;
         }
@@ -293,11 +293,7 @@ impl Worker for Graphics {
             thread.wake_at(now + wait);
             return false;
         }
-        // What touches the device is guarded; this is not.
-        if self.fails > 0 {
-            self.fails -= 1;
-            panic!("a test asked for it");
-        }
+        self.faults.reach(FaultPoint::Frame);
         for path in std::mem::take(&mut self.captures) {
             let written = stage.capture(now).and_then(|picture| write(&picture, &path));
             self.reply(GraphicsReply::Captured(written.map(|()| path)));

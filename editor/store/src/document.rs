@@ -2,7 +2,7 @@
 
 use super::error::FileSaveError;
 use super::journal::Journal;
-use super::save::{SaveOptions, SavedFile, save};
+use super::save::{SaveOptions, SaveOutcome, save};
 use super::target::resolved;
 use super::vfs::Vfs;
 use std::path::Path;
@@ -21,7 +21,7 @@ pub fn save_document(
     path: &Path,
     bytes: &[u8],
     options: &SaveOptions<'_>,
-) -> Result<SavedFile, FileSaveError> {
+) -> Result<SaveOutcome, FileSaveError> {
     let own = journal.document() == Some(resolved(files, path)?);
     let before = if own { journal.saving(bytes) } else { Ok(()) };
     let mut saved = save(files, path, bytes, options)?;

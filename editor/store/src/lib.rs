@@ -43,7 +43,7 @@ pub use real::RealFiles;
 pub use record::LONGEST_RECORD;
 pub use recoverable::{DocumentFileState, JournalEntry, Readability, Recoverable};
 pub use recovery::{Claim, Resumed};
-pub use save::{SaveOptions, SavedFile, replace, save};
+pub use save::{SaveOptions, SaveOutcome, replace, save};
 pub use stamp::{FileStamp, FileState, hash};
 pub use target::ExpectedFile;
 pub use versions::{OldVersion, VersionLimits, Versions};

@@ -29,7 +29,7 @@ pub struct SaveOptions<'a> {
 
 /// Result of a save.
 #[derive(Debug)]
-pub struct SavedFile {
+pub struct SaveOutcome {
     /// The file that was written, links resolved.
     pub path: PathBuf,
     /// Its stamp after the save.
@@ -53,7 +53,7 @@ pub fn save(
     path: &Path,
     bytes: &[u8],
     options: &SaveOptions<'_>,
-) -> Result<SavedFile, FileSaveError> {
+) -> Result<SaveOutcome, FileSaveError> {
     let target = resolved(files, path)?;
     let old = regular(files, &target)?;
     if let Some(old) = &old {
@@ -77,14 +77,14 @@ pub fn save(
         replace_file(files, &target, old.as_ref(), bytes, options.expected, &mut notices)?
     };
     remove_leftovers(files, &target);
-    Ok(SavedFile { path: target, stamp, links, kept, notices })
+    Ok(SaveOutcome { path: target, stamp, links, kept, notices })
 }
 
 /// Saves `bytes` in a file that belongs to the program, without conditions.
 ///
 /// # Errors
 /// As [`save`].
-pub fn replace(path: &Path, bytes: &[u8]) -> Result<SavedFile, FileSaveError> {
+pub fn replace(path: &Path, bytes: &[u8]) -> Result<SaveOutcome, FileSaveError> {
     save(&super::RealFiles, path, bytes, &SaveOptions::default())
 }
 
