@@ -1,15 +1,20 @@
 //! What is not saved is never lost: what a document's thread does with its journal.
 
 use dragonfly_document::history::Gesture;
-use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Setup, Source, Then};
+use dragonfly_document::{
+    Change, Decision, DocumentMessage, DocumentReply, FaultInjection, FaultPlan, FaultPoint, SaveTo, Setup,
+    Source, Then,
+};
 use dragonfly_kit::document::desk::{
     Desk, autosave_in, autosave_with, fox, killed, rename, same_takes, turn,
 };
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::{Random, seed};
 use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
-use dragonfly_store::Entry;
+use dragonfly_store::JournalEntry;
 use std::fs;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 #[test]
 fn an_edit_is_in_the_journal_before_it_is_seen() {
@@ -22,7 +27,7 @@ fn an_edit_is_in_the_journal_before_it_is_seen() {
         desk.shows(|view| view.history.done == number);
         let keeper = autosave_in(&autosave);
         let found = keeper.recoverable().unwrap();
-        let edits = |entry: &Entry| matches!(entry, Entry::Edit(bytes) if bytes.windows(6).any(|part| part == b"\"edit\""));
+        let edits = |entry: &JournalEntry| matches!(entry, JournalEntry::Edit(bytes) if bytes.windows(6).any(|part| part == b"\"edit\""));
         let count = keeper.entries(&found[0]).unwrap().into_iter().filter(edits).count();
         assert_eq!(count, number, "what is seen is recorded");
     }
@@ -303,11 +308,24 @@ fn two_programs_with_one_file_are_told_of_each_other_and_both_are_recorded() {
     assert_eq!(reason, dragonfly_document::NotSaved::Changed);
 }
 
+/// Fails at a change.
+#[derive(Debug)]
+struct FailAt(AtomicU32);
+
+impl FaultPlan for FailAt {
+    fn reach(&self, point: FaultPoint) {
+        if point == FaultPoint::Change {
+            assert!(self.0.fetch_sub(1, Ordering::Relaxed) != 1, "injected fault");
+        }
+    }
+}
+
 #[test]
 fn a_panic_in_the_document_loses_nothing_and_offers_the_work() {
     let folder = Folder::new("keeping-panic");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let setup = Setup { autosave: Some(autosave_in(&autosave)), fail_at: Some(4), ..Setup::default() };
+    let faults = FaultInjection::new(Arc::new(FailAt(AtomicU32::new(4))));
+    let setup = Setup { autosave: Some(autosave_in(&autosave)), faults, ..Setup::default() };
     let mut desk = Desk::with(setup);
     desk.open(&path);
     desk.edit(turn(0.5));

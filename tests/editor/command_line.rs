@@ -255,7 +255,9 @@ fn help_shows_every_command_and_how_to_begin() {
     for word in ["info", "pose", "render", "demo", "Examples", "demo:", "Exit codes"] {
         assert!(help.text().contains(word), "{word} is missing in\n{}", help.text());
     }
-    assert!(!help.text().contains("lose-device"), "switches for tests are nobody's business");
+    for switch in ["--lose-device", "--never-pause", "--fail", "--fail-at", "--edits"] {
+        run([switch, "1"]).expect(2);
+    }
     for command in ["info", "pose", "render", "demo"] {
         let help = run([command, "--help"]).expect(0);
         assert!(help.text().contains("Example"), "{command} has no example");

@@ -43,7 +43,16 @@ impl Outcome {
 
 /// The program with `arguments`, without a display and with nobody's settings.
 pub(crate) fn dragonfly<I: AsRef<OsStr>>(arguments: impl IntoIterator<Item = I>) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_dragonfly"));
+    start(env!("CARGO_BIN_EXE_dragonfly"), arguments)
+}
+
+/// The same with injected faults; see `tests/faulty` for its switches.
+pub(crate) fn dragonfly_with_faults<I: AsRef<OsStr>>(arguments: impl IntoIterator<Item = I>) -> Command {
+    start(env!("CARGO_BIN_EXE_dragonfly-faults"), arguments)
+}
+
+fn start<I: AsRef<OsStr>>(program: &str, arguments: impl IntoIterator<Item = I>) -> Command {
+    let mut command = Command::new(program);
     command.args(arguments).stdin(Stdio::null());
     for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DRAGONFLY_LOG"] {
         command.env_remove(variable);

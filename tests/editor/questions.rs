@@ -6,13 +6,20 @@ use dragonfly::panels::saving::{Deed, Question};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::{Decision, Offer, SaveOrder, SaveTo, Source, Then};
 use dragonfly_kit::document::fixture;
-use dragonfly_store::{Fate, FileState, Life, Owner, Reading, Recoverable};
+use dragonfly_store::{DocumentFileState, FileState, JournalOwner, OwnerStatus, Readability, Recoverable};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-fn offer(name: &str, steps: usize, ago: u64, file: Fate, reading: Reading, life: Life) -> Offer {
+fn offer(
+    name: &str,
+    steps: usize,
+    ago: u64,
+    file: DocumentFileState,
+    reading: Readability,
+    owner_status: OwnerStatus,
+) -> Offer {
     let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_nanos() as i64;
     let document = PathBuf::from(format!("/home/mara/models/animals/{name}"));
     Offer {
@@ -31,15 +38,15 @@ fn offer(name: &str, steps: usize, ago: u64, file: Fate, reading: Reading, life:
             file,
             stamp: None,
             saving: None,
-            owner: Some(Owner { process: 4242, host: "attic".to_owned() }),
-            life,
+            owner: Some(JournalOwner { process: 4242, host: "attic".to_owned() }),
+            owner_status,
         },
     }
 }
 
 fn questions() -> Vec<(&'static str, Question)> {
-    let fox = |file, reading, life| offer("Fox.glb", 12, 250, file, reading, life);
-    let whole = || fox(Fate::Same, Reading::Whole, Life::Gone);
+    let fox = |file, reading, status| offer("Fox.glb", 12, 250, file, reading, status);
+    let whole = || fox(DocumentFileState::Same, Readability::Whole, OwnerStatus::Exited);
     let lines = |count: usize| -> Arc<[String]> {
         let first = "take \"Survey\", \"b_Head_05\" (node 7), rotation: changed".to_owned();
         let more = (0..count).map(|at| format!("/animations/0/samplers/{at}/output: 21 → 93"));
@@ -50,15 +57,18 @@ fn questions() -> Vec<(&'static str, Question)> {
         "A bear with a rather long name that goes on.gltf",
         1,
         90_000,
-        Fate::Same,
-        Reading::Whole,
-        Life::Gone,
+        DocumentFileState::Same,
+        Readability::Whole,
+        OwnerStatus::Exited,
     );
     let own = || Some(SaveOrder::own(None));
     vec![
         (
             "find",
-            Question::Find { offer: Box::new(fox(Fate::Missing, Reading::Whole, Life::Gone)), other: None },
+            Question::Find {
+                offer: Box::new(fox(DocumentFileState::Missing, Readability::Whole, OwnerStatus::Exited)),
+                other: None,
+            },
         ),
         (
             "find_another",
@@ -76,8 +86,17 @@ fn questions() -> Vec<(&'static str, Question)> {
         ("recover", recover(vec![whole()], false)),
         ("recover_lost", recover(vec![whole()], true)),
         ("recover_several", recover(vec![whole(), bear], false)),
-        ("recover_warned", recover(vec![fox(Fate::Changed, Reading::Cut(17), Life::Elsewhere)], false)),
-        ("recover_missing", recover(vec![fox(Fate::Missing, Reading::Whole, Life::Gone)], false)),
+        (
+            "recover_warned",
+            recover(
+                vec![fox(DocumentFileState::Changed, Readability::Cut(17), OwnerStatus::OnOtherHost)],
+                false,
+            ),
+        ),
+        (
+            "recover_missing",
+            recover(vec![fox(DocumentFileState::Missing, Readability::Whole, OwnerStatus::Exited)], false),
+        ),
         ("where", Question::Where { copy: false, then: None }),
         ("where_copy", Question::Where { copy: true, then: None }),
     ]
@@ -109,7 +128,14 @@ fn pictures_of_the_questions() {
 
 #[test]
 fn a_file_is_asked_for_until_one_is_named() {
-    let fox = Box::new(offer("Fox.glb", 12, 250, Fate::Missing, Reading::Whole, Life::Gone));
+    let fox = Box::new(offer(
+        "Fox.glb",
+        12,
+        250,
+        DocumentFileState::Missing,
+        Readability::Whole,
+        OwnerStatus::Exited,
+    ));
     let mut bench = bench(Question::Recover { offers: vec![(*fox).clone()], lost: false });
     bench.state.ask_where_it_is(fox.clone(), Some("Fox 2.glb".into()));
     bench.state.execute(Request::Deed(Deed::Find(fox.clone())));

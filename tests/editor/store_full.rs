@@ -5,7 +5,8 @@ use dragonfly::app::store::{SETTINGS, Store};
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mounted::{Mounted, may_mount};
 use dragonfly_store::{
-    Autosave, Entry, Expected, Opening, RealFiles, SaveError, SaveOptions, Versions, replace, save,
+    Autosave, ExpectedFile, FileSaveError, JournalEntry, Opening, RealFiles, SaveOptions, Versions, replace,
+    save,
 };
 use std::fs;
 use std::path::Path;
@@ -51,7 +52,7 @@ fn saves(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
 }
 
 /// `true` for no error, `false` for one that says that the disk is full.
-fn is_full(error: Option<SaveError>) -> bool {
+fn is_full(error: Option<FileSaveError>) -> bool {
     match error {
         None => true,
         Some(error) => {
@@ -93,7 +94,7 @@ fn records(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
         for number in 0..12_u8 {
             let edit = vec![number; 2500];
             match journal.append(&edit, Instant::now()) {
-                Ok(()) => wanted.push(Entry::Edit(edit)),
+                Ok(()) => wanted.push(JournalEntry::Edit(edit)),
                 Err(error) => {
                     assert!(error.to_string().ends_with("the disk is full"), "{error}");
                     all = false;
@@ -101,7 +102,7 @@ fn records(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
             }
         }
         match journal.compact(&pages(20, 7)) {
-            Ok(()) => wanted = vec![Entry::Snapshot(pages(20, 7))],
+            Ok(()) => wanted = vec![JournalEntry::Snapshot(pages(20, 7))],
             Err(error) => {
                 assert!(error.to_string().ends_with("the disk is full"), "{error}");
                 all = false;
@@ -120,7 +121,7 @@ fn records(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
 /// Writes a new file.
 fn exports(_: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
     Box::new(|disk| {
-        let options = SaveOptions { expected: Expected::Nothing, ..SaveOptions::default() };
+        let options = SaveOptions { expected: ExpectedFile::Nothing, ..SaveOptions::default() };
         let saved = save(&RealFiles, &disk.join("export.glb"), &pages(30, 3), &options);
         assert_eq!(count(disk), 1 + usize::from(saved.is_ok()));
         is_full(saved.err())

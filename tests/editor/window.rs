@@ -1,6 +1,6 @@
 //! The whole program as a person meets it: a real window on a screen of our own, driven by keys and mouse.
 
-use crate::program::{dragonfly, threads, wait};
+use crate::program::{dragonfly, dragonfly_with_faults, threads, wait};
 use crate::screen::{Screen, Window, key, pass};
 use dragonfly_kit::folder::{Folder, data};
 use dragonfly_kit::picture::complaints;
@@ -24,6 +24,9 @@ const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
 const EARLY: (i16, i16) = (308, 533);
 const LATE: (i16, i16) = (508, 533);
 const PLAY: (i16, i16) = (124, 507);
+
+/// Switches of the program with injected faults.
+const FAULT_SWITCHES: [&str; 5] = ["--edits", "--fail-at", "--fail", "--lose-device", "--never-pause"];
 
 /// One window at a time: two of them on two cores only make each other late.
 static ONE: Mutex<()> = Mutex::new(());
@@ -64,7 +67,9 @@ impl Editor {
         // One that is ended is let go of only after the next one began.
         static STARTS: AtomicUsize = AtomicUsize::new(0);
         let settings = Folder::new(&format!("settings-{}", STARTS.fetch_add(1, Ordering::Relaxed)));
-        let mut child = dragonfly(arguments)
+        let faults = arguments.iter().any(|argument| FAULT_SWITCHES.contains(argument));
+        let mut program = if faults { dragonfly_with_faults(arguments) } else { dragonfly(arguments) };
+        let mut child = program
             .arg("--settings")
             .arg(settings.path())
             .arg(file)

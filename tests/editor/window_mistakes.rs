@@ -33,7 +33,7 @@ fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_win
         ("panels", "Interface in thread main failed"),
         ("input", "An input failed in thread main"),
         ("message", "Graphics in thread graphics failed"),
-        ("picture", "Graphics in thread graphics failed"),
+        ("frame", "Graphics in thread graphics failed"),
     ] {
         println!("{place}");
         let mut visit = Visit::with(&format!("mistake-{place}"), &["--fail", &format!("{place}:2:2")]);
@@ -43,7 +43,7 @@ fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_win
         turn(&mut visit, 2);
         stir(&mut visit);
         // It is told.
-        let told = format!("{object}: a test asked for it. Nothing that you did is lost");
+        let told = format!("{object}: injected fault. Nothing that you did is lost");
         visit.until("it is told", |visit| {
             let lines = visit.editor.lines.iter().filter(|line| line.contains(&told));
             (lines.count() >= 2).then_some(())
@@ -67,7 +67,7 @@ fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_win
 #[test]
 fn a_thread_that_fails_again_and_again_ends_the_program_in_order_and_the_next_start_has_the_work() {
     let _one = alone();
-    for place in ["panels", "input", "message", "picture"] {
+    for place in ["panels", "input", "message", "frame"] {
         println!("{place}");
         let mut visit = Visit::with(&format!("mistakes-{place}"), &["--fail", &format!("{place}:1:9")]);
         visit.pick_head();

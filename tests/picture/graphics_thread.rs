@@ -1,7 +1,7 @@
 //! The graphics thread, turned by hand: it draws when something changed, answers what it is asked, and rests otherwise.
 
 use dragonfly_anim::data::{ModelData, Take};
-use dragonfly_document::{Document, DocumentReply, Source, View};
+use dragonfly_document::{Document, DocumentReply, FaultInjection, FaultPlan, Source, View};
 use dragonfly_kit::document::arm;
 use dragonfly_kit::eventually;
 use dragonfly_kit::picture::complaints::NoComplaints;
@@ -16,6 +16,7 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const SIZE: [u32; 2] = [320, 200];
@@ -32,12 +33,23 @@ impl Receiver for Replies {
     }
 }
 
+/// Loses the device when a test sets it.
+#[derive(Debug, Default)]
+struct LoseDevice(AtomicBool);
+
+impl FaultPlan for LoseDevice {
+    fn loses_device(&self, _: u64, _: bool) -> bool {
+        self.0.swap(false, Ordering::Relaxed)
+    }
+}
+
 /// Both threads, in one.
 struct Bench {
     main: Captured,
     thread: Captured,
     graphics: GraphicsHandle,
     replies: Rc<RefCell<Replies>>,
+    losses: Arc<LoseDevice>,
     // Dropped last, when the device is gone.
     _watch: NoComplaints,
 }
@@ -45,13 +57,16 @@ struct Bench {
 impl Bench {
     /// Before the graphics thread was turned for the first time.
     fn begin(parameters: DeviceParameters) -> Self {
+        let losses = Arc::new(LoseDevice::default());
+        let parameters =
+            DeviceParameters { faults: FaultInjection::new(Arc::clone(&losses) as _), ..parameters };
         let watch = NoComplaints::expect();
         let mut main = Thread::capture("main", || {});
         let thread = Thread::capture("graphics", || {});
         let replies = Rc::new(RefCell::new(Replies::default()));
         let address = main.context().register_receiver(Rc::clone(&replies));
         let graphics = Graphics::start_in(thread.handle(), parameters, SIZE, address);
-        Self { main, thread, graphics, replies, _watch: watch }
+        Self { main, thread, graphics, replies, losses, _watch: watch }
     }
 
     /// `None` without an adapter.
@@ -183,7 +198,8 @@ fn panels_come_back_after_a_loss_with_everything_else() {
     let before = bench.capture(&scratch("before-loss.png"));
     assert!(before.pixels().any(|pixel| pixel.0[..3].iter().all(|&value| value > 140)), "there is text");
     for _ in 0..3 {
-        bench.graphics.lose_device();
+        bench.losses.0.store(true, Ordering::Relaxed);
+        bench.graphics.resize(SIZE);
         bench.settle();
         let recovered = |reply: &GraphicsReply| matches!(reply, GraphicsReply::Recovered { .. });
         assert!(bench.take().iter().any(recovered));

@@ -5,8 +5,9 @@ use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mounted::quick_folder;
 use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
 use dragonfly_store::{
-    Autosave, Claim, Entry, Fate, FileStamp, Journal, JournalError, LONGEST_UNSYNCED, Life, Opening, Owner,
-    Reading, RealFiles, Recoverable, SaveOptions, Vfs, save_document,
+    Autosave, Claim, DocumentFileState, FileStamp, Journal, JournalEntry, JournalError, JournalOwner,
+    LONGEST_UNSYNCED, Opening, OwnerStatus, Readability, RealFiles, Recoverable, SaveOptions, Vfs,
+    save_document,
 };
 use std::fs;
 use std::path::Path;
@@ -35,8 +36,8 @@ pub(crate) fn only(autosave: &Autosave) -> Recoverable {
     found.into_iter().next().expect("one")
 }
 
-pub(crate) fn edits<'a>(texts: impl IntoIterator<Item = &'a str>) -> Vec<Entry> {
-    texts.into_iter().map(|text| Entry::Edit(text.as_bytes().to_vec())).collect()
+pub(crate) fn edits<'a>(texts: impl IntoIterator<Item = &'a str>) -> Vec<JournalEntry> {
+    texts.into_iter().map(|text| JournalEntry::Edit(text.as_bytes().to_vec())).collect()
 }
 
 #[test]
@@ -53,14 +54,14 @@ fn what_was_appended_is_had_back_in_order() {
     // Not even brought to the disk: dropped as a killed program drops it.
     drop(journal);
     let found = only(&autosave);
-    assert_eq!((found.work, found.unsaved, found.life), (4, 4, Life::Gone));
-    assert_eq!((&found.reading, &found.file), (&Reading::Whole, &Fate::Unsaved));
-    assert_eq!(found.owner, Some(Owner::this()));
+    assert_eq!((found.work, found.unsaved, found.owner_status), (4, 4, OwnerStatus::Exited));
+    assert_eq!((&found.reading, &found.file), (&Readability::Whole, &DocumentFileState::Unsaved));
+    assert_eq!(found.owner, Some(JournalOwner::this()));
     assert!(found.is_offered());
     let mut wanted = edits(["one", "", "three"]);
-    wanted.push(Entry::Edit(long));
+    wanted.push(JournalEntry::Edit(long));
     assert_eq!(autosave.entries(&found).unwrap(), wanted);
-    let mut resumed = autosave.keep(&found, Claim::IfFree).unwrap();
+    let mut resumed = autosave.resume(&found, Claim::IfFree).unwrap();
     assert_eq!((resumed.entries, resumed.cut), (wanted.clone(), 0));
     resumed.journal.append(b"five", now).unwrap();
     resumed.journal.close().unwrap();
@@ -106,15 +107,15 @@ fn a_snapshot_takes_the_place_of_all_before_it() {
     assert_eq!((journal.unsaved(), journal.next_due()), (1, None));
     journal.append(b"more", now).unwrap();
     drop(journal);
-    let wanted = [vec![Entry::Snapshot(b"all of it".to_vec())], edits(["more"])].concat();
+    let wanted = [vec![JournalEntry::Snapshot(b"all of it".to_vec())], edits(["more"])].concat();
     assert_eq!(autosave.entries(&only(&autosave)).unwrap(), wanted);
     // A program that was killed in the middle left one half done.
     let found = only(&autosave);
     fs::write(found.journal.with_extension("compact"), "half").unwrap();
-    let mut journal = autosave.keep(&found, Claim::IfFree).unwrap().journal;
+    let mut journal = autosave.resume(&found, Claim::IfFree).unwrap().journal;
     journal.compact(b"again").unwrap();
     drop(journal);
-    assert_eq!(autosave.entries(&only(&autosave)).unwrap(), [Entry::Snapshot(b"again".to_vec())]);
+    assert_eq!(autosave.entries(&only(&autosave)).unwrap(), [JournalEntry::Snapshot(b"again".to_vec())]);
     assert_eq!(fs::read_dir(autosave.journals()).unwrap().count(), 1);
 }
 
@@ -143,12 +144,12 @@ fn what_is_in_the_file_is_no_unsaved_work_and_its_history_stays() {
     assert_eq!(journal.unsaved(), 0, "a snapshot of what is saved is saved");
     journal.close().unwrap();
     let found = only(&autosave);
-    assert_eq!((found.work, found.unsaved, &found.file), (1, 0, &Fate::Same));
+    assert_eq!((found.work, found.unsaved, &found.file), (1, 0, &DocumentFileState::Same));
     assert!(!found.is_offered());
     // Opened again, the history is there.
     let Opening::Found(found) = autosave.begin(Some(&path), None).unwrap() else { panic!("its history") };
-    let entries = autosave.keep(&found, Claim::IfFree).unwrap().entries;
-    assert_eq!(entries, [Entry::Snapshot(b"all".to_vec()), Entry::Saved]);
+    let entries = autosave.resume(&found, Claim::IfFree).unwrap().entries;
+    assert_eq!(entries, [JournalEntry::Snapshot(b"all".to_vec()), JournalEntry::Saved]);
 }
 
 #[test]
@@ -163,20 +164,20 @@ fn a_program_killed_between_file_and_journal_knows_that_it_saved() {
     journal.saving(b"saved").unwrap();
     drop(journal);
     let found = only(&autosave);
-    assert_eq!((found.unsaved, &found.file), (1, &Fate::Same), "killed before");
+    assert_eq!((found.unsaved, &found.file), (1, &DocumentFileState::Same), "killed before");
     dragonfly_store::replace(&path, b"saved").unwrap();
     let found = only(&autosave);
-    assert_eq!((found.unsaved, &found.file), (0, &Fate::Same), "killed after");
-    let mut journal = autosave.keep(&found, Claim::IfFree).unwrap().journal;
+    assert_eq!((found.unsaved, &found.file), (0, &DocumentFileState::Same), "killed after");
+    let mut journal = autosave.resume(&found, Claim::IfFree).unwrap().journal;
     assert_eq!(journal.unsaved(), 0);
     journal.append(b"two", Instant::now()).unwrap();
     drop(journal);
     let found = only(&autosave);
-    assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &Fate::Same));
+    assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &DocumentFileState::Same));
     // It was written down, for the time when the file does not tell any more.
     fs::write(&path, "somebody else's").unwrap();
     let found = only(&autosave);
-    assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &Fate::Changed));
+    assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &DocumentFileState::Changed));
 }
 
 #[test]
@@ -204,7 +205,7 @@ fn a_failed_record_is_not_there_and_the_next_one_is() {
         let sound = crate::journal::autosave(&folder, RealFiles);
         let found = only(&sound);
         assert_eq!(sound.entries(&found).unwrap().len(), usize::from(first) + usize::from(error.is_ok()));
-        let mut journal = sound.keep(&found, Claim::IfFree).unwrap().journal;
+        let mut journal = sound.resume(&found, Claim::IfFree).unwrap().journal;
         journal.append(b"next", now).unwrap();
         drop(journal);
         assert_eq!(sound.entries(&only(&sound)).unwrap().last(), edits(["next"]).last());
@@ -236,7 +237,7 @@ fn after_an_error_of_the_disk_nothing_is_recorded_before_a_snapshot() {
         journal.append(b"three", now).unwrap();
         journal.sync().unwrap();
         drop(journal);
-        let wanted = [vec![Entry::Snapshot(b"one, two".to_vec())], edits(["three"])].concat();
+        let wanted = [vec![JournalEntry::Snapshot(b"one, two".to_vec())], edits(["three"])].concat();
         assert_eq!(autosave.entries(&only(&autosave)).unwrap(), wanted);
     }
     assert_eq!(met, 1, "the call that brings it to the disk failed in one of the runs");

@@ -5,7 +5,8 @@ use crate::journal::{autosave, begin, only};
 use dragonfly_kit::mounted::quick_folder;
 use dragonfly_kit::random::{Random, seed};
 use dragonfly_store::{
-    Attribute, Autosave, Claim, Entry, FileData, JournalError, Reading, RealFiles, Recoverable, Vfs, VfsFile,
+    Attribute, Autosave, Claim, FileData, JournalEntry, JournalError, Readability, RealFiles, Recoverable,
+    Vfs, VfsFile,
 };
 use std::ffi::OsString;
 use std::fs;
@@ -17,7 +18,7 @@ use std::time::Instant;
 /// A journal of a little more than 4 KiB: its bytes, its entries, and where each record ends.
 struct Sample {
     bytes: Vec<u8>,
-    entries: Vec<Entry>,
+    entries: Vec<JournalEntry>,
     /// Ends of the header and of each record; the first two hold no entry.
     ends: Vec<usize>,
 }
@@ -105,7 +106,7 @@ impl Vfs for InMemory {
 impl VfsFile for InMemory {
     fn metadata(&self) -> io::Result<FileData> {
         let size = self.0.len() as u64;
-        let kind = dragonfly_store::Kind::File;
+        let kind = dragonfly_store::FileKind::File;
         Ok(FileData {
             kind,
             size,
@@ -165,7 +166,7 @@ impl VfsFile for InMemory {
 }
 
 /// What looking at a journal of these bytes says, and what it gives back.
-fn read(bytes: &[u8]) -> (Recoverable, Result<Vec<Entry>, JournalError>) {
+fn read(bytes: &[u8]) -> (Recoverable, Result<Vec<JournalEntry>, JournalError>) {
     let files = InMemory(Arc::new(bytes.to_vec()));
     let autosave = Autosave::new(Arc::new(files), Some("nowhere".into())).expect("a folder");
     let found = only(&autosave);
@@ -187,12 +188,12 @@ fn every_truncation_gives_back_the_records_that_are_whole() {
                 let rest = sample.ends.iter().rev().find(|&&end| end <= length);
                 if let Some(end) = rest {
                     let cut = (length - end) as u64;
-                    let wanted = if cut == 0 { Reading::Whole } else { Reading::Cut(cut) };
+                    let wanted = if cut == 0 { Readability::Whole } else { Readability::Cut(cut) };
                     assert_eq!(found.reading, wanted, "{length}");
                 }
             }
             Err(error) => {
-                assert!(matches!(found.reading, Reading::Damaged(_)), "{length}: {found:?}");
+                assert!(matches!(found.reading, Readability::Damaged(_)), "{length}: {found:?}");
                 assert!(header == sample.bytes.len() && length < sample.ends[0], "{length}: {error}");
             }
         }
@@ -212,11 +213,11 @@ fn every_flipped_bit_is_found() {
             // All that lies before the record with the flipped bit, and nothing of it or behind it.
             Ok(entries) => {
                 assert_eq!(entries, sample.entries[..sample.whole(bit / 8)], "bit {bit}");
-                assert!(matches!(found.reading, Reading::Cut(_)), "bit {bit}: {found:?}");
+                assert!(matches!(found.reading, Readability::Cut(_)), "bit {bit}: {found:?}");
             }
             Err(_) => {
                 refused += 1;
-                assert!(matches!(found.reading, Reading::Damaged(_)), "bit {bit}: {found:?}");
+                assert!(matches!(found.reading, Readability::Damaged(_)), "bit {bit}: {found:?}");
             }
         }
     }
@@ -274,7 +275,7 @@ fn a_disk_that_cannot_be_read_cuts_nothing_off() {
     let mut failed = 0;
     for number in 1.. {
         let files = FaultyFiles::once(number, Fault::Io);
-        let kept = autosave(&folder, files.clone()).keep(&found, Claim::IfFree);
+        let kept = autosave(&folder, files.clone()).resume(&found, Claim::IfFree);
         failed += usize::from(kept.is_err());
         drop(kept);
         assert_eq!(sound.entries(&only(&sound)).unwrap(), entries, "call {number}");
@@ -299,12 +300,12 @@ fn a_tail_that_is_cut_off_lies_in_the_bin() {
     let found = only(&autosave);
     assert_eq!(autosave.entries(&found).unwrap(), sample.entries[..10]);
     assert_eq!(fs::read(&path).unwrap(), bytes, "looking changes nothing");
-    let mut resumed = autosave.keep(&found, Claim::IfFree).unwrap();
+    let mut resumed = autosave.resume(&found, Claim::IfFree).unwrap();
     assert_eq!(resumed.cut as usize, bytes.len() - sample.ends[10]);
     resumed.journal.append(b"and on", Instant::now()).unwrap();
     drop(resumed);
     let tail = autosave.discarded().unwrap();
     assert_eq!(fs::read(&tail[0]).unwrap(), bytes[sample.ends[10]..]);
     let found = only(&autosave);
-    assert_eq!((found.reading.clone(), found.work), (Reading::Whole, 11));
+    assert_eq!((found.reading.clone(), found.work), (Readability::Whole, 11));
 }

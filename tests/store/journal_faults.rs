@@ -4,7 +4,8 @@ use crate::journal::{autosave, begin, edits, only};
 use dragonfly_kit::mounted::quick_folder;
 use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
 use dragonfly_store::{
-    Autosave, Bounds, Claim, Entry, FileStamp, Journal, JournalError, Life, Opening, RealFiles, Recoverable,
+    Autosave, Claim, FileStamp, FolderLimits, Journal, JournalEntry, JournalError, Opening, OwnerStatus,
+    RealFiles, Recoverable,
 };
 use std::fs;
 use std::io::Write;
@@ -13,16 +14,16 @@ use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 /// What the entries of a journal come to.
-pub(crate) fn document(entries: &[Entry]) -> Vec<String> {
+pub(crate) fn document(entries: &[JournalEntry]) -> Vec<String> {
     let mut document = Vec::new();
     for entry in entries {
         match entry {
-            Entry::Snapshot(bytes) => {
+            JournalEntry::Snapshot(bytes) => {
                 let text = String::from_utf8(bytes.clone()).unwrap();
                 document = text.lines().map(str::to_owned).collect();
             }
-            Entry::Edit(bytes) => document.push(String::from_utf8(bytes.clone()).unwrap()),
-            Entry::Saved => {}
+            JournalEntry::Edit(bytes) => document.push(String::from_utf8(bytes.clone()).unwrap()),
+            JournalEntry::Saved => {}
         }
     }
     document
@@ -126,11 +127,11 @@ type Operation = fn(&Autosave, &Recoverable) -> Result<(), JournalError>;
 const OPERATIONS: [(&str, Operation); 7] = [
     ("list", |autosave, _| autosave.recoverable().map(drop)),
     ("read", |autosave, found| autosave.entries(found).map(drop)),
-    ("keep", |autosave, found| autosave.keep(found, Claim::IfFree).map(drop)),
-    ("beside", |autosave, found| autosave.beside(found, None).map(drop)),
+    ("keep", |autosave, found| autosave.resume(found, Claim::IfFree).map(drop)),
+    ("beside", |autosave, found| autosave.copy(found, None).map(drop)),
     ("discard", |autosave, found| autosave.discard(found).map(drop)),
-    ("discard and bring back", |autosave, found| autosave.bring_back(&autosave.discard(found)?).map(drop)),
-    ("tidy", |autosave, _| autosave.tidy(Bounds { least: 0, most: 0, bytes: 0 }).map(drop)),
+    ("discard and bring back", |autosave, found| autosave.restore(&autosave.discard(found)?).map(drop)),
+    ("tidy", |autosave, _| autosave.tidy(FolderLimits { least: 0, most: 0, bytes: 0 }).map(drop)),
 ];
 
 #[test]
@@ -149,7 +150,7 @@ fn every_call_that_can_fail_while_recovering_loses_nothing() {
                 assert!(outcome.is_ok() || !fault.is_harmless(), "{place}");
                 let bin = sound.discarded().unwrap();
                 for file in bin.iter().filter(|file| !file.to_string_lossy().ends_with(".tail")) {
-                    sound.bring_back(file).expect(&place);
+                    sound.restore(file).expect(&place);
                 }
                 let left = sound.recoverable().unwrap();
                 let copies = usize::from(name == "beside" && outcome.is_ok());
@@ -157,7 +158,7 @@ fn every_call_that_can_fail_while_recovering_loses_nothing() {
                 assert_eq!(count(&sound.journals()), left.len(), "{place}");
                 for found in &left {
                     assert_eq!(sound.entries(found).unwrap(), wanted, "{place}");
-                    sound.keep(found, Claim::IfFree).expect(&place);
+                    sound.resume(found, Claim::IfFree).expect(&place);
                 }
                 if files.calls() < number {
                     break;
@@ -180,7 +181,7 @@ fn a_journal_begun_anew_while_somebody_looks_at_it_is_still_in_use() {
             owner.lock().unwrap().compact(b"one").unwrap();
         });
         let found = only(&autosave(&folder, files.clone()));
-        assert_eq!(found.life, Life::Lives, "call {number}: {found:?}");
+        assert_eq!(found.owner_status, OwnerStatus::Running, "call {number}: {found:?}");
         if files.calls() < number {
             break;
         }

@@ -5,7 +5,7 @@ use crate::journal_writer::{check, start};
 use dragonfly_kit::folder::takes_long;
 use dragonfly_kit::mounted::quick_folder;
 use dragonfly_kit::random::{Random, seed};
-use dragonfly_store::{JournalError, Owner, RealFiles, replace};
+use dragonfly_store::{JournalError, JournalOwner, RealFiles, replace};
 use std::fs;
 use std::time::Duration;
 
@@ -32,7 +32,7 @@ fn a_program_killed_at_any_instant_loses_no_edit_and_no_save() {
             // While it lives, its document is in use.
             let error = sound.begin(Some(&folder.join("fox.glb")), None).expect_err("it is in use");
             let JournalError::Held { owner, .. } = &error else { panic!("{error}") };
-            assert_eq!(*owner, Some(Owner { process: writer.process(), ..Owner::this() }));
+            assert_eq!(*owner, Some(JournalOwner { process: writer.process(), ..JournalOwner::this() }));
             met += 1;
         }
         std::thread::park_timeout(patience);

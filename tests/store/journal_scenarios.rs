@@ -7,8 +7,8 @@ use dragonfly_kit::mounted::{Mounted, may_mount, quick_folder};
 use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
 use dragonfly_kit::store::forged::forged_with;
 use dragonfly_store::{
-    Autosave, Bounds, Claim, Entry, Fate, FileStamp, JournalError, Life, Opening, Owner, Reading, RealFiles,
-    SaveOptions, replace, save_document,
+    Autosave, Claim, DocumentFileState, FileStamp, FolderLimits, JournalEntry, JournalError, JournalOwner,
+    Opening, OwnerStatus, Readability, RealFiles, SaveOptions, replace, save_document,
 };
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -66,14 +66,14 @@ fn after_a_crash_the_work_is_offered_and_kept_or_opened_beside_or_discarded() {
     let it = killed("scenario-crash");
     let found = only(&it.autosave);
     assert!(found.is_offered());
-    assert_eq!((found.document.as_ref(), &found.file), (Some(&it.document), &Fate::Same));
-    assert_eq!((found.work, found.unsaved, found.life), (2, 2, Life::Gone));
+    assert_eq!((found.document.as_ref(), &found.file), (Some(&it.document), &DocumentFileState::Same));
+    assert_eq!((found.work, found.unsaved, found.owner_status), (2, 2, OwnerStatus::Exited));
     let Opening::Found(again) = it.autosave.begin(Some(&it.document), None).unwrap() else {
         panic!("opening the document does not pass it over")
     };
     assert_eq!(*again, found);
     // Beside: a document of its own, and the other one stays.
-    let beside = it.autosave.beside(&found, None).unwrap();
+    let beside = it.autosave.copy(&found, None).unwrap();
     assert_eq!((beside.entries, beside.journal.document()), (edits(["one", "two"]), None));
     drop(beside.journal);
     let all = it.autosave.recoverable().unwrap();
@@ -85,10 +85,10 @@ fn after_a_crash_the_work_is_offered_and_kept_or_opened_beside_or_discarded() {
     let bin = it.autosave.discard(beside).unwrap();
     assert_eq!(it.autosave.discarded().unwrap(), std::slice::from_ref(&bin));
     assert_eq!(only(&it.autosave), found);
-    let back = it.autosave.bring_back(&bin).unwrap();
+    let back = it.autosave.restore(&bin).unwrap();
     assert_eq!(back, beside.journal);
     // Kept.
-    assert_eq!(it.autosave.keep(&found, Claim::IfFree).unwrap().entries, edits(["one", "two"]));
+    assert_eq!(it.autosave.resume(&found, Claim::IfFree).unwrap().entries, edits(["one", "two"]));
     it.untouched();
 }
 
@@ -96,26 +96,26 @@ fn after_a_crash_the_work_is_offered_and_kept_or_opened_beside_or_discarded() {
 fn a_second_program_is_told_whom_it_meets() {
     let it = killed("scenario-two");
     let found = only(&it.autosave);
-    let kept = it.autosave.keep(&found, Claim::IfFree).unwrap().journal;
+    let kept = it.autosave.resume(&found, Claim::IfFree).unwrap().journal;
     symlink("fox.glb", it.document.with_file_name("link.glb")).unwrap();
     for path in [it.document.clone(), it.document.with_file_name("link.glb")] {
         let error = it.autosave.begin(Some(&path), None).unwrap_err();
         let JournalError::Held { owner, .. } = &error else { panic!("{error}") };
-        assert_eq!(*owner, Some(Owner::this()));
+        assert_eq!(*owner, Some(JournalOwner::this()));
         assert!(error.to_string().contains(&format!("process {}", std::process::id())), "{error}");
     }
     fs::remove_file(it.document.with_file_name("link.glb")).unwrap();
     let found = only(&it.autosave);
-    assert_eq!(found.life, Life::Lives);
+    assert_eq!(found.owner_status, OwnerStatus::Running);
     assert!(!found.is_offered());
     for claim in [Claim::IfFree, Claim::Anyway] {
-        assert!(matches!(it.autosave.keep(&found, claim), Err(JournalError::Held { .. })));
+        assert!(matches!(it.autosave.resume(&found, claim), Err(JournalError::Held { .. })));
     }
     assert!(matches!(it.autosave.discard(&found), Err(JournalError::Held { .. })));
     // What it did so far can be looked at, and opened beside.
-    assert_eq!(it.autosave.beside(&found, None).unwrap().entries, edits(["one", "two"]));
+    assert_eq!(it.autosave.copy(&found, None).unwrap().entries, edits(["one", "two"]));
     kept.close().unwrap();
-    it.autosave.keep(&found, Claim::IfFree).unwrap();
+    it.autosave.resume(&found, Claim::IfFree).unwrap();
     it.untouched();
 }
 
@@ -125,8 +125,8 @@ fn a_moved_document_is_missed_and_its_work_goes_on_where_it_is_now() {
     let moved = it.folder.join("moved.glb");
     fs::rename(&it.document, &moved).unwrap();
     let found = only(&it.autosave);
-    assert_eq!(found.file, Fate::Missing);
-    let resumed = it.autosave.beside(&found, Some(&moved)).unwrap();
+    assert_eq!(found.file, DocumentFileState::Missing);
+    let resumed = it.autosave.copy(&found, Some(&moved)).unwrap();
     assert_eq!(resumed.entries, edits(["one", "two"]));
     // The stamp is that of the file the edits were made on, so that it can be compared.
     let stamp = *resumed.journal.stamp().expect("a stamp");
@@ -140,11 +140,11 @@ fn a_moved_document_is_missed_and_its_work_goes_on_where_it_is_now() {
 #[test]
 fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
     let it = killed("scenario-moved-saved");
-    let mut journal = it.autosave.keep(&only(&it.autosave), Claim::IfFree).unwrap().journal;
+    let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
     save_document(&RealFiles, &mut journal, &it.document, b"saved", &SaveOptions::default()).unwrap();
     journal.append(b"three", Instant::now()).unwrap();
-    let edits_after_save = |entries: &[Entry]| {
-        let last = entries.iter().rposition(|entry| *entry == Entry::Saved);
+    let edits_after_save = |entries: &[JournalEntry]| {
+        let last = entries.iter().rposition(|entry| *entry == JournalEntry::Saved);
         (entries.len() - 1 - last.expect("a save")) as u64
     };
     for (word, after) in [("said", 1), ("unsaid", 0)] {
@@ -163,13 +163,13 @@ fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
             all.into_iter().find(|found| found.journal == path).expect("the journal")
         };
         assert!(found(&path).held(&FileStamp::take(&RealFiles, &moved).unwrap()), "{word}");
-        let resumed = it.autosave.beside(&found(&path), Some(&moved)).unwrap();
+        let resumed = it.autosave.copy(&found(&path), Some(&moved)).unwrap();
         assert_eq!(edits_after_save(&resumed.entries), after, "{word}: {:?}", resumed.entries);
         let place = resumed.journal.path().to_owned();
         drop(resumed);
         // Looked at again, the new journal says the same.
         let again = found(&place);
-        assert_eq!((again.unsaved, again.file.clone()), (after, Fate::Same), "{word}");
+        assert_eq!((again.unsaved, again.file.clone()), (after, DocumentFileState::Same), "{word}");
         assert_eq!(edits_after_save(&it.autosave.entries(&again).unwrap()), after, "{word}");
         it.autosave.discard(&again).unwrap();
         fs::rename(&away, &it.document).unwrap();
@@ -179,7 +179,7 @@ fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
 #[test]
 fn a_save_that_failed_does_not_say_where_a_later_one_was() {
     let it = killed("scenario-failed-save");
-    let mut journal = it.autosave.keep(&only(&it.autosave), Claim::IfFree).unwrap().journal;
+    let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
     let stamp = FileStamp::take(&RealFiles, &it.document).unwrap();
     // Nothing becomes of this one.
     journal.saving(b"what was never written").unwrap();
@@ -190,7 +190,7 @@ fn a_save_that_failed_does_not_say_where_a_later_one_was() {
     let found = only(&it.autosave);
     assert_eq!(found.unsaved, 0, "nothing is offered");
     let entries = it.autosave.entries(&found).unwrap();
-    assert_eq!((entries.len(), entries.last()), (4, Some(&Entry::Saved)));
+    assert_eq!((entries.len(), entries.last()), (4, Some(&JournalEntry::Saved)));
 }
 
 #[test]
@@ -198,11 +198,11 @@ fn a_document_changed_meanwhile_is_said_to_be() {
     let it = killed("scenario-changed");
     fs::write(&it.document, "somebody else's work").unwrap();
     let found = only(&it.autosave);
-    assert_eq!(found.file, Fate::Changed);
-    let mut journal = it.autosave.keep(&found, Claim::IfFree).unwrap().journal;
+    assert_eq!(found.file, DocumentFileState::Changed);
+    let mut journal = it.autosave.resume(&found, Claim::IfFree).unwrap().journal;
     let stamp = *journal.stamp().expect("that of the file as it was read");
     let options =
-        SaveOptions { expected: dragonfly_store::Expected::Stamp(&stamp), ..SaveOptions::default() };
+        SaveOptions { expected: dragonfly_store::ExpectedFile::Stamp(&stamp), ..SaveOptions::default() };
     let error = save_document(&RealFiles, &mut journal, &it.document, b"mine", &options).unwrap_err();
     assert!(error.to_string().contains("was changed on the disk by another program"), "{error}");
     assert_eq!(journal.unsaved(), 2);
@@ -214,12 +214,12 @@ fn a_deleted_document_can_be_saved_again() {
     let it = killed("scenario-deleted");
     fs::remove_file(&it.document).unwrap();
     let found = only(&it.autosave);
-    assert_eq!(found.file, Fate::Missing);
-    let mut journal = it.autosave.keep(&found, Claim::IfFree).unwrap().journal;
+    assert_eq!(found.file, DocumentFileState::Missing);
+    let mut journal = it.autosave.resume(&found, Claim::IfFree).unwrap().journal;
     assert!(!it.document.exists(), "not before it is asked for");
     let stamp = *journal.stamp().expect("a stamp");
     let options =
-        SaveOptions { expected: dragonfly_store::Expected::Stamp(&stamp), ..SaveOptions::default() };
+        SaveOptions { expected: dragonfly_store::ExpectedFile::Stamp(&stamp), ..SaveOptions::default() };
     save_document(&RealFiles, &mut journal, &it.document, b"mine", &options).unwrap();
     assert_eq!((fs::read(&it.document).unwrap(), journal.unsaved()), (b"mine".to_vec(), 0));
 }
@@ -231,18 +231,21 @@ fn a_journal_last_had_on_another_machine_is_taken_only_on_request() {
     let opened: (u8, &[u8]) = (3, br#"{"process":4711,"host":"the other machine"}"#);
     let path = put(&autosave, &forged(1, &[opened, (2, b"one")]));
     let found = only(&autosave);
-    assert_eq!((found.life, found.unsaved, &found.file), (Life::Elsewhere, 1, &Fate::Missing));
+    assert_eq!(
+        (found.owner_status, found.unsaved, &found.file),
+        (OwnerStatus::OnOtherHost, 1, &DocumentFileState::Missing)
+    );
     assert!(found.is_offered());
-    let error = autosave.keep(&found, Claim::IfFree).unwrap_err();
+    let error = autosave.resume(&found, Claim::IfFree).unwrap_err();
     assert!(error.to_string().contains("process 4711 on the other machine"), "{error}");
-    let resumed = autosave.keep(&found, Claim::Anyway).unwrap();
+    let resumed = autosave.resume(&found, Claim::Anyway).unwrap();
     assert_eq!(resumed.entries, edits(["one"]));
     drop(resumed);
-    assert_eq!(only(&autosave).owner, Some(Owner::this()));
+    assert_eq!(only(&autosave).owner, Some(JournalOwner::this()));
     // It said that it ended.
     fs::write(&path, forged(1, &[opened, (2, b"one"), (6, b"")])).unwrap();
-    assert_eq!(only(&autosave).life, Life::Gone);
-    autosave.keep(&only(&autosave), Claim::IfFree).unwrap();
+    assert_eq!(only(&autosave).owner_status, OwnerStatus::Exited);
+    autosave.resume(&only(&autosave), Claim::IfFree).unwrap();
 }
 
 #[test]
@@ -276,8 +279,8 @@ fn a_read_only_folder_takes_no_work_away() {
     assert_eq!(elsewhere.entries(&found).unwrap(), edits(["one"]));
     for error in [
         elsewhere.begin(None, None).unwrap_err(),
-        elsewhere.keep(&found, Claim::IfFree).unwrap_err(),
-        elsewhere.beside(&found, None).unwrap_err(),
+        elsewhere.resume(&found, Claim::IfFree).unwrap_err(),
+        elsewhere.copy(&found, None).unwrap_err(),
         elsewhere.discard(&found).unwrap_err(),
     ] {
         assert!(error.to_string().ends_with("the disk is read-only"), "{error}");
@@ -303,8 +306,8 @@ fn a_journal_of_a_newer_program_is_left_alone() {
     let newer = forged(2, &[(9, b"what nobody here understands")]);
     fs::write(&path, &newer).unwrap();
     let found = only(&it.autosave);
-    assert_eq!((&found.reading, found.is_offered()), (&Reading::Newer(2), false));
-    let error = it.autosave.keep(&found, Claim::Anyway).unwrap_err();
+    assert_eq!((&found.reading, found.is_offered()), (&Readability::Newer(2), false));
+    let error = it.autosave.resume(&found, Claim::Anyway).unwrap_err();
     assert!(error.to_string().contains("a newer version of this program"), "{error}");
     assert!(matches!(it.autosave.entries(&found), Err(JournalError::Newer { version: 2, .. })));
     // The document can be edited all the same, with a journal beside.
@@ -323,7 +326,7 @@ fn an_empty_journal_and_one_that_is_none_stop_nobody() {
     let path = only(&it.autosave).journal;
     fs::write(&path, "").unwrap();
     let found = only(&it.autosave);
-    assert_eq!(found.reading, Reading::Damaged("it is empty".to_owned()));
+    assert_eq!(found.reading, Readability::Damaged("it is empty".to_owned()));
     assert!(!found.is_offered());
     // Nothing is in it, so nothing is lost by filling it.
     let mut journal = begin(&it.autosave, Some(&it.document), None);
@@ -333,7 +336,7 @@ fn an_empty_journal_and_one_that_is_none_stop_nobody() {
     assert_eq!(it.autosave.entries(&only(&it.autosave)).unwrap(), edits(["three"]));
     // Something is in it, so it stays, and can be put away.
     fs::write(&path, "a letter").unwrap();
-    let error = it.autosave.keep(&only(&it.autosave), Claim::IfFree).unwrap_err();
+    let error = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap_err();
     assert!(error.to_string().contains("is no journal that can be read"), "{error}");
     assert_ne!(begin(&it.autosave, Some(&it.document), None).path(), path);
     assert_eq!(fs::read(&path).unwrap(), b"a letter");
@@ -351,8 +354,8 @@ fn a_journal_cut_in_the_middle_of_a_record_gives_back_what_is_whole() {
     let bytes = fs::read(&found.journal).unwrap();
     fs::write(&found.journal, &bytes[..bytes.len() - 1]).unwrap();
     let found = only(&it.autosave);
-    assert_eq!((&found.reading, found.unsaved), (&Reading::Cut(11), 1));
-    let resumed = it.autosave.keep(&found, Claim::IfFree).unwrap();
+    assert_eq!((&found.reading, found.unsaved), (&Readability::Cut(11), 1));
+    let resumed = it.autosave.resume(&found, Claim::IfFree).unwrap();
     assert_eq!((resumed.entries, resumed.cut), (edits(["one"]), 11));
     it.untouched();
 }
@@ -361,17 +364,17 @@ fn a_journal_cut_in_the_middle_of_a_record_gives_back_what_is_whole() {
 fn work_recovered_twice_is_all_there_and_only_once() {
     let it = killed("scenario-twice");
     for text in ["three", "four"] {
-        let mut journal = it.autosave.keep(&only(&it.autosave), Claim::IfFree).unwrap().journal;
+        let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
         journal.append(text.as_bytes(), Instant::now()).unwrap();
     }
     let found = only(&it.autosave);
-    let kept = it.autosave.keep(&found, Claim::IfFree).unwrap();
+    let kept = it.autosave.resume(&found, Claim::IfFree).unwrap();
     assert_eq!(kept.entries, edits(["one", "two", "three", "four"]));
     // An old list of what can be had is no key to it.
-    assert!(matches!(it.autosave.keep(&found, Claim::IfFree), Err(JournalError::Held { .. })));
+    assert!(matches!(it.autosave.resume(&found, Claim::IfFree), Err(JournalError::Held { .. })));
     drop(kept);
     it.autosave.discard(&found).unwrap();
-    assert!(it.autosave.keep(&found, Claim::IfFree).is_err());
+    assert!(it.autosave.resume(&found, Claim::IfFree).is_err());
     it.untouched();
 }
 
@@ -382,7 +385,7 @@ fn the_format_is_the_one_that_is_described() {
     put(&autosave, &forged(1, &[(1, b"all"), (2, b"one"), (2, b"")]));
     let found = only(&autosave);
     assert_eq!(found.document, Some("/nowhere/fox.glb".into()));
-    assert_eq!((found.work, &found.reading), (3, &Reading::Whole));
+    assert_eq!((found.work, &found.reading), (3, &Readability::Whole));
     // A kind that nobody knows ends what can be read.
     put(&autosave, &forged(1, &[(2, b"one"), (7, b"unknown"), (2, b"two")]));
     assert_eq!(autosave.entries(&only(&autosave)).unwrap(), edits(["one"]));
@@ -405,7 +408,7 @@ fn the_bin_and_the_journals_without_work_are_kept_to_a_bound() {
         }
         journal.close().unwrap();
     }
-    let gone = autosave.tidy(Bounds { least: 2, most: 3, bytes: 1 << 20 }).unwrap();
+    let gone = autosave.tidy(FolderLimits { least: 2, most: 3, bytes: 1 << 20 }).unwrap();
     assert_eq!(gone, 102, "the five with unsaved work stay, and three with history");
     let found = autosave.recoverable().unwrap();
     assert_eq!(found.iter().filter(|found| found.is_offered()).count(), 5);

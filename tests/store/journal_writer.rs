@@ -5,8 +5,8 @@ use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::Random;
 use dragonfly_kit::writer::{Found, LIMIT, Said, Writer, nanoseconds};
 use dragonfly_store::{
-    Autosave, Claim, Entry, Expected, Fate, FileStamp, Opening, RealFiles, Resumed, SaveOptions,
-    save_document,
+    Autosave, Claim, DocumentFileState, ExpectedFile, FileStamp, JournalEntry, Opening, RealFiles, Resumed,
+    SaveOptions, save_document,
 };
 use std::ffi::OsStr;
 use std::fs;
@@ -48,16 +48,18 @@ fn edit(number: u32) -> Vec<u8> {
 }
 
 /// How many edits these entries are, which must be all from the first on.
-fn count(entries: &[Entry]) -> u32 {
+fn count(entries: &[JournalEntry]) -> u32 {
     let mut edits = 0;
     for entry in entries {
         match entry {
-            Entry::Snapshot(bytes) => edits = u32::from_le_bytes(bytes[..].try_into().expect("a number")),
-            Entry::Edit(bytes) => {
+            JournalEntry::Snapshot(bytes) => {
+                edits = u32::from_le_bytes(bytes[..].try_into().expect("a number"))
+            }
+            JournalEntry::Edit(bytes) => {
                 edits += 1;
                 assert!(*bytes == edit(edits), "edit {edits} is another one");
             }
-            Entry::Saved => {}
+            JournalEntry::Saved => {}
         }
     }
     edits
@@ -105,7 +107,7 @@ fn write_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
     let mut stamp = FileStamp::take(&RealFiles, &path)?;
     let Resumed { mut journal, entries, .. } = match autosave.begin(Some(&path), Some(&stamp))? {
         Opening::New(journal) => Resumed { journal: *journal, entries: Vec::new(), cut: 0 },
-        Opening::Found(found) => autosave.keep(&found, Claim::IfFree)?,
+        Opening::Found(found) => autosave.resume(&found, Claim::IfFree)?,
     };
     let mut edits = count(&entries);
     let began = Instant::now();
@@ -125,7 +127,7 @@ fn write_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
         }
         if edits.is_multiple_of(10) {
             let options =
-                SaveOptions { expected: Expected::Stamp(&stamp), versions: Some(autosave.versions()) };
+                SaveOptions { expected: ExpectedFile::Stamp(&stamp), versions: Some(autosave.versions()) };
             let saved = save_document(&RealFiles, &mut journal, &path, &document(edits), &options)?;
             stamp = saved.stamp;
             match saved.notices.first() {
@@ -164,7 +166,7 @@ pub(crate) fn check_at(folder: &Path, said: &Said, stop: usize) -> Found {
     let edits = count(&autosave.entries(&found).expect("the journal can be read"));
     assert!(saved <= edits, "stop {stop}: {saved} edits are in the document, {edits} in the journal");
     // Nobody else wrote it, so the journal knows it, however the program was stopped.
-    assert_eq!(found.file, Fate::Same, "stop {stop}: {found:?}");
+    assert_eq!(found.file, DocumentFileState::Same, "stop {stop}: {found:?}");
     assert_eq!(found.unsaved == 0, saved == edits, "stop {stop}: {found:?}, {saved} of {edits} saved");
     Found { edits, saved }
 }

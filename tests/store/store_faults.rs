@@ -5,7 +5,7 @@ use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mounted::quick_folder;
 use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
 use dragonfly_store::{
-    Expected, FileStamp, FileState, RealFiles, SaveError, SaveOptions, VersionLimits, Versions, save,
+    ExpectedFile, FileSaveError, FileStamp, FileState, RealFiles, SaveOptions, VersionLimits, Versions, save,
 };
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, chown, symlink};
@@ -96,7 +96,7 @@ fn every_call_that_can_fail_leaves_the_old_file_or_the_new_one() {
             for number in 1.. {
                 let (folder, path, versions) = prepared(&all, case);
                 let stamp = case.old.map(|_| FileStamp::take(&RealFiles, &path).unwrap());
-                let expected = stamp.as_ref().map_or(Expected::Nothing, Expected::Stamp);
+                let expected = stamp.as_ref().map_or(ExpectedFile::Nothing, ExpectedFile::Stamp);
                 let files = FaultyFiles::once(number, fault);
                 let saved = save(&files, &path, &new, &SaveOptions { expected, versions: Some(&versions) });
                 let place = format!("{}, call {number}, {fault:?}: {saved:?}", case.name);
@@ -104,8 +104,10 @@ fn every_call_that_can_fail_leaves_the_old_file_or_the_new_one() {
                 let content = fs::read(&path).ok();
                 match &saved {
                     Ok(_) => assert!(content.as_ref() == Some(&new), "{place}"),
-                    Err(SaveError::Unconfirmed { .. }) => assert!(content.as_ref() == Some(&new), "{place}"),
-                    Err(SaveError::Torn { .. }) => panic!("{place}"),
+                    Err(FileSaveError::Unconfirmed { .. }) => {
+                        assert!(content.as_ref() == Some(&new), "{place}")
+                    }
+                    Err(FileSaveError::Torn { .. }) => panic!("{place}"),
                     Err(error) => {
                         assert!(content.as_deref() == case.old, "{place}");
                         assert!(error.to_string().contains(".glb: "), "{place}: {error}");
@@ -126,8 +128,8 @@ fn every_call_that_can_fail_leaves_the_old_file_or_the_new_one() {
     assert!(runs > 4 * 6 * 15, "only {runs} calls failed");
 }
 
-fn names_after(case: &Case, saved: &Result<dragonfly_store::Saved, SaveError>) -> Vec<String> {
-    let there = case.old.is_some() || matches!(saved, Ok(_) | Err(SaveError::Unconfirmed { .. }));
+fn names_after(case: &Case, saved: &Result<dragonfly_store::SaveOutcome, FileSaveError>) -> Vec<String> {
+    let there = case.old.is_some() || matches!(saved, Ok(_) | Err(FileSaveError::Unconfirmed { .. }));
     case.names.iter().filter(|_| there).map(|name| (*name).to_owned()).collect()
 }
 
@@ -145,16 +147,16 @@ fn a_disk_that_fails_for_good_leaves_the_old_content_or_the_new_one_whole() {
                 let place = format!("{}, from call {number}, {fault:?}: {saved:?}", case.name);
                 let content = fs::read(&path).ok();
                 match &saved {
-                    Ok(_) | Err(SaveError::Unconfirmed { .. }) => {
+                    Ok(_) | Err(FileSaveError::Unconfirmed { .. }) => {
                         assert!(content.as_ref() == Some(&new), "{place}");
                     }
                     // A file with two names, whose disk failed in the middle: its old content is beside it.
-                    Err(SaveError::Torn { old, .. }) => {
+                    Err(FileSaveError::Torn { old, .. }) => {
                         assert_eq!(case.name, "one of two names", "{place}");
                         assert!(fs::read(old).unwrap() == OLD, "{place}");
                         let error = save(&RealFiles, &path, &new, &options).unwrap_err();
-                        assert!(matches!(error, SaveError::CutOff { .. }), "{error}");
-                        dragonfly_store::put_back(&RealFiles, &path).unwrap();
+                        assert!(matches!(error, FileSaveError::Interrupted { .. }), "{error}");
+                        dragonfly_store::restore_old_content(&RealFiles, &path).unwrap();
                         assert!(fs::read(&path).unwrap() == OLD, "{place}");
                         assert_eq!(names(&folder), case.names, "{place}");
                     }
@@ -180,7 +182,7 @@ fn what_another_program_writes_while_a_save_is_under_way_is_noticed_until_the_la
             let stamp = FileStamp::take(&RealFiles, &path).unwrap();
             let other = path.clone();
             let files = FaultyFiles::meddling(number, move || fs::write(&other, theirs).unwrap());
-            let options = SaveOptions { expected: Expected::Stamp(&stamp), ..SaveOptions::default() };
+            let options = SaveOptions { expected: ExpectedFile::Stamp(&stamp), ..SaveOptions::default() };
             let saved = save(&files, &path, &new, &options);
             let content = fs::read(&path).unwrap();
             let place = format!("{}, call {number}: {saved:?}", case.name);
@@ -189,7 +191,7 @@ fn what_another_program_writes_while_a_save_is_under_way_is_noticed_until_the_la
             }
             match saved {
                 Err(error) => {
-                    assert!(matches!(error, SaveError::Changed { .. }), "{place}");
+                    assert!(matches!(error, FileSaveError::Changed { .. }), "{place}");
                     assert!(content == theirs, "{place}");
                 }
                 Ok(saved) if content == new => {
@@ -217,14 +219,14 @@ fn what_another_program_makes_while_a_new_file_is_saved_is_never_overwritten() {
         let (folder, path, _) = prepared(&all, &CASES[0]);
         let other = path.clone();
         let files = FaultyFiles::meddling(number, move || fs::write(&other, theirs).unwrap());
-        let options = SaveOptions { expected: Expected::Nothing, ..SaveOptions::default() };
+        let options = SaveOptions { expected: ExpectedFile::Nothing, ..SaveOptions::default() };
         let saved = save(&files, &path, &new(), &options);
         if files.calls() < number {
             break;
         }
         assert!(fs::read(&path).unwrap() == theirs, "call {number}: {saved:?}");
         assert_eq!(names(&folder), ["model.glb"], "call {number}: {saved:?}");
-        met += usize::from(matches!(saved, Err(SaveError::Exists { .. })));
+        met += usize::from(matches!(saved, Err(FileSaveError::Exists { .. })));
     }
     assert!(met > 5, "{met}");
 }

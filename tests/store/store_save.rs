@@ -3,8 +3,8 @@
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mounted::{Mounted, may_mount, quick_folder, said};
 use dragonfly_store::{
-    Expected, FileStamp, FileState, RealFiles, SaveError, SaveOptions, Saved, Step, VersionLimits, Versions,
-    Vfs, cut_off, put_away, replace, save,
+    ExpectedFile, FileSaveError, FileStamp, FileState, RealFiles, SaveOptions, SaveOutcome, SaveStep,
+    VersionLimits, Versions, Vfs, discard_old_content, interrupted_save, replace, save,
 };
 use std::fs;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
@@ -16,8 +16,8 @@ fn count(folder: &Path) -> usize {
     fs::read_dir(folder).unwrap().count()
 }
 
-fn expecting(path: &Path, bytes: &[u8], stamp: &FileStamp) -> Result<Saved, SaveError> {
-    let options = SaveOptions { expected: Expected::Stamp(stamp), ..SaveOptions::default() };
+fn expecting(path: &Path, bytes: &[u8], stamp: &FileStamp) -> Result<SaveOutcome, FileSaveError> {
+    let options = SaveOptions { expected: ExpectedFile::Stamp(stamp), ..SaveOptions::default() };
     save(&RealFiles, path, bytes, &options)
 }
 
@@ -45,8 +45,8 @@ fn a_link_to_nothing_makes_what_it_points_to_and_a_circle_of_links_is_refused() 
     symlink("b", folder.join("a")).unwrap();
     symlink("a", folder.join("b")).unwrap();
     let error = replace(&folder.join("a"), b"new").unwrap_err();
-    assert!(matches!(error, SaveError::NoName { .. }), "{error}");
-    assert!(matches!(replace(Path::new("/"), b"").unwrap_err(), SaveError::NoName { .. }));
+    assert!(matches!(error, FileSaveError::NoName { .. }), "{error}");
+    assert!(matches!(replace(Path::new("/"), b"").unwrap_err(), FileSaveError::NoName { .. }));
 }
 
 #[test]
@@ -72,15 +72,15 @@ fn after_a_cut_in_place_nothing_is_overwritten_before_a_person_decides() {
     let path = folder.join("one.glb");
     fs::write(&path, "half of the n").unwrap();
     fs::write(folder.join(".one.glb.dragonfly-old"), "the old content").unwrap();
-    let old = cut_off(&RealFiles, &path).unwrap().expect("it is found");
+    let old = interrupted_save(&RealFiles, &path).unwrap().expect("it is found");
     let error = replace(&path, b"newer").unwrap_err();
     assert!(error.to_string().contains(&old.display().to_string()), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"half of the n");
-    dragonfly_store::put_back(&RealFiles, &path).unwrap();
+    dragonfly_store::restore_old_content(&RealFiles, &path).unwrap();
     assert_eq!(fs::read(&path).unwrap(), b"the old content");
-    assert_eq!(cut_off(&RealFiles, &path).unwrap(), None);
+    assert_eq!(interrupted_save(&RealFiles, &path).unwrap(), None);
     fs::write(folder.join(".one.glb.dragonfly-old"), "the old content").unwrap();
-    put_away(&RealFiles, &path).unwrap();
+    discard_old_content(&RealFiles, &path).unwrap();
     replace(&path, b"newer").unwrap();
     assert_eq!(count(folder.path()), 1);
 }
@@ -177,7 +177,7 @@ fn what_another_program_wrote_is_noticed_and_not_overwritten() {
         let late = FileStamp { taken: i64::MAX, ..stamp };
         assert_eq!(late.state(&RealFiles, &path).unwrap(), FileState::Changed);
         let error = expecting(&path, b"mine", &stamp).unwrap_err();
-        assert!(matches!(error, SaveError::Changed { .. }), "{error}");
+        assert!(matches!(error, FileSaveError::Changed { .. }), "{error}");
         assert_eq!(fs::read(&path).unwrap(), content.as_bytes());
         assert_eq!(count(folder.path()), 1);
     }
@@ -187,7 +187,7 @@ fn what_another_program_wrote_is_noticed_and_not_overwritten() {
     assert!(expecting(&path, b"mine", &stamp).is_err());
     fs::remove_file(&path).unwrap();
     fs::create_dir(&path).unwrap();
-    assert!(matches!(expecting(&path, b"mine", &stamp).unwrap_err(), SaveError::NotRegular { .. }));
+    assert!(matches!(expecting(&path, b"mine", &stamp).unwrap_err(), FileSaveError::NotRegular { .. }));
 }
 
 #[test]
@@ -229,10 +229,10 @@ fn a_change_within_a_tick_of_the_clock_is_noticed() {
 fn a_new_file_takes_nobodys_place() {
     let folder = Folder::new("save-new");
     let path = folder.join("model.glb");
-    let options = SaveOptions { expected: Expected::Nothing, ..SaveOptions::default() };
+    let options = SaveOptions { expected: ExpectedFile::Nothing, ..SaveOptions::default() };
     save(&RealFiles, &path, b"first", &options).unwrap();
     let error = save(&RealFiles, &path, b"second", &options).unwrap_err();
-    assert!(matches!(error, SaveError::Exists { .. }), "{error}");
+    assert!(matches!(error, FileSaveError::Exists { .. }), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"first");
     // Nor that of one made between looking and moving.
     let error = RealFiles.rename_to_new(&path, &folder.join("model.glb")).unwrap_err();
@@ -252,7 +252,7 @@ fn a_file_that_is_write_protected_is_not_replaced() {
     for mode in [0o444, 0o400, 0o555] {
         fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
         let error = replace(&path, b"new").unwrap_err();
-        assert!(matches!(error, SaveError::Protected { .. }), "{error:?}");
+        assert!(matches!(error, FileSaveError::Protected { .. }), "{error:?}");
         assert!(error.to_string().ends_with("is write-protected; it was not overwritten"), "{error}");
         assert_eq!((fs::read(&path).unwrap(), count(folder.path())), (b"old".to_vec(), 1));
         assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, mode);
@@ -267,7 +267,7 @@ fn what_is_no_file_is_not_replaced() {
     assert!(said(Command::new("mkfifo").arg(&pipe)));
     for path in [folder.join("folder"), pipe] {
         let error = replace(&path, b"new").unwrap_err();
-        assert!(matches!(error, SaveError::NotRegular { .. }), "{error}");
+        assert!(matches!(error, FileSaveError::NotRegular { .. }), "{error}");
     }
     assert_eq!(count(folder.path()), 2);
 }
@@ -298,7 +298,7 @@ fn a_read_only_disk_and_a_file_that_must_not_change_stay_as_they_are() {
     disk.read_only(true);
     for name in ["model.glb", "third.glb", "fourth.glb"] {
         let error = replace(&disk.path().join(name), b"second").unwrap_err();
-        assert!(matches!(error, SaveError::Io { step: Step::Create, .. }), "{error:?}");
+        assert!(matches!(error, FileSaveError::Io { step: SaveStep::Create, .. }), "{error:?}");
         assert!(error.to_string().ends_with("the disk is read-only"), "{error}");
     }
     assert_eq!(fs::read(&path).unwrap(), b"first");
@@ -322,7 +322,7 @@ fn old_versions_are_kept_to_a_bound_and_at_least_three() {
     let folder = quick_folder("save-versions");
     let path = folder.join("model.glb");
     let limits = VersionLimits {
-        each: dragonfly_store::Bounds { least: 3, most: 5, bytes: 10 },
+        each: dragonfly_store::FolderLimits { least: 3, most: 5, bytes: 10 },
         largest: 1000,
         all: 2000,
     };

@@ -11,7 +11,7 @@ use dragonfly_anim::format::gltf::save::{self, OutputFile, SourceFile, TakeNow};
 use dragonfly_anim::format::{AssetFs, NoFiles, ReadOptions, dfm};
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_store::{
-    Expected, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file, save_document,
+    ExpectedFile, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file, save_document,
 };
 use std::collections::HashMap;
 use std::fmt;
@@ -273,9 +273,9 @@ impl Editable {
         }
         make_folder(&main)?;
         let expected = match (how.overwrite, &self.stamp) {
-            (Overwrite::AsRead, Some(stamp)) => Expected::Stamp(stamp),
-            (Overwrite::Nothing, _) => Expected::Nothing,
-            _ => Expected::Anything,
+            (Overwrite::AsRead, Some(stamp)) => ExpectedFile::Stamp(stamp),
+            (Overwrite::Nothing, _) => ExpectedFile::Nothing,
+            _ => ExpectedFile::Anything,
         };
         let options = SaveOptions { expected, versions: how.versions };
         let done = match how.journal {

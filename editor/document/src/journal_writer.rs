@@ -114,7 +114,7 @@ impl JournalWriter {
 
     fn begin(&mut self) {
         let (Some(autosave), Some((document, stamp))) = (&self.autosave, self.wanted.take()) else { return };
-        match autosave.begin_beside(document.as_deref(), stamp.as_ref()) {
+        match autosave.begin_another(document.as_deref(), stamp.as_ref()) {
             Ok(journal) => {
                 self.set(journal);
             }

@@ -9,6 +9,7 @@ mod cancel;
 pub mod demo;
 pub mod edit;
 mod editable;
+mod fault;
 mod folder;
 mod handle;
 pub mod history;
@@ -35,6 +36,7 @@ mod writing;
 
 pub use cancel::{Cancel, Progress, Stage};
 pub use editable::{Editable, Written, make_folder};
+pub use fault::{FaultInjection, FaultPlan, FaultPoint};
 pub use folder::{DoorError, Folder, read_file};
 pub use handle::DocumentHandle;
 pub use load::{LoadError, Loader, Opened, Source, load_model, open_model};

@@ -3,7 +3,9 @@
 use super::Source;
 use super::history::Gesture;
 use super::recorded::{About, Recorded, Snapshot};
-use dragonfly_store::{Autosave, Entry, Fate, FileStamp, Life, Reading, RealFiles, Recoverable};
+use dragonfly_store::{
+    Autosave, DocumentFileState, FileStamp, JournalEntry, OwnerStatus, Readability, RealFiles, Recoverable,
+};
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -35,7 +37,7 @@ impl Offer {
         Ok(Self::from_entries(found, &entries))
     }
 
-    pub(super) fn from_entries(found: &Recoverable, entries: &[Entry]) -> Self {
+    pub(super) fn from_entries(found: &Recoverable, entries: &[JournalEntry]) -> Self {
         let mut outline = HistoryOutline::default();
         entries.iter().for_each(|entry| outline.add(entry));
         let source = match &found.document {
@@ -63,21 +65,21 @@ impl Offer {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         match &self.found.file {
-            Fate::Changed => warnings.push(
+            DocumentFileState::Changed => warnings.push(
                 "Another program changed the file since then. The work is applied to its present contents."
                     .to_owned(),
             ),
-            Fate::Missing => warnings
+            DocumentFileState::Missing => warnings
                 .push("The file is missing. If it was moved or renamed, choose its present path.".to_owned()),
-            Fate::Unknown(reason) => warnings.push(format!("The file cannot be checked: {reason}.")),
-            Fate::Same | Fate::Unsaved => {}
+            DocumentFileState::Unknown(reason) => warnings.push(format!("The file cannot be checked: {reason}.")),
+            DocumentFileState::Same | DocumentFileState::Unsaved => {}
         }
-        if let Reading::Cut(bytes) = self.found.reading {
+        if let Readability::Cut(bytes) = self.found.reading {
             warnings.push(format!(
                 "The last {bytes} bytes of the journal are damaged. Everything before them is intact."
             ));
         }
-        if let (Life::Elsewhere, Some(owner)) = (self.found.life, &self.found.owner) {
+        if let (OwnerStatus::OnOtherHost, Some(owner)) = (self.found.owner_status, &self.found.owner) {
             warnings.push(format!("It may still be in use by {owner} on another computer."));
         }
         warnings
@@ -85,7 +87,7 @@ impl Offer {
 
     /// Returns whether the file is missing, so that the user must choose its present path.
     pub fn is_missing(&self) -> bool {
-        self.found.document.is_some() && self.found.file == Fate::Missing
+        self.found.document.is_some() && self.found.file == DocumentFileState::Missing
     }
 
     /// Returns whether the file at `path` has the contents to which the work belongs.
@@ -108,7 +110,7 @@ impl Offer {
 
     /// Returns whether the work can be restored now.
     pub fn can_be_kept(&self) -> bool {
-        self.source.is_some() && self.found.file != Fate::Missing
+        self.source.is_some() && self.found.file != DocumentFileState::Missing
     }
 }
 
@@ -128,17 +130,17 @@ struct HistoryOutline {
 }
 
 impl HistoryOutline {
-    fn add(&mut self, entry: &Entry) {
+    fn add(&mut self, entry: &JournalEntry) {
         match entry {
-            Entry::Saved => (self.saved, self.was_saved) = (Some(self.done), true),
-            Entry::Snapshot(bytes) => {
+            JournalEntry::Saved => (self.saved, self.was_saved) = (Some(self.done), true),
+            JournalEntry::Snapshot(bytes) => {
                 let Some((snapshot, _)) = Snapshot::read(bytes) else { return };
                 self.about = Some(snapshot.about);
                 self.steps = snapshot.steps.iter().map(|edit| (edit.label(), None)).collect();
                 self.done = snapshot.done.min(self.steps.len());
                 (self.saved, self.was_saved) = (snapshot.saved, snapshot.saved != Some(0));
             }
-            Entry::Edit(bytes) => {
+            JournalEntry::Edit(bytes) => {
                 // An entry that cannot be read is reported when the work is restored.
                 if let Ok(recorded) = serde_json::from_slice(bytes) {
                     self.record(recorded);

@@ -191,7 +191,7 @@ impl Open {
             return Ok(());
         };
         let done = if (self.unwanted && !saved) || (saved && self.file.path.is_none()) {
-            if journal.is_empty() { journal.close() } else { autosave.put_away(journal).map(drop) }
+            if journal.is_empty() { journal.close() } else { autosave.discard_own(journal).map(drop) }
         } else {
             // In the saved state there is no work to restore, only history.
             let marked = match stamp.filter(|_| saved && journal.unsaved() > 0) {

@@ -1,5 +1,6 @@
 //! The document thread: owns the open document, loads models in jobs, publishes the newest view, writes the journal.
 
+use super::fault::{FaultInjection, FaultPoint};
 use super::handle::DocumentHandle;
 use super::job::{JobNews, LoadJob};
 use super::message::{DocumentMessage, DocumentReply, NewsBox, ScanBox};
@@ -10,7 +11,7 @@ use super::{Change, LoadError, Loader, Offer, Source, View, open_model};
 use crate::text::sentence;
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use dragonfly_store::{Autosave, FileState, Recoverable};
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
@@ -22,13 +23,13 @@ pub struct Setup {
     pub load: Loader,
     /// The folder that records unsaved work; nothing is recorded where `None`.
     pub autosave: Option<Autosave>,
-    /// Number of the change at which it panics, once: for tests of recovery.
-    pub fail_at: Option<u32>,
+    /// Faults that a test injects.
+    pub faults: FaultInjection,
 }
 
 impl Default for Setup {
     fn default() -> Self {
-        Self { load: open_model, autosave: None, fail_at: None }
+        Self { load: open_model, autosave: None, faults: FaultInjection::default() }
     }
 }
 
@@ -50,8 +51,7 @@ pub struct Document {
     pub(super) searched: bool,
     /// The change of the file by another program that was reported last.
     noticed: Option<FileState>,
-    /// Number of changes before the panic that a test requests.
-    fail_at: Rc<Cell<Option<u32>>>,
+    faults: FaultInjection,
     replies: Address<DocumentReply>,
     /// The same address for views: the newest view replaces one that is still queued.
     views: Address<DocumentReply>,
@@ -105,7 +105,6 @@ impl Document {
         // Fails only if the thread has stopped, and then there is no one to report it to.
         let _ = thread.run(move |context| {
             let at = own.clone();
-            let fail_at = Rc::new(Cell::new(setup.fail_at));
             let make = move || Self {
                 open: None,
                 generation: 0,
@@ -118,7 +117,7 @@ impl Document {
                 scan: None,
                 searched: false,
                 noticed: None,
-                fail_at: Rc::clone(&fail_at),
+                faults: setup.faults.clone(),
                 views: replies.latest(),
                 picture: picture.latest(),
                 replies: replies.clone(),
@@ -239,10 +238,7 @@ impl Document {
     }
 
     fn change(&mut self, change: Change, now: Instant) {
-        if let Some(left) = self.fail_at.get() {
-            self.fail_at.set(left.checked_sub(1));
-            assert!(left != 1, "a panic that a test requested");
-        }
+        self.faults.reach(FaultPoint::Change);
         let Some(open) = &mut self.open else {
             return self.reply(DocumentReply::Refused("Nothing is open".to_owned()));
         };

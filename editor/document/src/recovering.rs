@@ -67,7 +67,7 @@ impl Document {
     fn begin_beside(&mut self) {
         let (Some(open), Some(autosave)) = (&mut self.open, &self.autosave) else { return };
         let stamp = open.stamp();
-        match autosave.begin_beside(open.file.path.as_deref(), stamp.as_ref()) {
+        match autosave.begin_another(open.file.path.as_deref(), stamp.as_ref()) {
             Ok(journal) => {
                 open.journal_writer.set(journal);
             }
@@ -90,7 +90,7 @@ impl Document {
             return self.reply(DocumentReply::Offers(vec![offer]));
         }
         // The journal has history and no unsaved work.
-        match autosave.keep(&found, Claim::IfFree) {
+        match autosave.resume(&found, Claim::IfFree) {
             Ok(resumed) => self.go_on(resumed, &found, false),
             Err(_) => self.begin_beside(),
         }
@@ -148,16 +148,16 @@ impl Document {
         let (Some(open), Some(autosave)) = (&mut self.open, self.autosave.clone()) else { return };
         let beside = decision == Decision::Beside || offer.found.document.is_none();
         let resumed = if decision == Decision::Beside {
-            autosave.beside(&offer.found, None)
+            autosave.copy(&offer.found, None)
         } else if let Some(path) = offer.moved_to() {
             // A journal of the file at its present path; the old one is no longer needed.
-            autosave.beside(&offer.found, Some(path)).inspect(|_| {
+            autosave.copy(&offer.found, Some(path)).inspect(|_| {
                 if let Err(error) = autosave.discard(&offer.found) {
                     tracing::warn!("{error}");
                 }
             })
         } else {
-            autosave.keep(&offer.found, Claim::Anyway)
+            autosave.resume(&offer.found, Claim::Anyway)
         };
         if beside {
             open.leave_file();
@@ -176,7 +176,8 @@ impl Document {
         let Some(open) = &mut self.open else { return };
         let Resumed { journal, entries, cut } = resumed;
         let replayed = replay(&open.loaded.model, &entries);
-        let fits = replayed.is_of(&open.loaded.model) && found.file == dragonfly_store::Fate::Same;
+        let fits =
+            replayed.is_of(&open.loaded.model) && found.file == dragonfly_store::DocumentFileState::Same;
         if !wanted && (replayed.stopped.is_some() || !fits || !replayed.edited.is_saved()) {
             let text = format!(
                 "The history of {} belongs to other contents of the file; a new history was started",
@@ -242,7 +243,7 @@ impl Document {
 
     /// Moves a journal to the trash folder. Returns a message with its path.
     fn put_away(&self, journal: Journal, says: &str) -> String {
-        match self.autosave.as_ref().map(|autosave| autosave.put_away(journal)) {
+        match self.autosave.as_ref().map(|autosave| autosave.discard_own(journal)) {
             Some(Ok(path)) => format!("{says}{}", path.display()),
             Some(Err(error)) => error.to_string(),
             None => String::new(),

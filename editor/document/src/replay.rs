@@ -7,7 +7,7 @@ use super::edit::VERSION;
 use super::history::Edited;
 use super::recorded::{About, Recorded, Snapshot, built_in_hash};
 use dragonfly_anim::data::{AnimationData, ModelData, Take};
-use dragonfly_store::Entry;
+use dragonfly_store::JournalEntry;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -50,7 +50,7 @@ impl Replayed {
 }
 
 /// Does everything again, on the takes in the journal or on those of `model`.
-pub(super) fn replay(model: &ModelData, entries: &[Entry]) -> Replayed {
+pub(super) fn replay(model: &ModelData, entries: &[JournalEntry]) -> Replayed {
     let mut replay = Replay {
         model,
         replayed: Replayed {
@@ -62,9 +62,9 @@ pub(super) fn replay(model: &ModelData, entries: &[Entry]) -> Replayed {
     };
     for entry in entries {
         let done = match entry {
-            Entry::Snapshot(bytes) => replay.snapshot(bytes),
-            Entry::Edit(bytes) => replay.record(bytes),
-            Entry::Saved => {
+            JournalEntry::Snapshot(bytes) => replay.snapshot(bytes),
+            JournalEntry::Edit(bytes) => replay.record(bytes),
+            JournalEntry::Saved => {
                 replay.saved();
                 Ok(())
             }

@@ -159,7 +159,7 @@ impl Open {
         self.about = super::recorded::About::new(None);
         let Some(autosave) = autosave else { return };
         let stamp = self.stamp();
-        match autosave.begin_beside(Some(path), stamp.as_ref()) {
+        match autosave.begin_another(Some(path), stamp.as_ref()) {
             Ok(journal) => {
                 let old = self.journal_writer.set(journal);
                 self.snapshot(true, now);
@@ -169,7 +169,7 @@ impl Open {
                     tracing::warn!("{error}");
                 }
                 // Its edits are in a file now.
-                if let Some(Err(error)) = old.map(|old| autosave.put_away(old)) {
+                if let Some(Err(error)) = old.map(|old| autosave.discard_own(old)) {
                     tracing::warn!("{error}");
                 }
             }

@@ -1,7 +1,7 @@
 //! The search for unsaved work of an earlier session, and what the user decides about it.
 
 use super::offer::Offer;
-use dragonfly_store::{Autosave, Bounds, Reading};
+use dragonfly_store::{Autosave, FolderLimits, Readability};
 
 /// What to do with unsaved work of an earlier session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub enum Decision {
 }
 
 /// How many journals with nothing but history are kept.
-const HISTORIES: Bounds = Bounds { least: 20, most: 200, bytes: 1 << 30 };
+const HISTORIES: FolderLimits = FolderLimits { least: 20, most: 200, bytes: 1 << 30 };
 
 /// The unsaved work in the autosave folder.
 #[derive(Debug, Default)]
@@ -43,20 +43,20 @@ impl RecoveryScan {
         };
         for found in found {
             match &found.reading {
-                Reading::Newer(version) => scan.unreadable.push(format!(
+                Readability::Newer(version) => scan.unreadable.push(format!(
                     "{}: unsaved work of a newer version of this program (format {version}) cannot be read; the file was not changed",
                     found.journal.display()
                 )),
-                Reading::Damaged(reason) => scan.unreadable.push(format!(
+                Readability::Damaged(reason) => scan.unreadable.push(format!(
                     "{}: the unsaved work cannot be read: {reason}; the file was not changed",
                     found.journal.display()
                 )),
-                Reading::Whole | Reading::Cut(_) if found.is_offered() => match Offer::of(autosave, &found) {
+                Readability::Whole | Readability::Cut(_) if found.is_offered() => match Offer::of(autosave, &found) {
                     Ok(offer) if offer.steps > 0 => scan.offers.push(offer),
                     Ok(_) => {}
                     Err(reason) => scan.unreadable.push(reason),
                 },
-                Reading::Whole | Reading::Cut(_) => {}
+                Readability::Whole | Readability::Cut(_) => {}
             }
         }
         scan

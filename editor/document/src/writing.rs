@@ -1,6 +1,6 @@
 //! Options and results of writing a saved file.
 
-use dragonfly_store::{Journal, SaveError as DiskError, Versions};
+use dragonfly_store::{FileSaveError as DiskError, Journal, Versions};
 use std::path::PathBuf;
 use thiserror::Error;
 

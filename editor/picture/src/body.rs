@@ -1,30 +1,31 @@
-//! The unit bodies that bones are drawn and picked with.
+//! Unit meshes of the bodies that bones are drawn and picked with.
 
 use super::shape::{Body, BoneInstance};
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 use std::f32::consts::TAU;
 
-/// WGSL twin: `Corner` in `shaders/skeleton.wgsl`.
+/// A vertex of a unit body. WGSL twin: `Corner` in `shaders/skeleton.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct BodyVertex {
-    /// x and z across in radii, y along in lengths, w along in radii.
+    /// Position: x and z across the bone in radii, y along it in lengths, w along it in radii.
     pub place: [f32; 4],
-    /// x and z across, y along.
+    /// Normal: x and z across the bone, y along it.
     pub normal: [f32; 3],
-    /// Distance from the edges of a flat face; 1 on round ones.
+    /// Distance from the three edges of a flat face; 1 on round bodies.
     pub edges: [f32; 3],
 }
 
-/// Sides of a stick and of a ball.
+/// Number of sides of a stick and of a ball.
 const ROUND: usize = 10;
-/// Rings of a ball between its poles.
+/// Number of rings of a ball between its poles.
 const RINGS: usize = 5;
-/// How far from the head the octahedron is thickest, in radii.
+/// Distance from the head at which the octahedron is thickest, in radii.
 const WAIST: f32 = 1.15;
 
-/// Triangles of `body`, three corners each, counter-clockwise from outside; none for lines, which have no body.
+/// Returns the triangles of `body`, three vertices each, counter-clockwise from outside; empty for lines, which have
+/// no mesh.
 pub fn triangles(body: Body) -> Vec<BodyVertex> {
     let mut corners = match body {
         Body::Line => Vec::new(),
@@ -32,7 +33,7 @@ pub fn triangles(body: Body) -> Vec<BodyVertex> {
         Body::Stick => stick(),
         Body::Ball => ball(),
     };
-    // A bone of some length, to see which way round each triangle runs.
+    // A sample bone, to determine the winding of each triangle.
     let bone = BoneInstance { radius: 1.0, tail: Vec3::Y * 10.0, side: Vec3::X, ..BoneInstance::default() };
     for face in corners.chunks_exact_mut(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| placed(&face[corner], &bone));
@@ -44,7 +45,7 @@ pub fn triangles(body: Body) -> Vec<BodyVertex> {
     corners
 }
 
-/// Where a corner of a body stands for a bone: what the vertex shader computes.
+/// Returns the position of a body's vertex for a bone, as the vertex shader computes it.
 pub fn placed(corner: &BodyVertex, bone: &BoneInstance) -> Vec3 {
     let along = bone.tail - bone.head;
     let length = along.length().max(1e-12);
@@ -65,7 +66,7 @@ fn octahedron() -> Vec<BodyVertex> {
     for quarter in 0..4 {
         let (a, b) = (waist(quarter), waist(quarter + 1));
         let across = (a + b).truncate() * Vec3::new(0.5, 0.0, 0.5);
-        // The long faces lean little, the short ones much.
+        // The long faces are nearly parallel to the bone, the short ones much steeper.
         corners.extend(face([b, a, tail], (across * 1.4 + Vec3::Y * 0.1).normalize()));
         corners.extend(face([a, b, head], (across * 1.4 - Vec3::Y * 0.62).normalize()));
     }

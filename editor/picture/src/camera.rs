@@ -1,23 +1,23 @@
-//! The eye: an orbit around a target.
+//! The camera: an orbit around a target.
 //!
-//! Depth is reversed (1 at the near plane, 0 at the far one): with floating point depth that keeps its precision over any
-//! distance, so the planes can be generous.
+//! Depth is reversed (1 at the near plane, 0 at the far one): with floating-point depth this keeps its precision at
+//! any distance, so the planes can be far apart.
 
 use dragonfly_anim::bounds::Sphere;
 use glam::{Mat3, Mat4, Vec2, Vec3, Vec4};
 use std::f32::consts::{FRAC_PI_2, PI};
 
-/// Perspective or parallel.
+/// Projection of a camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Projection {
-    /// Far things are smaller.
+    /// Distant objects appear smaller.
     #[default]
     Perspective,
     /// Parallel lines stay parallel.
     Orthographic,
 }
 
-/// A direction to look from.
+/// A standard view direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// From +Z.
@@ -34,39 +34,39 @@ pub enum Side {
     Bottom,
 }
 
-/// Half a line, scene space.
+/// A half-line, scene space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it begins.
+    /// Start of the ray.
     pub origin: Vec3,
-    /// Unit length.
+    /// Direction, unit length.
     pub direction: Vec3,
 }
 
-/// Looks at `target` from `distance`; scene space, Y up, +Z towards the viewer at yaw 0.
+/// A camera that looks at `target` from `distance`; scene space, Y up, +Z towards the viewer at yaw 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Scene space.
+    /// Point that the camera orbits, scene space.
     pub target: Vec3,
-    /// Scene units, more than zero.
+    /// Distance from the target, scene units, positive.
     pub distance: f32,
-    /// Radians about Y; 0 looks along -Z (front view), positive moves the eye to the right.
+    /// Rotation about Y, radians; 0 looks along -Z (front view), positive moves the camera to the right.
     pub yaw: f32,
-    /// Radians; positive looks from above.
+    /// Elevation, radians; positive looks from above.
     pub pitch: f32,
-    /// Radians, the vertical field of view.
+    /// Vertical field of view, radians.
     pub field_of_view: f32,
-    /// Perspective or parallel.
+    /// Perspective or orthographic.
     pub projection: Projection,
 }
 
-/// How near and far the eye may be from its target, scene units: f32 holds matrices of such sizes.
+/// Range of the distance from the target, scene units: the matrices of these sizes fit into f32.
 const DISTANCE: std::ops::RangeInclusive<f32> = 1e-5..=1e9;
-/// Room left around what is framed, as a factor.
+/// Margin around a framed object, as a factor.
 const FRAME_MARGIN: f32 = 1.08;
 
 impl Default for Camera {
-    /// From the front and a little right and above, two units of height in view.
+    /// Looks from the front, slightly from the right and above, at a view two units high.
     fn default() -> Self {
         Self {
             target: Vec3::Y * 0.5,
@@ -80,40 +80,40 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// Unit vector to the right of the picture; level, so it is known even when looking straight down.
+    /// Unit vector to the right of the image; horizontal, so it is defined even when looking straight down.
     pub fn right(&self) -> Vec3 {
         let (sin, cos) = self.yaw.sin_cos();
         Vec3::new(cos, 0.0, -sin)
     }
 
-    /// Unit vector from the target to the eye.
+    /// Unit vector from the target to the camera.
     pub fn back(&self) -> Vec3 {
         let (sin_yaw, cos_yaw) = self.yaw.sin_cos();
         let (sin_pitch, cos_pitch) = self.pitch.sin_cos();
         Vec3::new(sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch)
     }
 
-    /// Unit vector to the top of the picture.
+    /// Unit vector to the top of the image.
     pub fn up(&self) -> Vec3 {
         self.back().cross(self.right())
     }
 
-    /// Where the eye is.
+    /// Position of the camera, scene space.
     pub fn eye(&self) -> Vec3 {
         self.target + self.back() * self.distance
     }
 
-    /// Height of the picture at the target, scene units: the same for both projections.
+    /// Height of the view at the target, scene units; the same for both projections.
     pub fn height_at_target(&self) -> f32 {
         2.0 * self.distance * self.half_angle().tan()
     }
 
-    /// Scene units that one pixel covers at the target, in a viewport `height` pixels high.
+    /// Number of scene units that one pixel covers at the target, in a viewport `height` pixels high.
     pub fn units_per_pixel(&self, height: f32) -> f32 {
         self.height_at_target() / height.max(1.0)
     }
 
-    /// Scene space → view space (right, up, towards the viewer).
+    /// Transforms scene space to view space (right, up, towards the viewer).
     pub fn view_from_world(&self) -> Mat4 {
         let (right, up, back, eye) = (self.right(), self.up(), self.back(), self.eye());
         Mat4::from_cols(
@@ -124,7 +124,8 @@ impl Camera {
         )
     }
 
-    /// View space → clip space, for a viewport of this width over height: depth 1 at `near` to 0 at `far`.
+    /// Transforms view space to clip space, for a viewport with this ratio of width to height: depth 1 at `near` to 0
+    /// at `far`.
     pub fn clip_from_view(&self, aspect: f32, bounds: &Sphere) -> Mat4 {
         let aspect = aspect.max(1e-3);
         let (near, far) = self.depth_range(bounds);
@@ -152,8 +153,9 @@ impl Camera {
         }
     }
 
-    /// Distances of the near and the far plane from the eye such that a scene of these bounds and the ground around the
-    /// target are between them. A parallel projection has no eye to be behind of: its near plane may be negative.
+    /// Distances of the near and the far plane from the camera that enclose a scene of these bounds and the ground
+    /// around the target. An orthographic view also includes what is behind the camera, so its near plane may be
+    /// negative.
     pub fn depth_range(&self, bounds: &Sphere) -> (f32, f32) {
         let reach = self.eye().distance(bounds.center) + bounds.radius + self.distance * 8.0;
         match self.projection {
@@ -162,26 +164,26 @@ impl Camera {
         }
     }
 
-    /// Turns about the target, radians; the pitch stops at straight above and below.
+    /// Rotates the camera about the target, radians; the pitch is clamped to straight above and below.
     pub fn orbit(&mut self, yaw: f32, pitch: f32) {
         self.yaw = (self.yaw + yaw + PI).rem_euclid(2.0 * PI) - PI;
         self.pitch = (self.pitch + pitch).clamp(-FRAC_PI_2, FRAC_PI_2);
     }
 
-    /// Shifts in the plane of the picture so that what lies at the target's depth follows a pointer that moved by
-    /// `pixels` (y down) in a viewport `height` pixels high, exactly.
+    /// Moves the camera in the image plane so that a point at the target's depth follows the pointer exactly, which
+    /// moved by `pixels` (y down) in a viewport `height` pixels high.
     pub fn pan(&mut self, pixels: Vec2, height: f32) {
         let unit = self.units_per_pixel(height);
         self.target += (self.up() * pixels.y - self.right() * pixels.x) * unit;
     }
 
-    /// Multiplies the distance by `factor`; what lies under the target stays in the middle.
+    /// Multiplies the distance by `factor`; the target stays in the center.
     pub fn dolly(&mut self, factor: f32) {
         self.distance = (self.distance * factor).clamp(*DISTANCE.start(), *DISTANCE.end());
     }
 
-    /// Multiplies the distance by `factor` so that what lies at the target's depth under `cursor` stays there. Pixels from
-    /// the top left of a viewport of `size` pixels.
+    /// Multiplies the distance by `factor` so that the point under `cursor` at the target's depth stays there.
+    /// `cursor` is in pixels from the top left of a viewport of `size` pixels.
     pub fn zoom_to(&mut self, cursor: Vec2, size: Vec2, factor: f32) {
         let from_middle = cursor - size / 2.0;
         let unit = self.units_per_pixel(size.y);
@@ -191,7 +193,8 @@ impl Camera {
         self.target += under_cursor * (1.0 - self.distance / before);
     }
 
-    /// Puts `sphere` in the middle, as large as fits a viewport of this width over height. Without a size: one unit.
+    /// Frames `sphere` as large as it fits a viewport with this ratio of width to height. An empty sphere is framed
+    /// as one unit.
     pub fn frame(&mut self, sphere: &Sphere, aspect: f32) {
         let vertical = self.half_angle();
         let horizontal = (vertical.tan() * aspect.max(1e-3)).atan();
@@ -205,8 +208,7 @@ impl Camera {
         self.distance = (radius * FRAME_MARGIN / reach).clamp(*DISTANCE.start(), *DISTANCE.end());
     }
 
-    /// Puts the middle of a box in the middle, as large as fits from this direction: closer than [`Self::frame`] for what
-    /// is long and slim.
+    /// Frames a box as large as it fits from this direction: closer than [`Self::frame`] for long, slim objects.
     pub fn frame_box(&mut self, min: Vec3, max: Vec3, aspect: f32) {
         let pick =
             |index: usize, bit: usize, low: f32, high: f32| if index >> bit & 1 == 0 { low } else { high };
@@ -220,8 +222,8 @@ impl Camera {
         self.frame_points(&corners, aspect);
     }
 
-    /// Puts the finite ones of `points` in the middle, as large as fits from this direction. Without any, or without
-    /// extent: one unit around.
+    /// Frames the finite ones of `points` as large as they fit from this direction. Points without extent are framed
+    /// as one unit; without any finite point, nothing changes.
     pub fn frame_points(&mut self, points: &[Vec3], aspect: f32) {
         let axes = Mat3::from_cols(self.right(), self.up(), self.back());
         let to_view = axes.transpose();
@@ -245,7 +247,7 @@ impl Camera {
         self.distance = if reach > 0.0 { reach } else { 1.0 }.clamp(*DISTANCE.start(), *DISTANCE.end());
     }
 
-    /// Looks from `side`, at the same target from the same distance.
+    /// Looks from `side` at the same target from the same distance.
     pub fn look_from(&mut self, side: Side) {
         (self.yaw, self.pitch) = match side {
             Side::Front => (0.0, 0.0),
@@ -257,7 +259,7 @@ impl Camera {
         };
     }
 
-    /// The other projection; what lies at the target keeps its size.
+    /// Switches to the other projection, keeping the size of objects at the target.
     pub fn toggle_projection(&mut self) {
         self.projection = match self.projection {
             Projection::Perspective => Projection::Orthographic,
@@ -265,7 +267,8 @@ impl Camera {
         };
     }
 
-    /// The line of sight through a pixel (thesis §2.2.2.3), counted from the top left of a viewport of `size` pixels.
+    /// Returns the line of sight through a pixel (thesis §2.2.2.3), counted from the top left of a viewport of `size`
+    /// pixels.
     pub fn ray(&self, pixel: Vec2, size: Vec2) -> Ray {
         let from_middle = pixel - size / 2.0;
         let unit = self.units_per_pixel(size.y);
@@ -276,7 +279,7 @@ impl Camera {
                 let direction = (self.target + at_target - origin).normalize_or(-self.back());
                 Ray { origin, direction }
             }
-            // Far enough behind the eye that nothing between eye and target is missed.
+            // Starts far enough behind the camera to include everything between camera and target.
             Projection::Orthographic => Ray {
                 origin: self.target + at_target + self.back() * self.distance * 100.0,
                 direction: -self.back(),
@@ -284,7 +287,7 @@ impl Camera {
         }
     }
 
-    /// Half the vertical field of view, kept where its tangent is harmless.
+    /// Half the vertical field of view, clamped so that its tangent stays finite.
     fn half_angle(&self) -> f32 {
         (self.field_of_view / 2.0).clamp(0.01, 1.5)
     }

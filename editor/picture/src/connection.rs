@@ -1,11 +1,11 @@
-//! The graphics thread's connection to the window system: on X a connection of its own, else the main thread's.
+//! The graphics thread's connection to the window system: a separate connection on X, otherwise the main thread's.
 //!
-//! A connection to an X server is one stream. Whoever waits there for an answer, as drivers do in the graphics thread, also
-//! reads the events that come before it, and puts them into a queue on this side of the stream. The main thread sleeps
-//! until the stream is readable, and then it is not any more: a click or a close stays unheard until something else
-//! happens. Another connection is another stream, and a window has the same number on all of them.
+//! A connection to an X server is one stream. A thread that waits there for a reply, as drivers do in the graphics
+//! thread, also reads the events that precede it and puts them into a queue in the process. The main thread sleeps
+//! until the stream is readable, which it no longer is: a click or a close is not handled until something else
+//! happens. A second connection is a second stream, and a window has the same number on all connections.
 //!
-//! Wayland keeps a queue for each reader, and the other systems have no such stream.
+//! Wayland keeps one queue per reader, and the other systems have no such stream.
 
 use super::surface::TargetWindow;
 use std::fmt;
@@ -15,7 +15,7 @@ use wgpu::rwh::{DisplayHandle, HandleError, HasDisplayHandle, HasWindowHandle, W
 #[cfg(all(unix, not(target_vendor = "apple")))]
 use super::x11::Own;
 
-/// What there is none of where there is no X.
+/// Stands for the second connection on systems without X.
 #[cfg(not(all(unix, not(target_vendor = "apple"))))]
 #[derive(Clone)]
 enum Own {}
@@ -38,7 +38,7 @@ impl Own {
 /// The main thread's connection to the window system.
 pub type MainDisplay = Arc<dyn HasDisplayHandle + Send + Sync>;
 
-/// A connection over which the driver may talk to the window system; clones are the same connection.
+/// A connection over which the driver communicates with the window system; clones share it.
 #[derive(Clone)]
 pub struct Connection {
     shared: MainDisplay,
@@ -46,7 +46,7 @@ pub struct Connection {
 }
 
 impl Connection {
-    /// Connects to where the main thread's connection leads, if that is needed and possible.
+    /// Opens a second connection to the same server as the main thread's, if that is needed and possible.
     pub fn beside(shared: MainDisplay) -> Self {
         let own = Own::beside(&shared);
         Self { shared, own }
@@ -65,11 +65,11 @@ impl fmt::Debug for Connection {
     }
 }
 
-/// A window as the driver sees it over a connection.
+/// A window as the driver reaches it over a connection.
 pub struct ConnectedWindow {
     /// The window.
     pub window: Arc<dyn TargetWindow>,
-    /// The way to it.
+    /// The connection to it.
     pub connection: Connection,
 }
 

@@ -1,91 +1,95 @@
-//! The device and everybody who must hear of its loss (thesis §3.2.8.1, `DirectDevice`, `DirectReceiver`).
+//! The graphics device, and the listeners notified of its loss (thesis §3.2.8.1, `DirectDevice`, `DirectReceiver`).
 
 use super::fault::{Faults, LossRecord, Patience};
 use super::gpu::Gpu;
 use super::surface::{SurfaceSource, WindowSurface};
+use dragonfly_document::FaultInjection;
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Instant;
 
-/// Why nothing can be drawn.
+/// Reasons why nothing can be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum GraphicsError {
-    /// The machine has no usable graphics adapter.
+    /// The computer has no usable graphics adapter.
     #[error("no graphics adapter: {0}; install a Vulkan driver (Debian: mesa-vulkan-drivers)")]
     NoAdapter(String),
-    /// The adapter lacks something that drawing needs.
+    /// The adapter lacks a feature that drawing needs.
     #[error("the graphics adapter {adapter} cannot {lack}")]
     Unsuitable {
-        /// Its name.
+        /// Name of the adapter.
         adapter: String,
-        /// What it cannot do.
+        /// The missing feature.
         lack: &'static str,
     },
-    /// The adapter gave no device.
-    #[error("the graphics adapter gave no device: {0}")]
+    /// The adapter could not create a device.
+    #[error("the graphics adapter could not create a device: {0}")]
     NoDevice(String),
     /// The window cannot be drawn into.
     #[error("the window cannot be drawn into: {0}")]
     NoSurface(String),
-    /// A picture larger than the device can make.
-    #[error("a picture of {width} × {height} pixels is too large or empty; the device makes up to {limit}")]
+    /// The requested image is larger than the device supports, or empty.
+    #[error("an image of {width} × {height} pixels is too large or empty; the device supports up to {limit}")]
     PictureSize {
-        /// As asked.
+        /// Requested width, pixels.
         width: u32,
-        /// As asked.
+        /// Requested height, pixels.
         height: u32,
-        /// Longest side.
+        /// Longest supported side, pixels.
         limit: u32,
     },
-    /// The device refused something that this program asked of it.
-    #[error("{0} unexpected graphics errors; RUST_LOG=error tells which")]
+    /// The device reported errors in this program's calls.
+    #[error("{0} unexpected graphics errors; run with RUST_LOG=error to see them")]
     Refused(u32),
-    /// The device was lost while drawing and could not be made anew.
+    /// The device was lost while drawing and could not be created again.
     #[error("the graphics device was lost: {0}")]
     Lost(String),
 }
 
-/// What to make the device of (thesis §3.2.8.1: parameters in one structure with defaults).
+/// Parameters of a device (thesis §3.2.8.1: parameters in one structure with defaults).
 #[derive(Clone)]
 pub struct DeviceParameters {
-    /// Where adapters are looked for.
+    /// Graphics APIs to search for adapters.
     pub backends: wgpu::Backends,
     /// The window to draw into; `None` draws into textures only.
     pub source: Option<SurfaceSource>,
+    /// Faults that a test injects.
+    pub faults: FaultInjection,
 }
 
 impl Default for DeviceParameters {
-    /// The platform's native interfaces, or what `WGPU_BACKEND` names; no window.
+    /// Uses the platform's native APIs, or those that `WGPU_BACKEND` names, and no window.
     fn default() -> Self {
-        Self { backends: wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY), source: None }
+        let backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
+        Self { backends, source: None, faults: FaultInjection::default() }
     }
 }
 
-/// Holds resources of the device (thesis §3.2.8.2).
+/// An owner of device resources (thesis §3.2.8.2).
 pub trait DeviceListener {
-    /// The device is gone: drop what was made with it.
+    /// Called when the device is lost: drops everything that was created with it.
     fn on_lost(&mut self);
-    /// There is a new one: make again what is needed, from what was kept.
+    /// Called with a new device: creates the resources again from the data kept.
     fn on_reset(&mut self, gpu: &Gpu);
 }
 
-/// What [`Device::check_device_state`] found.
+/// Result of [`Device::check_device_state`].
 #[derive(Debug)]
 pub enum DeviceState {
-    /// As before.
+    /// The device works.
     Working,
-    /// It was lost and made anew; listeners have reloaded.
+    /// The device was lost and created again; listeners have reloaded.
     Reset {
-        /// What the driver said.
+        /// Message of the driver.
         reason: String,
-        /// Does it get lost too often?
+        /// Whether the device is lost too often.
         patience: Patience,
     },
-    /// It cannot be made anew.
+    /// The device could not be created again.
     Gone(GraphicsError),
 }
 
-/// The device, its queue, its surface. Made, used and dropped in one thread (T-091).
+/// The device, its queue and its surface. Created, used and dropped in one thread (T-091).
 pub struct Device {
     parameters: DeviceParameters,
     instance: wgpu::Instance,
@@ -98,12 +102,12 @@ pub struct Device {
 }
 
 impl Device {
-    /// Makes a device after checking `parameters` against the hardware.
+    /// Creates a device after checking `parameters` against the hardware.
     pub fn new(parameters: DeviceParameters) -> Result<Self, GraphicsError> {
         let faults = Faults::default();
         let instance = instance(&parameters);
         let surface = parameters.source.as_ref().map(|source| source.surface(&instance)).transpose();
-        // Without a driver there is no surface either; the driver is what a person has to hear of.
+        // Without a driver there is no surface either, and the missing driver is what the user needs to know.
         let mut surface = surface.map_err(|error| {
             let adapters = pollster::block_on(instance.enumerate_adapters(parameters.backends));
             if adapters.is_empty() {
@@ -117,28 +121,28 @@ impl Device {
         Ok(Self { parameters, instance, adapter, gpu, surface, listeners: Vec::new(), faults, losses })
     }
 
-    /// Tells `listener` of losses from now on, behind those that came before; it gets the present device at once.
+    /// Registers `listener` for losses, after the existing listeners, and calls it with the present device.
     pub fn add_listener(&mut self, listener: Rc<RefCell<dyn DeviceListener>>) {
         listener.borrow_mut().on_reset(&self.gpu);
         self.listeners.push(listener);
     }
 
-    /// Does not tell `listener` any more.
+    /// Unregisters `listener`.
     pub fn remove_listener(&mut self, listener: &Rc<RefCell<dyn DeviceListener>>) {
         self.listeners.retain(|other| !Rc::ptr_eq(other, listener));
     }
 
-    /// The device to make resources with.
+    /// The device for creating resources.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
     }
 
-    /// The parameters it was made of.
+    /// The parameters the device was created with.
     pub fn parameters(&self) -> &DeviceParameters {
         &self.parameters
     }
 
-    /// Name of the adapter, backend and driver.
+    /// Name of the adapter, API and driver.
     pub fn adapter_name(&self) -> String {
         let info = self.adapter.get_info();
         let mut name = format!("{} ({:?}", info.name, info.backend);
@@ -148,49 +152,49 @@ impl Device {
         name + ")"
     }
 
-    /// Does the processor draw, so that frames cost what the rest of the program needs too?
+    /// Returns whether the processor draws, so that frames cost time that the rest of the program needs.
     pub fn is_software(&self) -> bool {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
     }
 
-    /// The window's surface, and what is needed to use it.
+    /// The window's surface, with the device needed to use it.
     pub fn surface(&mut self) -> Option<(&mut WindowSurface, &Gpu)> {
         self.surface.as_mut().map(|surface| (surface, &self.gpu))
     }
 
-    /// Errors that nobody expected, since the start. Zero, or the program has a mistake.
+    /// Number of unexpected errors since the start. More than zero is a bug in the program.
     pub fn errors(&self) -> u32 {
         self.faults.errors()
     }
 
-    /// Losses since the start.
+    /// Number of losses since the start.
     pub fn losses(&self) -> u32 {
         self.losses.total()
     }
 
-    /// Loses the device on purpose; does not count against [`Patience`].
+    /// Loses the device deliberately, for tests; not counted in [`Patience`].
     pub fn lose(&mut self) {
         self.losses.expect_one();
         self.gpu.device.destroy();
-        // The driver says so at some later poll; nothing can be drawn from now on, so it is said here.
+        // The driver reports the loss at some later poll; nothing can be drawn from now on, so it is reported here.
         self.faults.report_loss("Destroyed: on purpose");
     }
 
-    /// Notes that the device is unusable although the driver has not said so (a panic inside wgpu, a surface that answers
-    /// "validation" twice): the next check makes it anew.
+    /// Reports that the device is unusable although the driver has not (a panic inside wgpu, a surface that answers
+    /// "validation" twice): the next check creates it again.
     pub fn assume_lost(&mut self, reason: &str) {
         self.faults.report_loss(reason);
     }
 
-    /// Forgets earlier losses: somebody asked to try again.
+    /// Forgets earlier losses, because the user asked to try again.
     pub fn forgive(&mut self) {
         self.losses.forgive();
     }
 
-    /// Is the device usable (thesis §3.2.8.1)? A lost one is made anew and the listeners reload: first from the same
-    /// adapter, then from a new one, then from a new instance.
+    /// Checks whether the device is usable (thesis §3.2.8.1). A lost one is created again and the listeners reload:
+    /// first from the same adapter, then from a new one, then from a new instance.
     pub fn check_device_state(&mut self, now: Instant) -> DeviceState {
-        // The callback of a lost device comes during a poll, and polling a lost device may panic.
+        // The callback of a lost device runs during a poll, and polling a lost device may panic.
         if let Err(panic) = super::guard::caught(|| drop(self.gpu.device.poll(wgpu::PollType::Poll))) {
             self.faults.report_loss(&panic);
         }
@@ -210,7 +214,7 @@ impl Device {
     }
 
     fn recreate(&mut self) -> Result<(), GraphicsError> {
-        // What the old device still reports while it goes must not be taken for news of the new one.
+        // Late reports of the old device must not be mistaken for reports of the new one.
         self.faults = self.faults.successor();
         if let Some(surface) = &mut self.surface {
             surface.forget_configuration();
@@ -225,7 +229,7 @@ impl Device {
             (self.adapter, self.gpu) = (adapter, gpu);
             return Ok(());
         }
-        // The old surface must be gone before the window can have another.
+        // The old surface must be dropped before the window can have another.
         self.surface = None;
         self.instance = instance(&self.parameters);
         self.surface =
@@ -237,7 +241,7 @@ impl Device {
 }
 
 impl Drop for Device {
-    /// Lets the device finish before the surface and the window go.
+    /// Lets the device finish before the surface and the window are dropped.
     fn drop(&mut self) {
         let _ = super::guard::caught(|| drop(self.gpu.device.poll(wgpu::PollType::wait_indefinitely())));
     }

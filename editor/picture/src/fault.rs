@@ -1,25 +1,25 @@
-//! What goes wrong on a device: losses and unexpected errors, and how long to be patient.
+//! Reports of a device: losses and unexpected errors, and how many losses are tolerated.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
-/// So many losses within [`PATIENCE`] are too many.
+/// Number of losses within [`PATIENCE`] that are too many.
 pub const MAX_LOSSES: usize = 3;
-/// See [`MAX_LOSSES`].
+/// Period in which losses are counted; see [`MAX_LOSSES`].
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Does the device get lost too often?
+/// Whether the device is lost too often.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Patience {
-    /// No: go on.
+    /// Not too often: drawing continues.
     Left,
-    /// Yes: stop drawing what probably makes it so.
+    /// Too often: what probably causes it is no longer drawn.
     Gone,
 }
 
-/// Where a device's callbacks, which come in any thread, leave their news for the graphics thread.
+/// Channel from the callbacks of a device, which run in any thread, to the graphics thread.
 #[derive(Clone, Debug)]
 pub struct Faults {
     sender: flume::Sender<String>,
@@ -35,7 +35,7 @@ impl Default for Faults {
 }
 
 impl Faults {
-    /// The same count of errors, but deaf to losses of the device before.
+    /// Returns a channel for the next device: the same error count, without reports of losses of the old device.
     pub fn successor(&self) -> Self {
         Self { errors: Arc::clone(&self.errors), ..Self::default() }
     }
@@ -53,23 +53,23 @@ impl Faults {
         }));
     }
 
-    /// Notes a loss that the driver did not report.
+    /// Reports a loss that the driver did not report.
     pub fn report_loss(&self, reason: &str) {
         let _ = self.sender.send(reason.to_owned());
     }
 
-    /// Why the device was lost, if it was.
+    /// Returns the reason of the loss, if the device was lost.
     pub fn take_loss(&self) -> Option<String> {
         self.losses.drain().next()
     }
 
-    /// Unexpected errors since the first device.
+    /// Number of unexpected errors since the first device.
     pub fn errors(&self) -> u32 {
         self.errors.load(Ordering::Relaxed)
     }
 }
 
-/// When devices were lost.
+/// The losses of the device.
 #[derive(Debug, Default)]
 pub struct LossRecord {
     total: u32,
@@ -78,12 +78,12 @@ pub struct LossRecord {
 }
 
 impl LossRecord {
-    /// The next loss is on purpose.
+    /// Marks the next loss as deliberate.
     pub fn expect_one(&mut self) {
         self.expected = 1;
     }
 
-    /// Notes a loss.
+    /// Counts a loss.
     pub fn note(&mut self, now: Instant) -> Patience {
         self.total = self.total.saturating_add(1);
         if std::mem::take(&mut self.expected) > 0 {
@@ -96,12 +96,12 @@ impl LossRecord {
         if self.recent.len() >= MAX_LOSSES { Patience::Gone } else { Patience::Left }
     }
 
-    /// Begins to count anew.
+    /// Restarts the count.
     pub fn forgive(&mut self) {
         self.recent.clear();
     }
 
-    /// Since the start, on purpose or not.
+    /// Number of losses since the start, deliberate ones included.
     pub fn total(&self) -> u32 {
         self.total
     }

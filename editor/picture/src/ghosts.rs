@@ -1,4 +1,5 @@
-//! The model at other times, for ghosts that are drawn as skins: one pose after the other, in one list for the device.
+//! The poses of ghosts (the model at other times) that are drawn as skins: one after another in one list for the
+//! device.
 
 use super::posed::PosedModel;
 use super::uniform::Affine;
@@ -6,24 +7,24 @@ use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use std::sync::Arc;
 
-/// See the module.
+/// Poses of all ghosts.
 #[derive(Default)]
 pub struct GhostSkins {
-    /// Posed at one time after the other; none before ghosts are wanted.
+    /// Model that is posed at one time after another; `None` before ghosts are first shown.
     posed: Option<PosedModel>,
-    /// Which view it has the takes of, and which bones rest.
+    /// The view whose takes it has, and the bones at rest.
     of: Option<(u64, Vec<BoneIndex>)>,
-    /// Times and places of the ghosts, those far away first.
+    /// Times and distances of the ghosts, farthest first.
     order: Vec<(f32, i32)>,
     palettes: Vec<Affine>,
     weights: Vec<f32>,
     tints: Vec<u32>,
-    /// Whether each draw item of one ghost after the other is seen from inside.
+    /// Whether each draw item is mirrored by the pose, ghost after ghost.
     mirrored: Vec<bool>,
 }
 
 impl GhostSkins {
-    /// No ghost.
+    /// Removes all ghosts.
     pub fn clear(&mut self) {
         self.palettes.clear();
         self.weights.clear();
@@ -31,7 +32,8 @@ impl GhostSkins {
         self.mirrored.clear();
     }
 
-    /// Poses `view` at each of `times` (seconds, and how far from now) of a take. `colors` are of what was and of what comes.
+    /// Poses `view` at each of `times` (seconds, and distance from the present) of a take. `colors` are those of past
+    /// and future.
     pub fn pose(
         &mut self,
         view: &View,
@@ -54,7 +56,7 @@ impl GhostSkins {
             self.of = Some((view.generation, still.to_vec()));
         }
         let most = times.iter().map(|(_, place)| place.unsigned_abs()).max().unwrap_or(1).max(1) as f32;
-        // Those far away first: the nearer ones over them.
+        // Farthest first, so that nearer ghosts are drawn over them.
         self.order.clear();
         self.order.extend_from_slice(times);
         self.order.sort_unstable_by_key(|&(_, place)| (std::cmp::Reverse(place.unsigned_abs()), place));
@@ -68,32 +70,32 @@ impl GhostSkins {
         }
     }
 
-    /// How many.
+    /// Number of ghosts.
     pub fn len(&self) -> usize {
         self.tints.len()
     }
 
-    /// Is there none?
+    /// Returns whether there are no ghosts.
     pub fn is_empty(&self) -> bool {
         self.tints.is_empty()
     }
 
-    /// The matrices of one ghost after the other.
+    /// Matrices, ghost after ghost.
     pub fn palettes(&self) -> &[Affine] {
         &self.palettes
     }
 
-    /// The same of morph weights.
+    /// Morph weights, ghost after ghost.
     pub fn weights(&self) -> &[f32] {
         &self.weights
     }
 
-    /// What each is tinted with.
+    /// Tint of each ghost.
     pub fn tints(&self) -> &[u32] {
         &self.tints
     }
 
-    /// Is this draw item of this ghost seen from inside, because scales turn it inside out?
+    /// Returns whether the pose of a ghost mirrors a draw item, so that its front faces wind the other way.
     pub fn is_mirrored(&self, ghost: usize, item: usize) -> bool {
         let items = self.posed.as_ref().map_or(0, |posed| posed.items().len());
         self.mirrored.get(ghost * items + item).copied().unwrap_or_default()
@@ -105,7 +107,7 @@ impl GhostSkins {
     }
 }
 
-/// Four bytes, red first, as `unpack4x8unorm` reads them.
+/// Packs a color into four bytes, red first, as `unpack4x8unorm` reads them.
 fn tint([red, green, blue]: [f32; 3], alpha: f32) -> u32 {
     let byte = |part: f32| (part.clamp(0.0, 1.0) * 255.0).round() as u8;
     u32::from_le_bytes([byte(red), byte(green), byte(blue), byte(alpha)])

@@ -1,20 +1,21 @@
-//! What everybody needs who makes or draws something: device, queue, formats, and this frame's uniform.
+//! The objects that every creator and drawer of resources needs: device, queue, formats, and this frame's uniform.
 
 use super::device::GraphicsError;
 use super::fault::Faults;
 use super::surface::WindowSurface;
 use super::uniform::FrameUniform;
 
-/// The scene is drawn in linear light and stored encoded, so that 8 bits are enough where the eye is keen.
+/// Format of the scene: drawn in linear light and stored sRGB-encoded, so that 8 bits suffice where the eye
+/// distinguishes most.
 pub const SCENE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-/// Reversed: 1 is near.
+/// Format of the depth; reversed: 1 is near.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Samples a pixel of the scene; every adapter has four.
+/// Number of samples per pixel of the scene; every adapter supports four.
 pub const SAMPLES: u32 = 4;
-/// Without a window pictures of whole frames are made in this format; egui wants one that does not encode.
+/// Format of whole frames without a window; egui needs one that does not encode.
 const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// A device and what belongs to it.
+/// A device and its common resources.
 pub struct Gpu {
     /// The device.
     pub device: wgpu::Device,
@@ -24,17 +25,17 @@ pub struct Gpu {
     pub window_format: wgpu::TextureFormat,
     /// Longest side of a texture.
     pub max_side: u32,
-    /// Samples of an image that a pixel may take along a surface seen at a flat angle; 1 is none beyond the ordinary.
+    /// Samples of an image that a pixel may take along a surface seen at a flat angle; 1 is no anisotropic filtering.
     pub anisotropy: u16,
     /// Layout of bind group 0 of all passes of the scene.
     pub frame_layout: wgpu::BindGroupLayout,
-    /// Bind group 0.
+    /// Bind group 0 of all passes of the scene.
     pub frame_group: wgpu::BindGroup,
     frame_buffer: wgpu::Buffer,
 }
 
 impl Gpu {
-    /// A device of `adapter` that can draw into `surface`.
+    /// Creates a device of `adapter` that can draw into `surface`.
     pub fn new(
         adapter: &wgpu::Adapter,
         surface: Option<&WindowSurface>,
@@ -67,7 +68,7 @@ impl Gpu {
         })
     }
 
-    /// A buffer of so many bytes that is written to later.
+    /// Creates a buffer of `size` bytes to be written later.
     pub(super) fn buffer(&self, label: &str, size: usize, usage: wgpu::BufferUsages) -> wgpu::Buffer {
         self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
@@ -77,12 +78,12 @@ impl Gpu {
         })
     }
 
-    /// Hands this frame's uniform to the device.
+    /// Writes this frame's uniform to the device.
     pub fn write_frame(&self, uniform: &FrameUniform) {
         self.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(uniform));
     }
 
-    /// A pipeline layout with the frame in group 0, then `groups`.
+    /// Creates a pipeline layout with the frame in group 0, followed by `groups`.
     pub fn pipeline_layout(&self, label: &str, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
         let layouts: Vec<Option<&wgpu::BindGroupLayout>> =
             std::iter::once(&self.frame_layout).chain(groups.iter().copied()).map(Some).collect();
@@ -94,7 +95,7 @@ impl Gpu {
     }
 }
 
-/// Colours multiplied by alpha beforehand.
+/// The target of the scene's pipelines; colors are premultiplied by alpha.
 pub fn scene_target(blend: bool) -> [Option<wgpu::ColorTargetState>; 1] {
     [Some(wgpu::ColorTargetState {
         format: SCENE_FORMAT,
@@ -103,7 +104,7 @@ pub fn scene_target(blend: bool) -> [Option<wgpu::ColorTargetState>; 1] {
     })]
 }
 
-/// Nearer things win; `write` says whether they also hide what comes after.
+/// The depth test of the scene: nearer surfaces win; with `write` they also hide later ones.
 pub fn scene_depth(write: bool) -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
         format: DEPTH_FORMAT,
@@ -114,12 +115,12 @@ pub fn scene_depth(write: bool) -> wgpu::DepthStencilState {
     }
 }
 
-/// As many samples as the scene's textures have.
+/// The multisampling of the scene.
 pub fn scene_samples(alpha_to_coverage_enabled: bool) -> wgpu::MultisampleState {
     wgpu::MultisampleState { count: SAMPLES, mask: !0, alpha_to_coverage_enabled }
 }
 
-/// Refuses an adapter that lacks something, rather than failing later in the middle of a frame.
+/// Rejects an adapter that lacks a feature, instead of failing in the middle of a frame.
 fn check(adapter: &wgpu::Adapter) -> Result<(), GraphicsError> {
     let lack = |lack| Err(GraphicsError::Unsuitable { adapter: adapter.get_info().name, lack });
     let capabilities = adapter.get_downlevel_capabilities();
@@ -135,13 +136,14 @@ fn check(adapter: &wgpu::Adapter) -> Result<(), GraphicsError> {
     Ok(())
 }
 
-/// Where a processor draws it is dear, and not safe: Mesa's llvmpipe walks over every texel of the ellipse that a pixel
-/// covers, and where a triangle is seen all but edge-on that ellipse has no end, so that a frame was seen that never ended.
+/// Anisotropy is expensive on a software adapter, and not safe: Mesa's llvmpipe visits every texel of the ellipse
+/// that a pixel covers, and for a triangle seen almost edge-on that ellipse is unbounded, so that a frame was
+/// observed that never ended.
 fn anisotropy(device: wgpu::DeviceType) -> u16 {
     if device == wgpu::DeviceType::Cpu { 1 } else { 8 }
 }
 
-/// What every adapter has, and more where this one does: large models need large buffers.
+/// The limits that every adapter supports, raised where this one does: large models need large buffers.
 fn limits(adapter: &wgpu::Limits) -> wgpu::Limits {
     let base = wgpu::Limits::downlevel_defaults().using_resolution(adapter.clone());
     wgpu::Limits {
@@ -151,7 +153,7 @@ fn limits(adapter: &wgpu::Limits) -> wgpu::Limits {
     }
 }
 
-/// A group with one thing in it, at binding 0: numbers of type `T`, the same for all vertices and pixels of a draw.
+/// Describes a bind group layout with one uniform of type `T` at binding 0.
 pub(crate) fn uniform_binding<T>(
     device: &wgpu::Device,
     label: &str,

@@ -1,4 +1,4 @@
-//! The graphics thread as other threads see it: the methods of [`Graphics`](super::Graphics), each of which sends a message.
+//! The handle of the graphics thread for other threads: each method of [`Graphics`](super::Graphics) sends a message.
 
 use super::message::{Appearance, GraphicsMessage, Look, PanelsFrame};
 use crate::camera::Camera;
@@ -10,19 +10,19 @@ use dragonfly_runtime::{Address, Thread, ThreadHandle};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Cheap to clone; every method returns at once. What is sent to a thread that has stopped is dropped: there is nothing
-/// left to show it in. The thread stops when the last handle goes.
+/// A handle of the graphics thread. Cheap to clone; every method returns at once. Messages to a thread that has
+/// stopped are dropped. The thread stops when the last handle is dropped.
 #[derive(Clone)]
 pub struct GraphicsHandle {
     thread: ThreadHandle,
     address: Address<GraphicsMessage>,
     views: Address<View>,
-    /// Where the newest camera takes the place of one that waits; likewise the others.
+    /// Address whose newest camera replaces a waiting one; the following ones do the same.
     camera: Address<GraphicsMessage>,
     look: Address<GraphicsMessage>,
     playback: Address<GraphicsMessage>,
     size: Address<GraphicsMessage>,
-    /// `None` where somebody else owns the thread.
+    /// `None` if another owner has the thread.
     _owner: Option<Arc<Thread>>,
 }
 
@@ -37,17 +37,17 @@ impl GraphicsHandle {
         Self { thread, address, views, camera, look, playback, size, _owner: owner.map(Arc::new) }
     }
 
-    /// Its thread.
+    /// The graphics thread.
     pub fn thread(&self) -> &ThreadHandle {
         &self.thread
     }
 
-    /// Ends the thread, after everything that was sent to it before.
+    /// Stops the thread, after everything that was sent to it before.
     pub fn stop(&self) {
         self.thread.remote_stop();
     }
 
-    /// Sends a message; of cameras, looks, times and sizes that wait, the newest is enough.
+    /// Sends a message. Of waiting cameras, looks, playbacks and sizes, only the newest is kept.
     pub fn send(&self, message: GraphicsMessage) {
         let address = match &message {
             GraphicsMessage::Camera(_) => &self.camera,
@@ -56,16 +56,16 @@ impl GraphicsHandle {
             GraphicsMessage::Resized(_) => &self.size,
             _ => &self.address,
         };
-        // The thread has stopped, and nothing is to be done about it.
+        // The thread has stopped, so the message is not needed.
         let _ = address.send(message);
     }
 
-    /// Where the document shows its states, so that no other thread has to carry them.
+    /// Address to which the document sends its views directly, without a detour over another thread.
     pub fn views(&self) -> &Address<View> {
         &self.views
     }
 
-    /// Shows `view` instead of what is shown.
+    /// Shows `view` from now on.
     pub fn show(&self, view: View) {
         self.send(GraphicsMessage::Show(view));
     }
@@ -75,62 +75,58 @@ impl GraphicsHandle {
         self.send(GraphicsMessage::Play(playback));
     }
 
-    /// Looks from there.
+    /// Sets the camera.
     pub fn set_camera(&self, camera: Camera) {
         self.send(GraphicsMessage::Camera(camera));
     }
 
-    /// Draws like that.
+    /// Sets the look.
     pub fn set_look(&self, look: Look) {
         self.send(GraphicsMessage::Look(Box::new(look)));
     }
 
-    /// Shows these bones at rest, and all others as they move.
+    /// Shows these bones at rest, and all others animated.
     pub fn hold_still(&self, bones: Vec<BoneIndex>) {
         self.send(GraphicsMessage::Still(bones));
     }
 
-    /// Shows these panels. All of them arrive: each may bring textures that come only once.
+    /// Shows these panels. None of these messages is dropped, because each may contain textures that are sent only
+    /// once.
     pub fn show_panels(&self, frame: PanelsFrame) {
         self.send(GraphicsMessage::Panels(Box::new(frame)));
     }
 
-    /// The window has this many physical pixels.
+    /// Sets the size of the window, physical pixels.
     pub fn resize(&self, size: [u32; 2]) {
         self.send(GraphicsMessage::Resized(size));
     }
 
-    /// Asks which bone is at a pixel of the window.
+    /// Requests the bone at a pixel of the window.
     pub fn pick(&self, position: [f32; 2], ticket: u64) {
         self.send(GraphicsMessage::Pick { position, ticket });
     }
 
-    /// Asks which bones are at a pixel of the window.
+    /// Requests all bones at a pixel of the window.
     pub fn pick_all(&self, position: [f32; 2], ticket: u64) {
         self.send(GraphicsMessage::PickAll { position, ticket });
     }
 
-    /// Asks which bones are in a part of the viewport, points from its top left.
+    /// Requests the bones in a region of the viewport, points from its top left.
     pub fn catch(&self, region: OwnedRegion, ticket: u64) {
         self.send(GraphicsMessage::Catch { region, ticket });
     }
 
-    /// Lets a control of the scene look like this.
+    /// Sets the appearance of a control of the scene.
     pub fn show_control(&self, appearance: Appearance) {
         self.send(GraphicsMessage::Control(Box::new(appearance)));
     }
 
-    /// Loses the device on purpose.
-    pub fn lose_device(&self) {
-        self.send(GraphicsMessage::LoseDevice);
-    }
-
-    /// Draws the scene again after a pause.
+    /// Resumes drawing the scene after a pause.
     pub fn resume(&self) {
         self.send(GraphicsMessage::Resume);
     }
 
-    /// Writes the whole window as a PNG.
+    /// Writes the whole window as a PNG file.
     pub fn capture(&self, path: PathBuf) {
         self.send(GraphicsMessage::Capture(path));
     }

@@ -1,4 +1,4 @@
-//! Pictures without a window: the same scene, passes and frames.
+//! Rendering images without a window, with the same scene, passes and frames.
 
 use super::device::{DeviceParameters, GraphicsError};
 use super::message::{Look, Shading};
@@ -11,33 +11,33 @@ use image::RgbaImage;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What a picture shows.
+/// Settings of an image.
 #[derive(Clone, Debug)]
 pub struct PictureSettings {
     /// Width and height, pixels.
     pub size: [u32; 2],
     /// Position in the model's takes; `None` shows the rest pose.
     pub take: Option<usize>,
-    /// Seconds, clamped to the take.
+    /// Time in the take, seconds, clamped to the take.
     pub time: f32,
-    /// Radians; 0 from the front.
+    /// Yaw of the camera, radians; 0 from the front.
     pub yaw: f32,
-    /// Radians; positive from above.
+    /// Pitch of the camera, radians; positive from above.
     pub pitch: f32,
-    /// From where instead, for several pictures that belong together; yaw and pitch then say nothing.
+    /// Camera to use instead of yaw and pitch, for several images that belong together.
     pub camera: Option<Camera>,
-    /// sRGB and alpha instead of the gradient.
+    /// Background, sRGB and alpha, instead of the gradient.
     pub background: Option<[u8; 4]>,
-    /// Bones over the surface.
+    /// Whether bones are drawn over the surface.
     pub skeleton: bool,
-    /// Ground grid.
+    /// Whether the ground grid is drawn.
     pub grid: bool,
-    /// Everything else about the look; its viewport, background, skeleton and grid are not used.
+    /// Everything else about the look; its viewport, background, skeleton and grid are ignored.
     pub look: Look,
 }
 
 impl Default for PictureSettings {
-    /// The first moment of the first take, from the front, a little right and above.
+    /// The first time of the first take, from the front, slightly from the right and above.
     fn default() -> Self {
         let camera = Camera::default();
         Self {
@@ -55,7 +55,7 @@ impl Default for PictureSettings {
     }
 }
 
-/// One picture of `loaded`.
+/// Renders one image of `loaded`.
 pub fn render_picture(
     loaded: &Arc<LoadedModel>,
     settings: &PictureSettings,
@@ -63,35 +63,35 @@ pub fn render_picture(
     Studio::new()?.render(loaded, settings)
 }
 
-/// Makes pictures one after the other with one device.
+/// Renders images one after another with one device.
 pub struct Studio {
     stage: Stage,
     shown: Option<Arc<LoadedModel>>,
 }
 
 impl Studio {
-    /// On the machine's best adapter.
+    /// Creates a device on the computer's best adapter.
     pub fn new() -> Result<Self, GraphicsError> {
         Self::with(DeviceParameters::default())
     }
 
-    /// On what `parameters` say.
+    /// Creates a device with `parameters`.
     pub fn with(parameters: DeviceParameters) -> Result<Self, GraphicsError> {
         Ok(Self { stage: Stage::new(parameters, Instant::now())?, shown: None })
     }
 
-    /// The stage, for tests that do things to it.
+    /// The stage, for tests that manipulate it.
     pub fn stage(&mut self) -> &mut Stage {
         &mut self.stage
     }
 
-    /// A camera that sees all of `loaded` at rest.
+    /// Returns a camera that frames all of `loaded` at rest.
     pub fn camera(&mut self, loaded: &Arc<LoadedModel>, settings: &PictureSettings) -> Camera {
         self.show(loaded);
         self.framing(settings, false)
     }
 
-    /// A picture of `loaded`. A device lost meanwhile is made anew and the picture tried again.
+    /// Renders an image of `loaded`. If the device is lost, it is created again and the image is rendered again.
     pub fn render(
         &mut self,
         loaded: &Arc<LoadedModel>,
@@ -173,14 +173,14 @@ impl Studio {
                 points.extend(evaluator.to_root().iter().map(|to_root| to_root.w_axis.truncate()));
             }
             camera.frame_points(&points, width / height);
-            // Air around, so that nothing touches the edge of the picture.
+            // Leaves a margin, so that nothing touches the edge of the image.
             camera.dolly(1.12);
         }
         camera
     }
 }
 
-/// Colours in the scene are multiplied by alpha in linear light; a picture file wants them as they are.
+/// Converts colors that the scene multiplied by alpha in linear light to the straight alpha of image files.
 fn finish(mut picture: RgbaImage) -> RgbaImage {
     for pixel in picture.pixels_mut() {
         let alpha = pixel.0[3];
@@ -197,12 +197,12 @@ fn finish(mut picture: RgbaImage) -> RgbaImage {
     picture
 }
 
-/// sRGB's curve, undone.
+/// Decodes a value from the sRGB curve.
 fn linear(value: f32) -> f32 {
     if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
-/// sRGB's curve.
+/// Encodes a value with the sRGB curve.
 fn encoded(light: f32) -> f32 {
     if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
 }

@@ -1,11 +1,15 @@
-//! Everything that lives in the graphics thread.
+//! The graphics thread of Dragonfly and everything that is drawn.
+//!
+//! This crate owns the graphics device, the passes that draw the scene and the panels, the camera, playback as a function
+//! of the clock, the geometry of gizmos, picking, and rendering without a window. It must not know windows, panels, tools
+//! or the command line: it receives views of the document and messages, and replies with messages.
 //!
 //! ```text
-//! Scene (what, from where, which time)      processor's side, allocates nothing while playing
+//! Scene (what is shown, camera, time)       on the processor, allocates nothing while playing
 //!   └ PosedModel: anim's evaluator → matrices, morph weights, bones
 //! Stage: opens a frame · every pass draws · presents
-//!   ├ Device: adapter, device, queue, surface; tells its listeners of losses
-//!   └ pass/: background, surface, grid, glass, skeleton │ composite, panels      scene │ window
+//!   ├ Device: adapter, device, queue, surface; notifies its listeners of losses
+//!   └ pass/: the passes of the scene, then those of the window; the list is `pass::all`
 //! ```
 
 pub mod body;

@@ -214,13 +214,6 @@ pub enum GraphicsMessage {
     },
     /// A control of the scene looks like this from now on.
     Control(Box<Appearance>),
-    /// Loses the device on purpose, to show that nothing is lost with it.
-    LoseDevice,
-    /// Panics, at once or when it is about to draw, to show that nothing is lost with it.
-    Fail {
-        /// When it is about to draw?
-        drawing: bool,
-    },
     /// Starts drawing the scene again after [`GraphicsReply::Paused`].
     Resume,
     /// Writes the next whole frame as a PNG, then answers [`GraphicsReply::Captured`].

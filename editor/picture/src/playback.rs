@@ -1,8 +1,8 @@
-//! Which time of which take is on screen: a function of the clock, so that playing needs no message a frame.
+//! Playback: the take and time on screen as a function of the clock, so that playing needs no message per frame.
 
 use std::time::Instant;
 
-/// What happens at the end of the take.
+/// Behavior at the end of the take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Repeat {
     /// Stops at the end (B-033: clamped).
@@ -14,32 +14,32 @@ pub enum Repeat {
     PingPong,
 }
 
-/// Latest time that can be looked at, seconds: a day.
+/// Latest time that can be shown, seconds: a day.
 pub const LATEST: f32 = 86_400.0;
 
-/// At the instant `anchor` the take stood at `anchor_time`, and moves on from there at `speed`.
+/// Playback state: the take was at `anchor_time` at the instant `anchor`, and time advances at `speed` from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Playback {
     /// Position in the model's takes; `None` shows the rest pose.
     pub take: Option<usize>,
-    /// Seconds: where the take begins.
+    /// Start of the take, seconds.
     pub start: f32,
-    /// Seconds from begin to end; zero for a single pose.
+    /// Length of the take, seconds; zero for a single pose.
     pub length: f32,
-    /// Seconds in the take at `anchor`; while it stands also beside it.
+    /// Time in the take at `anchor`, seconds; while paused it may be outside the take.
     pub anchor_time: f64,
-    /// When `anchor_time` was true.
+    /// Instant that `anchor_time` belongs to.
     pub anchor: Instant,
-    /// Take seconds a second; negative plays backwards.
+    /// Take seconds per second; negative plays backwards.
     pub speed: f32,
-    /// Does time pass?
+    /// Whether time advances.
     pub playing: bool,
-    /// What happens at the end.
+    /// Behavior at the end of the take.
     pub repeat: Repeat,
 }
 
 impl Playback {
-    /// Stands still at the begin of nothing.
+    /// Paused at the start of the rest pose.
     pub fn rest(now: Instant) -> Self {
         Self {
             take: None,
@@ -53,14 +53,14 @@ impl Playback {
         }
     }
 
-    /// Seconds in the take at `now`; within `start ..= start + length` while it plays.
+    /// Time in the take at `now`, seconds; within `start ..= start + length` while playing.
     pub fn time_at(&self, now: Instant) -> f32 {
         if !self.playing {
             return self.anchor_time as f32;
         }
         let passed = now.saturating_duration_since(self.anchor).as_secs_f64() * f64::from(self.speed);
         let (start, length) = (f64::from(self.start), f64::from(self.length));
-        // Also catches a length that is not a number: nothing to move in.
+        // Also catches a length of NaN, in which nothing can move.
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "the negation is how NaN is caught")]
         if !(length > 0.0) {
             return self.start;
@@ -68,7 +68,7 @@ impl Playback {
         let inside = self.anchor_time - start + passed;
         let wrapped = match self.repeat {
             Repeat::Once => inside.clamp(0.0, length),
-            // Exactly the end stays the end: who begins to play there backwards begins there.
+            // A time exactly at the end stays there, so that playing backwards starts at the end.
             Repeat::Loop if (0.0..=length).contains(&inside) => inside,
             Repeat::Loop => inside.rem_euclid(length),
             Repeat::PingPong => {
@@ -79,7 +79,7 @@ impl Playback {
         (start + wrapped) as f32
     }
 
-    /// Will the picture change by itself after `now`?
+    /// Returns whether the image changes by itself after `now`.
     pub fn moves(&self, now: Instant) -> bool {
         self.playing
             && self.take.is_some()
@@ -88,14 +88,14 @@ impl Playback {
             && !(self.repeat == Repeat::Once && self.at_end(now))
     }
 
-    /// Has a take that plays once arrived?
+    /// Returns whether a take that plays once has reached its end.
     pub fn at_end(&self, now: Instant) -> bool {
         let time = self.time_at(now);
         if self.speed < 0.0 { time <= self.start } else { time >= self.start + self.length }
     }
 
-    /// The same, anchored at `now` and at `time` seconds; while it plays as near to that as the take goes. While it stands
-    /// time may lie beside the take: a key that is put there makes it longer.
+    /// Moves to `time` seconds at `now`; while playing, clamped to the take. While paused the time may be outside the
+    /// take, because setting a key there extends the take.
     pub fn seek(mut self, time: f32, now: Instant) -> Self {
         let (mut first, mut last) = (self.start, self.start + self.length.max(0.0));
         if !self.playing && self.take.is_some() {
@@ -106,7 +106,7 @@ impl Playback {
         self
     }
 
-    /// The same time, but playing or not, at another speed, with another end.
+    /// Changes whether it plays, its speed and its behavior at the end, keeping the time.
     pub fn with(mut self, playing: bool, speed: f32, repeat: Repeat, now: Instant) -> Self {
         self.anchor_time = f64::from(self.time_at(now));
         self.anchor = now;

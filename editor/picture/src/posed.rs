@@ -1,4 +1,4 @@
-//! A model in a pose, laid out as the device wants it: one list of matrices, one of morph weights, one of things to draw.
+//! A model in a pose, laid out for the device: one list of matrices, one of morph weights, one of items to draw.
 
 use super::message::Look;
 use super::shape::SkeletonShape;
@@ -13,7 +13,7 @@ use dragonfly_document::{LoadedModel, View};
 use glam::{Mat4, Vec3};
 use std::sync::Arc;
 
-/// A primitive of a mesh as part of an instance.
+/// A primitive of a mesh, as part of an instance.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawItem {
     /// Position in the model's meshes.
@@ -22,29 +22,29 @@ pub struct DrawItem {
     pub primitive: u32,
     /// Position in the model's materials.
     pub material: Option<u32>,
-    /// Blended over what is behind?
+    /// Whether it blends with what is behind it.
     pub blend: bool,
-    /// What the shader is told.
+    /// The uniform for the shader.
     pub uniform: DrawUniform,
-    /// Middle of its vertices, mesh space.
+    /// Center of its vertices, mesh space.
     center: Vec3,
-    /// Matrix that stands for the whole: of the joint with most weight.
+    /// Index of the matrix that represents the whole: that of the joint with the most weight.
     main_matrix: u32,
 }
 
-/// See the module.
+/// A model in a pose.
 pub struct PosedModel {
     loaded: Arc<LoadedModel>,
     animation: Animation,
-    /// What is pending in the takes, as the view has it.
+    /// The pending poses of the takes, from the view.
     slots: Arc<[Arc<Slot>]>,
-    /// One list for the device: all skins, then one matrix an instance.
+    /// Matrices for the device: all skins, then one matrix per instance.
     palettes: Vec<Affine>,
     /// First matrix of each skin.
     skin_starts: Vec<usize>,
     /// First of the instances' own matrices.
     rigid_start: usize,
-    /// Largest skin's worth of room.
+    /// Scratch memory for the largest skin.
     finals: Vec<Mat4>,
     weights: Vec<f32>,
     /// First weight of each instance, and their number.
@@ -98,10 +98,10 @@ impl PosedModel {
         posed
     }
 
-    /// Exchanges the takes for those of `view`, which must be of this model. Everything else stays; the next
-    /// [`pose`](Self::pose) is one of theirs.
+    /// Replaces the takes by those of `view`, which must be of the same model. The next [`pose`](Self::pose) uses
+    /// them.
     ///
-    /// Bones in `still` are seen at rest.
+    /// Bones in `still` are shown at rest.
     pub fn show_takes(&mut self, view: &View, still: &[BoneIndex]) {
         self.slots = Arc::clone(&view.slots);
         let takes = view.takes_without(still);
@@ -114,12 +114,12 @@ impl PosedModel {
         }
     }
 
-    /// What is shown.
+    /// The model.
     pub fn loaded(&self) -> &Arc<LoadedModel> {
         &self.loaded
     }
 
-    /// Around the model at rest.
+    /// Bounds of the model at rest.
     pub fn bounds(&self) -> &Bounds {
         &self.loaded.bounds
     }
@@ -134,32 +134,32 @@ impl PosedModel {
         &self.weights
     }
 
-    /// Everything to draw, in file order.
+    /// All items to draw, in the order of the file.
     pub fn items(&self) -> &[DrawItem] {
         &self.items
     }
 
-    /// Positions in [`Self::items`] of what is blended, furthest first.
+    /// Positions of the blended items in [`Self::items`], farthest first.
     pub fn back_to_front(&self) -> impl Iterator<Item = usize> + '_ {
         self.back_to_front.iter().map(|&(_, item)| item as usize)
     }
 
-    /// Bone space → scene space of every bone in this pose.
+    /// Matrices bone space → scene space of every bone in this pose.
     pub fn to_root(&self) -> &[Mat4] {
         self.animation.to_root()
     }
 
-    /// Bone space → parent space of every bone in this pose.
+    /// Transforms bone space → parent space of every bone in this pose.
     pub fn poses(&self) -> &[Transform] {
         self.animation.poses()
     }
 
-    /// Which take and time this pose is of.
+    /// Take and time of this pose.
     pub fn at(&self) -> (Option<usize>, f32) {
         self.at
     }
 
-    /// The takes as they are shown.
+    /// The takes that are shown.
     pub fn takes(&self) -> &[Arc<Take>] {
         &self.animation.data().takes
     }
@@ -169,14 +169,14 @@ impl PosedModel {
         &self.shape
     }
 
-    /// Does this pose turn `item` inside out, so that its front faces run the other way round?
+    /// Returns whether this pose mirrors `item`, so that its front faces wind the other way.
     pub fn is_mirrored(&self, item: &DrawItem) -> bool {
         let Affine { x, y, z } = self.palettes[item.main_matrix as usize];
         x.truncate().dot(y.truncate().cross(z.truncate())) < 0.0
     }
 
-    /// Puts the model into the pose of `take` at `time`, with what is pending there where `standing`: while time runs the
-    /// keys are seen. Allocates nothing.
+    /// Poses the model at `time` of `take`. With `standing` it includes pending poses; during playback only keys are
+    /// shown. Allocates nothing.
     pub fn pose(&mut self, take: Option<usize>, time: f32, standing: bool) {
         self.at = (take, time);
         let model = &self.loaded.model;
@@ -205,7 +205,7 @@ impl PosedModel {
         }
     }
 
-    /// Orders what is blended as seen from `eye`. Allocates nothing.
+    /// Sorts the blended items by distance from `eye`. Allocates nothing.
     pub fn sort(&mut self, eye: Vec3, back: Vec3) {
         self.back_to_front.clear();
         for (index, item) in self.items.iter().enumerate().filter(|(_, item)| item.blend) {
@@ -266,7 +266,7 @@ fn primitives(model: &ModelData, mesh: u32) -> &[Primitive] {
     model.meshes.get(mesh as usize).map_or(&[], |mesh| &mesh.primitives)
 }
 
-/// The joint with the most weight in all vertices together.
+/// Returns the joint with the largest weight in all vertices together.
 fn main_joint(primitive: &Primitive) -> usize {
     let mut sums: Vec<f32> = Vec::new();
     for influence in &primitive.vertices.influences {

@@ -1,10 +1,10 @@
-//! Pictures from the device back to the processor.
+//! Reading images back from the device.
 
 use super::gpu::Gpu;
 use image::RgbaImage;
 
-/// The pixels of `texture`, four bytes each, in RGBA order; waits for the device. Panics when the device is lost meanwhile,
-/// as wgpu does: call it guarded.
+/// Reads the pixels of `texture`, four bytes each, in RGBA order; blocks until the device is done. Panics, as wgpu
+/// does, when the device is lost during the wait, so it must be called guarded.
 pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, String> {
     let (width, height) = (texture.width(), texture.height());
     let row = width * 4;
@@ -34,7 +34,7 @@ pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, String> {
         let _ = sender.send(result);
     });
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| error.to_string())?;
-    let mapped = receiver.try_recv().map_err(|_| "the picture never came".to_owned())?;
+    let mapped = receiver.try_recv().map_err(|_| "the device did not return the image".to_owned())?;
     mapped.map_err(|error| error.to_string())?;
     let bytes = buffer.slice(..).get_mapped_range().map_err(|error| error.to_string())?;
     let mut pixels = Vec::with_capacity(row as usize * height as usize);
@@ -45,5 +45,5 @@ pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, String> {
     if matches!(texture.format(), wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Bgra8UnormSrgb) {
         pixels.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
     }
-    RgbaImage::from_raw(width, height, pixels).ok_or_else(|| "the picture has the wrong size".to_owned())
+    RgbaImage::from_raw(width, height, pixels).ok_or_else(|| "the image has the wrong size".to_owned())
 }

@@ -1,6 +1,6 @@
-//! The scene on the processor's side: what is shown, from where, how, and in which pose.
+//! The scene on the processor: model, camera, look, time and pose.
 //!
-//! Everything that a frame needs is computed into memory that was made when the model came, so playing allocates nothing.
+//! Everything a frame needs is computed into memory allocated when the model is shown, so playing allocates nothing.
 
 use super::control::Controls;
 use super::ghosts::GhostSkins;
@@ -19,30 +19,30 @@ use glam::{Mat4, Vec2, Vec3, Vec4};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// See the module.
+/// The scene.
 pub struct Scene {
-    /// From where.
+    /// The camera.
     pub camera: Camera,
-    /// How.
+    /// The look of the viewport.
     pub look: Look,
-    /// Which time of which take.
+    /// Take and time.
     pub playback: Playback,
-    /// Alpha of the background; less than one only in pictures for other programs.
+    /// Alpha of the background; less than one only in images for other programs.
     pub background_alpha: f32,
-    /// What the controls of the scene look like.
+    /// The controls of the scene.
     pub controls: Controls,
     model: Option<PosedModel>,
     skin: Option<SkinPicker>,
     ghosts: GhostSkins,
-    /// What is shown.
+    /// The view that is shown.
     shown: Option<View>,
-    /// Bones that are seen at rest.
+    /// Bones that are shown at rest.
     still: Vec<BoneIndex>,
     uniform: FrameUniform,
 }
 
 impl Scene {
-    /// Nothing to see yet.
+    /// An empty scene.
     pub fn new(now: Instant) -> Self {
         Self {
             camera: Camera::default(),
@@ -59,7 +59,7 @@ impl Scene {
         }
     }
 
-    /// Shows `view` instead of what is shown. Of the model that is shown already only the takes are exchanged.
+    /// Shows `view` from now on. If the model is the same, only the takes are replaced.
     pub fn show(&mut self, view: &View) {
         match &mut self.model {
             Some(model) if Arc::ptr_eq(model.loaded(), &view.loaded) => model.show_takes(view, &self.still),
@@ -74,7 +74,7 @@ impl Scene {
         self.shown = Some(view.clone());
     }
 
-    /// Shows these bones at rest, and all others as they move.
+    /// Shows these bones at rest, and all others animated.
     pub fn set_still(&mut self, still: Vec<BoneIndex>) {
         self.still = still;
         if let Some(view) = self.shown.take() {
@@ -92,7 +92,7 @@ impl Scene {
         self.model.as_ref()
     }
 
-    /// The model at other times, as prepared last.
+    /// The poses of the ghosts, as prepared last.
     pub fn ghosts(&self) -> &GhostSkins {
         &self.ghosts
     }
@@ -117,7 +117,7 @@ impl Scene {
         Vec2::new(width as f32, height as f32)
     }
 
-    /// Computes everything for a picture at `now`. Allocates nothing.
+    /// Computes everything for a frame at `now`. Allocates nothing.
     pub fn prepare(&mut self, now: Instant) {
         let time = self.playback.time_at(now);
         let eye = self.camera.eye();
@@ -132,7 +132,7 @@ impl Scene {
         self.uniform = self.frame_uniform(&bounds);
     }
 
-    /// Scene → clip space for the present camera and viewport.
+    /// Transforms scene space to clip space for the present camera and viewport.
     pub fn clip_from_world(&self, bounds: &Sphere) -> Mat4 {
         let size = self.size();
         self.camera.clip_from_view(size.x / size.y.max(1.0), bounds) * self.camera.view_from_world()
@@ -147,12 +147,13 @@ impl Scene {
         inside.then(|| (self.camera.ray(pixel, size), pixel))
     }
 
-    /// The bones at a pixel of the window in the pose prepared last, the nearest first: those that are drawn there; where
-    /// none is, or bones are not shown, those that move the skin there most; and then those that it just misses.
+    /// Returns the bones at a pixel of the window in the pose prepared last, nearest first: the bones drawn there; if
+    /// there are none, or bones are not shown, those with the most influence on the skin there; and then those that
+    /// the pixel just misses.
     pub fn pick_all(&mut self, position: [f32; 2]) -> Vec<BoneIndex> {
         let mut bones = Vec::new();
         let hidden = Arc::clone(&self.look.hidden);
-        // Lines are met by coming near.
+        // Lines have no area, so they are picked by distance.
         match (self.look.skeleton, self.look.bone_look) {
             (true, BoneLook::Lines) => pick_all(self, position, &hidden, &mut bones),
             (true, _) => pick_met(self, position, &hidden, &mut bones),
@@ -189,7 +190,7 @@ impl Scene {
             .background
             .map(|color| (Vec3::from(color) * self.background_alpha).extend(self.background_alpha));
         let (spacing, appeared) = grid_spacing(camera.distance);
-        // A high eye sees far; the ground should not end under it.
+        // A high camera sees far; the ground must not end below it.
         let radius = camera.distance.max(camera.eye().y.abs()) * 5.0;
         FrameUniform {
             clip_from_world: self.clip_from_world(bounds),
@@ -206,13 +207,13 @@ impl Scene {
         }
     }
 
-    /// Bounds of the model at rest; nothing, in the origin, without one.
+    /// Bounds of the model at rest; empty, at the origin, without a model.
     pub fn bounds(&self) -> Bounds {
         self.model.as_ref().map_or_else(Bounds::default, |model| *model.bounds())
     }
 }
 
-/// Distance between the fine lines of the ground, a power of ten, and how far they have appeared, 0..1.
+/// Distance between the fine lines of the ground, a power of ten, and their fade-in, 0..1.
 fn grid_spacing(distance: f32) -> (f32, f32) {
     let level = (distance * 0.5).max(1e-6).log10();
     (10f32.powf(level.floor() - 1.0), 1.0 - (level - level.floor()))

@@ -1,4 +1,4 @@
-//! The list of shaders: each is one file of `shaders/`, put behind the common parts it names.
+//! The list of shaders: each is one file in `shaders/`, appended to the common parts it names.
 
 /// A shader module.
 pub struct Shader {
@@ -8,7 +8,7 @@ pub struct Shader {
     parts: &'static [Part],
 }
 
-/// A file of `shaders/`, and what it held when the program was built.
+/// Name of a file in `shaders/`, and its content when the program was built.
 type Part = (&'static str, &'static str);
 
 macro_rules! part {
@@ -23,7 +23,7 @@ const STUDIO: Part = part!("common/studio.wgsl");
 const POSE: Part = part!("common/pose.wgsl");
 const VERTEX: Part = part!("common/vertex.wgsl");
 
-/// The gradient behind the scene.
+/// The background gradient.
 pub const BACKGROUND: Shader =
     Shader { name: "background", parts: &[FRAME, COLOR, part!("background.wgsl")] };
 /// Skinned and lit surfaces.
@@ -31,25 +31,25 @@ pub const MODEL: Shader =
     Shader { name: "model", parts: &[FRAME, COLOR, STUDIO, POSE, VERTEX, part!("model.wgsl")] };
 /// Surfaces at other times.
 pub const GHOST: Shader = Shader { name: "ghost", parts: &[FRAME, POSE, VERTEX, part!("ghost.wgsl")] };
-/// The ground.
+/// The ground grid.
 pub const GRID: Shader = Shader { name: "grid", parts: &[FRAME, part!("grid.wgsl")] };
-/// Bones.
+/// The bones.
 pub const SKELETON: Shader = Shader { name: "skeleton", parts: &[FRAME, STUDIO, part!("skeleton.wgsl")] };
-/// Controls of the scene.
+/// The controls of the scene.
 pub const CONTROLS: Shader = Shader { name: "controls", parts: &[FRAME, part!("controls.wgsl")] };
-/// The scene into the window.
+/// Copying the scene into the window.
 pub const COMPOSITE: Shader = Shader { name: "composite", parts: &[COLOR, part!("composite.wgsl")] };
-/// Mip levels.
+/// Computing mip levels.
 pub const MIP: Shader = Shader { name: "mip", parts: &[part!("mip.wgsl")] };
 
 /// Every shader of the program.
 pub const ALL: &[Shader] = &[BACKGROUND, MODEL, GHOST, GRID, SKELETON, CONTROLS, COMPOSITE, MIP];
 
 impl Shader {
-    /// The whole text.
+    /// Returns the complete source.
     ///
-    /// A build for development reads it anew from the folder that `DRAGONFLY_SHADERS` names, so that the look can be
-    /// worked on without building.
+    /// A development build reads it from the folder in `DRAGONFLY_SHADERS` if that is set, so that shaders can be
+    /// edited without rebuilding.
     pub fn source(&self) -> String {
         let folder = std::env::var_os("DRAGONFLY_SHADERS").filter(|_| cfg!(debug_assertions));
         let text = |&(path, built): &Part| {
@@ -59,7 +59,7 @@ impl Shader {
         self.parts.iter().map(text).collect::<Vec<_>>().join("\n")
     }
 
-    /// The module on `device`.
+    /// Compiles the module for `device`.
     pub fn module(&self, device: &wgpu::Device) -> wgpu::ShaderModule {
         device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(self.name),

@@ -1,7 +1,7 @@
-//! What a skeleton looks like: which bodies stand for its bones, and where they are in a pose.
+//! The shape of a skeleton: the bodies that stand for its bones, and their positions in a pose.
 //!
-//! A bone reaches from its joint to each of its children; a last bone goes on in the direction of its parent. Bones that
-//! move no surface (the nodes above a character, say) are drawn as thin lines.
+//! A bone reaches from its joint to each of its children; a bone without children continues in the direction of its
+//! parent. Bones that move no surface (such as the nodes above a character) are drawn as thin lines.
 
 use super::message::{BoneLook, Look};
 use bytemuck::{Pod, Zeroable};
@@ -11,30 +11,30 @@ use glam::{Mat4, Vec3};
 
 /// Thickness over length of a bone.
 const SLIMNESS: f32 = 0.1;
-/// Thinnest and thickest bone, relative to the whole skeleton.
+/// Smallest and largest thickness of a bone, relative to the whole skeleton.
 const THICKNESS: [f32; 2] = [0.0028, 0.02];
-/// A last bone is so long, relative to the bone before it.
+/// Length of a bone without children, relative to the bone before it.
 const LAST_BONE: f32 = 0.45;
 
-/// WGSL twin: `Bone` in `shaders/skeleton.wgsl`.
+/// An instance of a body. WGSL twin: `Bone` in `shaders/skeleton.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct BoneInstance {
-    /// Scene space.
+    /// Start, scene space.
     pub head: Vec3,
-    /// Scene units.
+    /// Radius, scene units.
     pub radius: f32,
-    /// Scene space.
+    /// End, scene space.
     pub tail: Vec3,
-    /// 1 selected + 2 hovered.
+    /// 1 if selected, plus 2 if hovered.
     pub state: u32,
-    /// Unit length, across.
+    /// Unit vector across the bone.
     pub side: Vec3,
     /// Opacity of lines.
     pub strength: f32,
 }
 
-/// The unit bodies there are.
+/// Bodies that a bone can be drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Body {
     /// A slim octahedron.
@@ -43,7 +43,7 @@ pub enum Body {
     Stick,
     /// A ball at the head.
     Ball,
-    /// A line of some pixels.
+    /// A line a few pixels wide.
     Line,
 }
 
@@ -52,7 +52,7 @@ impl Body {
     pub const ALL: [Self; 4] = [Self::Line, Self::Stick, Self::Octahedron, Self::Ball];
 }
 
-/// A bone from one place to another.
+/// A bone's link from one position to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Link {
     bone: BoneIndex,
@@ -69,20 +69,20 @@ enum Tail {
     Own(Vec3),
 }
 
-/// The bodies of a skeleton, with room for their places in a pose.
+/// The bodies of a skeleton, with memory for their positions in a pose.
 #[derive(Debug, Default)]
 pub struct SkeletonShape {
     links: Vec<Link>,
     joints: Vec<bool>,
-    /// Extent of the joints at rest, scene units.
+    /// Diagonal of the joints at rest, scene units.
     size: f32,
-    /// Of the thickest link of each bone, in this pose.
+    /// Thickness of the thickest link of each bone in this pose.
     thickness: Vec<f32>,
-    /// Which bones are selected: asked once a link, so not searched for in a list.
+    /// Whether each bone is selected; looked up once per link, so not searched for in a list.
     selected: Vec<bool>,
-    /// Instances per body, in the order of [`Body::ALL`].
+    /// Instances of each body, in the order of [`Body::ALL`].
     instances: [Vec<BoneInstance>; 4],
-    /// Which bone each instance belongs to.
+    /// Bone that each instance belongs to.
     owners: [Vec<BoneIndex>; 4],
 }
 
@@ -115,8 +115,8 @@ impl SkeletonShape {
         shape
     }
 
-    /// Places the bodies for a pose, whether the skeleton is shown or not: bones that are not drawn can be picked too. Those
-    /// that the person hid have none. Allocates nothing.
+    /// Places the bodies for a pose, even if the skeleton is not shown: bones that are not drawn can be picked. Bones
+    /// hidden by the user get no bodies. Allocates nothing.
     pub fn place(&mut self, to_root: &[Mat4], look: &Look) {
         self.instances.iter_mut().for_each(Vec::clear);
         self.owners.iter_mut().for_each(Vec::clear);
@@ -139,7 +139,7 @@ impl SkeletonShape {
                 Tail::Own(point) => matrix.transform_point3(point),
             };
             let length = head.distance(tail);
-            // Too short to be seen, or a number out of range: the joint's ball alone stands for it.
+            // Too short to be visible, or not finite: only the joint's ball is shown.
             if length.is_nan() || length <= self.size * 1e-4 {
                 continue;
             }
@@ -161,12 +161,12 @@ impl SkeletonShape {
         self.place_balls(to_root, look);
     }
 
-    /// A ball at every joint, so that joints without length can be seen and picked too.
+    /// Places a ball at every joint, so that joints without length can be seen and picked.
     fn place_balls(&mut self, to_root: &[Mat4], look: &Look) {
         if look.bone_look == BoneLook::Lines {
             return;
         }
-        // As thick as the thickest link of the bone that begins here; links of a bone need not lie side by side.
+        // As thick as the thickest link of the bone that starts here; the links of a bone need not be adjacent.
         for (index, matrix) in to_root.iter().enumerate().take(self.joints.len()) {
             if !self.joints[index] || look.hidden.is_hidden(index as BoneIndex) {
                 continue;
@@ -192,12 +192,12 @@ impl SkeletonShape {
         &self.owners[position(body)]
     }
 
-    /// Does a bone move a surface? What only steers others does not.
+    /// Returns whether a bone moves a surface, rather than only controlling other bones.
     pub fn is_joint(&self, bone: BoneIndex) -> bool {
         self.joints.get(bone as usize) == Some(&true)
     }
 
-    /// Most instances that a pose can have.
+    /// Largest number of instances in any pose.
     pub fn capacity(&self) -> usize {
         self.links.len() + self.joints.len()
     }
@@ -221,8 +221,8 @@ fn position(body: Body) -> usize {
     Body::ALL.iter().position(|&other| other == body).unwrap_or(0)
 }
 
-/// Which bones move a surface: some vertex has weight for them, or they carry a mesh. What only steers others does not.
-/// Without any such bone all count.
+/// Returns which bones move a surface: some vertex has weight for them, or they carry a mesh. Without any such bone,
+/// all of them count.
 fn joints(model: &ModelData) -> Vec<bool> {
     let mut joints = vec![false; model.animation.skeleton.len()];
     let mut mark = |bone: BoneIndex| {
@@ -261,7 +261,7 @@ fn extent(rest: &[Mat4], joints: &[bool]) -> f32 {
     if size.is_finite() && size > 0.0 { size } else { 1.0 }
 }
 
-/// Where a bone without children ends, in its own space: onwards from its parent.
+/// End of a bone without children, in its own space: it continues in the direction from its parent.
 fn last_tail(model: &ModelData, rest: &[Mat4], index: usize, size: f32) -> Vec3 {
     let to_root = rest[index];
     let head = to_root.w_axis.truncate();
@@ -277,7 +277,7 @@ fn last_tail(model: &ModelData, rest: &[Mat4], index: usize, size: f32) -> Vec3 
     if own.is_finite() { own } else { Vec3::ZERO }
 }
 
-/// Across the bone, turning with it: the axis of the bone that lies least along it.
+/// Unit vector across the bone that rotates with it: from the axis of the bone that is least parallel to it.
 fn across(matrix: &Mat4, along: Vec3) -> Vec3 {
     let axes = [matrix.x_axis, matrix.z_axis, matrix.y_axis].map(|axis| axis.truncate().normalize_or_zero());
     let least = axes.into_iter().min_by(|a, b| a.dot(along).abs().total_cmp(&b.dot(along).abs()));

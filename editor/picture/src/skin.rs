@@ -1,4 +1,4 @@
-//! Choosing a bone by the skin that it moves.
+//! Picking a bone by the skin that it moves.
 
 use super::posed::PosedModel;
 use crate::camera::Ray;
@@ -9,9 +9,10 @@ use dragonfly_anim::hit::{HitPose, HitTree};
 use dragonfly_document::bones::HiddenBones;
 use std::sync::Arc;
 
-/// Made at the first click that needs it: most of its cost is the tree over the triangles, which stays.
+/// Picker with a tree over the triangles, created at the first click that needs it and kept, because building it is
+/// most of the cost.
 pub(super) struct SkinPicker {
-    /// None where the triangles are too many for a tree.
+    /// `None` if there are too many triangles for a tree.
     tree: Option<(Evaluator, HitPose)>,
     hits: Vec<SkinHit>,
 }
@@ -25,7 +26,7 @@ impl SkinPicker {
         Self { tree, hits: Vec::new() }
     }
 
-    /// The bones that move the skin under a ray most, the nearest first, in the pose that `model` has.
+    /// Writes the bones with the most influence on the skin under a ray, nearest first, in the pose of `model`.
     pub(super) fn pick(
         &mut self,
         model: &PosedModel,
@@ -40,7 +41,7 @@ impl SkinPicker {
                 evaluator.animation_mut().replace_take(index, Arc::clone(take));
             }
         }
-        // As it is drawn: with what is pending, and bones held still.
+        // In the pose that is drawn: with pending poses, and with the bones that are held at rest.
         evaluator.pose_with(take, time, |poses| {
             for (pose, shown) in poses.iter_mut().zip(model.poses()) {
                 *pose = *shown;

@@ -1,7 +1,8 @@
-//! One frame after the other: opened once, drawn by every pass in order, presented once (T-089).
+//! One frame after another: opened once, drawn by every pass in order, presented once (T-089).
 //!
-//! The workers of the graphics thread call [`Stage::open`], [`Stage::draw`] and [`Stage::present`] in turn; a picture without
-//! a window goes the same way. Everything that touches the device is guarded: a panic in there means the device is lost.
+//! The workers of the graphics thread call [`Stage::open`], [`Stage::draw`] and [`Stage::present`] in turn; rendering
+//! without a window does the same. Everything that touches the device is guarded: a panic there means that the device
+//! is lost.
 
 use super::device::{Device, DeviceParameters, DeviceState, GraphicsError};
 use super::fault::Patience;
@@ -16,34 +17,34 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Instant;
 
-/// What opening a frame came to.
+/// Result of opening a frame.
 #[derive(Debug)]
 pub enum Opened {
-    /// Draw now.
+    /// The frame is open for drawing.
     Frame,
     /// There is nothing to draw into at the moment.
     Nothing,
-    /// There is no device any more.
+    /// The device is lost for good.
     Gone(GraphicsError),
 }
 
-/// Something that the main thread wants to know about the device.
+/// An event of the device that the main thread needs to know.
 #[derive(Debug)]
 pub enum Event {
-    /// It was lost and made anew.
+    /// The device was lost and created again.
     Recovered(String),
-    /// It gets lost too often; the scene is not drawn any more.
+    /// The device is lost too often; the scene is no longer drawn.
     Paused(String),
 }
 
-/// How much is drawn.
+/// Which parts of the window are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Mode {
     /// Everything.
     All,
-    /// The panels: drawing the scene seems to cost the device.
+    /// The panels only, because drawing the scene seems to cause the losses.
     PanelsOnly,
-    /// Nothing: even that does.
+    /// Nothing, because drawing the panels does too.
     Nothing,
 }
 
@@ -53,24 +54,24 @@ struct Frame {
     pass: Option<(Layer, wgpu::RenderPass<'static>)>,
     window: Option<wgpu::TextureView>,
     surface_texture: Option<wgpu::SurfaceTexture>,
-    /// The scene changed since it was drawn last.
+    /// Whether the scene changed since it was drawn last.
     draws_scene: bool,
 }
 
-/// See the module.
+/// The frames of one device.
 pub struct Stage {
-    /// First, since fields are dropped in their order: a frame that was opened and never shown is given back to a surface
-    /// that is still there.
+    /// The first field, because fields are dropped in order: a frame that was opened and never presented is returned
+    /// to a surface that still exists.
     frame: Option<Frame>,
     device: Device,
-    /// What is shown; whoever changes it calls [`Self::touch_scene`].
+    /// The scene; code that changes it calls [`Self::touch_scene`].
     pub scene: Scene,
     passes: Passes,
     target: Option<SceneTarget>,
     window_size: [u32; 2],
     scene_changed: bool,
     window_changed: bool,
-    /// A texture that stands for the window in the next frame.
+    /// A texture that replaces the window in the next frame.
     stand_in: Option<wgpu::Texture>,
     mode: Mode,
     events: Vec<Event>,
@@ -78,11 +79,11 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// An empty scene on a new device.
+    /// Creates a device and an empty scene.
     pub fn new(parameters: DeviceParameters, now: Instant) -> Result<Self, GraphicsError> {
         let mut device = Device::new(parameters)?;
         let passes = pass::all();
-        // The model first: passes draw with it.
+        // The model first, because the passes draw with it.
         device.add_listener(Rc::clone(&passes.model) as _);
         for pass in &passes.list {
             device.add_listener(pass::listener(pass));
@@ -108,7 +109,7 @@ impl Stage {
         &mut self.device
     }
 
-    /// The passes in order.
+    /// The passes in drawing order.
     pub fn passes(&self) -> &[SharedPass] {
         &self.passes.list
     }
@@ -118,7 +119,7 @@ impl Stage {
         &self.passes.panels
     }
 
-    /// Physical pixels of the window; zero when it is minimised.
+    /// Sets the size of the window, physical pixels; zero when it is minimized.
     pub fn resize(&mut self, size: [u32; 2]) {
         if self.window_size != size {
             self.window_size = size;
@@ -126,39 +127,39 @@ impl Stage {
         }
     }
 
-    /// Physical pixels of the window.
+    /// Size of the window, physical pixels.
     pub fn window_size(&self) -> [u32; 2] {
         self.window_size
     }
 
-    /// Something in the scene changed: the next frame draws it anew.
+    /// Marks the scene as changed: the next frame draws it again.
     pub fn touch_scene(&mut self) {
         self.scene_changed = true;
     }
 
-    /// Something outside of the scene changed: the next frame lays the panels over the scene as it is.
+    /// Marks everything but the scene as changed: the next frame draws the panels over the scene as it is.
     pub fn touch_window(&mut self) {
         self.window_changed = true;
     }
 
-    /// Is there anything new to draw at `now`?
+    /// Returns whether there is anything new to draw at `now`.
     pub fn wants_frame(&self, now: Instant) -> bool {
         let visible = !self.window_size.contains(&0) && self.mode != Mode::Nothing;
         let scene_wants = self.mode == Mode::All && (self.scene_changed || self.moves(now));
         visible && (scene_wants || self.window_changed)
     }
 
-    /// Does the scene change by itself?
+    /// Returns whether the scene changes by itself.
     pub fn moves(&self, now: Instant) -> bool {
         self.mode == Mode::All && self.scene.playback.moves(now) && self.scene.model().is_some()
     }
 
-    /// Frames presented so far.
+    /// Number of frames presented so far.
     pub fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// What happened to the device since the last call.
+    /// Returns the events of the device since the last call.
     pub fn take_events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)
     }
@@ -170,7 +171,7 @@ impl Stage {
         self.scene_changed = true;
     }
 
-    /// Makes sure of the device, computes the scene for `now` and opens a frame.
+    /// Checks the device, computes the scene for `now` and opens a frame.
     pub fn open(&mut self, now: Instant) -> Opened {
         self.frame = None;
         match self.device.check_device_state(now) {
@@ -195,7 +196,7 @@ impl Stage {
         }
     }
 
-    /// Lets one pass draw. `false` when the frame is broken.
+    /// Draws one pass. Returns `false` when the frame is broken.
     pub fn draw(&mut self, pass: &mut dyn Pass) -> bool {
         let Some(mut frame) = self.frame.take() else { return false };
         let drawn = caught(|| {
@@ -205,7 +206,7 @@ impl Stage {
         self.keep(drawn.map(Some))
     }
 
-    /// Ends the frame and shows it. `false` when it was broken.
+    /// Ends the frame and presents it. Returns `false` when it was broken.
     pub fn present(&mut self) -> bool {
         let Some(frame) = self.frame.take() else { return false };
         let draws_scene = frame.draws_scene;
@@ -230,7 +231,7 @@ impl Stage {
         done
     }
 
-    /// Opens, draws with every pass and presents: what the workers do in turn.
+    /// Opens a frame, draws every pass and presents it, as the workers do in turn.
     pub fn whole_frame(&mut self, now: Instant) -> Opened {
         let opened = self.open(now);
         if matches!(opened, Opened::Frame) {
@@ -246,7 +247,7 @@ impl Stage {
         opened
     }
 
-    /// The scene alone, as drawn last.
+    /// Reads the scene without the panels, as drawn last.
     pub fn read_scene(&mut self) -> Result<RgbaImage, String> {
         let Some(target) = &self.target else { return Err("there is no scene".to_owned()) };
         let picture = caught(|| readback::read(self.device.gpu(), target.texture()));
@@ -256,7 +257,8 @@ impl Stage {
         })
     }
 
-    /// The whole window at `now`, drawn once more into a texture: what a surface shows cannot be read everywhere.
+    /// Renders the whole window at `now` once more, into a texture, because what a surface shows cannot be read
+    /// everywhere.
     pub fn capture(&mut self, now: Instant) -> Result<RgbaImage, String> {
         let size = self.window_size.map(|side| side.min(self.device.gpu().max_side));
         if size.contains(&0) {
@@ -279,11 +281,11 @@ impl Stage {
         self.target = None;
         self.stand_in = None;
         (self.scene_changed, self.window_changed) = (true, true);
-        if patience == Patience::Left {
+        if patience == Patience::Left || !self.device.parameters().faults.pauses() {
             self.events.push(Event::Recovered(reason));
             return;
         }
-        // First without the scene; when that does not help either, without anything.
+        // First without the scene; if that does not help, without anything.
         self.device.forgive();
         self.mode = if self.mode == Mode::All { Mode::PanelsOnly } else { Mode::Nothing };
         self.events.push(Event::Paused(reason));
@@ -302,7 +304,7 @@ impl Stage {
                 }
                 Acquired::Nothing => return false,
                 Acquired::DeviceLost => {
-                    self.device.assume_lost("the window's surface does not answer any more");
+                    self.device.assume_lost("the window's surface does not respond");
                     return false;
                 }
             }
@@ -341,7 +343,7 @@ impl Stage {
         let layer = pass.layer();
         let begun = frame.pass.as_ref().is_some_and(|(begun, _)| *begun == layer);
         if !begun {
-            // The pass before must end before its encoder can begin another.
+            // The previous pass must end before its encoder can begin another.
             frame.pass = None;
             let encoder = &mut frame.commands.encoder;
             let next = match (layer, &self.target, &frame.window) {
@@ -381,7 +383,7 @@ impl Stage {
         })
     }
 
-    /// Keeps the frame of a step that went well; after a panic there is none, and no device either.
+    /// Keeps the frame after a successful step; after a panic the frame is dropped and the device counts as lost.
     fn keep(&mut self, step: Result<Option<Frame>, String>) -> bool {
         match step {
             Ok(frame) => {
@@ -396,7 +398,7 @@ impl Stage {
     }
 }
 
-/// The pixels there really are to draw into.
+/// Number of pixels that can actually be drawn into.
 fn window_extent(texture: Option<&wgpu::SurfaceTexture>, otherwise: [u32; 2]) -> [u32; 2] {
     texture.map_or(otherwise, |texture| [texture.texture.width(), texture.texture.height()])
 }

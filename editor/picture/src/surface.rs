@@ -1,4 +1,4 @@
-//! The window's surface: configured when there is something to configure, never with a size of zero.
+//! The window's surface: configured before use, never with a size of zero.
 
 use super::connection::{ConnectedWindow, Connection};
 use super::device::GraphicsError;
@@ -27,7 +27,7 @@ impl SurfaceSource {
         wgpu::InstanceDescriptor::new_with_display_handle(Box::new(self.connection.clone()))
     }
 
-    /// A surface of the window.
+    /// Creates a surface of the window.
     pub fn surface(&self, instance: &wgpu::Instance) -> Result<WindowSurface, GraphicsError> {
         let window =
             ConnectedWindow { window: Arc::clone(&self.window), connection: self.connection.clone() };
@@ -38,13 +38,13 @@ impl SurfaceSource {
     }
 }
 
-/// What came of asking for the next picture to draw into.
+/// Result of acquiring the next image to draw into.
 pub enum Acquired {
-    /// Draw into this.
+    /// An image to draw into.
     Frame(wgpu::SurfaceTexture),
-    /// Not now: minimised, hidden, or between two sizes.
+    /// None at the moment: the window is minimized, hidden, or between two sizes.
     Nothing,
-    /// The device behind it is gone.
+    /// The device of the surface is lost.
     DeviceLost,
 }
 
@@ -53,7 +53,7 @@ pub struct WindowSurface {
     surface: wgpu::Surface<'static>,
     window: Arc<dyn TargetWindow>,
     configured: Option<wgpu::SurfaceConfiguration>,
-    /// "Validation" answers in a row.
+    /// Number of consecutive "validation" results.
     refusals: u32,
 }
 
@@ -63,25 +63,25 @@ impl WindowSurface {
         &self.surface
     }
 
-    /// The format to draw in: one that does not encode, because egui wants to do that itself.
+    /// Returns the format to draw in: one that does not encode, because egui encodes colors itself.
     pub fn format(&self, adapter: &wgpu::Adapter) -> Result<wgpu::TextureFormat, GraphicsError> {
         let formats = self.surface.get_capabilities(adapter).formats;
         egui_wgpu::preferred_framebuffer_format(&formats)
             .map_err(|error| GraphicsError::NoSurface(error.to_string()))
     }
 
-    /// The device it was configured for is gone.
+    /// Forgets the configuration, because its device is lost.
     pub fn forget_configuration(&mut self) {
         self.configured = None;
         self.refusals = 0;
     }
 
-    /// Tells the window system that a picture comes.
+    /// Notifies the window system that a frame is about to be presented.
     pub fn pre_present_notify(&self) {
         self.window.pre_present_notify();
     }
 
-    /// The next picture of the window, which has `size` pixels.
+    /// Acquires the next image of the window, which has `size` pixels.
     pub fn acquire(&mut self, gpu: &Gpu, size: [u32; 2]) -> Acquired {
         if size.contains(&0) {
             return Acquired::Nothing;
@@ -95,7 +95,8 @@ impl WindowSurface {
         use wgpu::CurrentSurfaceTexture as Current;
         for _ in 0..2 {
             match self.surface.get_current_texture() {
-                // Shows what it should; the window's new size comes as a message and configures it anew.
+                // Shows the right content; the new size of the window arrives as a message and configures the surface
+                // again.
                 Current::Success(texture) | Current::Suboptimal(texture) => {
                     self.refusals = 0;
                     return Acquired::Frame(texture);
@@ -119,7 +120,8 @@ impl WindowSurface {
         Acquired::Nothing
     }
 
-    /// What a lost device or a destroyed window answers for ever, but a window in the middle of a change only once.
+    /// Counts "validation" results: a lost device or a destroyed window returns them forever, a window that is
+    /// changing only once.
     fn refused(&mut self) -> Acquired {
         self.refusals += 1;
         if self.refusals < 2 {
@@ -129,7 +131,8 @@ impl WindowSurface {
         Acquired::DeviceLost
     }
 
-    /// Did the window take it? One that was destroyed behind our back does not, which is no error of ours.
+    /// Configures the surface and returns whether the window accepted it. A window destroyed by another program does
+    /// not, which is not an error of this program.
     fn configure(&mut self, gpu: &Gpu, [width, height]: [u32; 2]) -> bool {
         let configuration = wgpu::SurfaceConfiguration {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
@@ -144,10 +147,10 @@ impl WindowSurface {
         };
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         self.surface.configure(&gpu.device, &configuration);
-        // Answered at once: the scope is kept on this side of the driver.
+        // Ready at once: wgpu keeps the error scope in this process.
         let refusal = pollster::block_on(scope.pop());
         if let Some(error) = &refusal {
-            tracing::warn!(%error, "the window takes no pictures");
+            tracing::warn!(%error, "the window accepts no images");
         }
         self.configured = refusal.is_none().then_some(configuration);
         self.configured.is_some()

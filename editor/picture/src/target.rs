@@ -1,8 +1,8 @@
-//! The textures that the scene is drawn into: as large as the viewport, made anew when that changes.
+//! The textures that the scene is drawn into: as large as the viewport, created again when its size changes.
 
 use super::gpu::{DEPTH_FORMAT, Gpu, SAMPLES, SCENE_FORMAT};
 
-/// Colour with many samples, depth, and the colour they are resolved to.
+/// Multisampled color, depth, and the color that the samples are resolved to.
 pub struct SceneTarget {
     size: [u32; 2],
     samples: wgpu::TextureView,
@@ -12,7 +12,7 @@ pub struct SceneTarget {
 }
 
 impl SceneTarget {
-    /// Textures of `size` pixels, none zero.
+    /// Creates textures of `size` pixels, both sides positive.
     pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
         let texture = |label, format, sample_count, usage| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -39,22 +39,22 @@ impl SceneTarget {
         }
     }
 
-    /// Pixels.
+    /// Size in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The finished scene, to read from in a shader.
+    /// The finished scene, for reading in a shader.
     pub fn view(&self) -> &wgpu::TextureView {
         &self.view
     }
 
-    /// The finished scene, to copy from.
+    /// The finished scene, for copying.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.resolved
     }
 
-    /// Begins to draw the scene into an empty picture.
+    /// Begins drawing the scene into a cleared target.
     pub fn begin(&self, encoder: &mut wgpu::CommandEncoder) -> wgpu::RenderPass<'static> {
         let color = wgpu::RenderPassColorAttachment {
             view: &self.samples,
@@ -62,7 +62,7 @@ impl SceneTarget {
             resolve_target: Some(&self.view),
             ops: wgpu::Operations {
                 load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                // Only what they resolve to is wanted.
+                // Only the resolved color is needed.
                 store: wgpu::StoreOp::Discard,
             },
         };
@@ -85,7 +85,7 @@ impl SceneTarget {
     }
 }
 
-/// Begins to draw into the window, or what stands for it.
+/// Begins drawing into the window, or the texture that replaces it.
 pub fn begin_window(
     encoder: &mut wgpu::CommandEncoder,
     view: &wgpu::TextureView,
@@ -95,7 +95,7 @@ pub fn begin_window(
         depth_slice: None,
         resolve_target: None,
         ops: wgpu::Operations {
-            // Seen for a moment where panels have not caught up with a growing window.
+            // Visible for a moment where the panels have not caught up with a growing window.
             load: wgpu::LoadOp::Clear(wgpu::Color { r: 0.09, g: 0.095, b: 0.105, a: 1.0 }),
             store: wgpu::StoreOp::Store,
         },

@@ -1,37 +1,38 @@
-//! What shaders read, byte for byte: each structure names its twin in WGSL.
+//! Data that shaders read, byte for byte; each structure names its twin in WGSL.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec4};
 
-/// WGSL twin: `Frame` in `shaders/common/frame.wgsl`.
+/// Uniform of a frame. WGSL twin: `Frame` in `shaders/common/frame.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct FrameUniform {
-    /// Scene → clip space.
+    /// Matrix scene space → clip space.
     pub clip_from_world: Mat4,
-    /// Scene → view space.
+    /// Matrix scene space → view space.
     pub view_from_world: Mat4,
-    /// The eye and 1, or the direction to the viewer and 0.
+    /// Position of the camera and 1, or for orthographic views the direction to the viewer and 0.
     pub eye: Vec4,
-    /// Width, height, and one over each.
+    /// Width and height of the viewport in pixels, and their reciprocals.
     pub size: Vec4,
-    /// Cosine and sine of the yaw, shading mode, unused.
+    /// Cosine and sine of the camera's yaw, shading mode, unused.
     pub studio: Vec4,
-    /// Linear, multiplied by its alpha.
+    /// Top of the background, linear, multiplied by its alpha.
     pub background_top: Vec4,
-    /// Linear, multiplied by its alpha.
+    /// Bottom of the background, linear, multiplied by its alpha.
     pub background_bottom: Vec4,
-    /// Linear RGB; w: how far the fine lines have appeared.
+    /// Linear RGB of the grid; w: fade-in of the fine lines.
     pub grid_color: Vec4,
-    /// Centre x and z, radius, distance between fine lines.
+    /// Center x and z of the grid, radius, distance between fine lines.
     pub grid: Vec4,
-    /// Linear RGB.
+    /// Color of bones, linear RGB.
     pub bone_color: Vec4,
-    /// Linear RGB.
+    /// Color of selected bones, linear RGB.
     pub accent: Vec4,
 }
 
-/// An affine matrix by rows, three quarters the size of a whole one. WGSL twin: `Affine` in `shaders/common/pose.wgsl`.
+/// An affine matrix by rows, three quarters the size of a full matrix. WGSL twin: `Affine` in
+/// `shaders/common/pose.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Affine {
@@ -49,27 +50,27 @@ impl From<Mat4> for Affine {
     }
 }
 
-/// WGSL twin: `Draw` in `shaders/common/pose.wgsl`.
+/// Uniform of a draw. WGSL twin: `Draw` in `shaders/common/pose.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct DrawUniform {
-    /// First matrix of the instance.
+    /// Index of the first matrix of the instance.
     pub palette: u32,
-    /// 0, 4 or 8.
+    /// Number of influences per vertex: 0, 4 or 8.
     pub influences: u32,
     /// Number of morph targets.
     pub morph_targets: u32,
-    /// First of their weights.
+    /// Index of the first morph weight.
     pub morph_weights: u32,
-    /// Vertices of the primitive.
+    /// Number of vertices of the primitive.
     pub vertices: u32,
-    /// Four bytes, linear RGB and opacity: of ghosts.
+    /// Tint of a ghost: four bytes, linear RGB and opacity.
     pub tint: u32,
-    /// Fills up to 16 bytes.
+    /// Padding to a multiple of 16 bytes.
     pub pad: [u32; 2],
 }
 
-/// WGSL twin: `TextureUse` in `shaders/model.wgsl`.
+/// Use of a texture by a material. WGSL twin: `TextureUse` in `shaders/model.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct TextureUse {
@@ -79,36 +80,36 @@ pub struct TextureUse {
     pub v: Vec4,
 }
 
-/// WGSL twin: `Material` in `shaders/model.wgsl`.
+/// Uniform of a material. WGSL twin: `Material` in `shaders/model.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct MaterialUniform {
     /// Linear RGBA.
     pub base_color: Vec4,
-    /// Linear RGB; w: cut of a mask.
+    /// Linear RGB; w: alpha cutoff of a mask.
     pub emissive: Vec4,
-    /// 0..1.
+    /// Metallic factor, 0..1.
     pub metallic: f32,
-    /// 0..1.
+    /// Roughness factor, 0..1.
     pub roughness: f32,
-    /// 1 as painted.
+    /// Scale of the normal map; 1 leaves it unchanged.
     pub normal_scale: f32,
-    /// 0..1.
+    /// Strength of the occlusion map, 0..1.
     pub occlusion_strength: f32,
-    /// Linear RGB.
+    /// Ambient color, linear RGB.
     pub phong_ambient: Vec4,
-    /// Linear RGB.
+    /// Diffuse color, linear RGB.
     pub phong_diffuse: Vec4,
-    /// Linear RGB; w: exponent.
+    /// Specular color, linear RGB; w: exponent.
     pub phong_specular: Vec4,
-    /// 0 or 1.
+    /// Whether Phong shading is used: 0 or 1.
     pub use_phong: u32,
-    /// 0 or 1.
+    /// Whether the material is unlit: 0 or 1.
     pub unlit: u32,
     /// 0 opaque, 1 mask, 2 blend.
     pub alpha_mode: u32,
-    /// Fills up to 16 bytes.
+    /// Padding to a multiple of 16 bytes.
     pub pad: u32,
-    /// Base colour, metallic-roughness, normal, occlusion, emissive.
+    /// Uses of base color, metallic-roughness, normal, occlusion and emissive textures.
     pub uses: [TextureUse; 5],
 }

@@ -1,5 +1,6 @@
-//! The graphics thread's workers (thesis §3.2.4.2): [`Graphics`] first, which opens the frame, one drawer a pass, and
-//! [`Present`] at last. A worker that cannot do its part ends the iteration, so nothing half-done is presented.
+//! The graphics thread's workers (thesis §3.2.4.2): first [`Graphics`], which opens the frame, then one drawer per
+//! pass, and last [`Present`]. A worker that cannot do its part ends the iteration, so an unfinished frame is never
+//! presented.
 
 use super::device::{DeviceParameters, GraphicsError};
 use super::guard::caught;
@@ -7,11 +8,10 @@ use super::message::{GraphicsMessage, GraphicsReply};
 use super::pass::SharedPass;
 use super::pick::{pick, pick_region};
 use super::stage::{Event, Opened, Stage};
-use super::surface::SurfaceSource;
 use super::{GraphicsHandle, Look};
 use crate::camera::Camera;
 use crate::playback::Playback;
-use dragonfly_document::View;
+use dragonfly_document::{FaultInjection, FaultPoint, View};
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -19,30 +19,29 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Frames a second where nothing else sets the pace.
+/// Time per frame if nothing else limits the frame rate.
 const PACE: Duration = Duration::from_micros(16_667);
-/// A surface that shows a frame sooner than this after the one before does not set the pace.
+/// Shortest time per frame; a surface that returns faster does not limit the frame rate.
 const FASTEST: Duration = Duration::from_micros(4_000);
-/// The main thread hears of frames so often at most.
+/// Shortest time between two reports of frames to the main thread.
 const STATISTICS: Duration = Duration::from_millis(250);
-/// A window that gives nothing to draw into is asked again after this.
+/// Time until a window that has nothing to draw into is tried again.
 const RETRY: Duration = Duration::from_millis(100);
 
-/// Opens the frame, and keeps what is shown.
+/// Opens frames, and keeps what is shown.
 pub struct Graphics {
     parameters: Option<DeviceParameters>,
     replies: Address<GraphicsReply>,
     stage: Option<Rc<RefCell<Stage>>>,
-    /// What came before the device was there.
+    /// Messages that arrived before the device was ready.
     waiting: Vec<GraphicsMessage>,
     captures: Vec<PathBuf>,
     statistics: Rc<RefCell<Statistics>>,
     failed: bool,
-    /// So many drawings a test wants to fail.
-    fails: u32,
+    faults: FaultInjection,
 }
 
-/// What the presenter knows about frames.
+/// Times of frames, shared with the presenter.
 #[derive(Debug, Default)]
 struct Statistics {
     opened: Option<Instant>,
@@ -50,20 +49,19 @@ struct Statistics {
 }
 
 impl Graphics {
-    /// Starts the graphics thread (T-133), whose answers go to `replies`. The device for the window, which has `size`
-    /// physical pixels, is created at the first call in that thread, which answers [`GraphicsReply::Ready`] or
+    /// Starts the graphics thread (T-133), whose replies go to `replies`. The device for a window of `size` physical
+    /// pixels is created at the first call in that thread, which replies [`GraphicsReply::Ready`] or
     /// [`GraphicsReply::Fatal`].
     pub fn start(
-        source: SurfaceSource,
+        parameters: DeviceParameters,
         size: [u32; 2],
         replies: Address<GraphicsReply>,
     ) -> std::io::Result<GraphicsHandle> {
         let thread = Thread::start("graphics")?;
-        let parameters = DeviceParameters { source: Some(source), ..DeviceParameters::default() };
         Ok(Self::register(&thread.handle().clone(), Some(thread), parameters, size, replies))
     }
 
-    /// The same in a thread that somebody else owns and may turn by hand, with or without a window.
+    /// As [`start`](Self::start), in a thread of the caller that may be run by hand, with or without a window.
     pub fn start_in(
         thread: &ThreadHandle,
         parameters: DeviceParameters,
@@ -82,8 +80,9 @@ impl Graphics {
     ) -> GraphicsHandle {
         let (address, views) = (thread.reserve_address(), thread.reserve_address());
         let (own, shows) = (address.clone(), views.clone());
-        // Fails only for a thread that has stopped, and then there is nobody to hear of it.
+        // Fails only for a thread that has stopped, and then the result is not needed.
         let _ = thread.run(move |context| {
+            let faults = parameters.faults.clone();
             let graphics = Rc::new(RefCell::new(Self {
                 parameters: Some(parameters),
                 replies,
@@ -92,9 +91,9 @@ impl Graphics {
                 captures: Vec::new(),
                 statistics: Rc::default(),
                 failed: false,
-                fails: 0,
+                faults,
             }));
-            // What is shown stays after a mistake: only the message is lost, or the drawing, which is done again.
+            // After a panic the state is kept: only the message is lost, or the frame, which is drawn again.
             let again = move || {
                 graphics.borrow().draw_again();
                 Rc::clone(&graphics)
@@ -107,7 +106,7 @@ impl Graphics {
         GraphicsHandle::new(thread.clone(), address, views, owner)
     }
 
-    /// First call in the thread: makes the device and the workers that draw with it.
+    /// First call in the thread: creates the device and the workers that draw with it.
     fn initialize(&mut self, thread: &mut Context) -> bool {
         let Some(parameters) = self.parameters.take() else { return false };
         let now = thread.now();
@@ -133,7 +132,7 @@ impl Graphics {
         self.stage = Some(stage);
         self.reply(GraphicsReply::Ready { adapter, max_texture_side });
         for message in std::mem::take(&mut self.waiting) {
-            self.receive(message, thread);
+            self.handle(message, thread);
         }
         // The drawers are called from the next iteration on.
         thread.iterate_again();
@@ -155,7 +154,7 @@ impl Graphics {
     }
 
     fn reply(&self, reply: GraphicsReply) {
-        // The main thread may be gone already while everything stops.
+        // The main thread may have stopped already when the program ends.
         let _ = self.replies.send(reply);
     }
 
@@ -203,10 +202,17 @@ impl Receiver for Graphics {
     type Message = GraphicsMessage;
 
     fn receive(&mut self, message: GraphicsMessage, thread: &mut Context) {
+        self.handle(message, thread);
+        self.faults.reach(FaultPoint::GraphicsMessage);
+    }
+}
+
+impl Graphics {
+    fn handle(&mut self, message: GraphicsMessage, thread: &mut Context) {
         let Some(stage) = self.stage.clone() else {
             if !self.failed {
                 if let GraphicsMessage::Show(_) = message {
-                    // Only the newest will be seen.
+                    // Only the newest view will be shown.
                     self.waiting.retain(|message| !matches!(message, GraphicsMessage::Show(_)));
                 }
                 self.waiting.push(message);
@@ -249,15 +255,6 @@ impl Receiver for Graphics {
                 stage.scene.controls.receive(*appearance);
                 stage.touch_scene();
             }
-            GraphicsMessage::LoseDevice => {
-                stage.device().lose();
-                stage.touch_window();
-            }
-            GraphicsMessage::Fail { drawing } => {
-                assert!(drawing, "a test asked for it");
-                self.fails += 1;
-                stage.touch_window();
-            }
             GraphicsMessage::Resume => stage.resume(),
             GraphicsMessage::Capture(path) => {
                 self.captures.push(path);
@@ -267,14 +264,14 @@ impl Receiver for Graphics {
     }
 }
 
-/// Takes what the document shows. It has a type of its own, so that the document need not know who draws.
+/// Receives the document's views. A type of its own, so that the document need not know the graphics thread.
 struct Views(Rc<RefCell<Graphics>>);
 
 impl Receiver for Views {
     type Message = View;
 
     fn receive(&mut self, view: View, thread: &mut Context) {
-        self.0.borrow_mut().receive(GraphicsMessage::Show(view), thread);
+        self.0.borrow_mut().handle(GraphicsMessage::Show(view), thread);
     }
 }
 
@@ -286,6 +283,10 @@ impl Worker for Graphics {
         let Some(stage) = self.stage.clone() else { return self.initialize(thread) };
         let stage = &mut *stage.borrow_mut();
         let now = thread.now();
+        if self.faults.loses_device(stage.frames(), stage.moves(now)) {
+            stage.device().lose();
+            stage.touch_window();
+        }
         if !stage.wants_frame(now) {
             return false;
         }
@@ -293,11 +294,7 @@ impl Worker for Graphics {
             thread.wake_at(now + wait);
             return false;
         }
-        // What touches the device is guarded; this is not.
-        if self.fails > 0 {
-            self.fails -= 1;
-            panic!("a test asked for it");
-        }
+        self.faults.reach(FaultPoint::Frame);
         for path in std::mem::take(&mut self.captures) {
             let written = stage.capture(now).and_then(|picture| write(&picture, &path));
             self.reply(GraphicsReply::Captured(written.map(|()| path)));
@@ -323,7 +320,7 @@ impl Worker for Graphics {
     }
 }
 
-/// How long to wait for the next frame, where the surface itself lets frames pass too fast.
+/// Returns the time to wait for the next frame if the surface itself does not limit the frame rate.
 fn too_soon(opened: Option<Instant>, now: Instant, stage: &mut Stage) -> Option<Duration> {
     let since = now.saturating_duration_since(opened?);
     let shortest = if stage.device().is_software() { PACE } else { FASTEST };
@@ -336,7 +333,7 @@ fn write(picture: &image::RgbaImage, path: &Path) -> Result<(), String> {
         .map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Lets one pass draw.
+/// Draws one pass.
 #[derive(Clone)]
 pub struct Drawer {
     stage: Rc<RefCell<Stage>>,
@@ -347,14 +344,14 @@ impl Worker for Drawer {
     fn update(&mut self, thread: &mut Context) -> bool {
         let drawn = self.stage.borrow_mut().draw(&mut *self.pass.borrow_mut());
         if !drawn {
-            // The next iteration finds out what is wrong with the device.
+            // The next iteration checks the device.
             thread.iterate_again();
         }
         drawn
     }
 }
 
-/// Shows what the others drew.
+/// Presents the frame that the passes drew.
 pub struct Present {
     stage: Rc<RefCell<Stage>>,
     replies: Address<GraphicsReply>,

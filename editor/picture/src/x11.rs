@@ -1,4 +1,4 @@
-//! A second connection to an X server, and the window's name there.
+//! A second connection to an X server, and the number of the window on it.
 
 #![allow(unsafe_code)]
 
@@ -13,7 +13,7 @@ use wgpu::rwh::{
 };
 use x11rb::xcb_ffi::XCBConnection;
 
-/// A connection that the main thread does not know; clones are the same connection.
+/// A connection unknown to the main thread; clones share it.
 #[derive(Clone)]
 pub(super) struct Own {
     connection: Arc<XCBConnection>,
@@ -21,8 +21,8 @@ pub(super) struct Own {
 }
 
 impl Own {
-    /// Connects to the server that the environment names, as the main thread did; `None` where it talks to another system,
-    /// or the server takes nobody more.
+    /// Connects to the server that the environment names, as the main thread did. `None` on another window system, or
+    /// when the server accepts no more connections.
     pub(super) fn beside(shared: &MainDisplay) -> Option<Self> {
         let RawDisplayHandle::Xlib(_) = shared.display_handle().ok()?.as_raw() else { return None };
         match XCBConnection::connect(None) {
@@ -30,13 +30,13 @@ impl Own {
                 Some(Self { connection: Arc::new(connection), screen: c_int::try_from(screen).ok()? })
             }
             Err(error) => {
-                tracing::warn!(%error, "no second connection to the X server; a click may be heard late");
+                tracing::warn!(%error, "no second connection to the X server; clicks may be handled late");
                 None
             }
         }
     }
 
-    /// The connection as drivers want it.
+    /// The connection as drivers expect it.
     pub(super) fn display_handle(&self) -> DisplayHandle<'_> {
         let connection = NonNull::new(self.connection.get_raw_xcb_connection());
         let raw = XcbDisplayHandle::new(connection, self.screen);
@@ -44,7 +44,7 @@ impl Own {
         unsafe { DisplayHandle::borrow_raw(raw.into()) }
     }
 
-    /// The same window, for this connection.
+    /// The same window on this connection.
     pub(super) fn window_handle<'a>(
         &self,
         handle: WindowHandle<'a>,
@@ -53,8 +53,8 @@ impl Own {
         let number = |number| u32::try_from(number).ok().and_then(NonZeroU32::new);
         let mut raw = XcbWindowHandle::new(number(window.window).ok_or(HandleError::Unavailable)?);
         raw.visual_id = number(window.visual_id);
-        // SAFETY: the server numbers windows, for all of its connections alike, and this one is borrowed no longer than it
-        // was from the handle given.
+        // SAFETY: the server numbers windows, the same way for all of its connections, and this one is borrowed no
+        // longer than it was from the given handle.
         Ok(unsafe { WindowHandle::borrow_raw(raw.into()) })
     }
 }

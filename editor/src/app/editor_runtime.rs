@@ -5,7 +5,7 @@ use super::base_runtime::{BaseRuntime, Parts};
 use super::file_dialog::{self, Answer, Purpose};
 use super::hover::{Hover, Place};
 use super::interface::Interface;
-use super::options::{Options, Part};
+use super::options::Options;
 use super::sent::Sent;
 use super::shown;
 use crate::panels::saving::Deed;
@@ -14,7 +14,7 @@ use crate::panels::status::Level;
 use crate::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{Document, DocumentHandle, DocumentReply, Setup, Source, Then};
-use dragonfly_picture::{GraphicsMessage, GraphicsReply};
+use dragonfly_picture::GraphicsReply;
 use dragonfly_runtime::{Address, Context, Outcome, Receiver, Thread};
 use dragonfly_store::{Autosave, RealFiles};
 use std::cell::{Cell, RefCell};
@@ -46,8 +46,6 @@ pub(super) struct Running {
     /// The newest question of a click or a box.
     asked: Option<(u64, Asked)>,
     hover: Hover,
-    /// Frames drawn when the device was last lost on purpose.
-    lost_at: u64,
 }
 
 /// What a click or a box asked about.
@@ -80,7 +78,7 @@ impl EditorRuntime {
         let beside = self.options.settings_folder.as_ref().map(|folder| folder.join("autosave"));
         let folder = self.options.autosave_folder.clone().or(beside);
         let autosave = Autosave::new(Arc::new(RealFiles), folder);
-        Setup { autosave, fail_at: self.options.fail_at, ..Setup::default() }
+        Setup { autosave, faults: self.options.faults.clone(), ..Setup::default() }
     }
 
     /// Sends out what the person asked for, and what the graphics thread is to know of it.
@@ -174,7 +172,7 @@ impl BaseRuntime for EditorRuntime {
             let mut interface = parts.interface.borrow_mut();
             interface.state.passed_over = self.options.passed_over;
             interface.edits = std::mem::take(&mut self.options.edits);
-            interface.mistake = self.options.mistake;
+            interface.faults = self.options.faults.clone();
         }
         let (replies, answers) = (main.handle().reserve_address(), main.handle().reserve_address());
         let (hears, chooses) = (Rc::clone(&parts.interface), Rc::clone(&parts.interface));
@@ -205,7 +203,6 @@ impl BaseRuntime for EditorRuntime {
             tickets: 0,
             asked: None,
             hover: Hover::default(),
-            lost_at: 0,
         });
         self.open_model(self.options.source.clone());
     }
@@ -235,23 +232,12 @@ impl BaseRuntime for EditorRuntime {
                     None => return,
                 }
             }
-            GraphicsReply::Statistics { frames, milliseconds } => {
+            GraphicsReply::Statistics { milliseconds, .. } => {
                 interface.state.frame_time = Some(milliseconds);
-                // While something moves: else each loss would draw the frame that brings the next one.
-                if let Some(every) = self.options.lose_device_every
-                    && interface.state.playback.moves(Instant::now())
-                    && frames.saturating_sub(running.lost_at) >= u64::from(every.max(1))
-                {
-                    running.lost_at = frames;
-                    running.parts.graphics.lose_device();
-                }
             }
             GraphicsReply::Recovered { reason, losses } => {
                 let text = format!("The graphics device was lost and is back ({losses}): {reason}");
                 interface.state.status.say(Level::Info, text);
-            }
-            GraphicsReply::Paused { .. } if self.options.never_pause => {
-                running.parts.graphics.resume();
             }
             GraphicsReply::Paused { reason } => {
                 interface.state.status.say(Level::Warning, format!("The viewport is paused: {reason}"));
@@ -278,12 +264,6 @@ impl BaseRuntime for EditorRuntime {
         self.carry_out();
         if let Some(running) = &mut self.running {
             running.ask_under_pointer();
-            let mut interface = running.parts.interface.borrow_mut();
-            for (part, drawing) in [(Part::Message, false), (Part::Picture, true)] {
-                if interface.makes_mistake(part) {
-                    running.parts.graphics.send(GraphicsMessage::Fail { drawing });
-                }
-            }
         }
     }
 

@@ -9,8 +9,9 @@ use super::interface::Interface;
 use super::store::Store;
 use super::target_window::WinitWindow;
 use super::timeline::{Step, Timeline};
+use dragonfly_document::FaultInjection;
 use dragonfly_picture::guard::caught;
-use dragonfly_picture::{Connection, Graphics, GraphicsHandle, SurfaceSource};
+use dragonfly_picture::{Connection, DeviceParameters, Graphics, GraphicsHandle, SurfaceSource};
 use dragonfly_runtime::{Captured, Next, RESTART_WINDOW, RESTARTS, Thread};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -44,6 +45,7 @@ impl MainRuntime {
         store: Store,
         custom: MakeRuntime,
         timeline: Rc<RefCell<Timeline>>,
+        faults: FaultInjection,
     ) -> Result<Self, AppError> {
         // Invisible until the accessibility bridge is there: it must see the window before the window is seen.
         let attributes = Window::default_attributes()
@@ -85,8 +87,9 @@ impl MainRuntime {
 
         let connection = Connection::beside(Arc::new(event_loop.owned_display_handle()));
         let source = SurfaceSource { window: Arc::new(WinitWindow(Arc::clone(&window))), connection };
+        let parameters = DeviceParameters { source: Some(source), faults, ..DeviceParameters::default() };
         let size = window.inner_size();
-        let graphics = Graphics::start(source, [size.width, size.height], replies)
+        let graphics = Graphics::start(parameters, [size.width, size.height], replies)
             .map_err(|error| AppError::Thread(error.to_string()))?;
         timeline.borrow_mut().reach(Step::Graphics);
         report_faults(graphics.thread(), &interface, main.context());

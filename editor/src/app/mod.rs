@@ -31,7 +31,7 @@ pub use editor_runtime::EditorRuntime;
 pub use init_manager::{InitManager, MakeRuntime};
 pub use interface::Interface;
 pub use main_runtime::MainRuntime;
-pub use options::{Mistake, Options, Part};
+pub use options::Options;
 pub use signals::end_by;
 
 use dragonfly_runtime::Next;
@@ -120,7 +120,8 @@ impl Shell {
         let store = store::Store::new(self.options.settings_folder.clone());
         let (options, quit) = (self.options.clone(), Rc::clone(&self.quit));
         let custom: MakeRuntime = Box::new(move || Box::new(EditorRuntime::new(options, quit)));
-        MainRuntime::new(event_loop, &self.proxy, store, custom, Rc::clone(&self.timeline))
+        let faults = self.options.faults.clone();
+        MainRuntime::new(event_loop, &self.proxy, store, custom, Rc::clone(&self.timeline), faults)
     }
 
     fn destroy(&mut self) {

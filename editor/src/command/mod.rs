@@ -23,8 +23,10 @@ mod table;
 
 pub use failure::{Failure, tell};
 
+use crate::app::Options;
 use clap::Parser;
 use std::any::Any;
+use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 
@@ -82,14 +84,19 @@ struct CommandLine {
     open: open::Arguments,
 }
 
-/// The whole program: reads the command line, does what it asks, and gives the exit code.
+/// The whole program: reads the command line, does what it asks, and returns the exit code.
 ///
-/// Nothing that goes wrong inside escapes as a crash: it is told, and is exit code 3.
+/// A panic inside does not escape: it is reported, and the exit code is 3.
 pub fn main() -> ExitCode {
+    main_with(std::env::args_os(), Options::default())
+}
+
+/// Runs the program with these arguments, the first of which is its name; `options` are the defaults of the editor.
+pub fn main_with(arguments: impl IntoIterator<Item = OsString>, options: Options) -> ExitCode {
     log::start();
     log::quiet_panics();
-    let command_line = CommandLine::parse();
-    match panic::catch_unwind(AssertUnwindSafe(|| run(command_line))) {
+    let command_line = CommandLine::parse_from(arguments);
+    match panic::catch_unwind(AssertUnwindSafe(|| run(command_line, options))) {
         Ok(Ok(())) => ExitCode::SUCCESS,
         Ok(Err(failure)) => failure.report(),
         Err(panic) => {
@@ -103,9 +110,9 @@ pub fn main() -> ExitCode {
     }
 }
 
-fn run(command_line: CommandLine) -> Result<(), Failure> {
+fn run(command_line: CommandLine, options: Options) -> Result<(), Failure> {
     match command_line.command {
-        None => command_line.open.run(),
+        None => command_line.open.open(options),
         Some(Commands::Info(arguments)) => arguments.run(),
         Some(Commands::Check(arguments)) => arguments.run(),
         Some(Commands::Diff(arguments)) => arguments.run(),

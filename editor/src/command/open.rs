@@ -1,8 +1,8 @@
 //! `dragonfly [FILE…]`: the editor; where there is no display, a picture instead.
 
 use super::choice::{Size, load, source};
-use super::{Command, Failure, output, quiet, render, tell};
-use crate::app::{self, AppError, Mistake, Options};
+use super::{Failure, output, quiet, render, tell};
+use crate::app::{self, AppError, Options};
 use dragonfly_document::Source;
 use std::env;
 use std::path::{Path, PathBuf};
@@ -16,31 +16,17 @@ pub(super) struct Arguments {
     /// Talks instead of opening a window: one JSON edit or query a line in, one JSON answer a line out
     #[arg(long)]
     stdio: bool,
-    /// Loses the graphics device after every so many drawn frames, to show that nothing is lost with it
-    #[arg(long, value_name = "FRAMES", hide = true)]
-    lose_device: Option<u32>,
-    /// Goes on drawing however often the device is lost
-    #[arg(long, hide = true)]
-    never_pause: bool,
     /// Where settings are kept, instead of the usual place
     #[arg(long, value_name = "FOLDER")]
     settings: Option<PathBuf>,
     /// Where unsaved work is recorded, instead of the usual place
     #[arg(long, value_name = "FOLDER")]
     autosave: Option<PathBuf>,
-    /// Does these edits once the model is there, one JSON object a line
-    #[arg(long, value_name = "EDITS", hide = true)]
-    edits: Option<PathBuf>,
-    /// Lets the document fail at this change
-    #[arg(long, value_name = "CHANGES", hide = true)]
-    fail_at: Option<u32>,
-    /// Lets another part fail: panels, input, message or picture, once so many steps are done, so often
-    #[arg(long, value_name = "PLACE:STEPS:TIMES", hide = true)]
-    fail: Option<Mistake>,
 }
 
-impl Command for Arguments {
-    fn run(self) -> Result<(), Failure> {
+impl Arguments {
+    /// Opens the editor, with `base` for everything that the command line does not set.
+    pub(super) fn open(self, base: Options) -> Result<(), Failure> {
         if self.stdio {
             return super::stdio::talk(self.files.first());
         }
@@ -48,7 +34,7 @@ impl Command for Arguments {
             quiet::about_wayland();
             return self.draw("DISPLAY and WAYLAND_DISPLAY are not set");
         }
-        match app::run(self.options()?) {
+        match app::run(self.options(base)) {
             Ok(()) => Ok(()),
             Err(AppError::Display(reason)) => self.draw(&reason),
             Err(AppError::Signal(signal)) => {
@@ -69,20 +55,15 @@ fn has_display() -> bool {
 }
 
 impl Arguments {
-    fn options(&self) -> Result<Options, Failure> {
+    fn options(&self, base: Options) -> Options {
         let built_in = Source::BuiltIn;
-        let edits = self.edits.as_deref().map(super::edit::read_edits).transpose()?.unwrap_or_default();
-        Ok(Options {
+        Options {
             source: self.files.first().map_or(built_in, |file| source(file)),
             passed_over: self.files.len().saturating_sub(1),
-            lose_device_every: self.lose_device,
-            never_pause: self.never_pause,
             settings_folder: self.settings.clone(),
             autosave_folder: self.autosave.clone(),
-            edits: edits.into_iter().map(|(_, edit)| edit).collect(),
-            fail_at: self.fail_at,
-            mistake: self.fail,
-        })
+            ..base
+        }
     }
 
     /// The main job without a window: a picture of the model in the current folder, and where to get more.

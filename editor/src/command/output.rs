@@ -1,7 +1,7 @@
 //! Where results go: stdout, or a file that is either whole or not there.
 
 use super::Failure;
-use dragonfly_store::{Expected, RealFiles, SaveError, SaveOptions};
+use dragonfly_store::{ExpectedFile, FileSaveError, RealFiles, SaveOptions};
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -71,11 +71,11 @@ pub(super) fn write_new(
         let name =
             if number == 1 { format!("{stem}.{extension}") } else { format!("{stem}-{number}.{extension}") };
         let path = folder.join(name);
-        let options = SaveOptions { expected: Expected::Nothing, ..SaveOptions::default() };
+        let options = SaveOptions { expected: ExpectedFile::Nothing, ..SaveOptions::default() };
         match dragonfly_store::save(&RealFiles, &path, bytes, &options) {
             Ok(_) => return Ok(path),
             // A folder of that name is something else, too.
-            Err(SaveError::Exists { .. } | SaveError::NotRegular { .. }) => {
+            Err(FileSaveError::Exists { .. } | FileSaveError::NotRegular { .. }) => {
                 let same = dragonfly_document::read_file(&path, bytes.len() as u64)
                     .is_ok_and(|existing| existing == bytes);
                 if same {

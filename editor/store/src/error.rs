@@ -1,59 +1,59 @@
-//! Why something was not written, in words for a person.
+//! Errors of writing a file, in words for the user.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What was being done when the system said no.
+/// Step of a save during which the system reported an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
-    /// Finding out what is there.
+pub enum SaveStep {
+    /// Reading the metadata of the existing file.
     Look,
-    /// Making the new file beside the old one.
+    /// Creating the new file next to the old one.
     Create,
-    /// Giving the new file the owner, permissions and attributes of the old one.
+    /// Copying the owner, permissions and attributes of the old file to the new one.
     Attributes,
-    /// Writing.
+    /// Writing the bytes.
     Write,
-    /// Bringing it to the disk.
+    /// Flushing the bytes to the disk.
     Sync,
     /// Keeping the old version where it must be kept.
     Keep,
-    /// Putting the new file in the place of the old one.
+    /// Renaming the new file over the old one.
     Replace,
 }
 
-impl Step {
-    fn says(self) -> &'static str {
+impl SaveStep {
+    fn failure(self) -> &'static str {
         match self {
-            Self::Look => "cannot be looked at",
+            Self::Look => "cannot be examined",
             Self::Create => "cannot be written",
             Self::Attributes => {
                 "cannot be written with the owner, permissions and attributes of the old file"
             }
             Self::Write => "cannot be written",
-            Self::Sync => "could not be brought to the disk",
+            Self::Sync => "could not be flushed to the disk",
             Self::Keep => "cannot be written, because its old version cannot be kept",
-            Self::Replace => "cannot be put in the place of the old file",
+            Self::Replace => "cannot replace the old file",
         }
     }
 }
 
-/// Why a file was not saved. Unless said otherwise, the old file is as it was.
+/// Reasons why a file was not saved. Unless stated otherwise, the old file is unchanged.
 #[derive(Debug, thiserror::Error)]
-pub enum SaveError {
-    /// Somebody else changed it.
+pub enum FileSaveError {
+    /// Another program changed the file.
     #[error("{path}: was changed on the disk by another program; it was not overwritten", path = .path.display())]
     Changed {
         /// The file.
         path: PathBuf,
     },
-    /// It was to be a new file, and there is one.
+    /// A new file was expected, but there is one already.
     #[error("{path}: exists already; it was not overwritten", path = .path.display())]
     Exists {
         /// The file.
         path: PathBuf,
     },
-    /// Nobody may write it, or you may not.
+    /// The file is read-only, or the user has no permission to write it.
     #[error("{path}: is write-protected; it was not overwritten", path = .path.display())]
     Protected {
         /// The file.
@@ -65,49 +65,49 @@ pub enum SaveError {
         /// What was found.
         path: PathBuf,
     },
-    /// The path ends with no name, or leads round in a circle of links.
-    #[error("{path}: is no name of a file", path = .path.display())]
+    /// The path does not end in a file name, or its links form a circle.
+    #[error("{path}: is not the name of a file", path = .path.display())]
     NoName {
         /// The path.
         path: PathBuf,
     },
-    /// The system said no.
-    #[error("{path}: {}: {}", .step.says(), reason(.error), path = .path.display())]
+    /// The system reported an error.
+    #[error("{path}: {}: {}", .step.failure(), reason(.error), path = .path.display())]
     Io {
-        /// What was to be written.
+        /// The file to be written.
         path: PathBuf,
-        /// What was being done.
-        step: Step,
-        /// What the system said.
+        /// The step that failed.
+        step: SaveStep,
+        /// Error of the system.
         #[source]
         error: io::Error,
     },
-    /// The new file is there, whole, but after a power cut it may be the old one: it does not count as saved.
+    /// The new file is complete, but after a power cut the old one may be back, so it does not count as saved.
     #[error("{path}: was written, but the disk did not confirm it: {}; save again", reason(.error),
         path = .path.display())]
     Unconfirmed {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         #[source]
         error: io::Error,
     },
     /// A file with several names was to be overwritten in place, and that could neither be finished nor undone.
-    #[error("{path}: may be damaged: {}; its old content is whole in {old}", reason(.error),
+    #[error("{path}: may be damaged: {}; its complete old content is in {old}", reason(.error),
         path = .path.display(), old = .old.display())]
     Torn {
         /// The file.
         path: PathBuf,
         /// Its old content.
         old: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         #[source]
         error: io::Error,
     },
-    /// An earlier save of a file with several names was cut off.
-    #[error("{path}: an earlier save was cut off; the content of before is in {old}: put it back or away first",
+    /// An earlier save of a file with several names was interrupted.
+    #[error("{path}: an earlier save was interrupted; the content before it is in {old}: restore or discard it first",
         path = .path.display(), old = .old.display())]
-    CutOff {
+    Interrupted {
         /// The file.
         path: PathBuf,
         /// Its content before that save.
@@ -115,15 +115,15 @@ pub enum SaveError {
     },
 }
 
-impl SaveError {
-    /// For `map_err`.
-    pub(super) fn at(path: &Path, step: Step) -> impl FnOnce(io::Error) -> Self + use<> {
+impl FileSaveError {
+    /// Returns a closure for `map_err`.
+    pub(super) fn at(path: &Path, step: SaveStep) -> impl FnOnce(io::Error) -> Self + use<> {
         let path = path.to_path_buf();
         move |error| Self::Io { path, step, error }
     }
 }
 
-/// The system's reason in plain words.
+/// Returns the reason of a system error in plain words.
 pub(super) fn reason(error: &io::Error) -> String {
     use io::ErrorKind::{
         IsADirectory, NotADirectory, NotFound, PermissionDenied, QuotaExceeded, ReadOnlyFilesystem,
@@ -131,11 +131,11 @@ pub(super) fn reason(error: &io::Error) -> String {
     };
     let plain = match error.kind() {
         StorageFull => "the disk is full",
-        QuotaExceeded => "your share of the disk is used up",
+        QuotaExceeded => "your disk quota is used up",
         ReadOnlyFilesystem => "the disk is read-only",
         PermissionDenied => "no permission",
         NotFound => "it or its folder is not there",
-        NotADirectory => "a part of its path is no folder",
+        NotADirectory => "a part of its path is not a folder",
         IsADirectory => "is a folder",
         _ => return error.to_string(),
     };

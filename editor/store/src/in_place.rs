@@ -1,19 +1,20 @@
-//! Files with several names are overwritten where they are, so that all names go on to lead to the same file.
+//! Overwriting files with several names (hard links) in place, so that all names keep leading to the same file.
 //!
-//! First the old content is copied beside the file and brought to the disk; only then is the file touched. When the
-//! new bytes cannot be written, the old ones are put back. When the machine stops in between, the copy is still
-//! there: the file is not saved again before a person has said what to do with it, and nothing is put back unasked.
-//! Other programs may see the file half written for a moment; that is the price of keeping its names.
+//! First the old content is copied next to the file and flushed to the disk; only then is the file changed. When the
+//! new bytes cannot be written, the old ones are restored. When the machine stops in between, the copy remains: the
+//! file is not saved again until the user has chosen what to do with the copy, and nothing is restored without being
+//! asked. Other programs may briefly see a half-written file; that is the price of keeping its names.
 
-use super::error::{SaveError, Step};
-use super::save::{Expected, create_beside, expect};
+use super::error::{FileSaveError, SaveStep};
 use super::stamp::{FileStamp, hash};
-use super::vfs::{Vfs, VfsFile, again, copy, folder_of, look, write_all};
+use super::target::{ExpectedFile, check_expected, resolved};
+use super::temporary::create_temporary;
+use super::vfs::{Vfs, VfsFile, copy, folder_of, metadata_if_exists, retry, write_all};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Where the old content lies while a file is overwritten.
-fn old_of(target: &Path) -> PathBuf {
+/// Path of the copy of the old content while a file is overwritten.
+fn old_content_path(target: &Path) -> PathBuf {
     let name = target.file_name().unwrap_or_default();
     let mut old = std::ffi::OsString::from(".");
     if name.len() < 200 {
@@ -25,60 +26,60 @@ fn old_of(target: &Path) -> PathBuf {
     target.with_file_name(old)
 }
 
-/// The content of before, if overwriting the file at `target` was cut off; links are followed.
+/// Returns the path of the old content if overwriting the file at `target` was interrupted. Links are followed.
 ///
 /// # Errors
-/// When it cannot be looked at.
-pub fn cut_off(files: &dyn Vfs, target: &Path) -> Result<Option<PathBuf>, SaveError> {
-    let target = super::save::resolved(files, target)?;
-    let old = old_of(&target);
-    Ok(look(files, &old).map_err(SaveError::at(&target, Step::Look))?.map(|_| old))
+/// When the folder cannot be examined.
+pub fn interrupted_save(files: &dyn Vfs, target: &Path) -> Result<Option<PathBuf>, FileSaveError> {
+    let target = resolved(files, target)?;
+    let old = old_content_path(&target);
+    Ok(metadata_if_exists(files, &old).map_err(FileSaveError::at(&target, SaveStep::Look))?.map(|_| old))
 }
 
-/// As [`cut_off`], as an error.
-pub(super) fn not_cut_off(files: &dyn Vfs, target: &Path) -> Result<(), SaveError> {
-    let old = old_of(target);
-    match look(files, &old).map_err(SaveError::at(target, Step::Look))? {
+/// As [`interrupted_save`], but an interrupted save is an error.
+pub(super) fn ensure_not_interrupted(files: &dyn Vfs, target: &Path) -> Result<(), FileSaveError> {
+    let old = old_content_path(target);
+    match metadata_if_exists(files, &old).map_err(FileSaveError::at(target, SaveStep::Look))? {
         None => Ok(()),
-        Some(_) => Err(SaveError::CutOff { path: target.to_path_buf(), old }),
+        Some(_) => Err(FileSaveError::Interrupted { path: target.to_path_buf(), old }),
     }
 }
 
-/// Puts the content of before back, after overwriting was cut off and a person chose so.
+/// Restores the old content after an interrupted save, when the user chose so.
 ///
 /// # Errors
-/// When that does not succeed; the copy stays then.
-pub fn put_back(files: &dyn Vfs, target: &Path) -> Result<(), SaveError> {
-    let target = super::save::resolved(files, target)?;
-    let old = old_of(&target);
-    back(files, &target, &old).and_then(|()| forget(files, &old)).map_err(|error| SaveError::Torn {
+/// When the content cannot be restored; the copy is kept.
+pub fn restore_old_content(files: &dyn Vfs, target: &Path) -> Result<(), FileSaveError> {
+    let target = resolved(files, target)?;
+    let old = old_content_path(&target);
+    back(files, &target, &old).and_then(|()| forget(files, &old)).map_err(|error| FileSaveError::Torn {
         path: target.clone(),
         old,
         error,
     })
 }
 
-/// Leaves the file as it is and forgets the content of before, after a person chose so.
+/// Leaves the file as it is and deletes the old content, when the user chose so.
 ///
 /// # Errors
-/// When it cannot be removed.
-pub fn put_away(files: &dyn Vfs, target: &Path) -> Result<(), SaveError> {
-    let target = super::save::resolved(files, target)?;
-    forget(files, &old_of(&target)).map_err(SaveError::at(&target, Step::Keep))
+/// When the copy cannot be removed.
+pub fn discard_old_content(files: &dyn Vfs, target: &Path) -> Result<(), FileSaveError> {
+    let target = resolved(files, target)?;
+    forget(files, &old_content_path(&target)).map_err(FileSaveError::at(&target, SaveStep::Keep))
 }
 
 fn back(files: &dyn Vfs, target: &Path, old: &Path) -> io::Result<()> {
-    let from = again(|| files.open(old))?;
-    // Opened anew: the file whose bytes could not be brought to the disk is not asked a second time.
-    let to = again(|| files.open_to_write(target))?;
+    let from = retry(|| files.open(old))?;
+    // Reopened: a file handle is not used again after its sync failed.
+    let to = retry(|| files.open_to_write(target))?;
     let size = copy(&*from, &*to)?;
-    again(|| to.set_size(size))?;
-    again(|| to.sync_all())
+    retry(|| to.set_size(size))?;
+    retry(|| to.sync_all())
 }
 
 fn forget(files: &dyn Vfs, old: &Path) -> io::Result<()> {
-    again(|| files.remove(old))?;
-    again(|| files.sync_folder(folder_of(old)))
+    retry(|| files.remove(old))?;
+    retry(|| files.sync_folder(folder_of(old)))
 }
 
 /// Writes `bytes` into the file at `target`, which has several names.
@@ -86,19 +87,19 @@ pub(super) fn overwrite(
     files: &dyn Vfs,
     target: &Path,
     bytes: &[u8],
-    expected: Expected<'_>,
-) -> Result<FileStamp, SaveError> {
-    let file = again(|| files.open_to_write(target)).map_err(SaveError::at(target, Step::Create))?;
-    let old = old_of(target);
-    set_aside(files, target, &old, &*file).map_err(SaveError::at(target, Step::Keep))?;
-    if let Err(error) = expect(files, target, expected) {
+    expected: ExpectedFile<'_>,
+) -> Result<FileStamp, FileSaveError> {
+    let file = retry(|| files.open_to_write(target)).map_err(FileSaveError::at(target, SaveStep::Create))?;
+    let old = old_content_path(target);
+    copy_old_content(files, target, &old, &*file).map_err(FileSaveError::at(target, SaveStep::Keep))?;
+    if let Err(error) = check_expected(files, target, expected) {
         let _ = forget(files, &old);
         return Err(error);
     }
-    let written = write_all(&*file, bytes, 0).map_err(|error| (Step::Write, error)).and_then(|()| {
-        again(|| file.set_size(bytes.len() as u64)).map_err(|error| (Step::Write, error))?;
-        again(|| file.sync_all()).map_err(|error| (Step::Sync, error))?;
-        again(|| file.metadata()).map_err(|error| (Step::Look, error))
+    let written = write_all(&*file, bytes, 0).map_err(|error| (SaveStep::Write, error)).and_then(|()| {
+        retry(|| file.set_size(bytes.len() as u64)).map_err(|error| (SaveStep::Write, error))?;
+        retry(|| file.sync_all()).map_err(|error| (SaveStep::Sync, error))?;
+        retry(|| file.metadata()).map_err(|error| (SaveStep::Look, error))
     });
     let data = match written {
         Ok(data) => data,
@@ -107,31 +108,31 @@ pub(super) fn overwrite(
             return Err(match back(files, target, &old) {
                 Ok(()) => {
                     let _ = forget(files, &old);
-                    SaveError::Io { path: target.to_path_buf(), step, error }
+                    FileSaveError::Io { path: target.to_path_buf(), step, error }
                 }
-                Err(_) => SaveError::Torn { path: target.to_path_buf(), old, error },
+                Err(_) => FileSaveError::Torn { path: target.to_path_buf(), old, error },
             });
         }
     };
-    // While the copy is there, the file counts as half written.
+    // While the copy exists, the file counts as half-written.
     forget(files, &old).map_err(|error| {
-        let _ = again(|| files.remove(&old));
-        SaveError::Unconfirmed { path: target.to_path_buf(), error }
+        let _ = retry(|| files.remove(&old));
+        FileSaveError::Unconfirmed { path: target.to_path_buf(), error }
     })?;
     Ok(FileStamp::of(&data, hash(bytes)))
 }
 
-/// Copies the old content to `old`, all or nothing, on the disk before this returns.
-fn set_aside(files: &dyn Vfs, target: &Path, old: &Path, file: &dyn VfsFile) -> io::Result<()> {
-    let (beside, to) = create_beside(files, target, true)?;
-    let made = copy(file, &*to).and_then(|_| again(|| to.sync_all())).and_then(|()| {
+/// Copies the old content to `old`, completely or not at all, and flushes it to the disk.
+fn copy_old_content(files: &dyn Vfs, target: &Path, old: &Path, file: &dyn VfsFile) -> io::Result<()> {
+    let (temporary, to) = create_temporary(files, target, true)?;
+    let made = copy(file, &*to).and_then(|_| retry(|| to.sync_all())).and_then(|()| {
         drop(to);
-        again(|| files.rename(&beside, old))
+        retry(|| files.rename(&temporary, old))
     });
-    let gone = if made.is_ok() { old } else { &beside };
-    let made = made.and_then(|()| again(|| files.sync_folder(folder_of(old))));
+    let gone = if made.is_ok() { old } else { &temporary };
+    let made = made.and_then(|()| retry(|| files.sync_folder(folder_of(old))));
     if made.is_err() {
-        let _ = again(|| files.remove(gone));
+        let _ = retry(|| files.remove(gone));
     }
     made
 }

@@ -1,75 +1,76 @@
-//! The journal of a document: every edit is in the hands of the system before it counts as done.
+//! The journal of a document: an edit counts as done once the system has accepted its record.
 //!
-//! A program that is killed loses nothing that was appended. The machine may be cut off from power: then what was
-//! appended since the last call of [`sync_if_due`](Journal::sync_if_due) that had something to do may be lost, which
-//! is at most [`LONGEST_UNSYNCED`] if the document's thread calls it at [`next_due`](Journal::next_due).
+//! A killed program loses nothing that was appended. A power cut may lose the records appended since the last call of
+//! [`sync_if_due`](Journal::sync_if_due) that synced: at most [`LONGEST_UNSYNCED`] of work if the document's thread
+//! makes the call at [`next_due`](Journal::next_due).
 
-use super::autosave::lock_patiently;
 use super::error::reason;
-use super::owner::Owner;
-use super::record::{self, Header, LONGEST_RECORD, Saving, Tag};
+use super::lock::lock_with_retries;
+use super::owner::JournalOwner;
+use super::record::{self, JournalHeader, LONGEST_RECORD, Saving, Tag};
 use super::stamp::{FileStamp, hash};
-use super::state::State;
-use super::vfs::{Vfs, VfsFile, again, folder_of, write_all};
+use super::state::JournalState;
+use super::vfs::{Vfs, VfsFile, folder_of, retry, write_all};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Longest time that a record waits to be brought to the disk.
+/// Longest time until a record is flushed to the disk.
 pub const LONGEST_UNSYNCED: Duration = Duration::from_millis(200);
 
-/// Larger frames than this are given back, so that one snapshot does not hold its memory for ever, in bytes.
+/// Capacity in bytes above which the frame buffer is freed, so that one snapshot does not keep its memory.
 const LARGE: usize = 1 << 20;
 
-/// Why a journal did not do what was asked.
+/// Reasons why an operation on a journal failed.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
-    /// The system said no.
+    /// The system reported an error.
     #[error("{path}: {what}: {}", reason(.error), path = .path.display())]
     Io {
         /// The journal or its folder.
         path: PathBuf,
-        /// What could not be done.
+        /// What failed.
         what: &'static str,
-        /// What the system said.
+        /// Error of the system.
         #[source]
         error: io::Error,
     },
-    /// An earlier error left it unknown what is on the disk. A snapshot ([`Journal::compact`]) makes it known again.
-    #[error("{path}: nothing is recorded any more since an error of the disk: {reason}", path = .path.display())]
+    /// After an earlier error the content of the file on the disk is unknown. A snapshot ([`Journal::compact`])
+    /// repairs it.
+    #[error("{path}: recording stopped after a disk error: {reason}", path = .path.display())]
     Broken {
         /// The journal.
         path: PathBuf,
-        /// What went wrong first.
+        /// The first error.
         reason: String,
     },
-    /// Longer than [`LONGEST_RECORD`].
-    #[error("{path}: {bytes} bytes are more than a record may have", path = .path.display())]
+    /// A record longer than [`LONGEST_RECORD`].
+    #[error("{path}: a record of {bytes} bytes is too long", path = .path.display())]
     TooLong {
         /// The journal.
         path: PathBuf,
-        /// How long it was.
+        /// Length of the record in bytes.
         bytes: usize,
     },
-    /// Another program, or another window of this one, has it.
-    #[error("{path}: is in use by {}", whom(.owner.as_ref()), path = .path.display())]
+    /// Another program, or another window of this one, has the journal open.
+    #[error("{path}: is in use by {}", owner_name(.owner.as_ref()), path = .path.display())]
     Held {
         /// The journal.
         path: PathBuf,
-        /// Who, as far as it is known.
-        owner: Option<Owner>,
+        /// The process that has it, if known.
+        owner: Option<JournalOwner>,
     },
-    /// It was taken on another machine, and nothing says that it was let go.
-    #[error("{path}: may still be in use by {owner}, which cannot be asked", path = .path.display())]
-    Elsewhere {
+    /// The journal was opened on another computer, and no record shows that it was closed there.
+    #[error("{path}: may still be in use by {owner}, which cannot be checked from here", path = .path.display())]
+    OnOtherHost {
         /// The journal.
         path: PathBuf,
-        /// Who.
-        owner: Owner,
+        /// The process that opened it.
+        owner: JournalOwner,
     },
-    /// Written by a newer program.
-    #[error("{path}: is of format {version}, which a newer version of this program wrote; it was left as it is",
+    /// The journal was written by a newer version of the program.
+    #[error("{path}: has format {version}, written by a newer version of this program; it was left unchanged",
         path = .path.display())]
     Newer {
         /// The journal.
@@ -77,64 +78,64 @@ pub enum JournalError {
         /// The version of its format.
         version: u32,
     },
-    /// No journal, or none any more.
-    #[error("{path}: is no journal that can be read: {reason}; it was left as it is", path = .path.display())]
+    /// The file is not a journal, or is damaged.
+    #[error("{path}: is no journal that can be read: {reason}; it was left unchanged", path = .path.display())]
     Damaged {
         /// The journal.
         path: PathBuf,
         /// What is wrong with it.
         reason: String,
     },
-    /// All names for a journal of this document are taken.
+    /// All names for a journal of this document are in use.
     #[error("{path}: there are too many journals of this document", path = .path.display())]
-    Crowded {
+    TooManyJournals {
         /// The last name tried.
         path: PathBuf,
     },
 }
 
-fn whom(owner: Option<&Owner>) -> String {
-    owner.map_or_else(|| "another program".to_owned(), Owner::to_string)
+fn owner_name(owner: Option<&JournalOwner>) -> String {
+    owner.map_or_else(|| "another program".to_owned(), JournalOwner::to_string)
 }
 
 impl JournalError {
-    /// For `map_err`.
+    /// Returns a closure for `map_err`.
     pub(super) fn io(path: &Path, what: &'static str) -> impl FnOnce(io::Error) -> Self {
         move |error| Self::Io { path: path.to_path_buf(), what, error }
     }
 }
 
-/// A journal that this process has, and nobody else.
+/// A journal that this process has opened exclusively.
 #[derive(Debug)]
 pub struct Journal {
     pub(super) files: Arc<dyn Vfs>,
-    /// Its lock goes with it.
+    /// The open file, which holds the lock.
     pub(super) file: Box<dyn VfsFile>,
     pub(super) path: PathBuf,
-    pub(super) header: Header,
-    pub(super) state: State,
-    /// Where the next record goes; behind it is nothing, or the rest of a failed one.
+    pub(super) header: JournalHeader,
+    pub(super) state: JournalState,
+    /// Offset of the next record; only the remains of a failed one can follow it.
     pub(super) length: u64,
     /// Number of the next record.
     pub(super) next: u64,
-    /// When what was appended must be on the disk.
+    /// Deadline for flushing the appended records to the disk.
     pub(super) due: Option<Instant>,
     pub(super) broken: Option<String>,
-    /// The record being made; kept for its memory.
+    /// The record being built; kept to reuse its memory.
     pub(super) frame: Vec<u8>,
 }
 
 impl Journal {
-    /// Begins a journal in `file`, which is new, empty, locked and called `path`.
+    /// Begins a journal in `file`, which is new, empty, locked and named `path`.
     pub(super) fn begin(
         files: Arc<dyn Vfs>,
         file: Box<dyn VfsFile>,
         path: PathBuf,
-        header: Header,
+        header: JournalHeader,
     ) -> io::Result<Self> {
         let mut frame = record::header(&header)?;
-        let mut state = State::new(&header);
-        let opened = serde_json::to_vec(&Owner::this())?;
+        let mut state = JournalState::new(&header);
+        let opened = serde_json::to_vec(&JournalOwner::this())?;
         record::push(&mut frame, header.number, 0, Tag::Opened, &opened);
         state.add(Tag::Opened, &opened);
         write_all(&*file, &frame, 0)?;
@@ -142,53 +143,53 @@ impl Journal {
         Ok(Self { files, file, path, header, state, length, next: 1, due: None, broken: None, frame })
     }
 
-    /// The journal's own file.
+    /// Path of the journal's file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The document's file; none for one never saved.
+    /// Path of the document's file; `None` if it was never saved.
     pub fn document(&self) -> Option<PathBuf> {
         self.header.document.as_ref().map(record::PathText::path)
     }
 
-    /// Bytes in it.
+    /// Size in bytes.
     pub fn size(&self) -> u64 {
         self.length
     }
 
-    /// Is there no work in it?
+    /// Returns whether the journal contains no edits and no snapshot.
     pub fn is_empty(&self) -> bool {
         self.state.work == 0
     }
 
-    /// Edits and snapshots in it that are not in the document's file.
+    /// Number of edits and snapshots that are not in the document's file.
     pub fn unsaved(&self) -> u64 {
         self.state.unsaved
     }
 
-    /// What the document's file was when it last held what this journal says.
+    /// Stamp of the document's file when it last held the journal's state.
     pub fn stamp(&self) -> Option<&FileStamp> {
         self.state.stamp.as_ref()
     }
 
-    /// What went wrong, if nothing is recorded any more until [`compact`](Self::compact) succeeds.
+    /// The error that stopped recording, until [`compact`](Self::compact) succeeds.
     pub fn broken(&self) -> Option<&str> {
         self.broken.as_deref()
     }
 
-    /// Appends an edit. When this returns `Ok`, the system has it, and the edit counts as done.
+    /// Appends an edit. When this returns `Ok`, the system has the record and the edit counts as done.
     ///
     /// # Errors
-    /// When it is not in the journal; what was in it before still is.
+    /// When the edit could not be appended; earlier records are unaffected.
     pub fn append(&mut self, edit: &[u8], now: Instant) -> Result<(), JournalError> {
         self.write(Tag::Edit, edit)?;
         self.due_at(now + LONGEST_UNSYNCED);
         Ok(())
     }
 
-    /// Says that the document is about to be saved as `bytes`, so that a program killed right after the file was
-    /// replaced knows it again. On the disk when this returns.
+    /// Records that the document is about to be saved as `bytes`, so that the file is recognized if the program is
+    /// killed right after replacing it. Flushed to the disk before returning.
     ///
     /// # Errors
     /// As [`append`](Self::append).
@@ -197,8 +198,8 @@ impl Journal {
         self.sync()
     }
 
-    /// Says that the document was saved: what was appended before [`saving`](Self::saving) is in the file.
-    /// On the disk when this returns.
+    /// Records that the document was saved: the file contains everything appended before [`saving`](Self::saving).
+    /// Flushed to the disk before returning.
     ///
     /// # Errors
     /// As [`append`](Self::append).
@@ -207,22 +208,23 @@ impl Journal {
         self.sync()
     }
 
-    /// A mouse button was released, a value was entered: what was appended is due now.
+    /// Makes the appended records due now, at the end of a gesture: a mouse button was released or a value was
+    /// entered.
     pub fn end_of_gesture(&mut self, now: Instant) {
         if self.due.is_some() {
             self.due_at(now);
         }
     }
 
-    /// When [`sync_if_due`](Self::sync_if_due) has something to do; never while all is on the disk.
+    /// Time at which [`sync_if_due`](Self::sync_if_due) has something to do; `None` while everything is on the disk.
     pub fn next_due(&self) -> Option<Instant> {
         self.due
     }
 
-    /// Brings what was appended to the disk if it is due; was it?
+    /// Flushes the appended records to the disk if they are due. Returns whether it did.
     ///
     /// # Errors
-    /// When the disk failed. It is not asked again, since it may have dropped what it was given: the journal is
+    /// When the disk failed. The sync is not repeated, because the system may have dropped the data: the journal is
     /// [`broken`](Self::broken) until a snapshot is written.
     pub fn sync_if_due(&mut self, now: Instant) -> Result<bool, JournalError> {
         if self.due.is_none_or(|due| due > now) {
@@ -231,65 +233,68 @@ impl Journal {
         self.sync().map(|()| true)
     }
 
-    /// Brings all that was appended to the disk.
+    /// Flushes all appended records to the disk.
     ///
     /// # Errors
     /// As [`sync_if_due`](Self::sync_if_due).
     pub fn sync(&mut self) -> Result<(), JournalError> {
-        self.whole()?;
+        self.ensure_recording()?;
         self.due = None;
-        again(|| self.file.sync_data()).map_err(|error| {
+        retry(|| self.file.sync_data()).map_err(|error| {
             self.broken = Some(reason(&error));
-            JournalError::Io { path: self.path.clone(), what: "could not be brought to the disk", error }
+            JournalError::Io { path: self.path.clone(), what: "could not be flushed to the disk", error }
         })
     }
 
-    /// Begins the journal anew with `snapshot`, which is all of the document with its history, in one step: before it,
-    /// after it and if it fails, there is a whole journal.
+    /// Restarts the journal with `snapshot`, the whole document with its history, in one step: before it, after it
+    /// and when it fails, a complete journal exists.
     ///
     /// # Errors
-    /// When the new one is not on the disk. The old one goes on then.
+    /// When the new journal is not on the disk. The old one stays in use.
     pub fn compact(&mut self, snapshot: &[u8]) -> Result<(), JournalError> {
         let saved = self.state.unsaved == 0;
         self.compact_as(snapshot, saved)
     }
 
-    /// The same with a snapshot that may hold more than the journal does, after an edit could not be appended: `saved`
-    /// says whether it is what the document's file holds.
+    /// As [`compact`](Self::compact), with a snapshot that may contain more than the journal, because an edit could
+    /// not be appended. `saved` is whether the snapshot equals the document's file.
     ///
     /// # Errors
     /// As [`compact`](Self::compact).
     pub fn compact_as(&mut self, snapshot: &[u8], saved: bool) -> Result<(), JournalError> {
-        self.fits(snapshot)?;
-        // The lock makes the name ours, and what has it is of a program that was killed.
-        let beside = self.path.with_extension("compact");
-        let _ = again(|| self.files.remove(&beside));
-        let made = self.make_compact(&beside, snapshot, saved).and_then(|new| {
-            again(|| self.files.rename(&beside, &self.path))?;
+        self.ensure_fits(snapshot)?;
+        // The lock makes this name ours: an existing file with it was left by a killed program.
+        let temporary = self.path.with_extension("compact");
+        let _ = retry(|| self.files.remove(&temporary));
+        let made = self.make_compact(&temporary, snapshot, saved).and_then(|new| {
+            retry(|| self.files.rename(&temporary, &self.path))?;
             Ok(new)
         });
         let mut new = match made {
             Ok(new) => new,
             Err(error) => {
-                let _ = again(|| self.files.remove(&beside));
+                let _ = retry(|| self.files.remove(&temporary));
                 return Err(JournalError::io(&self.path, "its snapshot cannot be written")(error));
             }
         };
         new.path.clone_from(&self.path);
-        // From here on the old file has no name, so the new one is the journal whatever happens.
+        // The old file has no name anymore, so the new one is the journal even if the sync below fails.
         *self = new;
-        again(|| self.files.sync_folder(folder_of(&self.path))).map_err(|error| {
+        retry(|| self.files.sync_folder(folder_of(&self.path))).map_err(|error| {
             self.broken = Some(reason(&error));
-            JournalError::io(&self.path, "could not be brought to the disk")(error)
+            JournalError::io(&self.path, "could not be flushed to the disk")(error)
         })
     }
 
-    fn make_compact(&self, beside: &Path, snapshot: &[u8], saved: bool) -> io::Result<Self> {
-        let file = again(|| self.files.create_new(beside, true))?;
-        lock_patiently(&*file)?;
-        let header =
-            Header { number: new_number(), document: self.header.document.clone(), stamp: self.state.stamp };
-        let mut new = Self::begin(Arc::clone(&self.files), file, beside.to_path_buf(), header)?;
+    fn make_compact(&self, temporary: &Path, snapshot: &[u8], saved: bool) -> io::Result<Self> {
+        let file = retry(|| self.files.create_new(temporary, true))?;
+        lock_with_retries(&*file)?;
+        let header = JournalHeader {
+            number: new_number(),
+            document: self.header.document.clone(),
+            stamp: self.state.stamp,
+        };
+        let mut new = Self::begin(Arc::clone(&self.files), file, temporary.to_path_buf(), header)?;
         if let Some((saving, _)) = &self.state.saving {
             new.put(Tag::Saving, &serde_json::to_vec(saving)?)?;
         }
@@ -297,18 +302,18 @@ impl Journal {
         if let Some(stamp) = self.state.stamp.filter(|_| saved) {
             new.put(Tag::Saved, &serde_json::to_vec(&stamp)?)?;
         }
-        again(|| new.file.sync_all())?;
+        retry(|| new.file.sync_all())?;
         Ok(new)
     }
 
-    /// Lets go of it in order. A journal without any work in it is removed; any other stays, for its history.
+    /// Closes the journal. A journal without any work is removed; any other is kept for its history.
     ///
     /// # Errors
-    /// When that is not on the disk. What was appended is as safe as before.
+    /// When the change is not on the disk. The appended records are as safe as before.
     pub fn close(mut self) -> Result<(), JournalError> {
         if self.state.work == 0 {
             let fail = JournalError::io(&self.path, "cannot be removed");
-            return again(|| self.files.remove(&self.path)).map_err(fail);
+            return retry(|| self.files.remove(&self.path)).map_err(fail);
         }
         self.write(Tag::Closed, &[])?;
         self.sync()
@@ -318,14 +323,14 @@ impl Journal {
         self.due = Some(self.due.map_or(at, |due| due.min(at)));
     }
 
-    fn whole(&self) -> Result<(), JournalError> {
+    fn ensure_recording(&self) -> Result<(), JournalError> {
         match &self.broken {
             None => Ok(()),
             Some(reason) => Err(JournalError::Broken { path: self.path.clone(), reason: reason.clone() }),
         }
     }
 
-    fn fits(&self, bytes: &[u8]) -> Result<(), JournalError> {
+    fn ensure_fits(&self, bytes: &[u8]) -> Result<(), JournalError> {
         if bytes.len() <= LONGEST_RECORD {
             return Ok(());
         }
@@ -339,12 +344,12 @@ impl Journal {
     }
 
     pub(super) fn write(&mut self, tag: Tag, bytes: &[u8]) -> Result<(), JournalError> {
-        self.whole()?;
-        self.fits(bytes)?;
+        self.ensure_recording()?;
+        self.ensure_fits(bytes)?;
         self.put(tag, bytes).map_err(JournalError::io(&self.path, "cannot be written"))
     }
 
-    /// Appends a record whole or not at all.
+    /// Appends a record completely or not at all.
     fn put(&mut self, tag: Tag, bytes: &[u8]) -> io::Result<()> {
         self.frame.clear();
         record::push(&mut self.frame, self.header.number, self.next, tag, bytes);
@@ -354,8 +359,8 @@ impl Journal {
             self.next += 1;
             self.state.add(tag, bytes);
         } else {
-            // The next record is written over what came of this one, so a rest that stays does no harm.
-            let _ = again(|| self.file.set_size(self.length));
+            // The next record overwrites the remains of this one, so a failed truncation does no harm.
+            let _ = retry(|| self.file.set_size(self.length));
         }
         if self.frame.capacity() > LARGE {
             self.frame = Vec::new();
@@ -364,7 +369,7 @@ impl Journal {
     }
 }
 
-/// A number that no other journal has: each hasher of the standard library begins at random.
+/// Returns a random number to identify a journal: each hasher of the standard library has a random seed.
 pub(super) fn new_number() -> u64 {
     use std::hash::{BuildHasher, Hasher};
     std::collections::hash_map::RandomState::new().build_hasher().finish()

@@ -1,41 +1,50 @@
-//! The disk: saving that leaves the old file or the new one, journals that a crash does not harm, and what can be had
-//! back after one. Only bytes are known here; what they mean is the document's affair.
+//! Files of Dragonfly: saving, journals and recovery.
 //!
-//! [`save`] replaces a file in one step. An [`Autosave`] folder holds a [`Journal`] for each open document, old
-//! [`Versions`], and a bin. Everything goes through [`Vfs`], so tests fail each single call of the system in turn.
+//! This crate owns everything that reaches the disk safely: [`save`] replaces a file in one step, so that a crash leaves
+//! the complete old file or the complete new one; an [`Autosave`] folder contains a [`Journal`] for each open document,
+//! old [`Versions`] of files, and a bin; journals can be resumed after a crash. It handles only bytes and paths: it must
+//! not know what a document, an edit or a model is, and it depends on no other crate of the workspace.
+//!
+//! All access to the file system goes through the trait [`Vfs`], so that tests can make every single call fail.
+//!
+//! The modules depend on each other in one direction: `vfs` ← `stamp` ← `target`, `temporary` ← `in_place`, `versions` ←
+//! `save`; `record`, `state`, `lock` ← `journal` ← `autosave` ← `recoverable` ← `begin` ← `recovery`.
 
 mod autosave;
-mod crc;
+mod begin;
 mod document;
 mod error;
 mod in_place;
 mod journal;
+mod lock;
+mod numbered;
 mod owner;
 mod real;
 mod record;
 mod recoverable;
 mod recovery;
 mod save;
-mod shelf;
 mod stamp;
 mod state;
+mod target;
+mod temporary;
 mod versions;
 mod vfs;
 
-pub use autosave::{Autosave, Opening};
+pub use autosave::Autosave;
+pub use begin::Opening;
 pub use document::save_document;
-pub use error::{SaveError, Step};
-pub use in_place::{cut_off, put_away, put_back};
+pub use error::{FileSaveError, SaveStep};
+pub use in_place::{discard_old_content, interrupted_save, restore_old_content};
 pub use journal::{Journal, JournalError, LONGEST_UNSYNCED};
-pub use owner::{Life, Owner};
+pub use numbered::FolderLimits;
+pub use owner::{JournalOwner, OwnerStatus};
 pub use real::RealFiles;
 pub use record::LONGEST_RECORD;
-pub use recoverable::{Entry, Fate, Reading, Recoverable};
+pub use recoverable::{DocumentFileState, JournalEntry, Readability, Recoverable};
 pub use recovery::{Claim, Resumed};
-pub use save::{Expected, SaveOptions, Saved, replace, save};
-pub use shelf::Bounds;
-pub use stamp::hash;
-pub use stamp::{FileStamp, FileState};
-pub use versions::{Version, VersionLimits, Versions};
-pub use vfs::folder_of;
-pub use vfs::{Attribute, FileData, Kind, Vfs, VfsFile};
+pub use save::{SaveOptions, SaveOutcome, replace, save};
+pub use stamp::{FileStamp, FileState, hash};
+pub use target::ExpectedFile;
+pub use versions::{OldVersion, VersionLimits, Versions};
+pub use vfs::{Attribute, FileData, FileKind, Vfs, VfsFile, folder_of};

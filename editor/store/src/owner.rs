@@ -1,56 +1,56 @@
-//! Who has a journal: a process, and the machine it runs on.
+//! The owner of a journal: a process, and the computer it runs on.
 
 use super::stamp::hash;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A process on a machine.
+/// A process on a computer.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Owner {
-    /// Its number there.
+pub struct JournalOwner {
+    /// Process number on that computer.
     pub process: u32,
-    /// The machine's name.
+    /// Name of the computer.
     pub host: String,
 }
 
-/// Does somebody still work with a journal?
+/// Whether the process that opened a journal still runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Life {
-    /// Yes.
-    Lives,
-    /// No: it ended, in order or not.
-    Gone,
-    /// It ran on another machine, and did not say that it ended.
-    Elsewhere,
+pub enum OwnerStatus {
+    /// It runs.
+    Running,
+    /// It ended, in order or not.
+    Exited,
+    /// It ran on another computer and did not record that it closed the journal.
+    OnOtherHost,
 }
 
-impl Owner {
-    /// This process.
+impl JournalOwner {
+    /// Returns this process.
     pub fn this() -> Self {
         Self { process: std::process::id(), host: system::host() }
     }
 
-    /// What can be told of it by its number alone, where files cannot be locked.
-    pub(super) fn life(&self) -> Life {
+    /// Returns what the process number alone shows, for file systems without locks.
+    pub(super) fn owner_status(&self) -> OwnerStatus {
         if self.host != system::host() {
-            return Life::Elsewhere;
+            return OwnerStatus::OnOtherHost;
         }
-        if process_lives(self.process) == Some(false) { Life::Gone } else { Life::Lives }
+        if process_runs(self.process) == Some(false) { OwnerStatus::Exited } else { OwnerStatus::Running }
     }
 }
 
-impl fmt::Display for Owner {
+impl fmt::Display for JournalOwner {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "process {} on {}", self.process, self.host)
     }
 }
 
-/// Is there a process of this number on this machine? `None` where one cannot ask.
-pub(super) fn process_lives(process: u32) -> Option<bool> {
-    system::process_lives(process)
+/// Returns whether a process with this number runs on this computer; `None` where the system cannot tell.
+pub(super) fn process_runs(process: u32) -> Option<bool> {
+    system::process_runs(process)
 }
 
-/// A number for this machine's name, for names of files.
+/// Hash of the name of this computer, for file names.
 pub(super) fn host_hash() -> u32 {
     (hash(system::host().as_bytes()) >> 32) as u32
 }
@@ -63,7 +63,7 @@ mod system {
         rustix::system::uname().nodename().to_string_lossy().into_owned()
     }
 
-    pub(super) fn process_lives(process: u32) -> Option<bool> {
+    pub(super) fn process_runs(process: u32) -> Option<bool> {
         let process = i32::try_from(process).ok().filter(|process| *process > 0).and_then(Pid::from_raw)?;
         match test_kill_process(process) {
             Err(rustix::io::Errno::SRCH) => Some(false),
@@ -79,7 +79,7 @@ mod system {
         std::env::var("COMPUTERNAME").unwrap_or_else(|_| "this machine".to_owned())
     }
 
-    pub(super) fn process_lives(_: u32) -> Option<bool> {
+    pub(super) fn process_runs(_: u32) -> Option<bool> {
         None
     }
 }

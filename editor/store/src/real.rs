@@ -1,6 +1,6 @@
 //! The file system of this machine.
 
-use super::vfs::{Attribute, FileData, Kind, Vfs, VfsFile};
+use super::vfs::{Attribute, FileData, FileKind, Vfs, VfsFile};
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
@@ -23,14 +23,14 @@ impl Vfs for RealFiles {
     fn open(&self, path: &Path) -> io::Result<Box<dyn VfsFile>> {
         let mut options = OpenOptions::new();
         options.read(true);
-        system::not_waiting(&mut options);
+        system::nonblocking(&mut options);
         Ok(Box::new(options.open(path)?))
     }
 
     fn open_to_write(&self, path: &Path) -> io::Result<Box<dyn VfsFile>> {
         let mut options = OpenOptions::new();
         options.read(true).write(true);
-        system::not_waiting(&mut options);
+        system::nonblocking(&mut options);
         Ok(Box::new(options.open(path)?))
     }
 
@@ -51,7 +51,7 @@ impl Vfs for RealFiles {
     }
 
     fn rename_to_new(&self, from: &Path, to: &Path) -> io::Result<()> {
-        moving::to_new(from, to)
+        rename_to_new::to_new(from, to)
     }
 
     fn remove(&self, path: &Path) -> io::Result<()> {
@@ -100,7 +100,7 @@ impl VfsFile for File {
         match File::try_lock(self) {
             Ok(()) => Ok(true),
             Err(TryLockError::WouldBlock) => Ok(false),
-            Err(TryLockError::Error(error)) if system::knows_no_locks(&error) => {
+            Err(TryLockError::Error(error)) if system::has_no_locks(&error) => {
                 Err(io::ErrorKind::Unsupported.into())
             }
             Err(TryLockError::Error(error)) => Err(error),
@@ -124,14 +124,14 @@ impl VfsFile for File {
     }
 }
 
-/// A file, a folder, a link, or something that is none of these.
-fn kind_of(metadata: &std::fs::Metadata) -> Kind {
+/// Returns the kind of a directory entry.
+fn kind_of(metadata: &std::fs::Metadata) -> FileKind {
     let kind = metadata.file_type();
     match () {
-        () if kind.is_file() => Kind::File,
-        () if kind.is_dir() => Kind::Folder,
-        () if kind.is_symlink() => Kind::Link,
-        () => Kind::Other,
+        () if kind.is_file() => FileKind::File,
+        () if kind.is_dir() => FileKind::Folder,
+        () if kind.is_symlink() => FileKind::Link,
+        () => FileKind::Other,
     }
 }
 
@@ -149,8 +149,8 @@ mod system {
         options.mode(0o600);
     }
 
-    /// A pipe is not waited for, whoever put it where a file was.
-    pub(super) fn not_waiting(options: &mut OpenOptions) {
+    /// Makes opening a pipe return at once, in case another program put one in place of a file.
+    pub(super) fn nonblocking(options: &mut OpenOptions) {
         let flags = OFlags::NONBLOCK.union(OFlags::NOCTTY).bits();
         options.custom_flags(i32::try_from(flags).unwrap_or(0));
     }
@@ -180,14 +180,15 @@ mod system {
 
     pub(super) fn sync_folder(path: &Path) -> io::Result<()> {
         match File::open(path)?.sync_all() {
-            // Said by file systems that have no such thing for folders.
+            // Reported by file systems that cannot sync folders.
             Err(error) if error.raw_os_error() == Some(Errno::INVAL.raw_os_error()) => Ok(()),
             other => other,
         }
     }
 
-    /// Said by network file systems, the last one of files opened to be read only.
-    pub(super) fn knows_no_locks(error: &io::Error) -> bool {
+    /// Returns whether the error means that the file system has no locks. Network file systems report the last one
+    /// for files opened for reading only.
+    pub(super) fn has_no_locks(error: &io::Error) -> bool {
         let kinds = [Errno::NOLCK, Errno::NOTSUP, Errno::OPNOTSUPP, Errno::NOSYS, Errno::BADF];
         kinds.iter().any(|kind| error.raw_os_error() == Some(kind.raw_os_error()))
     }
@@ -219,10 +220,10 @@ mod system {
 
     pub(super) fn private(_: &mut OpenOptions) {}
 
-    pub(super) fn not_waiting(_: &mut OpenOptions) {}
+    pub(super) fn nonblocking(_: &mut OpenOptions) {}
 
-    /// Numbers of files, owners and links are not to be had here; two files then look like one, and their sizes,
-    /// times and contents tell them apart.
+    /// File numbers, owners and link counts are not available here. Two files then differ only in size, times and
+    /// content.
     pub(super) fn data(metadata: &Metadata) -> FileData {
         FileData {
             kind: super::kind_of(metadata),
@@ -246,12 +247,12 @@ mod system {
         std::fs::create_dir_all(path)
     }
 
-    /// Folders cannot be opened here; names are journalled by the system itself.
+    /// Folders cannot be opened here; the system journals names itself.
     pub(super) fn sync_folder(_: &Path) -> io::Result<()> {
         Ok(())
     }
 
-    pub(super) fn knows_no_locks(error: &io::Error) -> bool {
+    pub(super) fn has_no_locks(error: &io::Error) -> bool {
         error.kind() == io::ErrorKind::Unsupported
     }
 
@@ -275,7 +276,7 @@ mod system {
 }
 
 #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
-mod moving {
+mod rename_to_new {
     use rustix::fs::{CWD, RenameFlags, renameat_with};
     use rustix::io::Errno;
     use std::io;
@@ -283,27 +284,27 @@ mod moving {
 
     pub(super) fn to_new(from: &Path, to: &Path) -> io::Result<()> {
         match renameat_with(CWD, from, CWD, to, RenameFlags::NOREPLACE) {
-            // Some file systems cannot look and move in one step.
-            Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => super::look_and_move(from, to),
+            // Some file systems cannot check and rename in one step.
+            Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => super::check_and_rename(from, to),
             other => Ok(other?),
         }
     }
 }
 
 #[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
-mod moving {
-    pub(super) use super::look_and_move as to_new;
+mod rename_to_new {
+    pub(super) use super::check_and_rename as to_new;
 }
 
-/// The best that can be had without help of the system: what is made in between is overwritten.
-fn look_and_move(from: &Path, to: &Path) -> io::Result<()> {
+/// Fallback without help of the system: a file created between the check and the rename is overwritten.
+fn check_and_rename(from: &Path, to: &Path) -> io::Result<()> {
     if fs::symlink_metadata(to).is_ok() {
         return Err(io::ErrorKind::AlreadyExists.into());
     }
     fs::rename(from, to)
 }
 
-/// Extended attributes, access lists among them.
+/// Extended attributes, including access control lists.
 #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
 mod attributes {
     use super::{Attribute, File};

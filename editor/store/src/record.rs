@@ -1,28 +1,26 @@
-//! What a journal is made of, byte by byte. Numbers are little-endian.
+//! The byte format of a journal. Numbers are little-endian.
 //!
 //! ```text
 //! header   magic 8 · version 4 · length of the text 4 · text (JSON) · CRC-32C of all that 4
 //! record   length of the bytes 4 · kind 1 · CRC-32C 4 · bytes
 //! ```
 //!
-//! The checksum of a record is over the journal's own number (8), the record's number in the journal (8, from 0), its
-//! length, its kind and its bytes. So a record is valid only in its journal and at its place: what an earlier file
-//! left on the disk, or a record that moved, is not taken for one.
+//! The checksum of a record covers the journal's own number (8), the record's number in the journal (8, from 0), its
+//! length, its kind and its bytes. So a record is valid only in its own journal and at its own position: remains of
+//! an earlier file on the disk, or a moved record, fail the check.
 //!
-//! The frame of the header is the same in all versions, so that a newer journal is known for what it is.
+//! The frame of the header is the same in all versions, so that a newer journal can be recognized.
 
-use super::crc::crc32c;
-use super::owner::Owner;
 use super::stamp::FileStamp;
-use super::vfs::{VfsFile, again};
+use super::vfs::{VfsFile, retry};
 use serde::{Deserialize, Serialize};
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-/// Begins a journal. The byte that is no text and the line ends show a transfer that took it for text.
+/// First bytes of a journal. The non-ASCII byte and the line ends reveal a transfer in text mode.
 pub(super) const MAGIC: [u8; 8] = *b"\x89DFJ\r\n\x1a\n";
 
-/// The version written here.
+/// Version of the format that this program writes.
 pub(super) const VERSION: u32 = 1;
 
 /// Longest text of a header, in bytes.
@@ -31,23 +29,23 @@ const LONGEST_TEXT: usize = 1 << 20;
 /// Longest record, in bytes.
 pub const LONGEST_RECORD: usize = 1 << 30;
 
-/// Bytes before those of a record.
+/// Number of bytes in a record before its content.
 pub(super) const FRAME: usize = 9;
 
-/// What a record is.
+/// Kind of a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tag {
     /// The whole document.
     Snapshot = 1,
     /// One edit.
     Edit = 2,
-    /// A process took the journal; [`Opened`].
+    /// A process opened the journal; content: [`JournalOwner`].
     Opened = 3,
-    /// The document is about to be saved; [`Saving`].
+    /// The document is about to be saved; content: [`Saving`].
     Saving = 4,
-    /// The document was saved; its [`FileStamp`].
+    /// The document was saved; content: its [`FileStamp`].
     Saved = 5,
-    /// The process that had the journal let go of it in order.
+    /// The process that had the journal closed it in order.
     Closed = 6,
 }
 
@@ -59,18 +57,18 @@ impl Tag {
     }
 }
 
-/// What a header says.
+/// Content of a header.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Header {
-    /// The journal's own number, in no other journal.
+pub(super) struct JournalHeader {
+    /// Random number that identifies the journal.
     pub(super) number: u64,
-    /// The document's file, free of links; none for one never saved.
+    /// The document's file, links resolved; `None` if it was never saved.
     pub(super) document: Option<PathText>,
-    /// What that file was when the journal began.
+    /// Stamp of that file when the journal began.
     pub(super) stamp: Option<FileStamp>,
 }
 
-/// A path in JSON: text, or its bytes when it is no text.
+/// A path in JSON: text, or its bytes when it is not valid Unicode.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub(super) enum PathText {
@@ -100,7 +98,8 @@ impl PathText {
     }
 }
 
-/// What the file is about to become: if the program is killed before it says [`Tag::Saved`], the file tells.
+/// Size and hash of the file that a save is about to write: if the program is killed before it records
+/// [`Tag::Saved`], the file is compared with them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Saving {
     pub(super) size: u64,
@@ -108,75 +107,80 @@ pub(super) struct Saving {
 }
 
 impl Saving {
-    /// Is it this save that made the file what it is?
+    /// Returns whether this save produced the file with this stamp.
     pub(super) fn made(&self, stamp: &FileStamp) -> bool {
         (self.size, self.hash) == (stamp.size, stamp.hash)
     }
 }
 
-/// Who took the journal.
-pub(super) type Opened = Owner;
-
-/// Why a file is no journal that can be read.
+/// Reasons why a file cannot be read as a journal.
 #[derive(Debug)]
-pub(super) enum Refused {
-    /// Written by a later version of the format.
+pub(super) enum ReadFailure {
+    /// Written in a later version of the format.
     Newer(u32),
-    /// The header is not whole, or no header at all.
+    /// The header is incomplete, or missing.
     Damaged(&'static str),
     Io(io::Error),
 }
 
-impl From<io::Error> for Refused {
+impl From<io::Error> for ReadFailure {
     fn from(error: io::Error) -> Self {
         Self::Io(error)
     }
 }
 
-/// The bytes of a header.
-pub(super) fn header(header: &Header) -> io::Result<Vec<u8>> {
+/// Serializes a header.
+pub(super) fn header(header: &JournalHeader) -> io::Result<Vec<u8>> {
     let text = serde_json::to_vec(header)?;
     let mut bytes = MAGIC.to_vec();
     bytes.extend(VERSION.to_le_bytes());
     let length = u32::try_from(text.len()).ok().filter(|_| text.len() <= LONGEST_TEXT);
     bytes.extend(length.ok_or(io::ErrorKind::InvalidInput)?.to_le_bytes());
     bytes.extend(text);
-    bytes.extend(crc32c(&[&bytes]).to_le_bytes());
+    bytes.extend(checksum_of(&[&bytes]).to_le_bytes());
     Ok(bytes)
 }
 
-/// Puts the record after what is in `out`; the caller has seen that it is not too long.
+/// Appends a record to `out`. The caller has checked its length.
 pub(super) fn push(out: &mut Vec<u8>, journal: u64, number: u64, tag: Tag, bytes: &[u8]) {
     let length = (bytes.len() as u32).to_le_bytes();
     out.extend(length);
     out.push(tag as u8);
-    out.extend(checksum(journal, number, length, tag as u8, bytes).to_le_bytes());
+    out.extend(record_checksum(journal, number, length, tag as u8, bytes).to_le_bytes());
     out.extend(bytes);
 }
 
-fn checksum(journal: u64, number: u64, length: [u8; 4], tag: u8, bytes: &[u8]) -> u32 {
-    crc32c(&[&journal.to_le_bytes(), &number.to_le_bytes(), &length, &[tag], bytes])
+fn record_checksum(journal: u64, number: u64, length: [u8; 4], tag: u8, bytes: &[u8]) -> u32 {
+    checksum_of(&[&journal.to_le_bytes(), &number.to_le_bytes(), &length, &[tag], bytes])
 }
 
-/// What reading a journal came to.
+/// Returns the CRC-32C of all `parts`, in order.
+fn checksum_of(parts: &[&[u8]]) -> u32 {
+    parts.iter().fold(0, |sum, part| crc32c::crc32c_append(sum, part))
+}
+
+/// Result of reading a journal.
 #[derive(Debug)]
-pub(super) struct Scan {
-    pub(super) header: Header,
-    /// Records that are valid, from the first on.
+pub(super) struct JournalScan {
+    pub(super) header: JournalHeader,
+    /// Number of valid records at the start.
     pub(super) records: u64,
-    /// Bytes of the header and of those records.
+    /// Number of bytes of the header and those records.
     pub(super) valid: u64,
-    /// Bytes of the file.
+    /// Size of the file in bytes.
     pub(super) size: u64,
 }
 
-/// Reads the longest valid beginning of a journal and shows its records one after another. `visit` answers `false`
-/// for one that it cannot understand, which ends the valid part before it.
+/// Reads the valid part at the start of a journal and calls `visit` with each record. `visit` returns `false` for a
+/// record that it cannot parse, which ends the valid part before it.
 ///
-/// Memory is that of the longest record, which is never longer than the file.
-pub(super) fn scan(file: &dyn VfsFile, mut visit: impl FnMut(Tag, &[u8]) -> bool) -> Result<Scan, Refused> {
-    let size = again(|| file.metadata())?.size;
-    let mut reader = BufReader::with_capacity(1 << 16, Cursor { file, offset: 0 }.take(size));
+/// Uses memory for the longest record, which is never longer than the file.
+pub(super) fn scan(
+    file: &dyn VfsFile,
+    mut visit: impl FnMut(Tag, &[u8]) -> bool,
+) -> Result<JournalScan, ReadFailure> {
+    let size = retry(|| file.metadata())?.size;
+    let mut reader = BufReader::with_capacity(1 << 16, SequentialReader { file, offset: 0 }.take(size));
     let header = read_header(&mut reader, size)?;
     let mut valid = header.1;
     let header = header.0;
@@ -189,49 +193,49 @@ pub(super) fn scan(file: &dyn VfsFile, mut visit: impl FnMut(Tag, &[u8]) -> bool
         records += 1;
         valid += (FRAME + bytes.len()) as u64;
     }
-    Ok(Scan { header, records, valid, size })
+    Ok(JournalScan { header, records, valid, size })
 }
 
-fn read_header(reader: &mut impl BufRead, size: u64) -> Result<(Header, u64), Refused> {
-    let short = Refused::Damaged("it ends within its header");
+fn read_header(reader: &mut impl BufRead, size: u64) -> Result<(JournalHeader, u64), ReadFailure> {
+    let short = ReadFailure::Damaged("it ends within its header");
     let mut fixed = [0; 16];
     if !fill(reader, &mut fixed)? {
-        return Err(if size == 0 { Refused::Damaged("it is empty") } else { short });
+        return Err(if size == 0 { ReadFailure::Damaged("it is empty") } else { short });
     }
     if fixed[..8] != MAGIC {
-        return Err(Refused::Damaged("it does not begin as one"));
+        return Err(ReadFailure::Damaged("it does not start with the mark of a journal"));
     }
     let (version, length) = (number(&fixed[8..12]), number(&fixed[12..16]) as usize);
     if length > LONGEST_TEXT || length as u64 > size {
-        return Err(Refused::Damaged("its header says that it is longer than it can be"));
+        return Err(ReadFailure::Damaged("its header has an impossible length"));
     }
     let mut text = vec![0; length + 4];
     if !fill(reader, &mut text)? {
         return Err(short);
     }
     let (text, sum) = text.split_at(length);
-    if crc32c(&[&fixed, text]) != number(sum) {
-        return Err(Refused::Damaged("the checksum of its header is wrong"));
+    if checksum_of(&[&fixed, text]) != number(sum) {
+        return Err(ReadFailure::Damaged("the checksum of its header is wrong"));
     }
     if version == 0 {
-        return Err(Refused::Damaged("its version is 0"));
+        return Err(ReadFailure::Damaged("its version is 0"));
     }
     if version > VERSION {
-        return Err(Refused::Newer(version));
+        return Err(ReadFailure::Newer(version));
     }
     let header =
-        serde_json::from_slice(text).map_err(|_| Refused::Damaged("its header is not understood"))?;
+        serde_json::from_slice(text).map_err(|_| ReadFailure::Damaged("its header cannot be parsed"))?;
     Ok((header, (fixed.len() + length + 4) as u64))
 }
 
-/// The next record, its bytes in `bytes`; `None` at the end or where it is not valid.
+/// Reads the next record into `bytes`; `None` at the end of the file or where the record is not valid.
 fn read_record(
     reader: &mut impl BufRead,
     bytes: &mut Vec<u8>,
     left: u64,
     journal: u64,
     record: u64,
-) -> Result<Option<Tag>, Refused> {
+) -> Result<Option<Tag>, ReadFailure> {
     let mut frame = [0; FRAME];
     if !fill(reader, &mut frame)? {
         return Ok(None);
@@ -248,11 +252,12 @@ fn read_record(
         return Ok(None);
     }
     let length = [frame[0], frame[1], frame[2], frame[3]];
-    let right = checksum(journal, record, length, frame[4], bytes) == number(&frame[5..]);
+    let right = record_checksum(journal, record, length, frame[4], bytes) == number(&frame[5..]);
     Ok(right.then_some(tag))
 }
 
-/// Fills `bytes`; `false` when the file ends before. An error of the disk is none of the journal's: it stays one.
+/// Fills `bytes`. Returns `false` when the file ends first; a disk error stays an error, because it does not mean
+/// that the journal is damaged.
 fn fill(reader: &mut impl Read, bytes: &mut [u8]) -> io::Result<bool> {
     match reader.read_exact(bytes) {
         Ok(()) => Ok(true),
@@ -265,16 +270,32 @@ fn number(bytes: &[u8]) -> u32 {
     bytes.first_chunk::<4>().map_or(0, |bytes| u32::from_le_bytes(*bytes))
 }
 
-/// Reads a file from its beginning.
-struct Cursor<'a> {
+/// Reads a file sequentially from its start.
+struct SequentialReader<'a> {
     file: &'a dyn VfsFile,
     offset: u64,
 }
 
-impl Read for Cursor<'_> {
+impl Read for SequentialReader<'_> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let got = again(|| self.file.read_at(bytes, self.offset))?;
+        let got = retry(|| self.file.read_at(bytes, self.offset))?;
         self.offset += got as u64;
         Ok(got)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::checksum_of;
+
+    #[test]
+    fn the_checksum_is_the_crc_32c_of_the_standard() {
+        // RFC 3720, B.4.
+        assert_eq!(checksum_of(&[&[0; 32]]), 0x8a91_36aa);
+        assert_eq!(checksum_of(&[&[0xff; 32]]), 0x62a8_ab43);
+        let ascending: Vec<u8> = (0..32).collect();
+        assert_eq!(checksum_of(&[&ascending]), 0x46dd_794e);
+        assert_eq!(checksum_of(&[b"123456789"]), 0xe306_9283);
+        assert_eq!(checksum_of(&[b"1234", b"", b"56789"]), 0xe306_9283);
     }
 }

@@ -1,79 +1,80 @@
-//! What can be had back: the journals in the autosave folder, looked at and not changed.
+//! Listing the journals in the autosave folder and what can be recovered from them, without changing them.
 
-use super::autosave::{Autosave, ENDING, Lock, lock, lock_patiently};
+use super::autosave::{Autosave, EXTENSION};
 use super::journal::JournalError;
-use super::owner::{Life, Owner};
-use super::record::{self, PathText, Refused, Scan, Tag};
-use super::shelf;
+use super::lock::{LockResult, lock, lock_with_retries};
+use super::numbered;
+use super::owner::{JournalOwner, OwnerStatus};
+use super::record::{self, JournalScan, PathText, ReadFailure, Tag};
 use super::stamp::{FileStamp, FileState};
-use super::state::State;
-use super::vfs::{Vfs, VfsFile, again, look};
+use super::state::JournalState;
+use super::vfs::{Vfs, VfsFile, metadata_if_exists, retry};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// How often a journal is looked at that is begun anew meanwhile.
-const LOOKS: usize = 10;
+/// Number of attempts to inspect a journal that its owner keeps restarting.
+const INSPECT_ATTEMPTS: usize = 10;
 
-/// Can the journal be read?
+/// Readable part of a journal.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Reading {
-    /// To its end.
+pub enum Readability {
+    /// All of it.
     Whole,
-    /// But for so many bytes at its end: a record that was not finished, or all that follows a damaged one.
+    /// All but this number of bytes at its end: an unfinished record, or everything after a damaged one.
     Cut(u64),
-    /// Not by this program: it is of this later format.
+    /// Nothing, because it has this later format.
     Newer(u32),
-    /// No: why not.
+    /// Nothing, for this reason.
     Damaged(String),
 }
 
-/// What became of the document's file.
+/// State of the document's file, compared with the state that the journal continues.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Fate {
-    /// There never was one.
+pub enum DocumentFileState {
+    /// The document was never saved.
     Unsaved,
-    /// It is what the journal goes on from.
+    /// The file has the content that the journal continues.
     Same,
-    /// It is another one than the journal goes on from.
+    /// The file has other content.
     Changed,
-    /// It is not there: removed, or moved.
+    /// There is no file: it was removed or moved.
     Missing,
-    /// It cannot be looked at: why not.
+    /// The file cannot be read, for this reason.
     Unknown(String),
 }
 
 /// A journal in the autosave folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recoverable {
-    /// The journal.
+    /// Path of the journal.
     pub journal: PathBuf,
-    /// The document's file; none for one never saved.
+    /// Path of the document's file; `None` if it was never saved.
     pub document: Option<PathBuf>,
-    /// When it was last written, in nanoseconds since 1970.
+    /// Time of the last write, in nanoseconds since 1970.
     pub when: i64,
-    /// Edits in it, and a snapshot as one.
+    /// Number of edits; a snapshot counts as one.
     pub work: u64,
-    /// Of them, those not in the document's file.
+    /// Number of those edits that are not in the document's file.
     pub unsaved: u64,
-    /// Its bytes.
+    /// Size in bytes.
     pub bytes: u64,
-    /// Can it be read?
-    pub reading: Reading,
-    /// What became of the document's file?
-    pub file: Fate,
-    /// What that file was when it last held what the journal goes on from.
+    /// Readable part of it.
+    pub reading: Readability,
+    /// State of the document's file.
+    pub file: DocumentFileState,
+    /// Stamp of that file when it last had the content that the journal continues.
     pub stamp: Option<FileStamp>,
-    /// Size and hash of what the file was about to become, when nothing is said of how that save ended.
+    /// Size and hash of the file that a save was writing, if no record shows how the save ended.
     pub saving: Option<(u64, u64)>,
-    /// Who had it last.
-    pub owner: Option<Owner>,
-    /// Does that one still?
-    pub life: Life,
+    /// The process that opened it last.
+    pub owner: Option<JournalOwner>,
+    /// Whether that process still runs.
+    pub owner_status: OwnerStatus,
 }
 
 impl Recoverable {
-    /// Of which nothing is known but this.
-    fn unread(journal: PathBuf, reading: Reading) -> Self {
+    /// A journal of which only this is known.
+    fn unreadable(journal: PathBuf, reading: Readability) -> Self {
         Self {
             journal,
             document: None,
@@ -82,115 +83,118 @@ impl Recoverable {
             unsaved: 0,
             bytes: 0,
             reading,
-            file: Fate::Unsaved,
+            file: DocumentFileState::Unsaved,
             stamp: None,
             saving: None,
             owner: None,
-            life: Life::Gone,
+            owner_status: OwnerStatus::Exited,
         }
     }
 
-    /// Is a file that is like this, wherever it lies, the document's: does it hold what it held last?
+    /// Returns whether a file with this stamp, at any path, has the content the document's file had last.
     pub fn held(&self, stamp: &FileStamp) -> bool {
         let then = self.stamp.map(|then| (then.size, then.hash));
         [then, self.saving].contains(&Some((stamp.size, stamp.hash)))
     }
 
-    /// Is it to be offered at the start: work that is in no file, and nobody has it?
+    /// Returns whether the journal is offered at the start of the program: it has unsaved work and is not in use.
     pub fn is_offered(&self) -> bool {
-        self.unsaved > 0 && self.life != Life::Lives
+        self.unsaved > 0 && self.owner_status != OwnerStatus::Running
     }
 }
 
-/// What a journal gives back, in order.
+/// An entry of a journal, in the order of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Entry {
-    /// The whole document with its history; nothing before it matters.
+pub enum JournalEntry {
+    /// The whole document with its history; earlier entries do not matter.
     Snapshot(Vec<u8>),
     /// One edit.
     Edit(Vec<u8>),
-    /// The document was saved here.
+    /// The document was saved at this point.
     Saved,
 }
 
 impl Autosave {
-    /// All journals there are, last written first; those with nothing to offer too, so that a person can see them.
+    /// Lists all journals, last written first, including those without unsaved work, so that the user can see them.
     ///
     /// # Errors
     /// When the folder cannot be read.
     pub fn recoverable(&self) -> Result<Vec<Recoverable>, JournalError> {
         let folder = self.journals();
-        let names = shelf::list(&*self.files, &folder)
+        let names = numbered::names(&*self.files, &folder)
             .map_err(JournalError::io(&folder, "the folder of journals cannot be read"))?;
         let mut found = Vec::new();
         for path in names.into_iter().map(|name| folder.join(name)) {
-            if path.extension().is_none_or(|ending| ending != ENDING) {
+            if path.extension().is_none_or(|ending| ending != EXTENSION) {
                 continue;
             }
             match self.inspect(&path) {
                 Ok(recoverable) => found.push(recoverable),
                 Err(JournalError::Io { error, .. }) if error.kind() == io::ErrorKind::NotFound => {}
-                // The others can be had back all the same.
-                Err(error) => found.push(Recoverable::unread(path, Reading::Damaged(error.to_string()))),
+                // The other journals can still be recovered.
+                Err(error) => {
+                    found.push(Recoverable::unreadable(path, Readability::Damaged(error.to_string())))
+                }
             }
         }
         found.sort_by(|one, other| other.when.cmp(&one.when).then_with(|| one.journal.cmp(&other.journal)));
         Ok(found)
     }
 
-    /// What is in a journal, to show it before anything is decided; changes nothing.
+    /// Returns the content of a journal, to show it before the user decides. Changes nothing.
     ///
     /// # Errors
     /// When it cannot be read.
-    pub fn entries(&self, found: &Recoverable) -> Result<Vec<Entry>, JournalError> {
+    pub fn entries(&self, found: &Recoverable) -> Result<Vec<JournalEntry>, JournalError> {
         let path = &found.journal;
-        let file = again(|| self.files.open(path)).map_err(JournalError::io(path, "cannot be read"))?;
+        let file = retry(|| self.files.open(path)).map_err(JournalError::io(path, "cannot be read"))?;
         let mut contents = contents(&*file, path)?;
-        contents.look_at_file(&*self.files);
+        contents.compare_file(&*self.files);
         Ok(contents.entries)
     }
 
-    /// Looks at one journal; changes nothing.
+    /// Inspects one journal without changing it.
     pub(super) fn inspect(&self, path: &Path) -> Result<Recoverable, JournalError> {
         let fail = |error| JournalError::io(path, "cannot be read")(error);
-        for _ in 0..LOOKS {
-            let file = again(|| self.files.open(path)).map_err(fail)?;
-            let found = self.look_at(&*file, path)?;
-            // Its owner may have begun it anew meanwhile; then what was looked at is nobody's any more.
+        for _ in 0..INSPECT_ATTEMPTS {
+            let file = retry(|| self.files.open(path)).map_err(fail)?;
+            let found = self.read_summary(&*file, path)?;
+            // Its owner may have replaced it by a restarted one; then the file that was read is no longer the
+            // journal.
             if same(&*self.files, &*file, path).map_err(fail)? {
                 return Ok(found);
             }
         }
-        // Whoever begins it anew so often is at work.
-        let found = Recoverable::unread(path.to_path_buf(), Reading::Whole);
-        Ok(Recoverable { life: Life::Lives, ..found })
+        // A journal that is restarted this often is in use.
+        let found = Recoverable::unreadable(path.to_path_buf(), Readability::Whole);
+        Ok(Recoverable { owner_status: OwnerStatus::Running, ..found })
     }
 
-    fn look_at(&self, file: &dyn VfsFile, path: &Path) -> Result<Recoverable, JournalError> {
+    fn read_summary(&self, file: &dyn VfsFile, path: &Path) -> Result<Recoverable, JournalError> {
         let fail = |error| JournalError::io(path, "cannot be read")(error);
-        let data = again(|| file.metadata()).map_err(fail)?;
-        let found = Recoverable::unread(path.to_path_buf(), Reading::Whole);
+        let data = retry(|| file.metadata()).map_err(fail)?;
+        let found = Recoverable::unreadable(path.to_path_buf(), Readability::Whole);
         let mut found = Recoverable { when: data.modified, bytes: data.size, ..found };
-        let mut state = State::default();
+        let mut state = JournalState::default();
         let scan = match record::scan(file, |tag, bytes| state.add(tag, bytes)) {
             Ok(scan) => scan,
             Err(refused) => {
                 found.reading = match refused {
-                    Refused::Newer(version) => Reading::Newer(version),
-                    Refused::Damaged(why) => Reading::Damaged(why.to_owned()),
-                    Refused::Io(error) => return Err(fail(error)),
+                    ReadFailure::Newer(version) => Readability::Newer(version),
+                    ReadFailure::Damaged(why) => Readability::Damaged(why.to_owned()),
+                    ReadFailure::Io(error) => return Err(fail(error)),
                 };
-                found.life = life(file, &state).map_err(fail)?;
+                found.owner_status = owner_status(file, &state).map_err(fail)?;
                 return Ok(found);
             }
         };
         state.stamp = state.stamp.or(scan.header.stamp);
         if scan.valid < scan.size {
-            found.reading = Reading::Cut(scan.size - scan.valid);
+            found.reading = Readability::Cut(scan.size - scan.valid);
         }
-        found.life = life(file, &state).map_err(fail)?;
+        found.owner_status = owner_status(file, &state).map_err(fail)?;
         found.document = scan.header.document.as_ref().map(PathText::path);
-        found.file = fate(&*self.files, found.document.as_deref(), &mut state);
+        found.file = document_file_state(&*self.files, found.document.as_deref(), &mut state);
         found.stamp = state.stamp;
         found.saving = state.saving.map(|(saving, _)| (saving.size, saving.hash));
         found.work = state.work;
@@ -200,25 +204,25 @@ impl Autosave {
     }
 }
 
-/// All that is in a journal.
-pub(super) struct Contents {
-    pub(super) scan: Scan,
-    pub(super) state: State,
-    pub(super) entries: Vec<Entry>,
+/// The content of a journal.
+pub(super) struct JournalContents {
+    pub(super) scan: JournalScan,
+    pub(super) state: JournalState,
+    pub(super) entries: Vec<JournalEntry>,
 }
 
-impl Contents {
-    /// Looks at the document's file where it was. Where a save was finished, but not recorded, the entries say so from now
-    /// on, and the stamp of the file comes back.
-    pub(super) fn look_at_file(&mut self, files: &dyn Vfs) -> Option<FileStamp> {
+impl JournalContents {
+    /// Compares the document's file with the journal. If a save was finished but not recorded, adds it to the entries
+    /// and returns the stamp of the file.
+    pub(super) fn compare_file(&mut self, files: &dyn Vfs) -> Option<FileStamp> {
         let document = self.scan.header.document.as_ref().map(PathText::path);
-        self.look_at_file_in(files, document.as_deref())
+        self.compare_file_at(files, document.as_deref())
     }
 
-    /// The same where the file is now.
-    pub(super) fn look_at_file_in(&mut self, files: &dyn Vfs, path: Option<&Path>) -> Option<FileStamp> {
+    /// As [`compare_file`](Self::compare_file), for a file that was moved to `path`.
+    pub(super) fn compare_file_at(&mut self, files: &dyn Vfs, path: Option<&Path>) -> Option<FileStamp> {
         let waits = self.state.saving.is_some();
-        fate(files, path, &mut self.state);
+        document_file_state(files, path, &mut self.state);
         let settled = self.state.stamp.filter(|_| waits && self.state.saving.is_none());
         if settled.is_some() {
             mark_saved(&mut self.entries, &self.state);
@@ -227,80 +231,89 @@ impl Contents {
     }
 }
 
-/// Says among the entries that the document was saved, before those that `state` counts as unsaved.
-fn mark_saved(entries: &mut Vec<Entry>, state: &State) {
+/// Inserts the entry that the document was saved before the unsaved edits that `state` counts.
+fn mark_saved(entries: &mut Vec<JournalEntry>, state: &JournalState) {
     let unsaved = usize::try_from(state.unsaved).unwrap_or(usize::MAX);
-    entries.insert(entries.len().saturating_sub(unsaved), Entry::Saved);
+    entries.insert(entries.len().saturating_sub(unsaved), JournalEntry::Saved);
 }
 
-/// All that is in the journal in `file`.
-pub(super) fn contents(file: &dyn VfsFile, path: &Path) -> Result<Contents, JournalError> {
-    let mut state = State::default();
+/// Reads the whole journal in `file`.
+pub(super) fn contents(file: &dyn VfsFile, path: &Path) -> Result<JournalContents, JournalError> {
+    let mut state = JournalState::default();
     let mut entries = Vec::new();
     let scan = record::scan(file, |tag, bytes| {
         let understood = state.add(tag, bytes);
         match tag {
             Tag::Snapshot => {
                 entries.clear();
-                entries.push(Entry::Snapshot(bytes.to_vec()));
+                entries.push(JournalEntry::Snapshot(bytes.to_vec()));
             }
-            Tag::Edit => entries.push(Entry::Edit(bytes.to_vec())),
+            Tag::Edit => entries.push(JournalEntry::Edit(bytes.to_vec())),
             Tag::Saved if understood => mark_saved(&mut entries, &state),
             _ => {}
         }
         understood
     });
     let scan = scan.map_err(|refused| match refused {
-        Refused::Newer(version) => JournalError::Newer { path: path.to_path_buf(), version },
-        Refused::Damaged(reason) => {
+        ReadFailure::Newer(version) => JournalError::Newer { path: path.to_path_buf(), version },
+        ReadFailure::Damaged(reason) => {
             JournalError::Damaged { path: path.to_path_buf(), reason: reason.to_owned() }
         }
-        Refused::Io(error) => JournalError::io(path, "cannot be read")(error),
+        ReadFailure::Io(error) => JournalError::io(path, "cannot be read")(error),
     })?;
     state.stamp = state.stamp.or(scan.header.stamp);
-    Ok(Contents { scan, state, entries })
+    Ok(JournalContents { scan, state, entries })
 }
 
-/// Is `file` still the one called `path`?
+/// Returns whether `path` still names `file`.
 pub(super) fn same(files: &dyn Vfs, file: &dyn VfsFile, path: &Path) -> io::Result<bool> {
-    let (opened, named) = (again(|| file.metadata())?, again(|| files.metadata(path))?);
+    let (opened, named) = (retry(|| file.metadata())?, retry(|| files.metadata(path))?);
     Ok((opened.device, opened.inode) == (named.device, named.inode))
 }
 
-/// Does somebody have the journal in `file`?
-fn life(file: &dyn VfsFile, state: &State) -> io::Result<Life> {
-    let owner = state.owner.as_ref().filter(|_| !state.closed).map_or(Life::Gone, Owner::life);
-    // When its owner lives, the lock is its own; else somebody only looks, and will be done soon.
-    let lock = if owner == Life::Lives { lock(file)? } else { lock_patiently(file)? };
+/// Returns whether a process has the journal in `file` open.
+fn owner_status(file: &dyn VfsFile, state: &JournalState) -> io::Result<OwnerStatus> {
+    let owner = state
+        .owner
+        .as_ref()
+        .filter(|_| !state.closed)
+        .map_or(OwnerStatus::Exited, JournalOwner::owner_status);
+    // When the owner runs, the lock is its own; otherwise another process only inspects the journal and will release
+    // it soon.
+    let lock = if owner == OwnerStatus::Running { lock(file)? } else { lock_with_retries(file)? };
     Ok(match lock {
-        Lock::Held => Life::Lives,
-        // A lock of another machine may not be seen here.
-        Lock::Ours if owner == Life::Elsewhere => owner,
-        Lock::Ours => Life::Gone,
-        Lock::Unsupported => owner,
+        LockResult::Held => OwnerStatus::Running,
+        // A lock held on another computer may not be visible here.
+        LockResult::Ours if owner == OwnerStatus::OnOtherHost => owner,
+        LockResult::Ours => OwnerStatus::Exited,
+        LockResult::Unsupported => owner,
     })
 }
 
-/// What became of the document's file; a save that was begun and finished, but not recorded, is settled in `state`.
-pub(super) fn fate(files: &dyn Vfs, document: Option<&Path>, state: &mut State) -> Fate {
-    let Some(document) = document else { return Fate::Unsaved };
+/// Compares the document's file with `state`. A save that was finished but not recorded is settled in `state`.
+pub(super) fn document_file_state(
+    files: &dyn Vfs,
+    document: Option<&Path>,
+    state: &mut JournalState,
+) -> DocumentFileState {
+    let Some(document) = document else { return DocumentFileState::Unsaved };
     if state.saving.is_some()
         && let Ok(stamp) = FileStamp::take(files, document)
         && state.settle(stamp)
     {
-        return Fate::Same;
+        return DocumentFileState::Same;
     }
-    let fate = match &state.stamp {
+    let document_file_state = match &state.stamp {
         Some(stamp) => stamp.state(files, document),
-        None => look(files, document).map(|data| match data {
+        None => metadata_if_exists(files, document).map(|data| match data {
             Some(_) => FileState::Changed,
             None => FileState::Missing,
         }),
     };
-    match fate {
-        Ok(FileState::Same) => Fate::Same,
-        Ok(FileState::Changed) => Fate::Changed,
-        Ok(FileState::Missing) => Fate::Missing,
-        Err(error) => Fate::Unknown(super::error::reason(&error)),
+    match document_file_state {
+        Ok(FileState::Same) => DocumentFileState::Same,
+        Ok(FileState::Changed) => DocumentFileState::Changed,
+        Ok(FileState::Missing) => DocumentFileState::Missing,
+        Err(error) => DocumentFileState::Unknown(super::error::reason(&error)),
     }
 }

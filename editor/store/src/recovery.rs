@@ -1,61 +1,65 @@
-//! What a person may do with a journal that can be had back: keep it, open it beside, discard it. Nothing is deleted
-//! unasked, and the document's own file is only looked at.
+//! Recovering a journal: resume it, copy it or discard it. Nothing is deleted without being asked, and the document's
+//! own file is only read.
 
-use super::autosave::{Autosave, Lock, lock_patiently};
+use super::autosave::Autosave;
 use super::journal::{Journal, JournalError};
-use super::owner::{Life, Owner};
+use super::lock::{LockResult, lock_with_retries};
+use super::numbered::{self, FolderLimits};
+use super::owner::{JournalOwner, OwnerStatus};
 use super::record::Tag;
-use super::recoverable::{Contents, Entry, Reading, Recoverable, contents, same};
-use super::shelf::{self, Bounds};
-use super::vfs::{VfsFile, again, folder_of, look, read_pieces, write_all};
+use super::recoverable::{JournalContents, JournalEntry, Readability, Recoverable, contents, same};
+use super::vfs::{VfsFile, folder_of, metadata_if_exists, read_pieces, retry, write_all};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A journal that goes on.
+/// A resumed journal.
 #[derive(Debug)]
 pub struct Resumed {
-    /// This process has it now.
+    /// The journal, now open in this process.
     pub journal: Journal,
-    /// What was in it.
-    pub entries: Vec<Entry>,
-    /// Bytes at its end that could not be read; they lie in the bin.
+    /// Its entries.
+    pub entries: Vec<JournalEntry>,
+    /// Number of unreadable bytes cut off its end; they are kept in the bin.
     pub cut: u64,
 }
 
-/// Is a journal taken that was last taken on another machine, which cannot be asked?
+/// Whether to open a journal that was last opened on another computer, whose processes cannot be checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
-    /// No: say so.
+    /// Return an error instead.
     IfFree,
-    /// Yes: a person said that nobody works with it.
+    /// Open it: the user has confirmed that it is not in use.
     Anyway,
 }
 
 impl Autosave {
-    /// Goes on with a journal: its work is given back, and new work appended to it. What cannot be read at its end
-    /// is cut off and put into the bin.
+    /// Resumes a journal: returns its entries and appends new work to it. An unreadable end is cut off and put into
+    /// the bin.
     ///
-    /// Whether the document's file is still what the journal goes on from is for the caller to see
-    /// ([`Recoverable::file`]); nothing here writes to it.
+    /// The caller checks whether the document's file still has the content that the journal continues
+    /// ([`Recoverable::file`]); this function does not write to it.
     ///
     /// # Errors
-    /// When somebody has it, or it cannot be read or written. What could be read of it still can be.
-    pub fn keep(&self, found: &Recoverable, claim: Claim) -> Result<Resumed, JournalError> {
+    /// When the journal is in use, or cannot be read or written. Its readable part stays readable.
+    pub fn resume(&self, found: &Recoverable, claim: Claim) -> Result<Resumed, JournalError> {
         let path = &found.journal;
-        let fail = |error| JournalError::io(path, "cannot be taken")(error);
+        let fail = |error| JournalError::io(path, "cannot be opened")(error);
         let (file, locked) = self.take(path)?;
         let mut contents = contents(&*file, path)?;
         let state = &contents.state;
-        let life =
-            if state.closed { Life::Gone } else { state.owner.as_ref().map_or(Life::Gone, Owner::life) };
-        match (life, state.owner.clone()) {
-            // Who has the lock has the journal, so what its owner's number says matters only without one.
-            (Life::Lives, owner) if !locked => {
+        let owner_status = if state.closed {
+            OwnerStatus::Exited
+        } else {
+            state.owner.as_ref().map_or(OwnerStatus::Exited, JournalOwner::owner_status)
+        };
+        match (owner_status, state.owner.clone()) {
+            // The holder of the lock owns the journal, so the process number matters only without a lock.
+            (OwnerStatus::Running, owner) if !locked => {
                 return Err(JournalError::Held { path: path.clone(), owner });
             }
-            (Life::Elsewhere, Some(owner)) if claim == Claim::IfFree => {
-                return Err(JournalError::Elsewhere { path: path.clone(), owner });
+            (OwnerStatus::OnOtherHost, Some(owner)) if claim == Claim::IfFree => {
+                return Err(JournalError::OnOtherHost { path: path.clone(), owner });
             }
             _ => {}
         }
@@ -64,9 +68,9 @@ impl Autosave {
             self.cut(&*file, path, contents.scan.valid).map_err(fail)?;
         }
         let saving = contents.state.saving;
-        let settled = contents.look_at_file(&*self.files);
-        let Contents { scan, mut state, entries, .. } = contents;
-        // It settles again when the record below is written.
+        let settled = contents.compare_file(&*self.files);
+        let JournalContents { scan, mut state, entries, .. } = contents;
+        // Settled again when the record below is written.
         state.saving = saving;
         let mut journal = Journal {
             files: Arc::clone(&self.files),
@@ -83,108 +87,109 @@ impl Autosave {
         if let Some(stamp) = settled {
             journal.write_json(Tag::Saved, &stamp)?;
         }
-        journal.write_json(Tag::Opened, &Owner::this())?;
+        journal.write_json(Tag::Opened, &JournalOwner::this())?;
         journal.sync()?;
         Ok(Resumed { journal, entries, cut })
     }
 
-    /// Copies the work in a journal into a new one, of the document at `document`, whose file is the one that the work was
-    /// done on, or of one not yet saved. The journal itself stays as it is, and may be somebody else's.
+    /// Copies the work in a journal into a new one, for the document at `document`, whose file is the one the work
+    /// was based on, or for a document that was never saved. The original stays unchanged and may be in use.
     ///
     /// # Errors
     /// When it cannot be read or the new one cannot be written.
-    pub fn beside(&self, found: &Recoverable, document: Option<&Path>) -> Result<Resumed, JournalError> {
+    pub fn copy(&self, found: &Recoverable, document: Option<&Path>) -> Result<Resumed, JournalError> {
         let path = &found.journal;
-        let file = again(|| self.files.open(path)).map_err(JournalError::io(path, "cannot be read"))?;
+        let file = retry(|| self.files.open(path)).map_err(JournalError::io(path, "cannot be read"))?;
         let mut contents = contents(&*file, path)?;
         if document.is_some() {
-            contents.look_at_file_in(&*self.files, document);
+            contents.compare_file_at(&*self.files, document);
         }
-        let Contents { scan, state, entries } = contents;
-        let mut journal = self.begin_beside(document, state.stamp.as_ref())?;
+        let JournalContents { scan, state, entries } = contents;
+        let mut journal = self.begin_another(document, state.stamp.as_ref())?;
         let copied = entries.iter().try_for_each(|entry| match entry {
-            Entry::Snapshot(bytes) => journal.write(Tag::Snapshot, bytes),
-            Entry::Edit(bytes) => journal.write(Tag::Edit, bytes),
-            // Which of several saves it was the stamp does not say, and only the last one matters.
-            Entry::Saved => match state.stamp.filter(|_| document.is_some()) {
+            JournalEntry::Snapshot(bytes) => journal.write(Tag::Snapshot, bytes),
+            JournalEntry::Edit(bytes) => journal.write(Tag::Edit, bytes),
+            // The stamp does not show which of several saves it was, and only the last one matters.
+            JournalEntry::Saved => match state.stamp.filter(|_| document.is_some()) {
                 Some(stamp) => journal.write_json(Tag::Saved, &stamp),
                 None => Ok(()),
             },
         });
         if let Err(error) = copied.and_then(|()| journal.sync()) {
-            let _ = again(|| self.files.remove(&journal.path));
+            let _ = retry(|| self.files.remove(&journal.path));
             return Err(error);
         }
         Ok(Resumed { journal, entries, cut: scan.size - scan.valid })
     }
 
-    /// Puts a journal into the bin; where it is there. The oldest in the bin make room when it is full.
+    /// Moves a journal into the bin and returns its path there. When the bin is full, its oldest files are removed.
     ///
     /// # Errors
-    /// When somebody has it, or it cannot be moved. It stays then.
+    /// When the journal is in use or cannot be moved. It stays in place.
     pub fn discard(&self, found: &Recoverable) -> Result<PathBuf, JournalError> {
         let path = &found.journal;
         let fail = |error| JournalError::io(path, "cannot be put into the bin")(error);
-        // Held until it has moved, so that nobody takes it meanwhile.
+        // Locked until it has moved, so that no other process opens it before.
         let (_file, _) = self.take(path)?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let to = self.place_in_bin(&name).map_err(fail)?;
-        again(|| self.files.rename(path, &to)).map_err(fail)?;
-        again(|| self.files.sync_folder(folder_of(&to))).map_err(fail)?;
-        again(|| self.files.sync_folder(folder_of(path))).map_err(fail)?;
-        shelf::trim(&*self.files, &self.bin(), self.bin_bounds);
+        let to = self.path_in_bin(&name).map_err(fail)?;
+        retry(|| self.files.rename(path, &to)).map_err(fail)?;
+        retry(|| self.files.sync_folder(folder_of(&to))).map_err(fail)?;
+        retry(|| self.files.sync_folder(folder_of(path))).map_err(fail)?;
+        numbered::trim(&*self.files, &self.bin(), self.bin_bounds);
         Ok(to)
     }
 
-    /// Puts a journal that this process has into the bin; where it is there.
+    /// Moves a journal of this process into the bin and returns its path there.
     ///
     /// # Errors
     /// As [`discard`](Self::discard).
-    pub fn put_away(&self, journal: Journal) -> Result<PathBuf, JournalError> {
+    pub fn discard_own(&self, journal: Journal) -> Result<PathBuf, JournalError> {
         let path = journal.path().to_path_buf();
-        // Its lock goes with it; whoever is quicker to take it has it.
+        // Releases the lock. Another process may take it before `discard` does, which is then an error.
         drop(journal);
         let found = self.inspect(&path)?;
         self.discard(&found)
     }
 
-    /// What is in the bin, last discarded first.
+    /// Lists the bin, last discarded first.
     ///
     /// # Errors
     /// When it cannot be read.
     pub fn discarded(&self) -> Result<Vec<PathBuf>, JournalError> {
         let bin = self.bin();
-        let found = shelf::numbered(&*self.files, &bin).map_err(JournalError::io(&bin, "cannot be read"))?;
+        let found = numbered::files(&*self.files, &bin).map_err(JournalError::io(&bin, "cannot be read"))?;
         Ok(found.into_iter().rev().map(|file| file.path).collect())
     }
 
-    /// Takes a discarded journal out of the bin again; where it is.
+    /// Moves a discarded journal out of the bin again and returns its path.
     ///
     /// # Errors
-    /// When it cannot be moved, or another one has its place meanwhile. It stays then.
-    pub fn bring_back(&self, discarded: &Path) -> Result<PathBuf, JournalError> {
-        let fail = |error| JournalError::io(discarded, "cannot be brought back")(error);
+    /// When it cannot be moved, or another journal has its name by now. It stays in the bin.
+    pub fn restore(&self, discarded: &Path) -> Result<PathBuf, JournalError> {
+        let fail = |error| JournalError::io(discarded, "cannot be restored from the bin")(error);
         let name = discarded.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let name = name.split_once('-').map_or(name.as_str(), |(_, name)| name);
         let to = self.journals().join(name);
-        if look(&*self.files, &to).map_err(fail)?.is_some() {
+        if metadata_if_exists(&*self.files, &to).map_err(fail)?.is_some() {
             return Err(fail(io::ErrorKind::AlreadyExists.into()));
         }
-        again(|| self.files.rename(discarded, &to)).map_err(fail)?;
-        again(|| self.files.sync_folder(folder_of(&to))).map_err(fail)?;
+        retry(|| self.files.rename(discarded, &to)).map_err(fail)?;
+        retry(|| self.files.sync_folder(folder_of(&to))).map_err(fail)?;
         Ok(to)
     }
 
-    /// Puts journals with nothing but history into the bin, those written longest ago, until the others are within
-    /// `bounds`. How many.
+    /// Moves the oldest journals without unsaved work into the bin until the others are within `bounds`. Returns how
+    /// many.
     ///
     /// # Errors
     /// When the folder of journals cannot be read.
-    pub fn tidy(&self, bounds: Bounds) -> Result<usize, JournalError> {
+    pub fn tidy(&self, bounds: FolderLimits) -> Result<usize, JournalError> {
         let (mut bytes, mut stay, mut gone) = (0_u64, 0, 0);
         for found in self.recoverable()? {
-            let history =
-                matches!(found.reading, Reading::Whole) && found.unsaved == 0 && found.life == Life::Gone;
+            let history = matches!(found.reading, Readability::Whole)
+                && found.unsaved == 0
+                && found.owner_status == OwnerStatus::Exited;
             if !history {
                 continue;
             }
@@ -198,46 +203,46 @@ impl Autosave {
         Ok(gone)
     }
 
-    /// Opens the journal at `path` and locks it, if files can be locked here.
+    /// Opens the journal at `path` and locks it. Returns whether the file system has locks.
     fn take(&self, path: &Path) -> Result<(Box<dyn VfsFile>, bool), JournalError> {
-        let fail = |error| JournalError::io(path, "cannot be taken")(error);
+        let fail = |error| JournalError::io(path, "cannot be opened")(error);
         loop {
-            let file = again(|| self.files.open_to_write(path)).map_err(fail)?;
-            let lock = lock_patiently(&*file).map_err(fail)?;
-            if lock == Lock::Held {
+            let file = retry(|| self.files.open_to_write(path)).map_err(fail)?;
+            let lock = lock_with_retries(&*file).map_err(fail)?;
+            if lock == LockResult::Held {
                 let owner = contents(&*file, path).ok().and_then(|contents| contents.state.owner);
                 return Err(JournalError::Held { path: path.to_path_buf(), owner });
             }
-            // Its owner may have begun it anew under the same name before it let go.
+            // Its owner may have replaced it by a restarted one of the same name before releasing the lock.
             if same(&*self.files, &*file, path).map_err(fail)? {
-                return Ok((file, lock == Lock::Ours));
+                return Ok((file, lock == LockResult::Ours));
             }
         }
     }
 
-    /// Cuts the journal off at `valid`, after what is behind was put into the bin.
+    /// Cuts the journal off at `valid` and keeps the rest in the bin.
     fn cut(&self, file: &dyn VfsFile, path: &Path, valid: u64) -> io::Result<()> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let tail = self.place_in_bin(&format!("{name}.tail"))?;
-        let to = again(|| self.files.create_new(&tail, true))?;
+        let tail = self.path_in_bin(&format!("{name}.tail"))?;
+        let to = retry(|| self.files.create_new(&tail, true))?;
         let kept = read_pieces(file, |offset, piece| {
             let skip = usize::try_from(valid.saturating_sub(offset)).unwrap_or(usize::MAX).min(piece.len());
             write_all(&*to, &piece[skip..], (offset + skip as u64).saturating_sub(valid))
         });
-        let kept = kept.and_then(|_| again(|| to.sync_all()));
+        let kept = kept.and_then(|_| retry(|| to.sync_all()));
         if let Err(error) = kept {
-            let _ = again(|| self.files.remove(&tail));
+            let _ = retry(|| self.files.remove(&tail));
             return Err(error);
         }
-        again(|| file.set_size(valid))?;
-        again(|| file.sync_all())?;
-        shelf::trim(&*self.files, &self.bin(), self.bin_bounds);
+        retry(|| file.set_size(valid))?;
+        retry(|| file.sync_all())?;
+        numbered::trim(&*self.files, &self.bin(), self.bin_bounds);
         Ok(())
     }
 
-    fn place_in_bin(&self, name: &str) -> io::Result<PathBuf> {
+    fn path_in_bin(&self, name: &str) -> io::Result<PathBuf> {
         let bin = self.bin();
-        again(|| self.files.create_folder(&bin))?;
-        Ok(shelf::next(&bin, &shelf::numbered(&*self.files, &bin)?, name))
+        retry(|| self.files.create_folder(&bin))?;
+        Ok(numbered::next_path(&bin, &numbered::files(&*self.files, &bin)?, name))
     }
 }

@@ -1,117 +1,119 @@
-//! What a file was when it was read, to notice that somebody else changed it.
+//! Stamps of files, to detect changes by other programs.
 
-use super::vfs::{FileData, Kind, Vfs, again, look, read_pieces};
+use super::vfs::{FileData, FileKind, Vfs, metadata_if_exists, read_pieces, retry};
 use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// A file system's clock may tick this slowly (FAT: 2 s), so a change may hide behind one this near, in nanoseconds.
+/// Coarsest clock of a file system (FAT: 2 s), in nanoseconds. A change this soon after another may have the same
+/// time.
 const TICK: i64 = 2_000_000_000;
 
-/// A file as it was once.
+/// Metadata and hash of a file at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileStamp {
-    /// Bytes.
+    /// Size in bytes.
     pub size: u64,
-    /// When its bytes changed, in nanoseconds since 1970.
+    /// Time its bytes were last changed, in nanoseconds since 1970.
     pub modified: i64,
-    /// When anything of it changed, in nanoseconds since 1970; 0 where the system does not say.
+    /// Time its bytes or metadata were last changed, in nanoseconds since 1970; 0 where the system does not record
+    /// it.
     pub changed: i64,
-    /// The device it lay on.
+    /// Number of the device it is on.
     pub device: u64,
-    /// Its number there.
+    /// Inode number on that device.
     pub inode: u64,
-    /// Of its bytes.
+    /// Hash of its bytes ([`hash`]).
     pub hash: u64,
-    /// When the stamp was made, in nanoseconds since 1970.
+    /// Time the stamp was taken, in nanoseconds since 1970.
     pub taken: i64,
 }
 
-/// What became of a file since its stamp.
+/// State of a file compared with its stamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileState {
-    /// It holds the same bytes.
+    /// It has the same bytes.
     Same,
-    /// It holds other bytes, or is no file any more.
+    /// It has other bytes, or is not a regular file anymore.
     Changed,
-    /// Nothing has its name.
+    /// There is no file with its name.
     Missing,
 }
 
 impl FileStamp {
-    /// Of the file at `path`, whose bytes are read for it. Links are followed.
+    /// Takes the stamp of the file at `path`, reading its bytes. Links are followed.
     ///
     /// # Errors
-    /// When it is no regular file or cannot be read, or changes while it is read (`WouldBlock`).
+    /// When it is not a regular file or cannot be read, or when it changes while it is read (`WouldBlock`).
     pub fn take(files: &dyn Vfs, path: &Path) -> io::Result<Self> {
-        let path = again(|| files.resolve(path))?;
-        if again(|| files.metadata(&path))?.kind != Kind::File {
+        let path = retry(|| files.resolve(path))?;
+        if retry(|| files.metadata(&path))?.kind != FileKind::File {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "is not a regular file"));
         }
-        let file = again(|| files.open(&path))?;
-        let before = again(|| file.metadata())?;
+        let file = retry(|| files.open(&path))?;
+        let before = retry(|| file.metadata())?;
         let mut hash = Hash::default();
         read_pieces(&*file, |_, piece| {
             hash.add(piece);
             Ok(())
         })?;
-        let after = again(|| file.metadata())?;
+        let after = retry(|| file.metadata())?;
         if (before.size, before.modified, before.changed) != (after.size, after.modified, after.changed) {
-            return Err(io::Error::new(io::ErrorKind::WouldBlock, "is being changed just now"));
+            return Err(io::Error::new(io::ErrorKind::WouldBlock, "is being changed by another program"));
         }
         Ok(Self::of(&after, hash.value()))
     }
 
-    /// What the system knows of the file at `path`, asked before it is read: see [`of_read`](Self::of_read).
+    /// Returns the metadata of the file at `path`, to be taken before reading it: see [`of_read`](Self::of_read).
     ///
     /// # Errors
-    /// When it cannot be looked at.
+    /// When the file cannot be examined.
     pub fn before(files: &dyn Vfs, path: &Path) -> io::Result<FileData> {
-        let path = again(|| files.resolve(path))?;
-        again(|| files.metadata(&path))
+        let path = retry(|| files.resolve(path))?;
+        retry(|| files.metadata(&path))
     }
 
-    /// Of the file at `path`, which was read as `bytes` after it was as `before`.
+    /// Makes the stamp of the file at `path`, which was read as `bytes` after its metadata `before` was taken.
     ///
     /// # Errors
-    /// When it cannot be looked at, or was changed meanwhile (`WouldBlock`).
+    /// When the file cannot be examined, or was changed since (`WouldBlock`).
     pub fn of_read(files: &dyn Vfs, path: &Path, before: &FileData, bytes: &[u8]) -> io::Result<Self> {
         let after = Self::before(files, path)?;
         let same = |data: &FileData| (data.size, data.modified, data.changed, data.device, data.inode);
         if same(before) != same(&after) || after.size != bytes.len() as u64 {
-            return Err(io::Error::new(io::ErrorKind::WouldBlock, "is being changed just now"));
+            return Err(io::Error::new(io::ErrorKind::WouldBlock, "is being changed by another program"));
         }
         Ok(Self::of(&after, hash(bytes)))
     }
 
-    /// Of a file whose bytes have this `hash`.
+    /// Makes a stamp from metadata and the hash of the bytes.
     pub(super) fn of(data: &FileData, hash: u64) -> Self {
         let FileData { size, modified, changed, device, inode, .. } = *data;
         Self { size, modified, changed, device, inode, hash, taken: now() }
     }
 
-    /// Is it the stamp of a file with these bytes? For a reader that has them already.
+    /// Returns whether this is the stamp of a file with these bytes, for a caller that has already read them.
     pub fn is_of(&self, bytes: &[u8]) -> bool {
         self.size == bytes.len() as u64 && self.hash == hash(bytes)
     }
 
-    /// What became of the file at `path`: by what the system knows of it, and where that leaves doubt, by its bytes.
+    /// Compares the file at `path` with the stamp: by its metadata, and where that is not conclusive, by its bytes.
     ///
     /// # Errors
-    /// When it cannot be looked at.
+    /// When the file cannot be examined.
     pub fn state(&self, files: &dyn Vfs, path: &Path) -> io::Result<FileState> {
-        let path = match again(|| files.resolve(path)) {
+        let path = match retry(|| files.resolve(path)) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(FileState::Missing),
             other => other?,
         };
-        let Some(data) = look(files, &path)? else { return Ok(FileState::Missing) };
-        if data.kind != Kind::File || data.size != self.size {
+        let Some(data) = metadata_if_exists(files, &path)? else { return Ok(FileState::Missing) };
+        if data.kind != FileKind::File || data.size != self.size {
             return Ok(FileState::Changed);
         }
         let same = (data.modified, data.changed, data.device, data.inode)
             == (self.modified, self.changed, self.device, self.inode);
-        // Written again within the same tick of the clock, it would look the same.
+        // A second write within the same tick of the clock would leave the same times.
         let newest = self.modified.max(self.changed);
         if same && self.taken.saturating_sub(newest) > TICK {
             return Ok(FileState::Same);
@@ -126,13 +128,15 @@ impl FileStamp {
     }
 }
 
-/// The clock on the wall, in nanoseconds since 1970.
+/// The system time, in nanoseconds since 1970.
 fn now() -> i64 {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     i64::try_from(since.as_nanos()).unwrap_or(i64::MAX)
 }
 
-/// FNV-1a with 64 bits: finds every accidental change but one in 10¹⁹, and no one gains by making another.
+/// FNV-1a with 64 bits. Journals, file names of old versions and journal names contain it, so another function would
+/// lose them all. An accidental change goes undetected once in 10¹⁹ cases; it is no protection against deliberate
+/// ones, which nothing here needs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hash(u64);
 
@@ -154,7 +158,7 @@ impl Hash {
     }
 }
 
-/// The hash of `bytes`.
+/// Returns the FNV-1a hash of `bytes`, as stored in journals and file names.
 pub fn hash(bytes: &[u8]) -> u64 {
     let mut hash = Hash::default();
     hash.add(bytes);

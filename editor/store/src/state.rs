@@ -1,40 +1,40 @@
-//! What a journal's records come to: how much work is in it, how much of that is not in the file, who has it.
+//! The state that a journal's records add up to: how much work it contains, how much of it is unsaved, and its owner.
 
-use super::owner::Owner;
-use super::record::{Header, Opened, Saving, Tag};
+use super::owner::JournalOwner;
+use super::record::{JournalHeader, Saving, Tag};
 use super::stamp::FileStamp;
 
-/// The sum of a journal's records so far.
+/// Sum of a journal's records so far.
 #[derive(Clone, Debug, Default)]
-pub(super) struct State {
-    /// Edits, and the snapshot as one.
+pub(super) struct JournalState {
+    /// Number of edits; a snapshot counts as one.
     pub(super) work: u64,
-    /// Of them, the last ones, which are not in the document's file.
+    /// Number of edits at the end that are not in the document's file.
     pub(super) unsaved: u64,
-    /// What the file was when it last held what the journal says.
+    /// Stamp of the file when it last had the journal's state.
     pub(super) stamp: Option<FileStamp>,
-    /// A save that was begun and of whose end nothing is said, and the work done before it.
+    /// A save that was started without a record of its end, and the number of edits before it.
     pub(super) saving: Option<(Saving, u64)>,
-    /// Who took the journal last.
-    pub(super) owner: Option<Owner>,
-    /// That one let go of it.
+    /// The process that opened the journal last.
+    pub(super) owner: Option<JournalOwner>,
+    /// Whether that process closed it.
     pub(super) closed: bool,
 }
 
-impl State {
-    /// Of a journal without records.
-    pub(super) fn new(header: &Header) -> Self {
+impl JournalState {
+    /// State of a journal without records.
+    pub(super) fn new(header: &JournalHeader) -> Self {
         Self { stamp: header.stamp, ..Self::default() }
     }
 
-    /// Adds a record; `false`, and nothing is changed, when its bytes are not understood.
+    /// Adds a record. Returns `false`, and changes nothing, when its bytes cannot be parsed.
     pub(super) fn add(&mut self, tag: Tag, bytes: &[u8]) -> bool {
         match tag {
             Tag::Snapshot | Tag::Edit => {
                 self.work += 1;
                 self.unsaved += 1;
             }
-            Tag::Opened => match serde_json::from_slice::<Opened>(bytes) {
+            Tag::Opened => match serde_json::from_slice::<JournalOwner>(bytes) {
                 Ok(owner) => {
                     self.owner = Some(owner);
                     self.closed = false;
@@ -54,8 +54,8 @@ impl State {
         true
     }
 
-    /// The document was saved. What was done while it was being saved is not in the file; a save that was begun and made
-    /// something else of it failed, and says nothing about this one.
+    /// Records that the document was saved. Edits made during the save are not in the file. A save that was started
+    /// and produced another file than this one failed, so it does not count.
     fn saved(&mut self, stamp: FileStamp) {
         let begun = self.saving.take().filter(|(saving, _)| saving.made(&stamp));
         let before = begun.map_or(self.work, |(_, work)| work);
@@ -63,7 +63,8 @@ impl State {
         self.stamp = Some(stamp);
     }
 
-    /// The file is what a save, of whose end nothing is said, was to make of it: so it was saved.
+    /// Counts a save without a recorded end as done if the file has the content that it was to write. Returns whether
+    /// it does.
     pub(super) fn settle(&mut self, stamp: FileStamp) -> bool {
         let settled = self.saving.is_some_and(|(saving, _)| saving.made(&stamp));
         if settled {

@@ -1,27 +1,28 @@
-//! What was in a file before it was saved: some old versions of each document, in the autosave folder.
+//! Old versions: the content that files had before they were saved, some per document, in the autosave folder.
 
-use super::save::{create_beside, remove_leftovers};
-use super::shelf::{self, Bounds, Numbered};
+use super::error;
+use super::numbered::{self, FolderLimits, NumberedFile};
 use super::stamp::Hash;
-use super::vfs::{FileData, Vfs, VfsFile, again, read_pieces, write_all};
-use super::{autosave, error};
+use super::target::key;
+use super::temporary::{create_temporary, remove_leftovers};
+use super::vfs::{FileData, Vfs, VfsFile, read_pieces, retry, write_all};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// How much is kept.
+/// Limits of the kept versions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VersionLimits {
-    /// Of one document.
-    pub each: Bounds,
-    /// A larger file is not kept, in bytes.
+    /// Limits for one document.
+    pub each: FolderLimits,
+    /// Size of the largest file that is kept, in bytes.
     pub largest: u64,
-    /// Bytes of all documents together; the versions that were kept longest ago go first.
+    /// Total size of the versions of all documents, in bytes; the oldest ones are removed first.
     pub all: u64,
 }
 
 impl Default for VersionLimits {
     fn default() -> Self {
-        let each = Bounds { least: 3, most: 20, bytes: 512 << 20 };
+        let each = FolderLimits { least: 3, most: 20, bytes: 512 << 20 };
         Self { each, largest: 1 << 30, all: 8 << 30 }
     }
 }
@@ -35,78 +36,81 @@ pub struct Versions {
 
 /// An old version of a document.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Version {
-    /// The file it is in, with the ending of the document's own.
+pub struct OldVersion {
+    /// Path of the copy, which has the extension of the document.
     pub path: PathBuf,
-    /// Bytes.
+    /// Size in bytes.
     pub size: u64,
-    /// When it was replaced by a newer one, in nanoseconds since 1970.
+    /// Time it was replaced by a newer version, in nanoseconds since 1970.
     pub replaced: i64,
 }
 
 impl Versions {
-    /// Kept in `folder`, which is made when there is something to keep.
+    /// Keeps versions in `folder`, which is created on first use.
     pub fn new(folder: PathBuf, limits: VersionLimits) -> Self {
         Self { folder, limits }
     }
 
-    /// The old versions of the document at `document`, newest first.
+    /// Lists the old versions of the document at `document`, newest first.
     ///
     /// # Errors
     /// When the folder cannot be read.
-    pub fn of(&self, files: &dyn Vfs, document: &Path) -> io::Result<Vec<Version>> {
-        let present = shelf::numbered(files, &self.folder.join(autosave::key(files, document)))?;
-        let version =
-            |file: Numbered| Version { path: file.path, size: file.data.size, replaced: file.data.modified };
+    pub fn of(&self, files: &dyn Vfs, document: &Path) -> io::Result<Vec<OldVersion>> {
+        let present = numbered::files(files, &self.folder.join(key(files, document)))?;
+        let version = |file: NumberedFile| OldVersion {
+            path: file.path,
+            size: file.data.size,
+            replaced: file.data.modified,
+        };
         Ok(present.into_iter().rev().map(version).collect())
     }
 
-    /// Keeps what is now in the file at `document`; where it is.
+    /// Copies the current content of the file at `document` and returns the path of the copy.
     ///
     /// # Errors
-    /// When it is not on the disk then. `document` is only read.
+    /// When the copy is not on the disk. `document` is only read.
     pub fn keep(&self, files: &dyn Vfs, document: &Path) -> io::Result<PathBuf> {
-        let folder = self.folder.join(autosave::key(files, document));
-        let from = again(|| files.open(document))?;
-        let size = again(|| from.metadata())?.size;
+        let folder = self.folder.join(key(files, document));
+        let from = retry(|| files.open(document))?;
+        let size = retry(|| from.metadata())?.size;
         if size > self.limits.largest {
             let text = format!("it is larger than {} MiB", self.limits.largest >> 20);
             return Err(io::Error::new(io::ErrorKind::FileTooLarge, text));
         }
-        again(|| files.create_folder(&folder))?;
+        retry(|| files.create_folder(&folder))?;
         let work = folder.join("version");
         remove_leftovers(files, &work);
-        let (beside, to) = create_beside(files, &work, true)?;
+        let (temporary, to) = create_temporary(files, &work, true)?;
         let kept = fill(files, document, &folder, &*from, &*to).and_then(|path| {
             drop(to);
             match path {
-                Kept::New(path) => {
-                    again(|| files.rename(&beside, &path))?;
-                    again(|| files.sync_folder(&folder))?;
+                KeptVersion::New(path) => {
+                    retry(|| files.rename(&temporary, &path))?;
+                    retry(|| files.sync_folder(&folder))?;
                     Ok(path)
                 }
-                Kept::Already(path) => {
-                    again(|| files.remove(&beside))?;
+                KeptVersion::Already(path) => {
+                    retry(|| files.remove(&temporary))?;
                     Ok(path)
                 }
             }
         });
         if kept.is_err() {
-            let _ = again(|| files.remove(&beside));
+            let _ = retry(|| files.remove(&temporary));
         }
         let kept = kept.map_err(|error| io::Error::new(error.kind(), error::reason(&error)))?;
-        shelf::trim(files, &folder, self.limits.each);
+        numbered::trim(files, &folder, self.limits.each);
         self.trim_all(files, &folder);
         Ok(kept)
     }
 
-    /// Removes what was kept longest ago, of documents other than the one in `present`, until all is within bounds.
+    /// Removes the oldest versions of documents other than the one in `present`, until all are within bounds.
     fn trim_all(&self, files: &dyn Vfs, present: &Path) {
         let mut all: Vec<(PathBuf, FileData)> = Vec::new();
         let mut bytes = 0_u64;
-        for name in shelf::list(files, &self.folder).unwrap_or_default() {
+        for name in numbered::names(files, &self.folder).unwrap_or_default() {
             let folder = self.folder.join(name);
-            for file in shelf::numbered(files, &folder).unwrap_or_default() {
+            for file in numbered::files(files, &folder).unwrap_or_default() {
                 bytes = bytes.saturating_add(file.data.size);
                 if folder != present {
                     all.push((file.path, file.data));
@@ -118,27 +122,27 @@ impl Versions {
             if bytes <= self.limits.all {
                 break;
             }
-            if again(|| files.remove(&path)).is_ok() {
+            if retry(|| files.remove(&path)).is_ok() {
                 bytes = bytes.saturating_sub(data.size);
             }
         }
     }
 }
 
-enum Kept {
+enum KeptVersion {
     New(PathBuf),
-    /// The newest version holds the same bytes.
+    /// The newest version has the same bytes.
     Already(PathBuf),
 }
 
-/// Copies, and chooses the name.
+/// Copies the file and chooses the name of the copy.
 fn fill(
     files: &dyn Vfs,
     document: &Path,
     folder: &Path,
     from: &dyn VfsFile,
     to: &dyn VfsFile,
-) -> io::Result<Kept> {
+) -> io::Result<KeptVersion> {
     let mut hash = Hash::default();
     read_pieces(from, |offset, piece| {
         hash.add(piece);
@@ -149,10 +153,10 @@ fn fill(
         name.push('.');
         name.push_str(ending);
     }
-    let present = shelf::numbered(files, folder)?;
+    let present = numbered::files(files, folder)?;
     if let Some(newest) = present.last().filter(|newest| newest.name == name) {
-        return Ok(Kept::Already(newest.path.clone()));
+        return Ok(KeptVersion::Already(newest.path.clone()));
     }
-    again(|| to.sync_all())?;
-    Ok(Kept::New(shelf::next(folder, &present, &name)))
+    retry(|| to.sync_all())?;
+    Ok(KeptVersion::New(numbered::next_path(folder, &present, &name)))
 }

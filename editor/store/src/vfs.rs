@@ -1,13 +1,14 @@
-//! What saving and journals ask of a file system, as a trait, so that tests can fail every single call.
+//! The operations of a file system that saving and journals use, as a trait, so that tests can make every single call
+//! fail.
 
 use std::ffi::OsString;
 use std::fmt::Debug;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What has a name in a folder.
+/// Kind of a directory entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum FileKind {
     /// A regular file.
     File,
     /// A folder.
@@ -18,94 +19,96 @@ pub enum Kind {
     Other,
 }
 
-/// What the system knows of a file. What it does not know is 0.
+/// Metadata of a file. Values that the system does not provide are 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileData {
-    /// What it is.
-    pub kind: Kind,
-    /// Bytes.
+    /// Kind of the entry.
+    pub kind: FileKind,
+    /// Size in bytes.
     pub size: u64,
-    /// When its bytes changed, in nanoseconds since 1970.
+    /// Time its bytes were last changed, in nanoseconds since 1970.
     pub modified: i64,
-    /// When its bytes or its data changed, in nanoseconds since 1970; no program can choose this one.
+    /// Time its bytes or metadata were last changed, in nanoseconds since 1970; programs cannot set this one.
     pub changed: i64,
-    /// The device it lies on.
+    /// Number of the device it is on.
     pub device: u64,
-    /// Its number there.
+    /// Inode number on that device.
     pub inode: u64,
-    /// How many names it has.
+    /// Number of names (hard links).
     pub links: u64,
     /// Permission bits.
     pub mode: u32,
-    /// Number of the user whom it belongs to.
+    /// Number of the owning user.
     pub owner: u32,
-    /// Number of the group that it belongs to.
+    /// Number of the owning group.
     pub group: u32,
 }
 
 /// An extended attribute: name and value.
 pub type Attribute = (Vec<u8>, Vec<u8>);
 
-/// The file system. Every call is one the system may refuse; [`again`] repeats one that a signal interrupted.
+/// The file system. Every call may fail; [`retry`] repeats a call that a signal interrupted.
 pub trait Vfs: Debug + Send + Sync {
-    /// A new, empty file to read and write; an error when the name is taken. `private` keeps others from it.
+    /// Creates a new, empty file to read and write; an error when the name is in use. `private` denies access to
+    /// other users.
     fn create_new(&self, path: &Path, private: bool) -> io::Result<Box<dyn VfsFile>>;
-    /// An existing file to read.
+    /// Opens an existing file for reading.
     fn open(&self, path: &Path) -> io::Result<Box<dyn VfsFile>>;
-    /// An existing file to read and write; what it holds stays.
+    /// Opens an existing file for reading and writing, keeping its content.
     fn open_to_write(&self, path: &Path) -> io::Result<Box<dyn VfsFile>>;
-    /// What has this very name: a link is not followed.
+    /// Returns the metadata of the entry itself: a link is not followed.
     fn metadata(&self, path: &Path) -> io::Result<FileData>;
-    /// Where a link points.
+    /// Returns the target of a link.
     fn read_link(&self, path: &Path) -> io::Result<PathBuf>;
-    /// The absolute path of what exists, free of links.
+    /// Returns the absolute path of an existing file, links resolved.
     fn resolve(&self, path: &Path) -> io::Result<PathBuf>;
-    /// Gives a file another name in one step; whatever had that name before is replaced.
+    /// Renames a file in one step, replacing any file with the new name.
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
-    /// Gives a file another name in one step, if nothing has that name; `AlreadyExists` otherwise.
+    /// Renames a file in one step if the new name is free; `AlreadyExists` otherwise.
     fn rename_to_new(&self, from: &Path, to: &Path) -> io::Result<()>;
     /// Removes a name of a file.
     fn remove(&self, path: &Path) -> io::Result<()>;
-    /// Makes a folder that is nobody else's, and those above it; nothing when it exists.
+    /// Creates a folder that other users cannot access, and its parents; does nothing when it exists.
     fn create_folder(&self, path: &Path) -> io::Result<()>;
-    /// Returns when names made, changed or removed in a folder are on the disk.
+    /// Flushes to the disk the names created, changed or removed in a folder.
     fn sync_folder(&self, path: &Path) -> io::Result<()>;
-    /// Names in a folder, in no order.
+    /// Lists the names in a folder in no particular order.
     fn list(&self, path: &Path) -> io::Result<Vec<OsString>>;
 }
 
-/// An open file. Positions are said with each call, so that a failed one leaves none behind.
+/// An open file. Offsets are explicit, so a failed call leaves no changed position.
 pub trait VfsFile: Debug + Send {
-    /// What the system knows of it.
+    /// Returns its metadata.
     fn metadata(&self) -> io::Result<FileData>;
-    /// Reads up to `bytes.len()` bytes; 0 at the end.
+    /// Reads up to `bytes.len()` bytes; returns 0 at the end.
     fn read_at(&self, bytes: &mut [u8], offset: u64) -> io::Result<usize>;
-    /// Writes some of `bytes`, and says how many.
+    /// Writes some of `bytes` and returns how many.
     fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<usize>;
-    /// Cuts it, or fills it with zeros.
+    /// Truncates the file, or extends it with zeros.
     fn set_size(&self, size: u64) -> io::Result<()>;
-    /// Returns when its bytes are on the disk. After an error what was written may be gone: the same file is not
-    /// asked again.
+    /// Flushes the bytes to the disk. After an error the written bytes may be lost, so the call is not repeated on
+    /// the same file.
     fn sync_data(&self) -> io::Result<()>;
-    /// [`sync_data`](Self::sync_data), and all that the system knows of it.
+    /// As [`sync_data`](Self::sync_data), including the metadata.
     fn sync_all(&self) -> io::Result<()>;
-    /// Takes the advisory lock, which ends with the open file; `false` when another one has it.
+    /// Takes the advisory lock, which is released when the file is closed. Returns `false` when another process holds
+    /// it.
     fn try_lock(&self) -> io::Result<bool>;
-    /// Gives it to a user, or keeps that one when `None`, and to a group.
+    /// Changes the owning user, unless `None`, and the owning group.
     fn set_owner(&self, owner: Option<u32>, group: u32) -> io::Result<()>;
-    /// Sets its permission bits.
+    /// Sets the permission bits.
     fn set_mode(&self, mode: u32) -> io::Result<()>;
-    /// Its extended attributes; none where the system has no such thing.
+    /// Returns the extended attributes; empty where the system has none.
     fn attributes(&self) -> io::Result<Vec<Attribute>>;
     /// Sets an extended attribute.
     fn set_attribute(&self, name: &[u8], value: &[u8]) -> io::Result<()>;
 }
 
-/// How often a call interrupted by signals is repeated: more often than any signals come, and not for ever.
+/// Largest number of repetitions of an interrupted call: far more than signals arrive, but not endless.
 const REPEATS: usize = 1000;
 
-/// Repeats what a signal interrupted.
-pub(super) fn again<T>(mut call: impl FnMut() -> io::Result<T>) -> io::Result<T> {
+/// Repeats a call while signals interrupt it.
+pub(super) fn retry<T>(mut call: impl FnMut() -> io::Result<T>) -> io::Result<T> {
     for _ in 0..REPEATS {
         match call() {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
@@ -115,11 +118,11 @@ pub(super) fn again<T>(mut call: impl FnMut() -> io::Result<T>) -> io::Result<T>
     call()
 }
 
-/// Writes all of `bytes`, however little at a time the system takes.
+/// Writes all of `bytes`, repeating partial writes.
 pub(super) fn write_all(file: &dyn VfsFile, bytes: &[u8], offset: u64) -> io::Result<()> {
     let mut done = 0;
     while done < bytes.len() {
-        match again(|| file.write_at(&bytes[done..], offset + done as u64))? {
+        match retry(|| file.write_at(&bytes[done..], offset + done as u64))? {
             0 => return Err(io::Error::from(io::ErrorKind::WriteZero)),
             written => done += written,
         }
@@ -127,10 +130,10 @@ pub(super) fn write_all(file: &dyn VfsFile, bytes: &[u8], offset: u64) -> io::Re
     Ok(())
 }
 
-/// Pieces in which files are read and copied, in bytes.
+/// Size of the buffer for reading and copying, in bytes.
 pub(super) const PIECE: usize = 1 << 16;
 
-/// Shows `visit` all bytes of `file`, a piece at a time.
+/// Reads all of `file` in pieces and calls `visit` with each. Returns the number of bytes.
 pub(super) fn read_pieces(
     file: &dyn VfsFile,
     mut visit: impl FnMut(u64, &[u8]) -> io::Result<()>,
@@ -138,7 +141,7 @@ pub(super) fn read_pieces(
     let mut piece = vec![0; PIECE];
     let mut offset = 0;
     loop {
-        let got = again(|| file.read_at(&mut piece, offset))?;
+        let got = retry(|| file.read_at(&mut piece, offset))?;
         if got == 0 {
             return Ok(offset);
         }
@@ -147,21 +150,21 @@ pub(super) fn read_pieces(
     }
 }
 
-/// Writes all of `from` into `to`, from its beginning; the number of bytes.
+/// Copies all of `from` to the start of `to`. Returns the number of bytes.
 pub(super) fn copy(from: &dyn VfsFile, to: &dyn VfsFile) -> io::Result<u64> {
     read_pieces(from, |offset, piece| write_all(to, piece, offset))
 }
 
-/// What has this name, if anything has.
-pub(super) fn look(files: &dyn Vfs, path: &Path) -> io::Result<Option<FileData>> {
-    match again(|| files.metadata(path)) {
+/// Returns the metadata of a file, or `None` if it does not exist.
+pub(super) fn metadata_if_exists(files: &dyn Vfs, path: &Path) -> io::Result<Option<FileData>> {
+    match retry(|| files.metadata(path)) {
         Ok(data) => Ok(Some(data)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error),
     }
 }
 
-/// The folder of `path`; of a file named with nothing before its name, the present one.
+/// Returns the folder of `path`; `.` for a bare file name.
 pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,

@@ -1,25 +1,25 @@
-//! Axes: which way x, y and z of the gizmo point, and what is dragged.
+//! Axes of a gizmo, and the bones it changes.
 
 use super::view::GizmoView;
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use glam::{DMat3, DMat4, DQuat, DVec3, Mat4};
 
-/// One of three.
+/// One of the three axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
-    /// Red by custom.
+    /// X, conventionally red.
     X,
-    /// Green.
+    /// Y, conventionally green.
     Y,
-    /// Blue.
+    /// Z, conventionally blue.
     Z,
 }
 
 impl Axis {
-    /// All, in order.
+    /// All axes, in order.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
-    /// The two others, in the order that makes them right-handed with this one.
+    /// The two other axes, in the order that is right-handed with this one.
     pub fn others(self) -> [Self; 2] {
         match self {
             Self::X => [Self::Y, Self::Z],
@@ -34,22 +34,22 @@ impl Axis {
     }
 }
 
-/// Whose axes a gizmo has.
+/// Coordinate space that gives a gizmo its axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Space {
-    /// The bone's own, turned as it is.
+    /// The bone's own axes.
     #[default]
     Local,
-    /// Those of the bone's parent; a root's are the world's.
+    /// The axes of the bone's parent; for a root, the world's.
     Parent,
-    /// The scene's.
+    /// The axes of the scene.
     World,
-    /// Right, up, and towards the viewer.
+    /// The axes of the viewport: right, up, and towards the viewer.
     View,
 }
 
 impl Space {
-    /// What pressing an axis again while dragging changes to: own axes and the world's.
+    /// The space that pressing the axis key again during a drag switches to: local or world.
     pub fn other(self) -> Self {
         match self {
             Self::Local | Self::Parent => Self::World,
@@ -58,32 +58,32 @@ impl Space {
     }
 }
 
-/// What several bones turn and grow about.
+/// Point about which several bones rotate and scale.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Pivot {
-    /// Each about its own joint, along its own axes (in local and parent space).
+    /// Each bone about its own joint, along its own axes (in local and parent space).
     #[default]
     Individual,
-    /// The mean of all their joints, along the axes of the active one.
+    /// The mean of their joints, along the axes of the active bone.
     Median,
-    /// The joint of the active one, along its axes.
+    /// The joint of the active bone, along its axes.
     Active,
 }
 
-/// A bone to be dragged, as it is before.
+/// A bone to be dragged, in its pose before the drag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GizmoTarget {
-    /// Which.
+    /// Index of the bone.
     pub bone: BoneIndex,
-    /// Of the parent: parent space → scene space. The identity for a root.
+    /// Matrix of the parent, parent space → scene space; the identity for a root.
     pub parent_to_root: Mat4,
-    /// Relative to the parent.
+    /// Pose relative to the parent.
     pub to_parent: Transform,
 }
 
 impl GizmoTarget {
-    /// Bone `bone` of a pose: `poses` relative to the parents, `to_root` of all bones. `None` where there is no such bone or
-    /// its numbers are not finite.
+    /// The target for bone `bone` of a pose: `poses` relative to the parents, `to_root` of all bones. `None` if there
+    /// is no such bone or its values are not finite.
     pub fn of(skeleton: &Skeleton, poses: &[Transform], to_root: &[Mat4], bone: BoneIndex) -> Option<Self> {
         let parent = skeleton.bones.get(bone as usize)?.parent;
         let parent_to_root = match parent {
@@ -95,7 +95,7 @@ impl GizmoTarget {
         sound.then_some(Self { bone, parent_to_root, to_parent })
     }
 
-    /// Where the joint is, scene space.
+    /// Position of the joint, scene space.
     pub fn origin(&self) -> DVec3 {
         self.parent().transform_point3(self.to_parent.translation.as_dvec3())
     }
@@ -105,12 +105,12 @@ impl GizmoTarget {
         self.parent_to_root.as_dmat4()
     }
 
-    /// Right-angled axes of the parent.
+    /// Orthonormal axes of the parent.
     pub fn parent_frame(&self) -> GizmoAxes {
         GizmoAxes::of(DMat3::from_mat4(self.parent()))
     }
 
-    /// The axes that the bone has in `space`, scene space.
+    /// The axes of the bone in `space`, scene space.
     pub fn frame(&self, space: Space, view: &GizmoView) -> GizmoAxes {
         match space {
             Space::Local => {
@@ -136,14 +136,14 @@ pub fn unit(rotation: DQuat) -> DQuat {
 pub struct GizmoAxes {
     /// The axes as columns, unit length.
     pub axes: DMat3,
-    /// -1 where the axes are left-handed because a parent is mirrored, else 1. A rotation by an angle about such an axis is a
-    /// rotation by the opposite angle in scene space.
+    /// -1 if a mirrored parent makes the axes left-handed, otherwise 1. A rotation by an angle about such an axis is
+    /// a rotation by the opposite angle in scene space.
     pub sign: f64,
 }
 
 impl GizmoAxes {
-    /// Those nearest to the columns: x keeps its direction, y its plane with x, z its side. The identity for columns without
-    /// length or in one plane.
+    /// The orthonormal axes nearest to the columns: x keeps its direction, y its plane with x, z its side. The
+    /// identity for columns of zero length or in one plane.
     fn of(columns: DMat3) -> Self {
         let unit = |axis: DVec3| (axis / axis.abs().max_element()).try_normalize();
         let right_angled = || {
@@ -163,7 +163,7 @@ impl GizmoAxes {
         self.axes.col(axis as usize)
     }
 
-    /// The rotation that the proper one of these axes and their opposites makes.
+    /// The rotation of the right-handed version of these axes.
     pub fn rotation(&self) -> DQuat {
         unit(DQuat::from_mat3(&(self.axes * self.sign)))
     }

@@ -1,25 +1,25 @@
-//! The change that a drag of a gizmo makes.
+//! The change that dragging a gizmo makes.
 
 use glam::DVec3;
 
-/// What is done to all bones, along the axes of a gizmo.
+/// A change applied to all targets, along the axes of a gizmo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GizmoDelta {
-    /// Scene units along each axis.
+    /// Movement along each axis, scene units.
     Move(DVec3),
-    /// Radians about a unit axis, beyond a turn too.
+    /// Rotation about a unit axis; may exceed a full turn.
     Rotate {
-        /// Unit length.
+        /// Axis, unit length.
         axis: DVec3,
-        /// Radians.
+        /// Angle, radians.
         angle: f64,
     },
-    /// Factors along each axis.
+    /// Scale factors along each axis.
     Scale(DVec3),
 }
 
 impl GizmoDelta {
-    /// Does it change nothing?
+    /// Returns whether the change has no effect.
     pub fn is_identity(&self) -> bool {
         match self {
             Self::Move(by) => *by == DVec3::ZERO,

@@ -1,53 +1,54 @@
-//! What of a gizmo can be taken hold of, how large it is, and what lies under the pointer.
+//! Handles of a gizmo: sizes, visibility and hit testing.
 
 use super::axes::{Axis, GizmoAxes};
 use super::view::GizmoView;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// What a gizmo does.
+/// Transformation that a gizmo makes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub enum Tool {
-    /// Moves.
+    /// Moves bones.
     Move,
-    /// Rotates.
+    /// Rotates bones.
     #[default]
     Rotate,
-    /// Scales.
+    /// Scales bones.
     Scale,
 }
 
-/// A part of a gizmo that can be dragged, and the way a drag is bound.
+/// A part of a gizmo that can be dragged, and the constraint of the drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Handle {
     /// Along an axis, or about it.
     Axis(Axis),
-    /// Along both axes but this one.
+    /// Along both axes other than this one.
     Plane(Axis),
-    /// In the plane of the picture; rotating freely, as a ball; scaling evenly.
+    /// In the image plane; for rotating, freely like a trackball; for scaling, uniformly.
     Centre,
-    /// The outer ring: about the line of sight; scaling evenly.
+    /// The outer ring: about the line of sight; for scaling, uniformly.
     Ring,
 }
 
-/// Lengths of handles, points. They are as large at every distance, size of window and scale of the screen.
+/// Start of the arrows, points from the center. All sizes are independent of the distance, the window and the
+/// screen's scale.
 pub const AXIS_FROM: f64 = 14.0;
-/// Where arrows end, points.
+/// End of the arrows, points.
 pub const AXIS_TO: f64 = 90.0;
-/// Nearer and farther edge of a square between two axes, points from the middle.
+/// Nearer and farther edge of the square between two axes, points from the center.
 pub const PLANE: [f64; 2] = [26.0, 44.0];
-/// Radius of the middle, points.
+/// Radius of the center, points.
 pub const CENTRE: f64 = 9.0;
 /// Radius of the rings about the axes, points.
 pub const RING: f64 = 78.0;
 /// Radius of the outer ring, points.
 pub const OUTER: f64 = 96.0;
-/// The pointer may miss a line by so much, points.
+/// Distance at which the pointer still hits a line, points.
 pub const REACH: f64 = 7.0;
 
-/// An axis that points at the viewer more than this, as a cosine, is not shown: it would be a dot over the middle.
+/// Cosine above which an axis pointing at the viewer is hidden: it would be a dot over the center.
 const AXIS_HIDDEN: f64 = 0.985;
-/// A square seen flatter than this, as a sine, is not shown.
+/// Sine below which a square seen edge-on is hidden.
 const PLANE_HIDDEN: f64 = 0.17;
 /// Number of segments that a ring is drawn and tested with.
 pub(super) const PIECES: usize = 64;
@@ -72,12 +73,12 @@ impl GizmoLayout {
         Some(Self { view, pivot, axes, unit })
     }
 
-    /// A place so many points from the middle along the axes.
+    /// Returns the position at these distances along the axes, points from the center.
     pub fn place(&self, along: DVec3) -> DVec3 {
         self.pivot + self.axes.axes * along * self.unit
     }
 
-    /// Is a handle of `tool` there? Not what is seen end on or edge on.
+    /// Returns whether `tool` shows a handle. Handles seen end-on or edge-on are hidden.
     pub fn shows(&self, tool: Tool, handle: Handle) -> bool {
         let towards = self.view.towards(self.pivot);
         match (tool, handle) {
@@ -88,26 +89,28 @@ impl GizmoLayout {
         }
     }
 
-    /// The corners of a square between two axes.
+    /// Returns the corners of the square between the two axes other than `normal`.
     pub fn square(&self, normal: Axis) -> [DVec3; 4] {
         let [a, b] = normal.others().map(Axis::unit);
         let [near, far] = PLANE;
         [(near, near), (far, near), (far, far), (near, far)].map(|(x, y)| self.place(a * x + b * y))
     }
 
-    /// A point of the ring about an axis, at `share` of a turn from the first of the two other axes.
+    /// Returns a point of the ring about an axis, at `share` of a turn from the first of the two other axes.
     pub fn on_ring(&self, axis: Axis, share: f64) -> DVec3 {
         let [a, b] = axis.others().map(Axis::unit);
         let (sin, cos) = (share * TAU).sin_cos();
         self.place((a * cos + b * sin) * RING)
     }
 
-    /// Does a place of a ring lie on the half towards the viewer? All of a ring seen from its axis does.
+    /// Returns whether a position on a ring is on the half towards the viewer. A ring seen along its axis is entirely
+    /// visible.
     pub fn in_front(&self, place: DVec3) -> bool {
         (place - self.pivot).dot(self.view.towards(self.pivot)) >= -0.12 * RING * self.unit
     }
 
-    /// The handle under the pointer: lines and rings before squares, those before the middle; of lines the nearest.
+    /// Returns the handle under the pointer: lines and rings before squares, squares before the center; of several
+    /// lines the nearest.
     pub fn hit(&self, tool: Tool, pointer: DVec2) -> Option<Handle> {
         let middle = self.view.to_screen(self.pivot)?;
         let mut nearest: Option<(f64, Handle)> = None;
@@ -143,7 +146,7 @@ impl GizmoLayout {
         (pointer.distance(middle) <= radius).then_some(Handle::Centre)
     }
 
-    /// To the part of an arrow that is not over the middle, so that the middle can always be met.
+    /// Distance to the part of an arrow outside the center, so that the center can always be hit.
     fn distance_to_arrow(&self, axis: Axis, middle: DVec2, pointer: DVec2) -> f64 {
         let Some(tip) = self.view.to_screen(self.place(axis.unit() * AXIS_TO)) else { return f64::INFINITY };
         let along = tip - middle;
@@ -178,7 +181,7 @@ fn to_segment(point: DVec2, from: DVec2, to: DVec2) -> f64 {
     point.distance(from + along * share)
 }
 
-/// Is a point inside of four corners, whichever way round they run?
+/// Returns whether a point is inside a quadrilateral with either winding.
 fn is_inside(corners: [Option<DVec2>; 4], point: DVec2) -> bool {
     let [Some(a), Some(b), Some(c), Some(d)] = corners else { return false };
     let side = |from: DVec2, to: DVec2| (to - from).perp_dot(point - from);

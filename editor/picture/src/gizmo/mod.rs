@@ -15,23 +15,24 @@ pub use select::{GizmoAnchor, GizmoPlacement, PosedSkeleton};
 pub use shape::{GizmoRole, GizmoShape, GizmoVertex};
 pub use view::GizmoView;
 
-/// How gizmos work.
+/// Settings of gizmos.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GizmoSettings {
-    /// Whose axes.
+    /// Space that gives the axes.
     pub space: Space,
-    /// What several bones turn and grow about.
+    /// Point about which several bones rotate and scale.
     pub pivot: Pivot,
-    /// Does every bone of a selected chain turn and grow by the amount, as when a finger is curled? Else those with a
-    /// selected bone above them only follow it. Only for [`Pivot::Individual`], and not for moving.
+    /// Whether every bone of a selected chain rotates and scales by the full amount, as when curling a finger.
+    /// Otherwise bones with a selected ancestor only follow it. Applies to [`Pivot::Individual`] only, and not to
+    /// moving.
     pub curl: bool,
-    /// Scene units that moving snaps to, with Ctrl.
+    /// Snapping step for moving with Ctrl, scene units.
     pub move_step: f64,
-    /// Radians that rotating snaps to.
+    /// Snapping step for rotating, radians.
     pub rotate_step: f64,
-    /// Part of a factor that scaling snaps to.
+    /// Snapping step for scaling, as a factor.
     pub scale_step: f64,
-    /// How much of the pointer's way counts, with Shift.
+    /// Part of the pointer's movement that counts with Shift.
     pub precise: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Where the gizmo of a selection is placed, and which bones a drag of it changes.
+//! The position of a selection's gizmo, and the bones that a drag of it changes.
 
 use super::{GizmoAxes, GizmoLayout, GizmoSettings, GizmoTarget, GizmoView, Pivot, Space, Tool};
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
@@ -46,8 +46,8 @@ pub struct GizmoPlacement {
 }
 
 impl GizmoPlacement {
-    /// Places the gizmo of `tool` at `selected`. `active` is the bone whose axes count; without one, the last selected bone.
-    /// Allocates only when the skeleton grows.
+    /// Places the gizmo of `tool` at `selected`. `active` is the bone that gives the axes; by default the last
+    /// selected bone. Allocates only when the skeleton grows.
     pub fn select(
         &mut self,
         settings: &GizmoSettings,
@@ -98,7 +98,7 @@ impl GizmoPlacement {
             }
         }
         targets.clear();
-        // Parents come before children, so one pass hands "selected or below" on.
+        // Parents come before children, so one pass propagates "selected or below a selected bone".
         for index in 0..bones.len() {
             let below = bones[index].parent.is_some_and(|parent| chosen.get(parent as usize) == Some(&true));
             if chosen[index] && (each || !below) {

@@ -1,4 +1,4 @@
-//! What a gizmo looks like, as lists of lines and triangles for a pass to draw.
+//! The shape of a gizmo, as lists of lines and triangles for a pass to draw.
 
 use super::axes::Axis;
 use super::delta::GizmoDelta;
@@ -7,25 +7,25 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::TAU;
 
-/// Which colour a part has; the theme says which.
+/// Role of a part, which determines its color in the theme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub enum GizmoRole {
-    /// Of the x axis.
+    /// The x axis.
     X = 0,
-    /// Of the y axis.
+    /// The y axis.
     Y = 1,
-    /// Of the z axis.
+    /// The z axis.
     Z = 2,
-    /// Of the plane and the line of the picture, and of what is even.
+    /// The image plane, the line of sight, and uniform scaling.
     View = 3,
-    /// Under the pointer.
+    /// The handle under the pointer.
     Hover = 4,
-    /// Being dragged.
+    /// The handle being dragged.
     Active = 5,
-    /// What was before the time shown.
+    /// Times before the present one.
     Past = 6,
-    /// What comes after it.
+    /// Times after the present one.
     Future = 7,
 }
 
@@ -35,66 +35,66 @@ impl GizmoRole {
     }
 }
 
-/// A corner of a line or a triangle.
+/// A vertex of a line or a triangle.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct GizmoVertex {
-    /// Scene space.
+    /// Position, scene space.
     pub position: Vec3,
     /// A [`GizmoRole`].
     pub role: u32,
-    /// 0 to 1.
+    /// Opacity, 0 to 1.
     pub opacity: f32,
 }
 
-/// Lists that keep their memory from frame to frame.
+/// Lines and triangles, in lists that keep their memory from frame to frame.
 #[derive(Clone, Debug, Default)]
 pub struct GizmoShape {
     lines: Vec<GizmoVertex>,
     triangles: Vec<GizmoVertex>,
 }
 
-/// Sides of a cone or a disc.
+/// Number of sides of a cone or a disc.
 const SIDES: usize = 12;
-/// Points that a guide along a bound axis reaches to either side.
+/// Length of a guide along a constrained axis to either side, points.
 const GUIDE: f64 = 4000.0;
 
 impl GizmoShape {
-    /// Two corners a line.
+    /// The vertices of the lines, two per line.
     pub fn lines(&self) -> &[GizmoVertex] {
         &self.lines
     }
 
-    /// Three corners a triangle; either side may be seen.
+    /// The vertices of the triangles, three each; both sides are visible.
     pub fn triangles(&self) -> &[GizmoVertex] {
         &self.triangles
     }
 
-    /// Nothing, with the memory kept.
+    /// Removes everything, keeping the memory.
     pub fn clear(&mut self) {
         self.lines.clear();
         self.triangles.clear();
     }
 
-    /// A line from place to place, scene space; opacity 0 to 1.
+    /// Adds a line, scene space; opacity 0 to 1.
     pub fn add_line(&mut self, from: Vec3, to: Vec3, role: GizmoRole, opacity: f32) {
         self.lines.extend([from, to].map(|position| GizmoVertex { position, role: role as u32, opacity }));
     }
 
-    /// A square that stands on its corner, in the plane of the picture: `right` and `up` reach to its corners.
+    /// Adds a square that stands on its corner, in the image plane: `right` and `up` reach to its corners.
     pub fn add_diamond(&mut self, at: Vec3, right: Vec3, up: Vec3, role: GizmoRole, opacity: f32) {
         let [a, b, c, d] = [at + up, at + right, at - up, at - right];
         let corner = |position| GizmoVertex { position, role: role as u32, opacity };
         self.triangles.extend([a, b, c, a, c, d].map(corner));
     }
 
-    /// All of another one too.
+    /// Adds all of another shape.
     pub fn extend(&mut self, other: &Self) {
         self.lines.extend_from_slice(&other.lines);
         self.triangles.extend_from_slice(&other.triangles);
     }
 
-    /// All handles.
+    /// Adds all handles of a gizmo that is not being dragged.
     pub fn waiting(&mut self, layout: &GizmoLayout, tool: Tool, hovered: Option<Handle>) {
         let role =
             |handle: Handle, role: GizmoRole| if hovered == Some(handle) { GizmoRole::Hover } else { role };
@@ -112,7 +112,7 @@ impl GizmoShape {
         }
     }
 
-    /// The handle that is dragged, the line it is bound to, and the angle turned.
+    /// Adds the handle being dragged, the line it is constrained to, and the angle of rotation.
     pub fn dragging(
         &mut self,
         layout: &GizmoLayout,
@@ -155,7 +155,7 @@ impl GizmoShape {
         }
     }
 
-    /// A line with a cone for moving, with a cube for scaling.
+    /// Adds a line with a cone (moving) or a cube (scaling).
     fn arrow(&mut self, layout: &GizmoLayout, axis: Axis, tool: Tool, role: GizmoRole) {
         let along = axis.unit();
         let [a, b] = axis.others().map(Axis::unit);
@@ -189,7 +189,7 @@ impl GizmoShape {
         }
     }
 
-    /// The half towards the viewer; what is dragged is shown whole.
+    /// Adds the half of a ring towards the viewer; while it is dragged, the whole ring.
     fn ring(&mut self, layout: &GizmoLayout, axis: Axis, role: GizmoRole) {
         for index in 0..PIECES {
             let [from, to] = [index, index + 1].map(|end| layout.on_ring(axis, end as f64 / PIECES as f64));
@@ -201,7 +201,7 @@ impl GizmoShape {
     }
 
     fn disc(&mut self, layout: &GizmoLayout, radius: f64, role: GizmoRole, opacity: f32) {
-        // A large one as round as the rings around it.
+        // A large disc is as round as the rings around it.
         let sides = if radius > CENTRE { PIECES } else { SIDES * 2 };
         for index in 0..sides {
             let [from, to] = [index, index + 1].map(|end| facing(layout, radius, end as f64 / sides as f64));
@@ -214,7 +214,7 @@ impl GizmoShape {
         self.line(from, to, GizmoRole::of(axis), 0.6);
     }
 
-    /// The angle turned as a fan from where it began; a full disc beyond a turn.
+    /// Adds the angle of rotation as a fan from its start; a full disc beyond a turn.
     fn turned(&mut self, layout: &GizmoLayout, axis: DVec3, angle: f64, start: DVec2) {
         let Some(axis) = axis.try_normalize() else { return };
         let from = layout.view.on_plane(start, layout.pivot, axis) - layout.pivot;
@@ -246,7 +246,7 @@ fn vertex(place: DVec3, role: GizmoRole, opacity: f32) -> GizmoVertex {
     GizmoVertex { position: place.as_vec3(), role: role as u32, opacity }
 }
 
-/// A point of a circle in the plane of the picture.
+/// Returns a point of a circle in the image plane.
 fn facing(layout: &GizmoLayout, radius: f64, share: f64) -> DVec3 {
     let (sin, cos) = (share * TAU).sin_cos();
     layout.pivot + (layout.view.right * cos + layout.view.up * sin) * (radius * layout.unit)

@@ -5,7 +5,8 @@ use dragonfly_anim::data::{Influence, Primitive};
 use glam::{Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
-/// WGSL twin: `VertexIn` in `shaders/model.wgsl`. What a primitive lacks is filled with what changes nothing.
+/// A vertex on the device. WGSL twin: `VertexIn` in `shaders/model.wgsl`. Attributes that a primitive lacks get
+/// neutral values.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct GpuVertex {
@@ -31,7 +32,7 @@ const ATTRIBUTES: [wgpu::VertexAttribute; 9] = wgpu::vertex_attr_array![
     8 => Float32x4,
 ];
 
-/// How vertices lie in their buffer.
+/// Layout of vertices in their buffer.
 pub(super) const VERTICES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<GpuVertex>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
@@ -40,18 +41,18 @@ pub(super) const VERTICES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBuffe
 
 /// Buffers of one primitive.
 pub(super) struct GpuGeometry {
-    /// [`GpuVertex`] each.
+    /// Vertices, each a [`GpuVertex`].
     pub(super) vertices: wgpu::Buffer,
-    /// 32 bits each.
+    /// Indices of 32 bits.
     pub(super) indices: wgpu::Buffer,
     /// Number of indices.
     pub(super) count: u32,
-    /// Morph differences; `None` without targets.
+    /// Morph deltas; `None` without morph targets.
     pub(super) deltas: Option<wgpu::Buffer>,
 }
 
 impl GpuGeometry {
-    /// Copies `primitive` to `device`.
+    /// Uploads `primitive` to `device`.
     pub(super) fn new(device: &wgpu::Device, primitive: &Primitive) -> Self {
         let buffer = |label, contents: &[u8], usage| {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -86,7 +87,7 @@ fn vertex(primitive: &Primitive, index: usize) -> GpuVertex {
     GpuVertex {
         position: columns.positions[index].into(),
         normal: columns.normals.get(index).copied().unwrap_or(Vec3::Y).into(),
-        // No length says "none": the shader derives one.
+        // A tangent of length zero stands for none: the shader derives one.
         tangent: columns.tangents.get(index).copied().unwrap_or(Vec4::W).into(),
         texture_coordinates: [first.x, first.y, second.x, second.y],
         color: columns.colors.get(index).copied().unwrap_or(Vec4::ONE).into(),
@@ -95,7 +96,7 @@ fn vertex(primitive: &Primitive, index: usize) -> GpuVertex {
     }
 }
 
-/// Nine numbers a vertex and target, target after target, as `deltas` in `shaders/common/pose.wgsl` wants them.
+/// Nine values per vertex and target, target after target, as `deltas` in `shaders/common/pose.wgsl` reads them.
 fn deltas(primitive: &Primitive) -> Vec<[Vec3; 3]> {
     let count = primitive.vertices.len();
     let mut all = Vec::with_capacity(count * primitive.morph_targets.len());

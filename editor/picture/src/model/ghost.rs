@@ -1,4 +1,5 @@
-//! The surface of the model drawn once more for each ghost: the same triangles, other matrices, one colour.
+//! Drawing ghosts: the surface of the model once more for each ghost, with the same triangles, other matrices and one
+//! color.
 
 use super::geometry::{GpuGeometry, VERTICES};
 use super::pipeline::ModelPipelines;
@@ -10,17 +11,17 @@ use dragonfly_document::LoadedModel;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What a device holds for ghosts.
+/// Device resources of ghosts.
 #[derive(Default)]
 pub(super) struct Ghosts {
-    /// Front faces run one way, and where the pose mirrors the other.
+    /// Pipelines for front faces of either winding; the second is for mirrored poses.
     pipelines: Option<[wgpu::RenderPipeline; 2]>,
     room: Option<Room>,
-    /// How many are drawn.
+    /// Number of ghosts drawn.
     count: usize,
 }
 
-/// Buffers for so many ghosts of one model.
+/// Buffers for a number of ghosts of one model.
 struct Room {
     loaded: Arc<LoadedModel>,
     ghosts: usize,
@@ -28,17 +29,17 @@ struct Room {
     palettes: wgpu::Buffer,
     weights: wgpu::Buffer,
     stride: u32,
-    /// One a draw item.
+    /// Bind groups, one per draw item.
     groups: Vec<wgpu::BindGroup>,
 }
 
 impl Ghosts {
-    /// Another model comes.
+    /// Drops the buffers, because another model is shown.
     pub(super) fn forget(&mut self) {
         (self.room, self.count) = (None, 0);
     }
 
-    /// Hands the poses to the device.
+    /// Writes the poses to the device.
     pub(super) fn prepare(
         &mut self,
         gpu: &Gpu,
@@ -51,7 +52,7 @@ impl Ghosts {
         else {
             return;
         };
-        // No more than one buffer holds.
+        // No more ghosts than one buffer can contain.
         let limits = gpu.device.limits();
         let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) as usize;
         let own = size_of_val::<[Affine]>(posed.palettes()).max(size_of_val::<[f32]>(posed.weights()));
@@ -70,7 +71,7 @@ impl Ghosts {
         });
         let Some(room) = &self.room else { return };
         let (matrices, weights) = (posed.palettes().len(), posed.weights().len());
-        // The nearest are the last.
+        // The nearest ghosts are the last.
         let first = ghosts.len() - count;
         gpu.queue.write_buffer(
             &room.palettes,
@@ -94,7 +95,7 @@ impl Ghosts {
         self.count = count;
     }
 
-    /// Draws them.
+    /// Draws the ghosts.
     pub(super) fn draw(
         &self,
         gpu: &Gpu,
@@ -151,7 +152,7 @@ impl Room {
     }
 }
 
-/// What lies before a ghost hides it; it hides nothing itself.
+/// Surfaces in front of a ghost hide it; the ghost itself hides nothing.
 fn pipeline(gpu: &Gpu, layout: &wgpu::PipelineLayout, front_face: wgpu::FrontFace) -> wgpu::RenderPipeline {
     let module = shaders::GHOST.module(&gpu.device);
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {

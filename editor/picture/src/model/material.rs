@@ -9,19 +9,19 @@ use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 use wgpu::util::DeviceExt;
 
-/// Bind group 2 of the model's shader, one a material; the last is that of surfaces without material.
+/// Bind groups 2 of the model's shader, one per material; the last is for surfaces without material.
 pub(super) struct GpuMaterials {
-    /// Layout of the groups.
+    /// Layout of the bind groups.
     pub(super) layout: wgpu::BindGroupLayout,
-    /// Made by the last [`Self::load`].
+    /// Bind groups created by the last [`Self::load`].
     groups: Vec<wgpu::BindGroup>,
 }
 
-/// Texture and sampler of a use.
+/// Texture and sampler of a texture use.
 type Bound = (wgpu::TextureView, wgpu::Sampler);
 
 impl GpuMaterials {
-    /// No material yet.
+    /// Starts without materials.
     pub(super) fn new(gpu: &Gpu) -> Self {
         let fragment = wgpu::ShaderStages::FRAGMENT;
         let entry =
@@ -47,7 +47,7 @@ impl GpuMaterials {
         Self { layout, groups: Vec::new() }
     }
 
-    /// Takes the materials and images of `loaded` to the device, each image once a way of reading it.
+    /// Uploads the materials and images of `loaded`, each image once per way of reading it.
     pub(super) fn load(&mut self, gpu: &Gpu, maker: &mut TextureMaker, loaded: &LoadedModel) {
         let mut views = HashMap::new();
         let mut samplers = HashMap::new();
@@ -87,7 +87,7 @@ impl GpuMaterials {
         self.groups = groups;
     }
 
-    /// The bind group of a material; that of no material for `None` and what is out of range.
+    /// Creates the bind group of a material.
     pub(super) fn group(&self, gpu: &Gpu, uniform: &MaterialUniform, bound: &[Bound; 5]) -> wgpu::BindGroup {
         let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("material"),
@@ -108,14 +108,15 @@ impl GpuMaterials {
         })
     }
 
-    /// The bind group of material number `index`.
+    /// Returns the bind group of material number `index`; that of no material for `None` and for an index out of
+    /// range.
     pub(super) fn get(&self, index: Option<u32>) -> Option<&wgpu::BindGroup> {
         let last = self.groups.len().checked_sub(1)?;
         self.groups.get(index.map_or(last, |index| (index as usize).min(last)))
     }
 }
 
-/// The material's values; `there` says which textures could be made.
+/// The uniform of a material; `there` is which textures could be created.
 fn uniform(material: &Material, there: [bool; 5]) -> MaterialUniform {
     let uses = [
         &material.base_color_texture,
@@ -156,7 +157,7 @@ fn uniform(material: &Material, there: [bool; 5]) -> MaterialUniform {
     }
 }
 
-/// Everything that tells one sampler from another.
+/// Everything that distinguishes one sampler from another.
 type SamplerKey = ([Wrap; 2], Filter, Filter, bool);
 
 fn sampler_key(use_of: &TextureRef) -> SamplerKey {
@@ -185,7 +186,7 @@ fn sampler(gpu: &Gpu, (wrap, magnify, minify, mip): SamplerKey) -> wgpu::Sampler
             Filter::Linear => wgpu::MipmapFilterMode::Linear,
         },
         lod_max_clamp: if mip { 32.0 } else { 0.0 },
-        // Surfaces seen at a flat angle stay sharp. Only allowed where everything is linear.
+        // Keeps surfaces seen at a flat angle sharp. Only allowed if all filters are linear.
         anisotropy_clamp: if all_linear { gpu.anisotropy } else { 1 },
         ..Default::default()
     })

@@ -1,5 +1,4 @@
-//! A model on the device, and how to draw it. Two passes share it: what is solid comes before the ground, what is blended
-//! after it.
+//! A model on the device. Several passes share it: solid surfaces are drawn before the ground, blended ones after it.
 
 mod geometry;
 mod ghost;
@@ -21,15 +20,15 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use texture::TextureMaker;
 
-/// See the module.
+/// The model of the scene on the device.
 #[derive(Default)]
 pub struct GpuModel {
-    /// Kept to load it again on another device.
+    /// Kept for loading the model again on another device.
     loaded: Option<Arc<LoadedModel>>,
     resources: Option<Resources>,
 }
 
-/// What a device holds for every model.
+/// Device resources for any model.
 struct Resources {
     pipelines: ModelPipelines,
     maker: TextureMaker,
@@ -38,16 +37,16 @@ struct Resources {
     ghosts: ghost::Ghosts,
 }
 
-/// What a device holds for this model.
+/// Device resources of this model.
 struct Content {
     loaded: Arc<LoadedModel>,
     palettes: wgpu::Buffer,
     weights: wgpu::Buffer,
-    /// Distance between draw uniforms.
+    /// Distance between draw uniforms, bytes.
     stride: u32,
-    /// By mesh and primitive.
+    /// Geometry by mesh and primitive.
     geometries: HashMap<(u32, u32), GpuGeometry>,
-    /// Bind group 1, one a draw item.
+    /// Bind groups 1, one per draw item.
     groups: Vec<wgpu::BindGroup>,
 }
 
@@ -66,7 +65,7 @@ impl DeviceListener for GpuModel {
 }
 
 impl GpuModel {
-    /// Hands this frame's pose to the device; a model not seen before is loaded first.
+    /// Writes this frame's pose to the device; a new model is loaded first.
     pub fn prepare(&mut self, gpu: &Gpu, posed: Option<&PosedModel>) {
         self.loaded = posed.map(|posed| Arc::clone(posed.loaded()));
         let (Some(resources), Some(posed)) = (&mut self.resources, posed) else { return };
@@ -86,7 +85,7 @@ impl GpuModel {
         }
     }
 
-    /// Hands the poses of ghosts to the device, after [`Self::prepare`].
+    /// Writes the poses of ghosts to the device, after [`Self::prepare`].
     pub fn prepare_ghosts(&mut self, gpu: &Gpu, ghosts: &GhostSkins) {
         let Some(Resources { pipelines, content: Some(content), ghosts: own, .. }) = &mut self.resources
         else {
@@ -95,21 +94,21 @@ impl GpuModel {
         own.prepare(gpu, ghosts, pipelines, &content.geometries);
     }
 
-    /// Draws ghosts.
+    /// Draws the ghosts.
     pub fn draw_ghosts(&self, ghosts: &GhostSkins, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
         if let Some(Resources { content: Some(content), ghosts: own, .. }) = &self.resources {
             own.draw(gpu, ghosts, &content.geometries, pass);
         }
     }
 
-    /// Draws what is solid.
+    /// Draws the solid surfaces.
     pub fn draw_solid(&self, posed: &PosedModel, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
         for (index, item) in posed.items().iter().enumerate().filter(|(_, item)| !item.blend) {
             self.draw(posed, index, item, gpu, pass);
         }
     }
 
-    /// Draws what is blended, from back to front.
+    /// Draws the blended surfaces, from back to front.
     pub fn draw_blended(&self, posed: &PosedModel, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
         for index in posed.back_to_front() {
             self.draw(posed, index, &posed.items()[index], gpu, pass);
@@ -177,7 +176,7 @@ fn primitive<'a>(loaded: &'a LoadedModel, item: &DrawItem) -> &'a Primitive {
     &loaded.model.meshes[item.mesh as usize].primitives[item.primitive as usize]
 }
 
-/// Which faces to leave out, one drawing each: of a blended surface seen from both sides the far side is drawn first.
+/// Face culling of each drawing of an item: of a blended, double-sided surface the far side is drawn first.
 fn culls(posed: &PosedModel, item: &DrawItem) -> &'static [Cull] {
     let materials = &posed.loaded().model.materials;
     let material = item.material.and_then(|material| materials.get(material as usize));

@@ -1,4 +1,4 @@
-//! The ways to draw a surface.
+//! Pipelines for drawing surfaces.
 
 use super::geometry::VERTICES;
 use crate::gpu::{Gpu, scene_depth, scene_samples, scene_target};
@@ -6,31 +6,31 @@ use crate::shaders;
 use crate::uniform::{Affine, DrawUniform};
 use std::collections::HashMap;
 
-/// Which faces are left out.
+/// Faces that are culled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Cull {
     /// None.
     Nothing,
-    /// Those that face the viewer.
+    /// Faces towards the viewer.
     Front,
-    /// Those that face away.
+    /// Faces away from the viewer.
     Back,
 }
 
-/// What tells one pipeline from another.
+/// Everything that distinguishes one pipeline from another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct PipelineKind {
-    /// Alpha chooses samples.
+    /// Whether alpha discards samples.
     pub(super) mask: bool,
-    /// Alpha blends.
+    /// Whether alpha blends.
     pub(super) blend: bool,
-    /// Which faces are left out.
+    /// Faces that are culled.
     pub(super) cull: Cull,
-    /// Front faces run clockwise: the pose mirrors.
+    /// Whether front faces wind clockwise, because the pose mirrors.
     pub(super) mirrored: bool,
 }
 
-/// Pipelines, made when first wanted: few of the possible ones ever are.
+/// Pipelines, created on first use: few of the possible ones are ever used.
 pub(super) struct ModelPipelines {
     module: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
@@ -39,7 +39,7 @@ pub(super) struct ModelPipelines {
 }
 
 impl ModelPipelines {
-    /// None made yet.
+    /// Starts without pipelines.
     pub(super) fn new(gpu: &Gpu, material_layout: &wgpu::BindGroupLayout) -> Self {
         let draw_layout = draw_layout(gpu);
         let layout = gpu.pipeline_layout("model", &[&draw_layout, material_layout]);
@@ -47,23 +47,23 @@ impl ModelPipelines {
         Self { module, layout, draw_layout, made: HashMap::new() }
     }
 
-    /// The pipeline of `kind`, if it was made.
+    /// Returns the pipeline of `kind`, if it was created.
     pub(super) fn get(&self, kind: PipelineKind) -> Option<&wgpu::RenderPipeline> {
         self.made.get(&kind)
     }
 
-    /// Makes the pipeline of `kind` unless it is there.
+    /// Creates the pipeline of `kind` unless it exists.
     pub(super) fn make(&mut self, gpu: &Gpu, kind: PipelineKind) {
         let Self { module, layout, made, .. } = self;
         made.entry(kind).or_insert_with(|| pipeline(gpu, module, layout, kind));
     }
 
-    /// The layout of bind group 1.
+    /// Layout of bind group 1.
     pub(super) fn draw_layout(&self) -> &wgpu::BindGroupLayout {
         &self.draw_layout
     }
 
-    /// Bind group 1 of a draw.
+    /// Creates bind group 1 of a draw.
     pub(super) fn draw_group(
         &self,
         gpu: &Gpu,

@@ -4,7 +4,7 @@ use crate::gpu::Gpu;
 use crate::shaders;
 use dragonfly_document::DecodedImage;
 
-/// Makes textures; keeps what halving a picture takes.
+/// Creates textures, and keeps the pipeline that makes mip levels.
 pub(super) struct TextureMaker {
     layout: wgpu::BindGroupLayout,
     module: wgpu::ShaderModule,
@@ -13,7 +13,7 @@ pub(super) struct TextureMaker {
 }
 
 impl TextureMaker {
-    /// A maker on `gpu`.
+    /// Creates a maker on `gpu`.
     pub(super) fn new(gpu: &Gpu) -> Self {
         let texture = wgpu::BindGroupLayoutEntry {
             binding: 0,
@@ -43,8 +43,8 @@ impl TextureMaker {
         Self { layout, module: shaders::MIP.module(&gpu.device), sampler, pipelines: [None, None] }
     }
 
-    /// `image` as a texture; `encoded` when its values are sRGB colours. `None` for an image that is empty, torn or larger
-    /// than the device can hold.
+    /// Uploads `image` as a texture; `encoded` for sRGB colors. `None` for an image that is empty, truncated or
+    /// larger than the device supports.
     pub(super) fn texture(
         &mut self,
         gpu: &Gpu,
@@ -82,7 +82,7 @@ impl TextureMaker {
         Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
     }
 
-    /// Every level from the one above it. The device filters in linear light, whatever the format stores.
+    /// Computes every mip level from the one above it. The device filters in linear light, whatever the format.
     fn fill_levels(
         &mut self,
         gpu: &Gpu,

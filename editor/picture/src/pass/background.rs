@@ -1,11 +1,11 @@
-//! The gradient behind everything.
+//! The background gradient.
 
 use super::{Commands, Layer, Pass, Surroundings, scene_pipeline};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::shaders;
 
-/// Draws it.
+/// Draws the background gradient.
 #[derive(Default)]
 pub(super) struct BackgroundPass {
     pipeline: Option<wgpu::RenderPipeline>,
@@ -19,7 +19,7 @@ impl DeviceListener for BackgroundPass {
     fn on_reset(&mut self, gpu: &Gpu) {
         let module = shaders::BACKGROUND.module(&gpu.device);
         let entries = ["vs_background", "fs_background"];
-        // Blended into the empty picture, so that it writes no depth.
+        // Blended into the cleared target, so that it writes no depth.
         self.pipeline = Some(scene_pipeline(gpu, &module, entries, &[], Default::default(), true));
     }
 }

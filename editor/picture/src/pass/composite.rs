@@ -1,11 +1,11 @@
-//! The finished scene into the window: encoded for the screen exactly once, and only where the viewport is.
+//! Copies the finished scene into the window: encoded for the screen exactly once, and only within the viewport.
 
 use super::{Commands, Layer, Pass, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::shaders;
 
-/// Copies it.
+/// Copies the scene into the window.
 #[derive(Default)]
 pub(super) struct CompositePass {
     resources: Option<Resources>,
@@ -15,7 +15,7 @@ struct Resources {
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     place: wgpu::Buffer,
-    /// For the scene's texture it was made for.
+    /// Bind group for the scene's texture, and the texture view it was created for.
     group: Option<(wgpu::TextureView, wgpu::BindGroup)>,
 }
 

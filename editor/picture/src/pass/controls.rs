@@ -1,5 +1,5 @@
-//! The controls of the scene, over everything (the thesis's ControlRender, §3.2.9.2): lines of a width in points, and
-//! triangles, in the colours of the theme.
+//! The controls of the scene, drawn over everything (the thesis's ControlRender, §3.2.9.2): lines with a width in
+//! points, and triangles, in the colors of the theme.
 
 use super::{Commands, Layer, Pass, Surroundings};
 use crate::device::DeviceListener;
@@ -11,7 +11,7 @@ use crate::shaders;
 /// Width of lines, points.
 const WIDTH: f32 = 2.4;
 
-/// Draws them.
+/// Draws the controls.
 #[derive(Default)]
 pub(super) struct ControlRender {
     resources: Option<Resources>,
@@ -26,7 +26,7 @@ struct Resources {
     triangles: Corners,
 }
 
-/// A buffer that grows, and how much of it is used.
+/// A buffer that grows, and the number of bytes in use.
 #[derive(Default)]
 struct Corners {
     buffer: Option<wgpu::Buffer>,
@@ -92,7 +92,7 @@ impl Pass for ControlRender {
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
         let Some(resources) = &self.resources else { return };
-        // Faces under their outlines.
+        // Faces are drawn under their outlines.
         for (corners, pipeline) in
             [(&resources.triangles, &resources.fill), (&resources.lines, &resources.line)]
         {
@@ -110,11 +110,11 @@ impl Pass for ControlRender {
     }
 }
 
-/// WGSL twin: `Style` in `shaders/controls.wgsl`.
+/// The uniform of the pass. WGSL twin: `Style` in `shaders/controls.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 struct Style {
-    /// Linear RGB by role.
+    /// Colors by role, linear RGB.
     colors: [[f32; 4]; 8],
     /// Half the width of a line, pixels.
     half_width: f32,
@@ -134,7 +134,7 @@ enum Shape {
     Triangle,
 }
 
-/// Without a test of depth: handles are there to be taken hold of, whatever is before them.
+/// Creates a pipeline without a depth test: handles must be reachable whatever is in front of them.
 fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, shape: Shape) -> wgpu::RenderPipeline {
     let module = shaders::CONTROLS.module(&gpu.device);
     let size = size_of::<GizmoVertex>() as u64;

@@ -1,4 +1,4 @@
-//! The model at other times, as skins that one can look through.
+//! Ghosts: the model at other times, drawn as transparent skins.
 
 use super::{Commands, Layer, Pass, Surroundings};
 use crate::device::DeviceListener;
@@ -7,19 +7,19 @@ use crate::model::GpuModel;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Draws them.
+/// Draws the ghosts.
 pub(super) struct GhostsPass {
     model: Rc<RefCell<GpuModel>>,
 }
 
 impl GhostsPass {
-    /// Of this model, which the pass of solid surfaces prepares.
+    /// Draws ghosts of this model, which the pass of solid surfaces prepares.
     pub(super) fn new(model: Rc<RefCell<GpuModel>>) -> Self {
         Self { model }
     }
 }
 
-/// The model is a listener of its own.
+/// The model is a listener itself.
 impl DeviceListener for GhostsPass {
     fn on_lost(&mut self) {}
 

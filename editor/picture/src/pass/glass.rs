@@ -1,4 +1,4 @@
-//! The surfaces of the model that one can look through: after the solid ones and the ground.
+//! The transparent surfaces of the model, drawn after the solid ones and the ground.
 
 use super::{Commands, Layer, Pass, Surroundings};
 use crate::device::DeviceListener;
@@ -7,19 +7,19 @@ use crate::model::GpuModel;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Draws them from back to front.
+/// Draws the transparent surfaces from back to front.
 pub(super) struct GlassPass {
     model: Rc<RefCell<GpuModel>>,
 }
 
 impl GlassPass {
-    /// Of this model, which the pass of solid surfaces prepares.
+    /// Draws this model, which the pass of solid surfaces prepares.
     pub(super) fn new(model: Rc<RefCell<GpuModel>>) -> Self {
         Self { model }
     }
 }
 
-/// The model is a listener of its own.
+/// The model is a listener itself.
 impl DeviceListener for GlassPass {
     fn on_lost(&mut self) {}
 

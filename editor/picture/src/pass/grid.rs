@@ -1,11 +1,11 @@
-//! The ground.
+//! The ground grid.
 
 use super::{Commands, Layer, Pass, Surroundings, scene_pipeline};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::shaders;
 
-/// Draws it.
+/// Draws the ground grid.
 #[derive(Default)]
 pub(super) struct GridPass {
     pipeline: Option<wgpu::RenderPipeline>,

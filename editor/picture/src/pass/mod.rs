@@ -1,4 +1,4 @@
-//! The passes: what draws, in which order. A new one is a file here, a shader, and a line in [`all`].
+//! The render passes and their order. A new pass is a file here, a shader, and a line in [`all`].
 
 mod background;
 mod composite;
@@ -19,64 +19,64 @@ use super::scene::Scene;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Into what a pass draws.
+/// Target of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layer {
-    /// The scene: many samples, depth, linear light; the size of the viewport.
+    /// The scene: multisampled, with depth, in linear light; as large as the viewport.
     Scene,
-    /// The window: colours as the screen takes them.
+    /// The window, in the color encoding of the screen.
     Window,
 }
 
-/// What a pass may look at.
+/// Read access of a pass to the frame.
 pub struct Surroundings<'a> {
     /// The device.
     pub gpu: &'a Gpu,
-    /// What is shown.
+    /// The scene as prepared for this frame.
     pub scene: &'a Scene,
-    /// Size of what stands for the window, pixels.
+    /// Size of the window, pixels.
     pub window_size: [u32; 2],
-    /// The finished scene; `None` while it has no size.
+    /// The finished scene; `None` while the viewport has no size.
     pub scene_view: Option<&'a wgpu::TextureView>,
 }
 
-/// Draws one kind of thing. Keeps on the device what it needs, and reloads it after a loss.
+/// Draws one kind of object. Keeps the device resources it needs and reloads them after a loss.
 pub trait Pass: DeviceListener {
-    /// For reports.
+    /// Name for reports.
     fn name(&self) -> &'static str;
 
-    /// Into what it draws. Passes of the scene come before those of the window.
+    /// Target of the pass. Passes of the scene come before those of the window.
     fn layer(&self) -> Layer;
 
-    /// Hands this frame's data to the device, before anything is drawn.
+    /// Writes this frame's data to the device, before anything is drawn.
     fn prepare(&mut self, around: &Surroundings<'_>, commands: &mut Commands);
 
-    /// Draws.
+    /// Draws into the target.
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>);
 }
 
-/// What preparing may add to a frame.
+/// Commands that preparing may add to a frame.
 pub struct Commands {
-    /// Runs before the first pass.
+    /// Encoder that runs before the first pass.
     pub encoder: wgpu::CommandEncoder,
-    /// Run before that encoder.
+    /// Command buffers that run before that encoder.
     pub before: Vec<wgpu::CommandBuffer>,
 }
 
-/// A pass and whoever else holds it.
+/// A pass, shared with its other users.
 pub type SharedPass = Rc<RefCell<dyn Pass>>;
 
-/// All passes in drawing order, and the panels among them by their own name.
+/// All passes in drawing order; the panels also by name.
 pub struct Passes {
-    /// In drawing order.
+    /// The passes in drawing order.
     pub list: Vec<SharedPass>,
-    /// Holds a device's model for the passes that draw it.
+    /// The model on the device, shared by the passes that draw it.
     pub model: Rc<RefCell<GpuModel>>,
-    /// Takes what the main thread paints.
+    /// The pass that receives the panels from the main thread.
     pub panels: Rc<RefCell<PanelsPass>>,
 }
 
-/// The list of passes.
+/// Creates all passes.
 pub fn all() -> Passes {
     let model = Rc::new(RefCell::new(GpuModel::default()));
     let panels = Rc::new(RefCell::new(PanelsPass::default()));
@@ -94,7 +94,7 @@ pub fn all() -> Passes {
     Passes { list, model, panels }
 }
 
-/// A pass as a listener: the list of passes and the list of listeners hold the same object under two names.
+/// Returns a pass as a listener: the list of passes and the list of listeners contain the same object.
 pub fn listener(pass: &SharedPass) -> Rc<RefCell<dyn DeviceListener>> {
     Rc::new(RefCell::new(ListeningPass(Rc::clone(pass))))
 }
@@ -115,7 +115,7 @@ fn shared(pass: impl Pass + 'static) -> SharedPass {
     Rc::new(RefCell::new(pass))
 }
 
-/// A pipeline of the scene that needs no more than the frame's uniform and these entry points of `module`.
+/// Creates a pipeline of the scene that uses only the frame's uniform and these entry points of `module`.
 fn scene_pipeline(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,

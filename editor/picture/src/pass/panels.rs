@@ -1,7 +1,7 @@
-//! The panels over the scene, as the main thread painted them.
+//! The panels over the scene, as laid out by the main thread.
 //!
-//! egui sends each of its textures once. A copy stays here, so that they come back with a new device; and what belongs to
-//! frames that were never drawn is applied all the same.
+//! egui sends each of its textures once. A copy is kept here, so that the textures can be loaded on a new device; the
+//! textures of frames that were never drawn are applied too.
 
 use super::{Commands, Layer, Pass, Surroundings};
 use crate::device::DeviceListener;
@@ -12,20 +12,20 @@ use egui::{ColorImage, ImageData, TextureId, TextureOptions, TexturesDelta};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use std::collections::HashMap;
 
-/// Draws them.
+/// Draws the panels.
 #[derive(Default)]
 pub struct PanelsPass {
     renderer: Option<Renderer>,
     frame: Option<Box<PanelsFrame>>,
     mirror: HashMap<TextureId, (ColorImage, TextureOptions)>,
-    /// In the mirror, not yet on the device.
+    /// Textures in the mirror that are not yet on the device.
     pending: TexturesDelta,
-    /// Used by the frame drawn last, not by the next.
+    /// Textures that the last frame used and the next one does not.
     outdated: Vec<TextureId>,
 }
 
 impl PanelsPass {
-    /// Shows `frame` from now on, instead of any that was not drawn yet.
+    /// Shows `frame` from now on, replacing any frame that was not drawn yet.
     pub fn show(&mut self, mut frame: Box<PanelsFrame>) {
         let textures = std::mem::take(&mut frame.textures);
         for (&id, deltas) in &textures.set {
@@ -37,7 +37,7 @@ impl PanelsPass {
         self.frame = Some(frame);
     }
 
-    /// Size of the window for which the panels were laid out.
+    /// Size of the window that the panels were laid out for.
     pub fn size(&self) -> Option<[u32; 2]> {
         self.frame.as_ref().map(|frame| frame.size)
     }
@@ -80,7 +80,7 @@ impl DeviceListener for PanelsPass {
 }
 
 impl Drop for PanelsPass {
-    /// egui insists that no texture is forgotten by mistake; this is on purpose.
+    /// Clears the textures deliberately, because egui panics when any are dropped.
     fn drop(&mut self) {
         self.pending.clear();
     }
@@ -121,7 +121,8 @@ impl Pass for PanelsPass {
     }
 }
 
-/// The window as it is, which need not be what the panels were laid out for: drawing outside of it would be an error.
+/// The size of the window as it is, which may differ from the size the panels were laid out for: drawing outside of
+/// it would be an error.
 fn screen(around: &Surroundings<'_>, frame: &PanelsFrame) -> ScreenDescriptor {
     ScreenDescriptor { size_in_pixels: around.window_size, pixels_per_point: frame.pixels_per_point }
 }

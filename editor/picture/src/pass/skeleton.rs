@@ -1,4 +1,4 @@
-//! Bones in their pose, over the surface or hidden by it.
+//! The bones in their pose, in front of the surface or hidden by it.
 
 use super::{Commands, Layer, Pass, Surroundings, scene_pipeline};
 use crate::body::{BodyVertex, triangles};
@@ -8,10 +8,10 @@ use crate::shaders;
 use crate::shape::{Body, BoneInstance};
 use wgpu::util::DeviceExt;
 
-/// The slice of depth that is kept for bones in front: nearer than all else, yet among themselves still in order.
+/// Depth range of bones that are drawn in front: nearer than everything else, but still ordered among themselves.
 const IN_FRONT: std::ops::Range<f32> = 0.9..1.0;
 
-/// Draws them.
+/// Draws the bones.
 #[derive(Default)]
 pub(super) struct SkeletonPass {
     resources: Option<Resources>,
@@ -21,9 +21,9 @@ struct Resources {
     outline: wgpu::RenderPipeline,
     solid: wgpu::RenderPipeline,
     line: wgpu::RenderPipeline,
-    /// In the order of [`Body::ALL`].
+    /// Vertex buffer and number of vertices of each body, in the order of [`Body::ALL`].
     bodies: [(wgpu::Buffer, u32); 4],
-    /// In the order of [`Body::ALL`]; grow with the skeleton.
+    /// Instance buffers, in the order of [`Body::ALL`]; they grow with the skeleton.
     instances: [Option<wgpu::Buffer>; 4],
 }
 

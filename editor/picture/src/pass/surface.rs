@@ -7,19 +7,19 @@ use crate::model::GpuModel;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Draws them, and takes the model to the device for whoever draws the rest.
+/// Draws the solid surfaces, and writes the model to the device for the other passes that draw it.
 pub(super) struct SurfacePass {
     model: Rc<RefCell<GpuModel>>,
 }
 
 impl SurfacePass {
-    /// Of this model.
+    /// Draws this model.
     pub(super) fn new(model: Rc<RefCell<GpuModel>>) -> Self {
         Self { model }
     }
 }
 
-/// The model is a listener of its own.
+/// The model is a listener itself.
 impl DeviceListener for SurfacePass {
     fn on_lost(&mut self) {}
 

@@ -1,5 +1,5 @@
-//! Which bone is under the pointer (thesis §2.2.2.3): the line of sight against the bones as they are drawn, in the pose they
-//! have; a pointer that just misses gets the nearest bone.
+//! Picking the bone under the pointer (thesis §2.2.2.3): intersects the line of sight with the bones as they are
+//! drawn in the present pose; a pointer that just misses picks the nearest bone.
 
 use crate::body::{placed, triangles};
 use crate::camera::Ray;
@@ -17,12 +17,12 @@ pub use cycle::ClickCycle;
 pub use region::{Lasso, OwnedRegion, Region, bones_in_region};
 pub use surface::{SkinHit, pick_skin};
 
-/// A pointer may miss by so many points, which look equally large on every screen.
+/// Distance at which the pointer still picks a bone, points, so that it looks equally large on every screen.
 const REACH: f32 = 10.0;
 
-/// The bone at a pixel of the window, in the pose that `scene` prepared last.
+/// Returns the bone at a pixel of the window, in the pose that `scene` prepared last.
 ///
-/// Bones that are not drawn are met all the same: a click on a leg means the bone inside it.
+/// Bones that are not drawn are picked too: a click on a leg means the bone inside it.
 pub fn pick(scene: &Scene, position: [f32; 2]) -> Option<BoneIndex> {
     let (ray, pixel) = scene.ray(position)?;
     let shape = scene.model()?.shape();
@@ -45,7 +45,7 @@ pub fn pick_all(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &m
     in_order(hits, out);
 }
 
-/// Those of [`pick_all`] that the line of sight meets.
+/// Returns the bones of [`pick_all`] that the line of sight intersects.
 pub fn pick_met(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
     out.clear();
     let Some(((ray, _), model)) = scene.ray(position).zip(scene.model()) else { return };
@@ -55,9 +55,9 @@ pub fn pick_met(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &m
     in_order(hits, out);
 }
 
-/// Each bone once, the nearest first.
+/// Writes each bone once, nearest first.
 fn in_order(mut hits: Vec<(f32, BoneIndex)>, out: &mut Vec<BoneIndex>) {
-    // Stable: of two as near the one found first, as in `pick`.
+    // The sort is stable: of two equally near hits the first found comes first, as in `pick`.
     hits.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, bone) in hits {
         if !out.contains(&bone) {
@@ -66,15 +66,15 @@ fn in_order(mut hits: Vec<(f32, BoneIndex)>, out: &mut Vec<BoneIndex>) {
     }
 }
 
-/// The bones in a part of the viewport, which is given in points from its top left, in the order of the skeleton; not the
-/// hidden ones. See [`bones_in_region`] for what inside means.
+/// Writes the bones in a region of the viewport, given in points from its top left, in the order of the skeleton.
+/// Hidden bones are left out. See [`bones_in_region`] for the meaning of inside.
 pub fn pick_region(scene: &Scene, region: &Region<'_>, hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
     out.clear();
     let Some(model) = scene.model() else { return };
     let clip_from_world = scene.clip_from_world(&scene.bounds().sphere);
     let points = scene.size() / scene.look.pixels_per_point;
     let shape = model.shape();
-    // The balls at the joints are no shapes of their own where the bone has another.
+    // The ball at a joint is not a shape of its own if the bone has another.
     let shapes = Body::ALL.into_iter().flat_map(|body| {
         let ends = move |instance: &BoneInstance| match body {
             Body::Ball => [instance.head; 2],
@@ -87,7 +87,7 @@ pub fn pick_region(scene: &Scene, region: &Region<'_>, hidden: &HiddenBones, out
     hidden.retain_shown(out);
 }
 
-/// The bone that the ray meets first.
+/// Returns the first bone that the ray intersects.
 fn hit(shape: &SkeletonShape, ray: &Ray) -> Option<BoneIndex> {
     let mut first: Option<(f32, BoneIndex)> = None;
     for_each_hit(shape, ray, |distance, bone| {
@@ -98,7 +98,7 @@ fn hit(shape: &SkeletonShape, ray: &Ray) -> Option<BoneIndex> {
     first.map(|(_, bone)| bone)
 }
 
-/// Calls `found` with every triangle of a bone that the ray meets, and how far away.
+/// Calls `found` with every triangle of a bone that the ray intersects, and its distance.
 fn for_each_hit(shape: &SkeletonShape, ray: &Ray, mut found: impl FnMut(f32, BoneIndex)) {
     for body in Body::ALL {
         let corners = triangles(body);
@@ -116,7 +116,7 @@ fn for_each_hit(shape: &SkeletonShape, ray: &Ray, mut found: impl FnMut(f32, Bon
     }
 }
 
-/// Does the ray come into the sphere around a bone?
+/// Returns whether the ray intersects the bounding sphere of a bone.
 fn passes_near(ray: &Ray, bone: &BoneInstance) -> bool {
     let center = (bone.head + bone.tail) / 2.0;
     let radius = bone.head.distance(bone.tail) / 2.0 + bone.radius * 1.5;
@@ -125,12 +125,12 @@ fn passes_near(ray: &Ray, bone: &BoneInstance) -> bool {
     aside.length_squared() <= radius * radius
 }
 
-/// Distance along the ray at which it meets a triangle, from either side.
+/// Distance along the ray at which it intersects a triangle, from either side.
 fn meets(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<f32> {
     let (ab, ac) = (b - a, c - a);
     let across = ray.direction.cross(ac);
     let determinant = ab.dot(across);
-    // Seen edge on, or a triangle without area.
+    // Edge-on, or a triangle of zero area.
     if determinant.is_nan() || determinant.abs() <= f32::MIN_POSITIVE {
         return None;
     }
@@ -143,7 +143,7 @@ fn meets(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<f32> {
     inside.then_some(distance)
 }
 
-/// The bone whose line on the screen comes closest to the pixel, if close enough.
+/// Returns the bone whose line on the screen is nearest to the pixel, if it is near enough.
 fn nearest(scene: &Scene, shape: &SkeletonShape, pixel: Vec2) -> Option<BoneIndex> {
     let mut best: Option<(f32, BoneIndex)> = None;
     for_each_near(scene, shape, pixel, |distance, bone| {
@@ -154,7 +154,7 @@ fn nearest(scene: &Scene, shape: &SkeletonShape, pixel: Vec2) -> Option<BoneInde
     best.map(|(_, bone)| bone)
 }
 
-/// Calls `found` with every bone whose line on the screen comes close enough to the pixel, and how close.
+/// Calls `found` with every bone whose line on the screen is near enough to the pixel, and its distance.
 fn for_each_near(scene: &Scene, shape: &SkeletonShape, pixel: Vec2, mut found: impl FnMut(f32, BoneIndex)) {
     let clip_from_world = scene.clip_from_world(&scene.bounds().sphere);
     let size = scene.size();
@@ -171,7 +171,7 @@ fn for_each_near(scene: &Scene, shape: &SkeletonShape, pixel: Vec2, mut found: i
     }
 }
 
-/// Pixels from the top left of the viewport; `None` behind the eye.
+/// Position in the viewport, pixels from its top left; `None` behind the camera.
 fn on_screen(clip_from_world: &Mat4, point: Vec3, size: Vec2) -> Option<Vec2> {
     let clip = *clip_from_world * point.extend(1.0);
     (clip.w > 0.0).then(|| {

@@ -1,38 +1,38 @@
-//! Boxes and lassos, and the bones in them.
+//! Box and lasso selection of bones.
 //!
-//! A bone is inside when its joint is, or the middle of its shape: what one sees of a bone is around its middle, and a joint
-//! alone is what a small bone is. (Touching with an edge does not count, so a long bone that crosses a box is not caught by
-//! chance.) Bones behind the eye are never inside.
+//! A bone is inside a region if its joint or the center of its shape is: the visible part of a bone is around its
+//! center, and a small bone is only its joint. (Touching an edge does not count, so a long bone that crosses a box is
+//! not selected by accident.) Bones behind the camera are never inside.
 
 use dragonfly_anim::data::BoneIndex;
 use glam::{Vec2, Vec3};
 
-/// Points of a lasso are this far apart at least, points of the screen.
+/// Smallest distance between the points of a lasso, points of the screen.
 const SPACING: f32 = 2.0;
-/// Points of a lasso at most; then every second is forgotten.
+/// Largest number of points of a lasso; beyond it every second point is dropped.
 const MOST: usize = 2048;
 
-/// A part of the picture, in points from its top left.
+/// A region of the viewport, in points from its top left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Region<'a> {
-    /// Between two corners, any two.
+    /// Rectangle between any two opposite corners.
     Box(Vec2, Vec2),
-    /// Within a line that is closed from its end to its beginning; where it crosses itself, what it runs around any number
-    /// of times.
+    /// Area enclosed by a line that is closed from its end to its start; where it crosses itself, every area it winds
+    /// around.
     Lasso(&'a [Vec2]),
 }
 
-/// A [`Region`] that can be sent elsewhere.
+/// An owned [`Region`], for sending to another thread.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OwnedRegion {
-    /// Between two corners.
+    /// Rectangle between two opposite corners.
     Box(Vec2, Vec2),
-    /// Within a line.
+    /// Area enclosed by a line.
     Lasso(Vec<Vec2>),
 }
 
 impl OwnedRegion {
-    /// What it holds.
+    /// The region.
     pub fn region(&self) -> Region<'_> {
         match self {
             Self::Box(a, b) => Region::Box(*a, *b),
@@ -42,7 +42,7 @@ impl OwnedRegion {
 }
 
 impl Region<'_> {
-    /// The same, to be sent elsewhere.
+    /// An owned copy.
     pub fn to_owned(&self) -> OwnedRegion {
         match *self {
             Self::Box(a, b) => OwnedRegion::Box(a, b),
@@ -50,7 +50,7 @@ impl Region<'_> {
         }
     }
 
-    /// Does it hold this point?
+    /// Returns whether the region contains a point.
     pub fn holds(&self, point: Vec2) -> bool {
         match *self {
             Region::Box(a, b) => point.cmpge(a.min(b)).all() && point.cmple(a.max(b)).all(),
@@ -59,7 +59,7 @@ impl Region<'_> {
     }
 }
 
-/// How often a closed line runs around a point.
+/// Winding number of a closed line around a point.
 fn winding(line: &[Vec2], point: Vec2) -> i32 {
     let mut count = 0;
     for (index, &from) in line.iter().enumerate() {
@@ -74,23 +74,23 @@ fn winding(line: &[Vec2], point: Vec2) -> i32 {
     count
 }
 
-/// A lasso while it is drawn.
+/// A lasso being drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lasso {
     line: Vec<Vec2>,
-    /// Least distance of two points; doubles when there are too many.
+    /// Smallest distance between two points; doubles when there are too many.
     spacing: f32,
 }
 
 impl Lasso {
-    /// Begins here.
+    /// Starts a lasso at `at`.
     pub fn begin(&mut self, at: Vec2) {
         self.line.clear();
         self.spacing = SPACING;
         self.push(at);
     }
 
-    /// The pointer is there now.
+    /// Adds the position of the pointer.
     pub fn push(&mut self, at: Vec2) {
         if !at.is_finite() || self.line.last().is_some_and(|last| last.distance(at) < self.spacing) {
             return;
@@ -106,16 +106,16 @@ impl Lasso {
         self.line.push(at);
     }
 
-    /// What it holds.
+    /// The region it encloses.
     pub fn region(&self) -> Region<'_> {
         Region::Lasso(&self.line)
     }
 }
 
-/// Writes the bones inside of a region to `out`, each once, in the order of the skeleton.
+/// Writes the bones inside a region to `out`, each once, in the order of the skeleton.
 ///
-/// `shapes` are a bone, where its shape begins (its joint) and where that ends, scene space; a bone may have several.
-/// `to_screen` says where a place appears, `None` behind the eye.
+/// `shapes` are a bone with the start of its shape (its joint) and the end, scene space; a bone may have several.
+/// `to_screen` returns the position on the screen, or `None` behind the camera.
 pub fn bones_in_region(
     region: &Region<'_>,
     shapes: impl Iterator<Item = (BoneIndex, Vec3, Vec3)>,

@@ -1,4 +1,4 @@
-//! Choosing a bone by clicking the skin that it moves.
+//! Picking a bone by clicking the skin that it moves.
 
 use crate::camera;
 use dragonfly_anim::data::BoneIndex;
@@ -7,25 +7,25 @@ use dragonfly_anim::hit::{HitPose, HitSettings, Ray};
 use dragonfly_document::bones::HiddenBones;
 use glam::Vec3;
 
-/// Layers of skin that are looked through.
+/// Largest number of layers of skin to look through.
 const LAYERS: usize = 16;
-/// How far behind a hit the next look begins, relative to its distance: past the triangle that was hit, and its neighbours
-/// at a shared edge.
+/// Offset of the next ray behind a hit, relative to its distance: enough to pass the triangle that was hit and its
+/// neighbors at a shared edge.
 const STEP: f32 = 1e-4;
 
-/// A place of the skin and the bone with the largest influence there.
+/// A point on the skin and the bone with the largest influence there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkinHit {
-    /// Which bone.
+    /// Index of the bone.
     pub bone: BoneIndex,
-    /// Scene space.
+    /// Position, scene space.
     pub position: Vec3,
-    /// Scene units from where the line of sight begins.
+    /// Distance from the start of the line of sight, scene units.
     pub distance: f32,
 }
 
-/// The bones under the pointer by the skin, the nearest first and each once, as far as sixteen layers go. Hidden bones and
-/// what no bone moves are looked through.
+/// Finds the bones of the skin under the pointer, nearest first and each once, up to sixteen layers deep. Ignores
+/// hidden bones and surfaces that no bone moves.
 ///
 /// `pose` is refitted to the pose of `evaluator`. Allocates as `out` grows.
 pub fn pick_skin(
@@ -47,7 +47,7 @@ pub fn pick_skin(
             out.push(SkinHit { bone, position: hit.position, distance });
         }
         let further = distance + distance.abs() * STEP;
-        // Where the numbers are too coarse to go on, there is nothing behind.
+        // At this distance f32 is too coarse to continue.
         if !(further > begin && further.is_finite()) {
             return;
         }
