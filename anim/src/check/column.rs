@@ -1,11 +1,11 @@
-//! Ways through a model that many rules take.
+//! Iterators over a model that several rules share.
 
 use super::TakeOf;
 use super::place::{Kind, Place};
 use crate::data::{Channel, Interpolation, ModelData, Primitive};
 use glam::{Quat, Vec3};
 
-/// Every primitive with its place.
+/// Iterates over every primitive with its path.
 pub(super) fn primitives(model: &ModelData) -> impl Iterator<Item = (usize, &Primitive, impl Fn() -> Place)> {
     model.meshes.iter().enumerate().flat_map(|(number, mesh)| {
         mesh.primitives.iter().enumerate().map(move |(index, primitive)| {
@@ -22,7 +22,7 @@ pub(super) enum Values<'a> {
     Rotations(&'a [Quat]),
 }
 
-/// A channel of any kind.
+/// A channel with values of any type.
 pub(super) struct Column<'a> {
     /// Position of the track in the take.
     pub(super) track: usize,
@@ -33,7 +33,7 @@ pub(super) struct Column<'a> {
 }
 
 impl Column<'_> {
-    /// How many values there are.
+    /// Returns the number of values.
     pub(super) fn len(&self) -> usize {
         match self.values {
             Values::Vectors(values) => values.len(),
@@ -41,7 +41,7 @@ impl Column<'_> {
         }
     }
 
-    /// Is value `index` neither NaN nor infinite?
+    /// Returns whether value `index` is finite.
     pub(super) fn is_finite(&self, index: usize) -> bool {
         match self.values {
             Values::Vectors(values) => values.get(index).is_none_or(|value| value.is_finite()),
@@ -49,25 +49,25 @@ impl Column<'_> {
         }
     }
 
-    /// Three for a cubic spline, else one.
+    /// Returns 3 for a cubic spline, 1 otherwise.
     pub(super) fn values_per_key(&self) -> usize {
         if self.interpolation == Interpolation::CubicSpline { 3 } else { 1 }
     }
 
-    /// The channel as a place in `of`.
+    /// Returns the path of the channel in `of`.
     pub(super) fn place(&self, of: &TakeOf<'_>) -> Place {
         channel_place(of, self.track, self.number)
     }
 }
 
-/// Channel `number` of the track at position `track`.
+/// Returns the path of channel `number` of the track at position `track`.
 pub(super) fn channel_place(of: &TakeOf<'_>, track: usize, number: usize) -> Place {
     let bone = of.take.tracks.get(track).map_or(track, |track| track.bone as usize);
     let name = ["translation", "rotation", "scale"].get(number).copied().unwrap_or("");
     of.bone(bone).then(Kind::Channel, number, name)
 }
 
-/// Every channel of a take that has anything in it.
+/// Iterates over every channel of a take that has keys or values.
 pub(super) fn columns<'a>(of: &TakeOf<'a>) -> impl Iterator<Item = Column<'a>> {
     let take = of.take;
     let column =
@@ -86,7 +86,7 @@ pub(super) fn columns<'a>(of: &TakeOf<'a>) -> impl Iterator<Item = Column<'a>> {
     })
 }
 
-/// Every key of a channel with its number, time and value; what is missing is left out.
+/// Iterates over every key of a channel with its number, time and value; incomplete keys are left out.
 pub(super) fn keys<T: Copy>(channel: &Channel<T>) -> impl Iterator<Item = (usize, f32, T)> {
     channel.times.iter().enumerate().filter_map(|(key, &time)| Some((key, time, channel.value(key)?)))
 }

@@ -1,13 +1,13 @@
-//! Everything wrong with a model or a take, as a list with places.
+//! Validation: a list of everything wrong with a model or a take, with paths.
 //!
-//! Nothing is mended here and nothing is refused: [`check`] looks, and says what it saw, where, and how much it matters.
-//! It never panics, whatever the model holds, and takes time in proportion to the model's size.
+//! Nothing is repaired or rejected: [`check`] reports each problem with its path and severity. It never panics,
+//! whatever the model contains, and takes time in proportion to the model's size.
 //!
 //! | severity | meaning |
 //! |---|---|
-//! | [`Severity::Error`] | a promise of the data types is broken: what is shown is a stand-in, or wrong |
-//! | [`Severity::Warning`] | allowed, but probably not meant, and visible |
-//! | [`Severity::Note`] | allowed and often meant; worth knowing when something looks odd |
+//! | [`Severity::Error`] | an invariant of the data types is broken: the display uses a fallback, or is wrong |
+//! | [`Severity::Warning`] | allowed, but probably unintended, and visible |
+//! | [`Severity::Note`] | allowed and often intended; worth knowing when something looks odd |
 //!
 //! A new rule is a file in `rule/` and a line in [`RULES`].
 //!
@@ -27,23 +27,23 @@ pub use place::{Kind, Place, Step};
 use crate::data::{ModelData, Skeleton, Take};
 use std::fmt;
 
-/// How much a finding matters. Sorts with the worst first.
+/// Severity of a finding. Sorts with the worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// A promise of the data types is broken.
+    /// An invariant of the data types is broken.
     Error,
-    /// Probably not meant.
+    /// Probably unintended.
     Warning,
     /// Worth knowing.
     Note,
 }
 
-/// What a rule looks at.
+/// The function of a rule, by what it examines.
 #[derive(Clone, Copy)]
 pub(crate) enum Look {
-    /// The model without its takes.
+    /// Examines the model without its takes.
     Model(fn(&ModelData, &mut Findings)),
-    /// One take and the skeleton it moves.
+    /// Examines one take and the skeleton it moves.
     Take(fn(&TakeOf<'_>, &mut Findings)),
 }
 
@@ -52,9 +52,9 @@ pub(crate) enum Look {
 pub struct Rule {
     /// Short and in capitals: `"KEY_TIMES_FALL"`.
     pub id: &'static str,
-    /// How much breaking it matters.
+    /// Severity of its findings.
     pub severity: Severity,
-    /// What is wrong when it is broken, in a sentence.
+    /// The problem that the rule finds, in one sentence.
     pub meaning: &'static str,
     look: Look,
 }
@@ -79,16 +79,16 @@ impl Rule {
     }
 }
 
-/// Something that breaks a rule. Shown as `severity: place: text`.
+/// A violation of a rule. Displayed as `severity: path: text`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// [`Rule::id`].
     pub rule: &'static str,
     /// [`Rule::severity`].
     pub severity: Severity,
-    /// Where.
+    /// The violating element.
     pub place: Place,
-    /// What, with the numbers.
+    /// Description of the problem, with the numbers.
     pub text: String,
 }
 
@@ -103,10 +103,10 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Findings of one rule that are told one by one; the rest of a [`check`] is counted.
+/// Number of findings of one rule that a [`check`] lists one by one; the rest is only counted.
 pub const MOST_OF_A_RULE: usize = 100;
 
-/// Collects what one rule finds.
+/// Collects the findings of one rule.
 pub(crate) struct Findings {
     rule: &'static Rule,
     list: Vec<Finding>,
@@ -114,7 +114,7 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
-    /// Adds a finding; `tell` is only asked while there is room for more.
+    /// Adds a finding; `describe` is only called while the list is not full.
     pub(crate) fn add(&mut self, tell: impl FnOnce() -> (Place, String)) {
         if self.list.len() >= MOST_OF_A_RULE {
             self.untold += 1;
@@ -125,30 +125,30 @@ impl Findings {
     }
 }
 
-/// A take with what it moves.
+/// A take with its context.
 pub(crate) struct TakeOf<'a> {
     pub(crate) take: &'a Take,
     pub(crate) skeleton: &'a Skeleton,
     /// Number of the take in its model.
     pub(crate) number: usize,
-    /// The model, where the take was not given by itself.
+    /// The model; `None` where the take is checked by itself.
     pub(crate) model: Option<&'a ModelData>,
 }
 
 impl TakeOf<'_> {
-    /// The take as a place.
+    /// Returns the path of the take.
     pub(crate) fn place(&self) -> Place {
         Place::of(Kind::Take, self.number, &self.take.name)
     }
 
-    /// A bone of the skeleton, within the take.
+    /// Returns the path of a bone of the skeleton, within the take.
     pub(crate) fn bone(&self, bone: usize) -> Place {
         let name = self.skeleton.bones.get(bone).map_or("", |bone| bone.name.as_str());
         self.place().then(Kind::Bone, bone, name)
     }
 }
 
-/// Everything wrong with `model`, the worst first, then in the order of [`RULES`].
+/// Returns everything wrong with `model`, the worst first, then in the order of [`RULES`].
 pub fn check(model: &ModelData) -> Vec<Finding> {
     let takes = model.animation.takes.iter().enumerate().map(|(number, take)| TakeOf {
         take,
@@ -163,7 +163,7 @@ pub fn check(model: &ModelData) -> Vec<Finding> {
     })
 }
 
-/// Everything wrong with `take` as one that moves `skeleton`; places name it as number 0.
+/// Returns everything wrong with `take` as one that moves `skeleton`; in paths it is take number 0.
 pub fn check_take(take: &Take, skeleton: &Skeleton) -> Vec<Finding> {
     let of = TakeOf { take, skeleton, number: 0, model: None };
     run(|look, findings| match look {
@@ -189,7 +189,7 @@ fn run(mut look: impl FnMut(Look, &mut Findings)) -> Vec<Finding> {
 
 use Severity::{Error, Note, Warning};
 
-/// Every rule.
+/// All rules, in the order in which findings of equal severity are listed.
 pub static RULES: &[Rule] = &[
     Rule::model("NOT_FINITE", Error, "A number of the model is NaN or infinite.", rule::not_finite::look),
     Rule::model(

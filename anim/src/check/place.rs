@@ -1,9 +1,9 @@
-//! Where in a model something is.
+//! Paths of elements in a model.
 
 use crate::format::one_line;
 use std::fmt;
 
-/// What a step of a place names.
+/// The list that a step of a path indexes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// A position in [`ModelData::meshes`](crate::data::ModelData::meshes).
@@ -32,14 +32,14 @@ pub enum Kind {
     Track,
     /// A position in the take's morph tracks.
     MorphTrack,
-    /// 0 translation, 1 rotation, 2 scale; named so.
+    /// 0 translation, 1 rotation, 2 scale; displayed by these names.
     Channel,
     /// The number of a key in its channel.
     Key,
 }
 
 impl Kind {
-    /// For people.
+    /// Returns the name in messages.
     fn name(self) -> &'static str {
         match self {
             Self::Mesh => "mesh",
@@ -61,18 +61,18 @@ impl Kind {
     }
 }
 
-/// One step of a place.
+/// One step of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// What is named.
+    /// The list that is indexed.
     pub kind: Kind,
-    /// Its position, from 0.
+    /// Position in the list, from 0.
     pub number: usize,
-    /// Its name; empty where it has none.
+    /// Name of the element; empty where it has none.
     pub name: String,
 }
 
-/// Steps from the model down: `mesh 0 "body", primitive 1, vertex 12`. Without steps: the model.
+/// Path of an element: steps from the model down, `mesh 0 "body", primitive 1, vertex 12`. Without steps: the model.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
     /// The outermost first.
@@ -80,18 +80,18 @@ pub struct Place {
 }
 
 impl Place {
-    /// A place of one step.
+    /// Creates a path of one step.
     pub(crate) fn of(kind: Kind, number: usize, name: &str) -> Self {
         Self::default().then(kind, number, name)
     }
 
-    /// A place within this one.
+    /// Returns the path with another step appended.
     pub(crate) fn then(mut self, kind: Kind, number: usize, name: &str) -> Self {
         self.steps.push(Step { kind, number, name: name.to_owned() });
         self
     }
 
-    /// The number of the step of `kind`.
+    /// Returns the number of the step of `kind`.
     pub fn number(&self, kind: Kind) -> Option<usize> {
         self.steps.iter().find(|step| step.kind == kind).map(|step| step.number)
     }

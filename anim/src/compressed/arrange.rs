@@ -1,29 +1,29 @@
-//! Which tracks are decoded side by side: eight lanes a group.
+//! The arrangement of tracks in groups of eight lanes that are decoded together.
 //!
-//! Mostly a group is a block of the pose: eight neighbouring bones, of which those that move have a track. Where only
-//! few bones of several blocks move, their tracks share a group, and what it results in is put in place one by one.
-//! Writing and reading arrange alike, so nothing of it is stored: what is decided here is part of the format.
+//! Usually a group is a block of the pose: eight neighboring bones, of which those that move have a track. Where only
+//! few bones of several blocks move, their tracks share a group, and its results are scattered one by one. Writing and
+//! reading use the same arrangement, so none of it is stored: this function is part of the format.
 
 use super::stored::{PACKED, PARTS};
 use crate::fast::simd::LANES;
 
-/// What decoding a group costs, and what putting one of its lanes in its place costs on top: of rotations, and of
-/// vectors. In instructions, roughly.
+/// Cost of decoding a group, and additional cost of scattering one of its lanes: of rotations, and of vectors. In
+/// instructions, roughly.
 const COSTS: [(usize, usize); 2] = [(138, 15), (85, 12)];
 
-/// Tracks that are decoded side by side.
+/// Tracks that are decoded together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Group {
-    /// The bone of each lane; [`NONE`] where a lane has no track.
+    /// Bone of each lane; [`NONE`] where a lane has no track.
     pub(super) bones: [u32; LANES],
-    /// The block of the pose whose lanes these are; `None` where they are from several.
+    /// Block of the pose whose lanes these are; `None` where they are from several.
     pub(super) block: Option<u32>,
 }
 
-/// Stands for no bone.
+/// Marks a lane without a bone.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A track's place.
+/// Position of a track.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Place {
     pub(super) part: usize,
@@ -32,8 +32,8 @@ pub(super) struct Place {
     pub(super) bone: usize,
 }
 
-/// The groups of rotations, translations and scales, for the kinds of parts of each bone. Those that are blocks of the
-/// pose come first.
+/// Returns the groups of rotations, translations and scales, from the storage of each bone's channels. Those that are
+/// blocks of the pose come first.
 pub(super) fn groups(kinds: &[[u32; PARTS]]) -> [Vec<Group>; PARTS] {
     [0, 1, 2].map(|part| {
         let moves = |bone: &usize| kinds[*bone][part] == PACKED;
@@ -41,7 +41,7 @@ pub(super) fn groups(kinds: &[[u32; PARTS]]) -> [Vec<Group>; PARTS] {
     })
 }
 
-/// Every track in the order in which tracks are stored: group after group, lane after lane.
+/// Returns every track in the order in which tracks are stored: group after group, lane after lane.
 pub(super) fn places(groups: &[Vec<Group>; PARTS]) -> Vec<Place> {
     let mut places = Vec::new();
     for (part, groups) in groups.iter().enumerate() {
@@ -67,7 +67,7 @@ fn arranged(bones: impl Iterator<Item = usize>, (group, lane): (usize, usize)) -
     let count = |block: &Group| block.bones.iter().filter(|&&bone| bone != NONE).count();
     let mut order: Vec<usize> = (0..blocks.len()).collect();
     order.sort_by_key(|&at| count(&blocks[at]));
-    // Of how many blocks, beginning with the emptiest, do the tracks share groups?
+    // Searches the number of blocks, beginning with the emptiest, whose tracks share groups.
     let (mut lanes, mut best, mut least) = (0, 0, blocks.len() * group);
     for (index, &at) in order.iter().enumerate() {
         lanes += count(&blocks[at]);

@@ -1,4 +1,4 @@
-//! From a take to a compressed one: code, measure, and choose what came out smallest.
+//! Compression of a take: encodes with several choices, measures each, and keeps the smallest.
 
 use super::encode::{Choice, Encoder};
 use super::frames::{Frames, all_to_root};
@@ -10,42 +10,42 @@ use super::{CompressError, CompressedTake};
 use crate::data::{Skeleton, Take, Transform};
 use crate::fast::Pose;
 
-/// What compression came to.
+/// Results of a compression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// Where the bytes went.
+    /// Sizes in bytes, by content.
     pub bytes: Bytes,
-    /// Bytes of the same keys as plain floats: 40 a bone and key.
+    /// Size in bytes of the same keys as plain floats: 40 per bone and key.
     pub raw_bytes: usize,
-    /// The largest error at any key time, measured on the decoded result, and where it is.
+    /// The largest error at any key time, measured on the decoded result, and its position.
     pub largest_error: LargestError,
     /// That error in units of its bone's tolerance; at most 1.
     pub share_of_tolerance: f32,
-    /// Keys of one segment.
+    /// Number of keys in a segment.
     pub keys_per_segment: usize,
-    /// Channels that stand still in the default value, stand still elsewhere, move, and move but are stored whole.
+    /// Number of channels that are constant at the default value, constant at another value, packed, and stored whole.
     pub channels: [usize; 4],
-    /// Morph tracks of the take: these are not part of a compressed take.
+    /// Number of morph tracks of the take: these are not part of a compressed take.
     pub morphs_left_out: usize,
 }
 
-/// Bytes by what they hold.
+/// Sizes in bytes, by content.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Bytes {
-    /// Name, times, sums.
+    /// Name, times, checksums.
     pub header: usize,
-    /// What stands still.
+    /// Constant channels.
     pub constants: usize,
-    /// Ranges and widths of what moves.
+    /// Ranges and widths of packed channels.
     pub ranges: usize,
     /// Keys stored whole.
     pub whole: usize,
-    /// Keys in few bits.
+    /// Packed keys.
     pub keys: usize,
 }
 
 impl Bytes {
-    /// All of them: the length of [`CompressedTake::as_bytes`].
+    /// Returns the sum: the length of [`CompressedTake::as_bytes`].
     pub fn total(&self) -> usize {
         self.header + self.constants + self.ranges + self.whole + self.keys
     }
@@ -54,20 +54,20 @@ impl Bytes {
 /// Shares of the tolerance tried for the first and the last joint of a chain.
 const SHARES: [[f32; 2]; 8] =
     [[0.7, 0.8], [0.5, 0.8], [0.6, 0.7], [0.45, 0.7], [0.5, 0.6], [0.45, 0.6], [0.4, 0.55], [0.3, 0.4]];
-/// Segment sizes tried, as powers of two, beginning in the middle.
+/// Segment sizes tried, as powers of two, beginning with the middle one.
 const SMALLER: [u32; 2] = [5, 4];
 const LARGER: [u32; 2] = [7, 8];
 const MIDDLE: u32 = 6;
 
 /// Compresses `take`, whose bones are those of `skeleton`.
 ///
-/// The take is read at evenly spaced times (its own, where they are; see [`Settings::rate`]). At each of them, each of
-/// the three shell points of each bone is within the tolerance of where the raw take has it, in scene space: that is
-/// measured on the decoded bytes before they are returned.
+/// The take is sampled at evenly spaced times (its own, where they are; see [`Settings::rate`]). At each of them, each
+/// of the three shell points of each bone is within the tolerance of its position in the raw take, in scene space: that
+/// is measured on the decoded bytes before they are returned.
 ///
 /// # Errors
 ///
-/// Too many bones or keys; or numbers so large that single precision cannot hold the tolerance.
+/// Too many bones or keys; or numbers so large that single precision cannot keep the tolerance.
 pub fn compress(
     take: &Take,
     skeleton: &Skeleton,
@@ -114,7 +114,7 @@ fn out_of_reach(attempt: Attempt, exactness: &[Exactness]) -> CompressError {
     CompressError::OutOfReach { bone, time, tolerance, reached: distance }
 }
 
-/// Takes the place of `best` where it holds the tolerance and costs less.
+/// Replaces `best` by `attempt` where that keeps the tolerance and costs less. Returns whether it did.
 fn better(attempt: Attempt, best: &mut Option<Attempt>) -> bool {
     let holds = attempt.report.share_of_tolerance <= 1.0;
     let smaller = best.as_ref().is_none_or(|best| attempt.cost() < best.cost());
@@ -124,14 +124,14 @@ fn better(attempt: Attempt, best: &mut Option<Attempt>) -> bool {
     holds && smaller
 }
 
-/// One way to compress a take, and what it came to.
+/// A take compressed with one choice, and its report.
 struct Attempt {
     take: CompressedTake,
     report: Report,
 }
 
 impl Attempt {
-    /// Bytes, and a quarter of those of the tables: they are needed only while the take is played.
+    /// Returns the bytes, plus a quarter of those of the tables: they are needed only while the take is played.
     fn cost(&self) -> usize {
         self.take.as_bytes().len() * 3 / 4 + self.take.bytes_in_memory() / 4
     }
@@ -167,7 +167,7 @@ impl Attempt {
     }
 }
 
-/// The decoded poses at every key time, frame after frame.
+/// Returns the decoded poses at every key time, frame after frame.
 fn poses(take: &CompressedTake, frames: &Frames) -> Vec<Transform> {
     let interval = frames.clock.interval();
     let mut pose = Pose::new(frames.bones);

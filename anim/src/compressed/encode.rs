@@ -1,4 +1,4 @@
-//! From frames to what is stored: bone after bone from the root, each against its parent as it will be decoded.
+//! Encodes frames, bone after bone from the root, each relative to its parent as it will be decoded.
 
 use super::frames::Frames;
 use super::grid::{WHOLE_BITS, rotation_from, rotation_numbers};
@@ -10,29 +10,29 @@ use crate::animation::to_parent;
 use crate::data::{Skeleton, Transform};
 use glam::{Affine3A, Quat, Vec3, Vec3Swizzles};
 
-/// What the compressor may choose.
+/// Parameters that the compressor may choose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Choice {
     /// A segment has `1 << shift` keys.
     pub(super) shift: u32,
-    /// Shares of the tolerance that the first and the last joint of a chain may be off.
+    /// Shares of the tolerance allowed for the first and the last joint of a chain.
     pub(super) shares: [f32; 2],
-    /// Store what moves as exactly as possible.
+    /// Whether channels that move are stored as exactly as possible.
     pub(super) whole: bool,
 }
 
-/// Share of the tolerance that the shell of a bone may be off.
+/// Share of the tolerance allowed for the shell of a bone.
 const SHELL: f32 = 0.985;
-/// Share of a joint's tolerance that goes into its translation, where that moves.
+/// Share of a joint's tolerance allowed for its translation, where that moves.
 const MOVED: f32 = 0.5;
-/// Share of a bone's tolerance that goes into its scale, where that moves.
+/// Share of a bone's tolerance allowed for its scale, where that moves.
 const SCALED: f32 = 0.3;
-/// The first step tried, in those that would just do for one point.
+/// The first step tried, in units of the step that would just suffice for one point.
 const COARSE: f32 = 4.0;
 /// A rotation whose w relative to the middle one falls below this is stored whole.
 const SMALLEST_W: f32 = 0.3;
 
-/// Everything that coding a bone needs.
+/// Everything needed to encode a bone.
 pub(super) struct Encoder<'a> {
     pub(super) frames: &'a Frames,
     pub(super) skeleton: &'a Skeleton,
@@ -47,7 +47,7 @@ impl<'a> Encoder<'a> {
         Self { frames, skeleton, plan, choice, to_root: vec![Affine3A::IDENTITY; frames.to_root.len()] }
     }
 
-    /// Codes every bone.
+    /// Encodes every bone.
     pub(super) fn run(mut self, name: &str) -> Stored {
         let bones = (0..self.frames.bones).map(|bone| self.bone(bone)).collect();
         Stored {
@@ -64,7 +64,7 @@ impl<'a> Encoder<'a> {
         parent.map_or(Affine3A::IDENTITY, |parent| self.to_root[frame * self.frames.bones + parent])
     }
 
-    /// Distance that the origin of `bone` may be off.
+    /// Returns the distance by which the origin of `bone` may be off.
     fn joint_limit(&self, bone: usize) -> f32 {
         let (depth, deepest) = self.plan.depth[bone];
         let [first, last] = self.choice.shares;
@@ -102,7 +102,7 @@ impl<'a> Encoder<'a> {
         let reach = points.iter().map(|point| point.local.length()).fold(f32::MIN_POSITIVE, f32::max);
         let largest = |frame: usize| self.frames.to_root(frame, bone).matrix3;
         let error = |frame: usize, scale: Vec3| {
-            // Seen from the raw bone: how far its points move, whatever the parents are.
+            // Relative to the raw bone: the movement of its points alone, without that of the parents.
             let unscaled = wanted[frame];
             let ratio = Vec3::select(
                 unscaled.abs().cmpgt(Vec3::splat(1e-3)),
@@ -139,7 +139,7 @@ impl<'a> Encoder<'a> {
         self.vector(&wanted, Vec3::splat(COARSE * limit), error, put)
     }
 
-    /// Codes a vector that moves.
+    /// Encodes a vector that moves.
     fn vector(
         &self,
         values: &[Vec3],
@@ -174,7 +174,7 @@ impl<'a> Encoder<'a> {
                 let pose = Transform { rotation, ..poses[frame] };
                 Point::share(&points, raw_of(frame), &(parents[frame] * pose.to_affine()))
             };
-            // Where the parents left more of an error than a rotation can take back, no number of bits would do.
+            // Where the parents left a larger error than a rotation can correct, no number of bits would suffice.
             let reachable: Vec<f32> = wanted
                 .iter()
                 .enumerate()
@@ -195,7 +195,7 @@ impl<'a> Encoder<'a> {
         Part::Whole(wanted.iter().map(|rotation| rotation.to_array()).collect())
     }
 
-    /// The rotation that takes back what the parents did wrong.
+    /// Returns the rotation that best corrects the error of the parents.
     fn aim(
         &self,
         bone: usize,
@@ -218,7 +218,7 @@ impl<'a> Encoder<'a> {
         )
     }
 
-    /// A step of each component of a rotation that is too coarse for its points.
+    /// Returns a step for each component of a rotation that is too coarse for its points.
     fn turn_step(&self, bone: usize, points: &[Point]) -> Vec3 {
         let scale = self.frames.pose(0, bone).scale;
         let mut step = Vec3::splat(1.0);
@@ -254,8 +254,8 @@ impl<'a> Encoder<'a> {
         Some((Packed { reference, range: coded.range, segments: coded.segments }, decoded))
     }
 
-    /// The points that only `bone` can bring to their places: its shell, the joints that move on it, and everything
-    /// that hangs on it rigidly.
+    /// Returns the points that only `bone` can correct: its shell, the joints that move on it, and everything rigidly
+    /// attached to it.
     fn points(&self, bone: usize) -> Vec<Point> {
         let mut points = Vec::new();
         let mut open = vec![(bone, Affine3A::IDENTITY)];
@@ -285,21 +285,21 @@ impl<'a> Encoder<'a> {
     }
 }
 
-/// Can the space of a bone be led back to?
+/// Returns whether the space of a bone can be inverted accurately.
 fn well(to_root: &Affine3A) -> bool {
     let lengths =
         [to_root.matrix3.x_axis, to_root.matrix3.y_axis, to_root.matrix3.z_axis].map(|axis| axis.length());
     let (least, most) =
         lengths.iter().fold((f32::MAX, 0.0_f32), |(least, most), &at| (least.min(at), most.max(at)));
-    // Errors grow on the way back by as much as axes differ; then the raw pose is the better aim.
+    // Inversion amplifies errors by the ratio of the axes; then the raw pose is the better aim.
     let volume = to_root.matrix3.determinant().abs() / (lengths[0] * lengths[1] * lengths[2]);
     most.is_finite() && least > 0.3 * most && volume > 0.3
 }
 
-/// Room on both sides, so that a segment's place can be rounded.
+/// Margin on both sides, so that the position of a segment can be rounded.
 const MARGIN: f32 = 0.006;
 
-/// Where vectors lie; `None` where that leaves the range of numbers.
+/// Returns the range of vectors; `None` where that leaves the range of numbers.
 fn vector_range(values: &[Vec3]) -> Option<Range> {
     let (low, high) = ends(values);
     let extent = high - low;
@@ -307,10 +307,10 @@ fn vector_range(values: &[Vec3]) -> Option<Range> {
     (range.low.is_finite() && range.extent.is_finite() && range.extent.max_element() < 1e18).then_some(range)
 }
 
-/// Steps of the range of a rotation.
+/// Unit of the range of a rotation.
 pub(super) const TURN_UNIT: f32 = 1.0 / 16_384.0;
 
-/// Where components of rotations lie, in whole [`TURN_UNIT`]s.
+/// Returns the range of components of rotations, in whole [`TURN_UNIT`]s.
 fn turn_range(values: &[Vec3]) -> Range {
     let (low, high) = ends(values);
     let extent = high - low;

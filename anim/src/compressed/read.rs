@@ -1,4 +1,4 @@
-//! From bytes to the tables that decoding needs; every number is checked before it is used.
+//! Reading of bytes into the tables that decoding needs; every number is checked before it is used.
 
 use super::bits::BitReader;
 use super::encode::TURN_UNIT;
@@ -15,7 +15,7 @@ use glam::{Quat, Vec3};
 
 type Result<T> = std::result::Result<T, FormatError>;
 
-/// Checks `bytes` and makes the tables.
+/// Checks `bytes` and builds the tables.
 pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
     let end_of_keys = check_preface(bytes)?;
     let mut bits = BitReader::new(bytes, end_of_keys);
@@ -41,7 +41,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
     for segment in 0..segments {
         let heads = tracks.iter().map(|_| head(&mut bits, segments == 1)).collect::<Result<Vec<_>>>()?;
         let stride = tables.add_segment(&tracks, &heads).div_ceil(8);
-        // Where this is too large for 32 bits, so is the whole, which is found out before it is used.
+        // Where this is too large for 32 bits, so is the total, which is detected before it is used.
         tables.segments.push(SegmentPlace { at: at as u32, stride });
         at += stride as usize
             * (header.clock.frames - (segment << header.shift)).min(1 << header.shift) as usize;
@@ -52,7 +52,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
     Ok(tables)
 }
 
-/// After the last bit come only the zeros that reading ahead needs.
+/// Checks that after the last bit only the zeros follow that reading ahead needs.
 fn check_end(bytes: &[u8], end: usize, end_of_keys: usize) -> Result<()> {
     if bytes.len() != end.max(end_of_keys + AHEAD) {
         return Err(FormatError::new(end, format!("{} bytes are here, and not needed", bytes.len() - end)));
@@ -63,7 +63,7 @@ fn check_end(bytes: &[u8], end: usize, end_of_keys: usize) -> Result<()> {
     }
 }
 
-/// The byte after the last key, where the description begins.
+/// Returns the byte after the last key, where the description starts.
 fn check_preface(bytes: &[u8]) -> Result<usize> {
     if bytes.len() < PREFACE + AHEAD {
         return Err(FormatError::new(bytes.len(), format!("{} bytes are too few", bytes.len())));
@@ -93,7 +93,7 @@ struct Header {
     grid: Grid,
 }
 
-/// `value`, when it is `right`.
+/// Returns `value` if `right`, and an error otherwise.
 fn check<T: Copy + std::fmt::Display>(offset: usize, what: &str, value: T, right: bool) -> Result<T> {
     if right { Ok(value) } else { Err(FormatError::new(offset, format!("{what} is {value}"))) }
 }
@@ -124,7 +124,7 @@ fn header(bits: &mut BitReader<'_>) -> Result<(Header, String)> {
     Ok((Header { clock: Clock { start, length, frames }, bones, shift, grid }, name))
 }
 
-/// Three numbers a bone.
+/// Reads the storage of three channels per bone.
 fn kinds(bits: &mut BitReader<'_>, header: &Header) -> Result<Vec<[u32; 3]>> {
     let at = bits.offset();
     let mut kinds = Vec::new();
@@ -137,7 +137,7 @@ fn kinds(bits: &mut BitReader<'_>, header: &Header) -> Result<Vec<[u32; 3]>> {
     Ok(kinds)
 }
 
-/// The bones and parts of a kind: all rotations, then translations, then scales.
+/// Returns the bones and channels with one storage: all rotations, then translations, then scales.
 fn of_kind(kinds: &[[u32; 3]], kind: u32) -> Vec<(usize, usize)> {
     let of = |part: usize| kinds.iter().enumerate().filter(move |(_, kinds)| kinds[part] == kind);
     (0..3).flat_map(|part| of(part).map(move |(bone, _)| (bone, part))).collect()
@@ -188,7 +188,7 @@ fn constant_length(bits: &mut BitReader<'_>, grid: &Grid) -> Result<f32> {
     Ok((bits.take(width)? as i32 - (1 << (width - 1))) as f32 * grid.step)
 }
 
-/// A float that is not too large.
+/// Reads a float and checks its size.
 fn number(bits: &mut BitReader<'_>) -> Result<f32> {
     let at = bits.offset();
     let number = bits.take_float()?;

@@ -1,4 +1,4 @@
-//! What decoding needs beside the bytes: one set of tables a take, shared by all characters that play it.
+//! The tables that decoding needs in addition to the bytes: one set per take, shared by all characters that play it.
 
 use super::arrange::{Group, Place, groups, places};
 use super::bits::BitReader;
@@ -16,24 +16,24 @@ use glam::{Quat, Vec3};
 pub(super) struct Tables {
     pub(super) name: String,
     pub(super) clock: Clock,
-    /// Seconds.
+    /// Seconds between two keys.
     pub(super) interval: f64,
     pub(super) shift: u32,
     pub(super) bones: usize,
-    /// Translations that stand still, of every block.
+    /// Constant translations of every block.
     pub(super) still: Vec<[[f32; LANES]; 3]>,
     /// Scales of the blocks in which not all are 1.
     pub(super) still_scales: Vec<(u32, [[f32; LANES]; 3])>,
-    /// Rotations of the blocks of which none moves, or few do.
+    /// Rotations of the blocks in which none moves, or few do.
     pub(super) still_rotations: Vec<(u32, [[f32; LANES]; 4])>,
     /// Rotations that move.
     pub(super) turning: Vec<Turning>,
     /// Translations and scales that move.
     pub(super) moving: [Vec<Group>; 2],
-    /// Segment after segment, one a group: of rotations, then translations, then scales.
+    /// Segment after segment, one per group: of rotations, then translations, then scales.
     heads: Vec<HeadBlock>,
     pub(super) segments: Vec<SegmentPlace>,
-    /// Where the numbers of a group lie that are too wide for the usual way.
+    /// Positions of the numbers of groups that are too wide for a [`HeadBlock`].
     pub(super) wide: Vec<WideBlock>,
     pub(super) whole: Vec<WholeTrack>,
 }
@@ -41,12 +41,12 @@ pub(super) struct Tables {
 /// Eight rotations that move.
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
-    /// What their components are relative to.
+    /// Rotations that the components are relative to.
     pub(super) reference: [[f32; LANES]; 4],
     pub(super) group: Group,
 }
 
-/// Where the keys of a segment lie, in bytes from the first.
+/// Position of the keys of a segment, in bytes from the first key.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SegmentPlace {
     pub(super) at: u32,
@@ -55,7 +55,7 @@ pub(super) struct SegmentPlace {
 }
 
 impl Tables {
-    /// The tables of a take without keys, whose bones are of these kinds and stand still like this.
+    /// Creates the tables of a take without keys, from the storage of its bones' channels and their constant poses.
     pub(super) fn new(
         clock: Clock,
         shift: u32,
@@ -97,7 +97,7 @@ impl Tables {
         }
     }
 
-    /// The pose of `bone` while nothing moves.
+    /// Returns the constant pose of `bone`.
     pub(super) fn still_pose(&self, bone: usize) -> Transform {
         let (block, mut pose) = (bone / LANES, PoseBlock::IDENTITY);
         pose.translation = self.still[block];
@@ -115,27 +115,27 @@ impl Tables {
         still.map_or(PoseBlock::IDENTITY.scale, |still| still.1)
     }
 
-    /// Every packed track, in the order in which tracks are stored.
+    /// Returns every packed track, in the order in which tracks are stored.
     pub(super) fn places(&self) -> Vec<Place> {
         let [translations, scales] = &self.moving;
         let turning = self.turning.iter().map(|turning| turning.group.clone()).collect();
         places(&[turning, translations.clone(), scales.clone()])
     }
 
-    /// Says what the components of the rotations of a track are relative to.
+    /// Sets the rotation that the components of a track are relative to.
     pub(super) fn refer(&mut self, place: &Place, reference: Reference) {
         let rotation = reference.rotation().to_array();
         (0..4).for_each(|axis| self.turning[place.group].reference[axis][place.lane] = rotation[axis]);
     }
 
-    /// The heads of all groups in a segment, and then those of the next ones; none past the end.
+    /// Returns the heads of all groups in a segment and in those after it; none past the end.
     #[inline(always)]
     pub(super) fn heads_of(&self, segment: usize) -> &[HeadBlock] {
         let count = self.turning.len() + self.moving[0].len() + self.moving[1].len();
         self.heads.get(segment * count..).unwrap_or(&[])
     }
 
-    /// The head of a track in a segment.
+    /// Returns the head of a track in a segment.
     fn head(&self, place: &Place, segment: usize) -> &HeadBlock {
         let before = [0, self.turning.len(), self.turning.len() + self.moving[0].len()];
         &self.heads_of(segment)[before[place.part] + place.group]
@@ -160,7 +160,7 @@ impl Tables {
         bit
     }
 
-    /// Lanes without numbers: what stands still in the group.
+    /// Returns lanes without numbers: the constants of the group.
     fn still_lanes(&self, part: usize, group: usize) -> [Lane; LANES] {
         let block = part.checked_sub(1).and_then(|vector| self.moving[vector][group].block);
         let rows = match block {
@@ -171,7 +171,7 @@ impl Tables {
         std::array::from_fn(|lane| Lane { start: rows.map(|row| row[lane]), ..Lane::default() })
     }
 
-    /// Bytes that the tables take.
+    /// Returns the size of the tables in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.still.as_slice())
             + size_of_val(self.still_scales.as_slice())
@@ -185,8 +185,8 @@ impl Tables {
             + size_of_val(self.whole.as_slice())
     }
 
-    /// The value of a key of a packed track, the plain way, which the fast one must agree with; of a vector the fourth
-    /// number is 0.
+    /// Returns the value of a key of a packed track by the plain formula, with which the fast one must agree; the
+    /// fourth number of a vector is 0.
     pub(super) fn value(&self, bytes: &[u8], place: &Place, key: u32) -> [f32; 4] {
         let segment = (key >> self.shift) as usize;
         let SegmentPlace { at, stride } = self.segments[segment];

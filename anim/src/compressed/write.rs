@@ -1,4 +1,4 @@
-//! From what is stored to bytes; the layout is written down in [`super`].
+//! Writes the stored take as bytes; the layout is documented in [`super`].
 
 use super::arrange::{Place, groups, places};
 use super::bits::BitWriter;
@@ -10,14 +10,14 @@ use super::{Bytes, CompressError, MAGIC, MAX_BYTES, VERSION};
 use crate::checksum::Checksum;
 use glam::Quat;
 
-/// Bytes before the keys begin: what they are, the version, the length, the sum, and where the keys end.
+/// Bytes before the keys: magic number, version, length, checksum, and the end of the keys.
 pub(super) const PREFACE: usize = 20;
-/// The first byte that the sum is of.
+/// The first byte that the checksum covers.
 pub(super) const SUMMED: usize = 16;
-/// Bytes after the keys at least, so that the numbers of eight lanes can be read at once wherever they begin.
+/// Smallest number of bytes after the keys, so that the numbers of eight lanes can be read at once from any position.
 pub(super) const AHEAD: usize = 32;
 
-/// The bytes of `stored`, and what they were spent on.
+/// Returns the bytes of `stored`, and their sizes by content.
 pub(super) fn write(stored: &Stored) -> Result<(Vec<u8>, Bytes), CompressError> {
     let tracks = packed(stored);
     let mut spent = Bytes::default();
@@ -50,7 +50,7 @@ pub(super) fn write(stored: &Stored) -> Result<(Vec<u8>, Bytes), CompressError> 
     Ok((bytes, spent))
 }
 
-/// Fills in the first bytes, when all others are there.
+/// Fills in the first bytes, after all others are written.
 fn preface(bytes: &mut [u8]) {
     let (length, sum) = (bytes.len() as u32, Checksum::START.with(&bytes[SUMMED..]).value());
     bytes[..4].copy_from_slice(&MAGIC);
@@ -74,7 +74,7 @@ fn header(stored: &Stored, bits: &mut BitWriter) {
     name.bytes().for_each(|byte| bits.put(u32::from(byte), 8));
 }
 
-/// As much of a name as fits: 255 bytes.
+/// Truncates a name to 255 bytes.
 fn name(name: &str) -> &str {
     let end = (0..=name.len().min(255)).rev().find(|&end| name.is_char_boundary(end)).unwrap_or(0);
     &name[..end]
@@ -133,13 +133,14 @@ fn constant_factor(value: f32, bits: &mut BitWriter) {
     }
 }
 
-/// The parts that `pick` finds something in, with their bones: all rotations, then translations, then scales.
+/// Returns the channels for which `pick` returns a value, with their bones: all rotations, then translations, then
+/// scales.
 fn of_all<'a, T>(stored: &'a Stored, pick: impl Fn(&'a Part) -> Option<T>) -> Vec<(usize, T)> {
     let of = |which: usize| stored.bones.iter().map(move |parts| (which, &parts[which]));
     (0..3).flat_map(of).filter_map(|(which, part)| Some((which, pick(part)?))).collect()
 }
 
-/// The packed tracks with their parts, in the order in which they are stored.
+/// Returns the packed tracks with their properties, in the order in which they are stored.
 fn packed(stored: &Stored) -> Vec<(usize, &Packed)> {
     let kinds: Vec<[u32; PARTS]> =
         stored.bones.iter().map(|parts| [0, 1, 2].map(|part| parts[part].kind())).collect();

@@ -1,4 +1,4 @@
-//! An explanation as a worked example: each step with its formula, its numbers, and the thesis's section.
+//! Text of an explanation as a worked example: each step with its formula, its numbers, and the thesis's section.
 
 use super::{
     BoneStep, ChannelStep, Explanation, InfluenceStep, KeysStep, MovementStep, Subject, VertexResult,
@@ -192,7 +192,7 @@ fn named(explanation: &Explanation, bone: BoneIndex) -> String {
     format!("bone {bone} {name:?}")
 }
 
-/// Two matrices under their names, row by row.
+/// Writes two matrices with their names, row by row.
 fn side_by_side(out: &mut Formatter<'_>, left: &str, a: Mat4, right: &str, b: Mat4) -> Result {
     writeln!(out, "    {left:<47}{right}")?;
     for row in 0..4 {
@@ -206,12 +206,12 @@ fn vector(vector: Vec3) -> String {
     format!("({} )", vector.to_array().map(number).join(""))
 }
 
-/// As `xyzw`.
+/// Formats as `xyzw`.
 fn rotation(rotation: Quat) -> String {
     format!("({} )", rotation.to_array().map(number).join(""))
 }
 
-/// Ten characters wide: as many digits after the point as fit, and an exponent where none would.
+/// Formats in ten characters: with as many decimals as fit, and an exponent where none would.
 fn number(number: f32) -> String {
     let size = number.abs();
     if number == 0.0 {

@@ -13,15 +13,15 @@ use crate::animation::final_pose;
 use crate::data::Skin;
 use glam::Mat4;
 
-/// A skin brought to the layout of the fast path: which bone moves each joint, and its offset.
+/// A skin in the layout of the fast path: the bone of each joint, and its offset.
 #[derive(Clone, Debug)]
 pub struct Binding {
     joints: Vec<Joint>,
-    /// Can a byte name every bone of the rig?
+    /// Whether a byte can index every bone of the rig.
     is_near: bool,
 }
 
-/// Which bone, and how it is bound.
+/// A joint's bone and offset.
 #[derive(Clone, Copy, Debug)]
 struct Joint {
     /// 1 + the bone; 0, the identity, for a bone that the rig does not have.
@@ -31,8 +31,8 @@ struct Joint {
 }
 
 impl Binding {
-    /// The binding of `skin` to `rig`. An offset that is missing or not finite is the identity; tiny numbers are made
-    /// zero.
+    /// Creates the binding of `skin` to `rig`. An offset that is missing or not finite is the identity; tiny numbers
+    /// become zero.
     pub fn new(rig: &Rig, skin: &Skin) -> Self {
         let offset = |joint: usize| {
             let offset = skin.offsets.get(joint).copied().unwrap_or(Mat4::IDENTITY);
@@ -53,13 +53,13 @@ impl Binding {
         Self { joints: joints.collect(), is_near: rig.bones() < NARROW }
     }
 
-    /// Number of joints.
+    /// Returns the number of joints.
     pub fn joints(&self) -> usize {
         self.joints.len()
     }
 }
 
-/// Computes `final_pose` of every joint of `binding`, in the skin's order, as many as `out` has room for.
+/// Computes `final_pose` of every joint of `binding`, in the skin's order, up to the length of `out`.
 ///
 /// Where a product is not finite: the bone's `to_root` alone, as on the open path. Allocates nothing.
 pub fn final_poses(level: Level, binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
@@ -81,7 +81,7 @@ impl Kernel for FinalPoses<'_> {
     }
 }
 
-/// The same, part of a larger kernel.
+/// As [`final_poses`], as part of a larger kernel.
 #[inline(always)]
 pub(super) fn final_poses_with<S: Simd>(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
     let is_finite = if binding.is_near {
@@ -94,7 +94,8 @@ pub(super) fn final_poses_with<S: Simd>(binding: &Binding, to_root: &RootPoses, 
     }
 }
 
-/// All products; are they finite? `NEAR`: a byte names every bone, and cannot lead out of the matrices.
+/// Computes all products and returns whether they are finite. `NEAR`: a byte indexes every bone, so no index can be out
+/// of range.
 #[inline(always)]
 fn products<S: Simd, const NEAR: bool>(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) -> bool {
     let zero = S::F8::splat(0.0);
@@ -107,7 +108,7 @@ fn products<S: Simd, const NEAR: bool>(binding: &Binding, to_root: &RootPoses, o
             to_root.matrices.get(joint.slot as usize).unwrap_or(&first[0])
         };
         let product = Rows::<S>::load(to_root).times(doubled::<S>(&joint.offset));
-        // Stays zero as long as everything is finite.
+        // Stays zero while everything is finite.
         upper = product.0.mul_add(zero, upper);
         lower = product.1.mul_add(zero.low(), lower);
         product.store(out);
@@ -118,7 +119,7 @@ fn products<S: Simd, const NEAR: bool>(binding: &Binding, to_root: &RootPoses, o
     (upper + S::F8::twice(&four)).less(S::F8::splat(1.0)).all()
 }
 
-/// The open path's way, for products that leave what f32 can hold.
+/// Computes as the open path does, for products that leave the range of f32.
 #[cold]
 fn carefully(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
     for (joint, out) in binding.joints.iter().zip(out) {

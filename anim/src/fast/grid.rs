@@ -1,6 +1,6 @@
 //! Key times with a table that finds the keys around any time in a few steps, without remembering the last one.
 
-/// At least two key times, strictly ascending, and where to begin looking.
+/// At least two key times, strictly ascending, and a table of search starts.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Grid {
     times: Vec<f32>,
@@ -9,19 +9,20 @@ pub(super) struct Grid {
     pieces_per_second: f32,
 }
 
-/// Between key `key` and the next one.
+/// A time between key `key` and the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     pub(super) key: usize,
-    /// 0..=1 from `key` to the next.
+    /// Fraction from `key` to the next, 0..=1.
     pub(super) mix: f32,
 }
 
-/// With more keys than these in one piece, halving is faster than stepping.
+/// With more keys than these in one piece, bisection is faster than stepping.
 const FEW: usize = 8;
 
 impl Grid {
-    /// A grid of `times`; `None` unless there are at least two, finite, strictly ascending, over a finite span.
+    /// Creates the table for `times`; `None` unless there are at least two, finite, strictly ascending, over a finite
+    /// span.
     pub(super) fn new(times: Vec<f32>) -> Option<Self> {
         let (&first, &last) = (times.first()?, times.last()?);
         let ascends = times.windows(2).all(|pair| pair[0] < pair[1]) && times.len() >= 2;
@@ -41,18 +42,18 @@ impl Grid {
         Some(Self { table: table.collect(), pieces_per_second, times })
     }
 
-    /// The times.
+    /// Returns the times.
     pub(super) fn times(&self) -> &[f32] {
         &self.times
     }
 
-    /// The keys around `time`, clamped to them; NaN counts as before the first. As
+    /// Returns the keys around `time`, clamped to them; NaN counts as before the first. As
     /// [`find_keys`](crate::sample::find_keys), but never with the last key first.
     #[inline(always)]
     pub(super) fn find(&self, time: f32) -> Place {
         let times = self.times.as_slice();
         let [first, .., last] = times else { return Place { key: 0, mix: 0.0 } };
-        // NaN becomes the first.
+        // NaN becomes the first time.
         let time = time.max(*first).min(*last);
         let end = times.len() - 2;
         let piece = ((time - first) * self.pieces_per_second) as usize;
@@ -64,7 +65,7 @@ impl Grid {
         Place { key, mix: ((time - before) / (after - before)).clamp(0.0, 1.0) }
     }
 
-    /// The last key at or before `time`, at most the last but one, from a key near it.
+    /// Returns the last key at or before `time`, at most the last but one, starting at a key near it.
     #[inline(always)]
     fn step(&self, begin: usize, time: f32, piece: usize) -> usize {
         let (times, end) = (self.times.as_slice(), self.times.len() - 2);
@@ -102,7 +103,7 @@ mod tests {
             let grid = Grid::new(times.clone()).unwrap();
             for time in wanted.iter().copied().chain(times.iter().copied()).chain([f32::NAN, f32::INFINITY, -9e9]) {
                 let (place, keys) = (grid.find(time), find_keys(&times, time).unwrap());
-                // On the last key the open path has it first, with nothing to mix.
+                // On the last key the open path returns it as the first, with mix 0.
                 let way = |key: usize, mix: f32| key as f32 + mix;
                 prop_assert!((way(place.key, place.mix) - way(keys.before, keys.mix)).abs() < 1e-5, "{time}");
                 prop_assert!(place.key + 1 < times.len() && (0.0..=1.0).contains(&place.mix));

@@ -1,17 +1,17 @@
-//! Morph targets: what they add to eight vertices at once.
+//! Morph targets of eight vertices at once.
 //!
 //! ```text
-//! morphed = stored + Σ weight_t * difference_t      positions and normals alike, before the skin
+//! morphed = stored + Σ weight_t * difference_t      for positions and normals, before the skin
 //! ```
 //!
-//! The differences of one block of eight vertices lie side by side, target after target, so that a block is read in one
+//! The differences of one block of eight vertices are contiguous, target after target, so that a block is read in one
 //! go.
 
 use super::simd::{Float8, LANES, Simd};
 use crate::data::Primitive;
 use glam::Vec3;
 
-/// Positions and normals of eight vertices, or what is added to them.
+/// Positions and normals of eight vertices, or differences of them.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(32))]
 pub(super) struct Shape {
@@ -36,12 +36,12 @@ impl Shape {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Differences {
     targets: usize,
-    /// Those of the first block, one a target; then those of the second.
+    /// Differences of the first block, one per target; then those of the second.
     shapes: Vec<Shape>,
 }
 
 impl Differences {
-    /// Those of `primitive`; zero where a target has none for a vertex.
+    /// Collects the differences of `primitive`; zero where a target has none for a vertex.
     pub(super) fn new(primitive: &Primitive) -> Self {
         let count = primitive.vertices.len();
         let targets = &primitive.morph_targets;
@@ -59,12 +59,12 @@ impl Differences {
         Self { targets: targets.len(), shapes }
     }
 
-    /// Is there anything that `weights` add?
+    /// Returns whether `weights` add anything.
     pub(super) fn are_added(&self, weights: &[f32]) -> bool {
         weights.iter().take(self.targets).any(|&weight| weight != 0.0)
     }
 
-    /// `stored`, block `block`, with all differences times their `weights`.
+    /// Returns `stored`, block `block`, with all differences times their `weights` added.
     #[inline(always)]
     pub(super) fn added<S: Simd>(&self, block: usize, stored: &Shape, weights: &[f32]) -> Shape {
         let [mut x, mut y, mut z] = S::F8::load_three(&stored.positions);
@@ -72,7 +72,7 @@ impl Differences {
         let first = block * self.targets;
         let shapes = self.shapes.get(first..first + self.targets).unwrap_or(&[]);
         for (shape, &weight) in shapes.iter().zip(weights) {
-            // Not for speed alone: zero times what is not finite would be NaN.
+            // Required for correctness, too: zero times a number that is not finite would be NaN.
             if weight != 0.0 {
                 let weight = S::F8::splat(weight);
                 let [dx, dy, dz] = S::F8::load_three(&shape.positions);

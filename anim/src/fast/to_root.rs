@@ -5,8 +5,8 @@
 //! to_root_i   = to_root_parent * to_parent_i    one after the other, parents first, two rows in one register
 //! ```
 //!
-//! Two passes, one for each line: with both in one the matrices of eight bones would have to stay in more registers than
-//! there are, and that costs more than to write them down and read them again.
+//! Two passes, one for each line: with both in one the matrices of eight bones would need more registers than there
+//! are, and that costs more than storing them and loading them again.
 //!
 //! With the unit quaternion (x y z w), the scale (a b c) and the translation t:
 //!
@@ -26,17 +26,17 @@ use std::cell::Cell;
 /// `to_root` of every bone of one character.
 #[derive(Clone, Debug)]
 pub struct RootPoses {
-    /// The identity, where roots find their parent; then one a lane; at least as many as a byte can name.
+    /// The identity, used as the parent of roots; then one per lane; at least as many as a byte can index.
     pub(super) matrices: Vec<Matrix34>,
-    /// What the first of two passes leaves for the second.
+    /// Results of the first pass, for the second.
     local: Vec<Local>,
     bones: usize,
-    /// What limbs are solved with ([`super::two_bone()`]).
+    /// Instructions with which limbs are solved ([`super::two_bone()`]).
     pub(super) level: Level,
 }
 
 impl RootPoses {
-    /// Room for the bones of `rig`, all in the origin.
+    /// Allocates matrices for the bones of `rig`, all the identity.
     pub fn new(rig: &Rig) -> Self {
         let blocks = rig.parents.len();
         Self {
@@ -47,12 +47,12 @@ impl RootPoses {
         }
     }
 
-    /// One a bone: bone space → scene space.
+    /// Returns one matrix per bone: bone space → scene space.
     pub fn matrices(&self) -> &[Matrix34] {
         &self.matrices[1..=self.bones]
     }
 
-    /// That of `bone`; the identity past the end.
+    /// Returns the matrix of `bone`; the identity past the end.
     pub fn get(&self, bone: usize) -> &Matrix34 {
         self.matrices().get(bone).unwrap_or(&IDENTITY)
     }
@@ -60,8 +60,8 @@ impl RootPoses {
 
 /// Computes `to_root` of every bone from `pose`, the blocks of a pose of `rig`'s bones.
 ///
-/// Where `pose` has fewer blocks than the rig the rest poses stand in. A bone whose product is not finite stands where
-/// its parent stands, as on the open path. Allocates nothing, unless `out` was made for another rig.
+/// Where `pose` has fewer blocks than the rig, rest poses are used. A bone whose product is not finite gets its
+/// parent's `to_root`, as on the open path. Allocates nothing, unless `out` was made for another rig.
 pub fn to_root(level: Level, rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     level.run(ToRoot { rig, pose, out });
 }
@@ -81,7 +81,7 @@ impl Kernel for ToRoot<'_> {
     }
 }
 
-/// The same, part of a larger kernel.
+/// As [`to_root`], as part of a larger kernel.
 #[inline(always)]
 pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     fit(rig, out);
@@ -107,17 +107,17 @@ pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut Roo
     }
 }
 
-/// Matrices that a byte can name.
+/// Number of matrices that a byte can index.
 pub(super) const NARROW: usize = 256;
 
-/// The number of a matrix.
+/// The index of a matrix.
 trait Slot: Copy {
-    /// What it names among `all`, of which `first` are the first.
+    /// Returns the element of `all` with this index; `first` are the first elements of `all`.
     fn of<'a, T>(self, first: &'a [T; NARROW], all: &'a [T]) -> Option<&'a T>;
 }
 
 impl Slot for u8 {
-    // Without a check: a byte cannot lead out of `first`.
+    // Without a bounds check: a byte is always within `first`.
     #[inline(always)]
     fn of<'a, T>(self, first: &'a [T; NARROW], _: &'a [T]) -> Option<&'a T> {
         Some(&first[usize::from(self)])
@@ -131,7 +131,7 @@ impl Slot for u32 {
     }
 }
 
-/// Makes room, where `out` was made for another rig.
+/// Resizes `out`, if it was made for another rig.
 #[inline(always)]
 fn fit(rig: &Rig, out: &mut RootPoses) {
     if out.bones != rig.bones {
@@ -142,7 +142,7 @@ fn fit(rig: &Rig, out: &mut RootPoses) {
 /// `to_parent` of eight bones: rows of bone `k` in the low halves and of bone `k + 4` in the high halves of `[row][k]`.
 type Local = [[[f32; 8]; 4]; 3];
 
-/// `T · R · S` of eight bones.
+/// Computes `T · R · S` of eight bones.
 #[inline(always)]
 fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
     let [x, y, z, w] = S::F8::load_four(&pose.rotation);
@@ -159,7 +159,7 @@ fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
     S::F8::store_four(S::F8::transpose(lower), &mut local[2]);
 }
 
-/// `to_root` of every bone, parents first.
+/// Computes `to_root` of every bone, parents first.
 #[inline(always)]
 fn chain<S: Simd, P: Slot>(bones: usize, parents: &[[P; 8]], local: &[Local], out: &mut [Matrix34]) {
     // Cells, because a block is written while its own first bones are read as parents of the others.
@@ -167,7 +167,7 @@ fn chain<S: Simd, P: Slot>(bones: usize, parents: &[[P; 8]], local: &[Local], ou
     let (Some(first), Some(own)) = (out.first_chunk(), out.get(1..)) else { return };
     let mut left = bones;
     for ((parents, local), block) in parents.iter().zip(local).zip(own.as_chunks::<8>().0) {
-        // Written out, so that every place is known when it is compiled.
+        // Unrolled, so that every index is known at compile time.
         let link = Link { parents, local, first, out, block };
         if left < 8 {
             link.some::<S>(left);
@@ -185,7 +185,7 @@ fn chain<S: Simd, P: Slot>(bones: usize, parents: &[[P; 8]], local: &[Local], ou
     }
 }
 
-/// What is needed for a block of bones.
+/// The data needed for a block of bones.
 struct Link<'a, P> {
     parents: &'a [P; 8],
     local: &'a Local,
@@ -195,7 +195,7 @@ struct Link<'a, P> {
 }
 
 impl<P: Slot> Link<'_, P> {
-    /// `to_root` of bone `at` of the block.
+    /// Computes `to_root` of bone `at` of the block.
     #[inline(always)]
     fn bone<S: Simd>(&self, at: usize) {
         let Some(parent) = self.parents[at % 8].of(self.first, self.out) else { return };
@@ -211,7 +211,7 @@ impl<P: Slot> Link<'_, P> {
         self.block[at % 8].set(product);
     }
 
-    /// The first `count` of them, fewer than eight.
+    /// Computes `to_root` of the first `count` bones of the block, fewer than eight.
     #[inline(always)]
     fn some<S: Simd>(&self, count: usize) {
         if count > 0 {
@@ -238,7 +238,7 @@ impl<P: Slot> Link<'_, P> {
     }
 }
 
-/// Puts the matrices of sheared bones in the place of those that their poses give, where they rest.
+/// Replaces the matrices of sheared bones in their rest pose by the exact rest matrices.
 #[cold]
 fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [Local]) {
     for sheared in &rig.sheared {
@@ -254,7 +254,8 @@ fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [Local]) {
     }
 }
 
-/// A number that is not finite reaches the leaves: it spreads along its row from parent to child.
+/// Returns whether all leaves are finite. A number that is not spreads along its row from parent to child, and so
+/// reaches the leaves.
 #[inline(always)]
 fn leaves_are_finite<S: Simd, P: Slot>(leaves: &[P], matrices: &[Matrix34]) -> bool {
     let Some(first) = matrices.first_chunk() else { return false };
@@ -262,7 +263,7 @@ fn leaves_are_finite<S: Simd, P: Slot>(leaves: &[P], matrices: &[Matrix34]) -> b
     let (mut upper, mut lower) = (zero, zero.low());
     for leaf in leaves {
         if let Some(leaf) = leaf.of(first, matrices) {
-            // Stays zero as long as everything is finite.
+            // Stays zero while everything is finite.
             upper = S::F8::load(super::matrix::upper(leaf)).mul_add(zero, upper);
             lower = S::F4::load(super::matrix::lower(leaf)).mul_add(zero.low(), lower);
         }
@@ -273,7 +274,7 @@ fn leaves_are_finite<S: Simd, P: Slot>(leaves: &[P], matrices: &[Matrix34]) -> b
     (upper + S::F8::twice(&four)).less(S::F8::splat(1.0)).all()
 }
 
-/// The open path's way, for poses that lead out of what f32 can hold.
+/// Computes as the open path does, for poses whose products leave the range of f32.
 #[cold]
 fn carefully(rig: &Rig, pose: &[PoseBlock], out: &mut [Matrix34]) {
     for bone in 0..rig.bones {

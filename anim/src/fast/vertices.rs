@@ -1,15 +1,15 @@
-//! Positions and normals moved by bones on the CPU, eight vertices at once (thesis §2.1.4).
+//! Skinning on the CPU: positions and normals moved by bones, eight vertices at once (thesis §2.1.4).
 //!
 //! ```text
 //! M        = Σ weight_i * final[joint_i]                    one vertex after the other, two rows in one register
 //! morphed  = stored + Σ weight_t * difference_t             from here on eight vertices at once
 //! position = M * position
-//! normal   = normalise(sign(determinant) * cofactors(M) * normal)
+//! normal   = normalize(sign(determinant) * cofactors(M) * normal)
 //! ```
 //!
-//! The sum of matrices and the sum of moved positions are the same; the matrix serves the normal too. Its cofactors, the
-//! transposed inverse but for its length, keep normals at right angles to the surface under any scale; see
-//! [`crate::skin`].
+//! The sum of matrices and the sum of moved positions are the same; the matrix is used for the normal too. Its
+//! cofactors, the transposed inverse but for its length, keep normals at right angles to the surface under any scale;
+//! see [`crate::skin`].
 
 use super::matrix::{IDENTITY, Matrix34, lower, mat4, upper};
 use super::morph::{Differences, Shape};
@@ -19,40 +19,40 @@ use crate::skin::{first_direction, near_one, normal_matrix};
 use glam::{Mat3, Mat4, Vec3};
 use std::hint::black_box;
 
-/// Vertices of a primitive brought to the layout of the fast path: eight a block, in file order.
+/// Vertices of a primitive in the layout of the fast path: eight per block, in file order.
 #[derive(Clone, Debug, Default)]
 pub struct SkinnedVertices {
     count: usize,
     blocks: Vec<Block>,
     influences: Vec<Influences>,
     differences: Differences,
-    /// Does it name no joint past the first 256?
+    /// Whether it has no joint past the first 256.
     is_narrow: bool,
 }
 
-/// Joints that a byte can name.
+/// Number of joints that a byte can index.
 const NARROW: usize = 256;
 
-/// So many vertices are worth a table that costs about as much as forty of them.
+/// Number of vertices from which a table pays off; building it costs about as much as skinning forty of them.
 const MANY: usize = 128;
 
-/// A matrix on a boundary of its own, so that a number shifted is its place.
+/// A matrix aligned to its size, so that a shifted index is its offset.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 struct Row([f32; 16]);
 
-/// Matrices for each name that a byte can be, so that none has to be checked.
+/// A matrix for each value of a byte, so that no index has to be checked.
 type Table = [Row; NARROW];
 
-/// The identity, and what fills its row of the table.
+/// The identity, and padding.
 const NOTHING: Row = Row([1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
 
-/// Eight vertices; those past the end are the first of the eight once more.
+/// Eight vertices; those past the end repeat the first of the eight.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 struct Block {
     shape: Shape,
-    /// Where its influences begin, and how many each of its vertices has: 1, 2, 4 or 8.
+    /// First of its influences, and number of influences of each of its vertices: 1, 2, 4 or 8.
     first: u32,
     each: u32,
 }
@@ -66,9 +66,9 @@ struct Influences {
 }
 
 impl SkinnedVertices {
-    /// The vertices of `primitive` and their morph targets. Normals that are missing are +Y.
+    /// Converts the vertices of `primitive` and their morph targets. Missing normals are +Y.
     ///
-    /// Each block works with as many influences as the vertex in it that has most: 1, 2, 4 or 8.
+    /// Each block has as many influences per vertex as the vertex in it with the most needs: 1, 2, 4 or 8.
     pub fn new(primitive: &Primitive) -> Self {
         let vertices = &primitive.vertices;
         let (count, differences) = (vertices.len(), Differences::new(primitive));
@@ -103,12 +103,12 @@ impl SkinnedVertices {
         self.influences.extend_from_slice(&influences[..each]);
     }
 
-    /// Number of vertices.
+    /// Returns the number of vertices.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Is there no vertex?
+    /// Returns whether there is no vertex.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -119,11 +119,11 @@ impl SkinnedVertices {
     }
 }
 
-/// Moves the first vertices, as many as both outputs have room for, to scene space; normals have unit length.
+/// Moves vertices to scene space, up to the length of the shorter output; normals have unit length.
 ///
-/// `finals` are those of the skin ([`super::final_poses()`]); a joint that they lack counts as the identity. Where a
-/// vertex or a result is not finite, or a normal has no direction, what [`crate::skin`] says. Returns how many were
-/// written. Allocates nothing.
+/// `finals` are those of the skin ([`super::final_poses()`]); a missing joint counts as the identity. Where a vertex or
+/// a result is not finite, or a normal has no direction, the result is as documented in [`crate::skin`]. Returns the
+/// number of vertices written. Allocates nothing.
 pub fn skin_vertices(
     level: Level,
     vertices: &SkinnedVertices,
@@ -137,11 +137,11 @@ pub fn skin_vertices(
     count
 }
 
-/// The same with morph targets: to each vertex their differences are added first, each times its weight.
+/// As [`skin_vertices`], with morph targets: first their differences are added to each vertex, each times its weight.
 ///
-/// `morph_weights`: one a morph target; missing ones count as 0 ([`crate::sample::sample_morph_weights`] gives those of a
-/// take). What is not finite after that counts as not morphed, and otherwise ends as [`crate::skin`] says. Allocates
-/// nothing.
+/// `morph_weights`: one per morph target; missing ones count as 0 ([`crate::sample::sample_morph_weights`] gives those
+/// of a take). A vertex that is not finite after that counts as not morphed; otherwise the results are as documented in
+/// [`crate::skin`]. Allocates nothing.
 pub fn skin_morphed_vertices(
     level: Level,
     vertices: &SkinnedVertices,
@@ -174,7 +174,7 @@ impl<const MORPHED: bool> Kernel for Skin<'_, MORPHED> {
     #[inline(always)]
     fn run<S: Simd>(self) {
         if self.vertices.is_narrow && self.positions.len() >= MANY {
-            // Unknown to the compiler, so that rows are written whole and not by a call, byte by byte.
+            // Opaque to the compiler, so that rows are written whole and not byte by byte through a call.
             let mut table = [black_box(NOTHING); NARROW];
             for (row, matrix) in table.iter_mut().zip(self.finals) {
                 row.0[..12].copy_from_slice(matrix);
@@ -223,11 +223,11 @@ impl<const MORPHED: bool> Skin<'_, MORPHED> {
     }
 }
 
-/// Where matrices are looked up.
+/// A list of final poses.
 trait Finals {
-    /// Rows 0 and 1.
+    /// Returns rows 0 and 1.
     fn upper<S: Simd>(&self, joint: u16) -> S::F8;
-    /// Row 2, and four numbers without meaning.
+    /// Returns row 2, and four meaningless numbers.
     fn lower<S: Simd>(&self, joint: u16) -> S::F8;
 }
 
@@ -255,7 +255,7 @@ impl Finals for Table {
     }
 }
 
-/// The weighted sum of the matrices of each of eight vertices, with as many influences as they have.
+/// Computes the weighted sum of the matrices of each of eight vertices, for the block's number of influences.
 #[inline(always)]
 fn weigh_block<S: Simd>(influences: &[Influences], finals: &(impl Finals + ?Sized), out: &mut [Row; LANES]) {
     match influences {
@@ -267,14 +267,14 @@ fn weigh_block<S: Simd>(influences: &[Influences], finals: &(impl Finals + ?Size
     }
 }
 
-/// The same, the number known to the compiler.
+/// Computes the sums with the number of influences known at compile time.
 #[inline(always)]
 fn weigh<S: Simd, const N: usize>(
     influences: [&Influences; N],
     finals: &(impl Finals + ?Sized),
     out: &mut [Row; LANES],
 ) {
-    // Written out, so that every place is known when it is compiled.
+    // Unrolled, so that every index is known at compile time.
     weigh_one::<S, N>(influences, finals, out, 0);
     weigh_one::<S, N>(influences, finals, out, 1);
     weigh_one::<S, N>(influences, finals, out, 2);
@@ -294,7 +294,7 @@ fn weigh_one<S: Simd, const N: usize>(
 ) {
     let joint = influences[0].joints[lane];
     let weight = S::F8::splat(influences[0].weights[lane]);
-    // Row 2 in a wide register too, all of which is kept: for narrow ones the weight would be spread once more.
+    // Row 2 is also in a wide register, of which all is kept: for narrow ones the weight would be broadcast once more.
     let (mut two, mut one) = (finals.upper::<S>(joint) * weight, finals.lower::<S>(joint) * weight);
     for influence in &influences[1..] {
         let (joint, weight) = (influence.joints[lane], S::F8::splat(influence.weights[lane]));
@@ -307,7 +307,7 @@ fn weigh_one<S: Simd, const N: usize>(
     }
 }
 
-/// Row `row` of eight matrices: four vectors, one a column.
+/// Returns row `row` of eight matrices: four vectors, one per column.
 #[inline(always)]
 fn columns<S: Simd>(matrices: &[Row; LANES], row: usize) -> [S::F8; 4] {
     let [a, b, c, d, e, f, g, h] = matrices;
@@ -321,7 +321,7 @@ fn columns<S: Simd>(matrices: &[Row; LANES], row: usize) -> [S::F8; 4] {
     ])
 }
 
-/// Moves eight vertices of shape `shape`; `stored` is that before morphing.
+/// Moves eight vertices; `stored` are their values before morphing.
 #[inline(always)]
 fn move_block<S: Simd>(
     shape: &Shape,
@@ -350,7 +350,7 @@ fn move_block<S: Simd>(
     let square = nx.mul_add(nx, ny.mul_add(ny, nz * nz));
     let shrink = (S::F8::splat(1.0) / square.sqrt()).flipped_by(determinant.sign());
     S::F8::store_points([nx * shrink, ny * shrink, nz * shrink], turned);
-    // A position that is not finite makes NaN of it, which is neither more nor less than anything.
+    // A position that is not finite makes it NaN, which fails every comparison.
     let square = (px + py + pz).mul_add(zero, square);
     let enough = S::F8::splat(1e-24).less(square);
     if !enough.select(square.less(S::F8::splat(1e24)), zero).all() {
@@ -363,7 +363,7 @@ fn cross<S: Simd>([ax, ay, az]: [S::F8; 3], [bx, by, bz]: [S::F8; 3]) -> [S::F8;
     [az.neg_mul_add(by, ay * bz), ax.neg_mul_add(bz, az * bx), ay.neg_mul_add(bx, ax * by)]
 }
 
-/// The open path's way, one by one.
+/// Computes as the open path does, one vertex at a time.
 #[cold]
 fn carefully(
     shape: &Shape,

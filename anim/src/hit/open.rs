@@ -1,4 +1,4 @@
-//! Every triangle, one after the other: the naive way, and the reference for the tree (thesis §2.1.7.2).
+//! Queries that test every triangle: the naive method, and the reference for the tree (thesis §2.1.7.2).
 
 use super::place::{RaySearch, SphereSearch, Which, complete};
 use super::triangle::Line;
@@ -8,10 +8,10 @@ use crate::evaluator::Evaluator;
 use crate::skin::Movement;
 use glam::Vec3;
 
-/// The nearest place where `ray` meets the model of `evaluator`; of two as near the first in the file.
+/// Returns the nearest hit of `ray` on the model of `evaluator`; of two equally near the first in the file.
 ///
 /// `positions` are those of [`Evaluator::all_positions`] in the same pose, so that many rays share them; triangles
-/// whose corners are not among them are left out. O(triangles). `None` when nothing is met.
+/// whose corners are missing in it are left out. O(triangles). `None` when nothing is hit.
 pub fn ray_open(evaluator: &Evaluator, positions: &[Vec3], ray: &Ray, settings: &HitSettings) -> Option<Hit> {
     let mut search = RaySearch { line: Line::of(ray)?, settings: *settings, best: None };
     for_each_triangle(evaluator, positions, |primitive, movement, which, corners| {
@@ -20,10 +20,10 @@ pub fn ray_open(evaluator: &Evaluator, positions: &[Vec3], ray: &Ray, settings: 
     search.best.map(|best| complete(evaluator, &best))
 }
 
-/// The place of the model of `evaluator` nearest to `center`, at most `radius` scene units away; of two as near the
-/// first in the file.
+/// Returns the point of the model of `evaluator` nearest to `center`, at most `radius` scene units away; of two equally
+/// near the first in the file.
 ///
-/// `positions` as for [`ray_open`]. O(triangles). `None` when nothing is within.
+/// `positions` as for [`ray_open`]. O(triangles). `None` when nothing is within the radius.
 pub fn sphere_open(evaluator: &Evaluator, positions: &[Vec3], center: Vec3, radius: f32) -> Option<Hit> {
     let mut search = SphereSearch::of(center, radius)?;
     for_each_triangle(evaluator, positions, |primitive, movement, which, corners| {
@@ -32,7 +32,7 @@ pub fn sphere_open(evaluator: &Evaluator, positions: &[Vec3], center: Vec3, radi
     search.best.map(|best| complete(evaluator, &best))
 }
 
-/// Calls `look` with every triangle whose corners are there.
+/// Calls `visit` with every triangle whose corners exist.
 fn for_each_triangle(
     evaluator: &Evaluator,
     positions: &[Vec3],

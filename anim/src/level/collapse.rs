@@ -1,4 +1,4 @@
-//! The loop: the cheapest collapse that does no harm, again and again.
+//! The loop: the cheapest valid collapse, again and again.
 
 use super::cost::{Quadric, cost, quadrics};
 use super::progression::{Move, Progression};
@@ -8,38 +8,38 @@ use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A triangle's normal may turn by this cosine in one step, at most: about 78°.
+/// Smallest cosine between a triangle's normals before and after one step: about 78°.
 const TURN: f64 = 0.2;
 
-/// How often all edges are looked at anew, at most: a collapse makes others possible that were refused.
+/// Largest number of passes over all edges: a collapse makes others possible that were rejected.
 const PASSES: usize = 8;
 
-/// How far to go, and what to mind.
+/// Settings of [`simplify`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimplifySettings {
-    /// Stop when no more triangles than this are left.
+    /// Number of triangles at which to stop.
     pub triangles: usize,
-    /// Weight of the difference in influences between the ends of an edge, 0 for none. With 1 an edge whose ends no
-    /// bone moves together costs as if the surface moved by its whole length. With poses to measure in, little of it is
+    /// Weight of the difference in influences between the ends of an edge, 0 for none. With 1, an edge whose ends have
+    /// no bone in common costs as if the surface moved by its whole length. With poses to measure in, a small weight is
     /// enough.
     pub skin: f32,
 }
 
 impl Default for SimplifySettings {
-    /// As far as possible, with the influences minded.
+    /// Returns settings to simplify as far as possible, with the influences considered.
     fn default() -> Self {
         Self { triangles: 0, skin: 0.1 }
     }
 }
 
-/// The order in which triangles of `primitive` are best taken away.
+/// Returns the order in which triangles of `primitive` are best removed.
 ///
-/// `poses` are positions of all vertices in poses that it should look well in (those of
-/// [`crate::evaluator::Evaluator::positions`]; a few are enough, none is allowed). Vertices for which `locked` says so
-/// stay where they are. Ends when `settings.triangles` are left or nothing can be
-/// taken without tearing or turning over. The rules are those of the [module](super). Total: triangles with two
-/// corners at one place, and those that name vertices which are not there, go with the first step; positions that are
-/// not finite stay. A `skin` that is negative or not finite counts as 0. O(n log n); the same input, the same order.
+/// `poses` are positions of all vertices in poses in which it should look good (those of
+/// [`crate::evaluator::Evaluator::positions`]; a few are enough, none is allowed). Vertices for which `locked` returns
+/// true stay in place. Ends when `settings.triangles` are left or nothing can be removed without tearing or turning
+/// over. The rules are those of the [module](super). Total: triangles with two corners at one place, and those with
+/// missing vertices, are removed in the first step; positions that are not finite stay. A `skin` that is negative or
+/// not finite counts as 0. O(n log n); the same input gives the same order.
 pub fn simplify(
     primitive: &Primitive,
     poses: &[Vec<Vec3>],
@@ -62,18 +62,18 @@ pub fn simplify(
     collapser.progression
 }
 
-/// An edge with a direction, and what it costs to collapse.
+/// An edge with a direction, and the cost of collapsing it.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     cost: f64,
     from: u32,
     onto: u32,
-    /// Versions of both ends when the cost was found.
+    /// Versions of both ends when the cost was computed.
     versions: [u32; 2],
 }
 
 impl Ord for Candidate {
-    /// The cheapest is the greatest; of two as cheap the one of the earlier vertex, so that the order is always the
+    /// The cheapest is the greatest; of two equal ones the one of the earlier vertex, so that the order is always the
     /// same.
     fn cmp(&self, other: &Self) -> Ordering {
         let ends = |candidate: &Self| (candidate.from, candidate.onto);
@@ -95,13 +95,13 @@ impl PartialEq for Candidate {
 
 impl Eq for Candidate {}
 
-/// Where the work stands.
+/// State of the simplification.
 struct Collapser<'a> {
     surface: Surface<'a>,
-    /// One list a pose.
+    /// One list per pose.
     quadrics: Vec<Vec<Quadric>>,
     skin: f64,
-    /// Of each place: how often its surroundings changed.
+    /// For each place, the number of changes around it.
     versions: Vec<u32>,
     heap: BinaryHeap<Candidate>,
     /// Normals of the original triangles, of any length.
@@ -111,16 +111,16 @@ struct Collapser<'a> {
     room: Room,
 }
 
-/// Lists that every collapse needs anew.
+/// Lists reused by every collapse.
 #[derive(Default)]
 struct Room {
-    /// Triangles around the place that goes: which, corners, and whether the other place is a corner too.
+    /// Triangles around the place that is removed: index, corners, and whether the other place is a corner too.
     around: Vec<(u32, [u32; 3], bool)>,
-    /// Places next to the one that goes, and how many triangles each shares with it.
+    /// Places next to the one that is removed, and the number of triangles that each shares with it.
     beside: Vec<(u32, u32)>,
-    /// Sides of the place that goes, and the side each becomes.
+    /// Sides of the place that is removed, and the side that each becomes.
     sides: Vec<(u32, u32)>,
-    /// Vertices that go, and where.
+    /// Vertices that are removed, and the vertices they become.
     moves: Vec<(u32, u32)>,
     /// Places next to the one that stays.
     next: Vec<u32>,
@@ -148,7 +148,7 @@ impl<'a> Collapser<'a> {
         }
     }
 
-    /// Every edge, both ways.
+    /// Pushes every edge, in both directions.
     fn seed(&mut self) {
         let mut edges: Vec<[u32; 2]> = Vec::new();
         for corners in self.surface.triangles.iter().flatten() {
@@ -175,7 +175,7 @@ impl<'a> Collapser<'a> {
         }
     }
 
-    /// Collapses until so few triangles are left, or nothing more can be.
+    /// Collapses until `triangles` are left, or nothing more can be collapsed.
     fn run(&mut self, triangles: usize) {
         while self.left > triangles {
             let Some(candidate) = self.heap.pop() else { return };
@@ -187,7 +187,7 @@ impl<'a> Collapser<'a> {
         }
     }
 
-    /// May `from` move onto `onto`? Leaves in the room what it needs for that.
+    /// Returns whether `from` may move onto `onto`. Leaves the lists for the collapse in the scratch memory.
     fn may(&mut self, from: u32, onto: u32) -> bool {
         let mut room = std::mem::take(&mut self.room);
         let may = self.is_open(from, onto, &mut room)
@@ -197,7 +197,8 @@ impl<'a> Collapser<'a> {
         may
     }
 
-    /// Does the surface stay one? The link condition (Dey and others 1999), and that borders stay borders.
+    /// Returns whether the surface stays a manifold: the link condition (Dey and others 1999), and that borders stay
+    /// borders.
     fn is_open(&self, from: u32, onto: u32, room: &mut Room) -> bool {
         let surface = &self.surface;
         room.around.clear();
@@ -232,7 +233,7 @@ impl<'a> Collapser<'a> {
         if common != shared || around_onto + room.around.len() - 2 * shared > MOST_AROUND {
             return false;
         }
-        // A triangle that would lie on another.
+        // A triangle that would coincide with another.
         let survivors = room.around.iter().filter(|(.., shared)| !shared);
         survivors.into_iter().all(|(_, corners, _)| {
             let places = surface.places(*corners);
@@ -242,8 +243,8 @@ impl<'a> Collapser<'a> {
         })
     }
 
-    /// Does every side of a seam find its other side? And which vertex does each become: of those on that side the one
-    /// with the most similar normal.
+    /// Matches every side of a seam with its other side, and chooses for each vertex the vertex that it becomes: of
+    /// those on that side the one with the most similar normal. Returns whether every side has a match.
     fn joins(&self, from: u32, onto: u32, room: &mut Room) -> bool {
         let surface = &self.surface;
         let side = |vertex: u32| surface.side[vertex as usize];
@@ -273,7 +274,7 @@ impl<'a> Collapser<'a> {
         true
     }
 
-    /// The vertex on `side` whose normal is most like that of `vertex`; of two as like the first.
+    /// Returns the vertex on `side` whose normal is most similar to that of `vertex`; of two equal ones the first.
     fn most_similar(&self, vertex: u32, side: u32) -> Option<u32> {
         let normals = &self.surface.primitive.vertices.normals;
         let normal = |vertex: u32| normals.get(vertex as usize).copied().unwrap_or_default();
@@ -288,7 +289,7 @@ impl<'a> Collapser<'a> {
         best.map(|(member, _)| member)
     }
 
-    /// Does every triangle that stays keep its side up, in every pose?
+    /// Returns whether every triangle that stays keeps its orientation, in every pose.
     fn keeps_facing(&self, from: u32, onto: u32, room: &Room) -> bool {
         room.around.iter().filter(|(.., shared)| !shared).all(|(triangle, corners, _)| {
             let after = corners.map(|corner| {
@@ -299,7 +300,7 @@ impl<'a> Collapser<'a> {
             self.surface.poses.iter().enumerate().all(|(pose, positions)| {
                 let [before, after] =
                     [*corners, after].map(|corners| normal(corners.map(|corner| positions[corner as usize])));
-                // One without area had no side to keep.
+                // A triangle without area has no orientation.
                 let flat = if pose == 0 { first == DVec3::ZERO } else { before == DVec3::ZERO };
                 flat || (after.dot(before) > TURN * after.length() * before.length()
                     && (pose != 0 || after.dot(first) > 0.0))
@@ -307,7 +308,7 @@ impl<'a> Collapser<'a> {
         })
     }
 
-    /// Moves `from` onto `onto`, as the room says.
+    /// Moves `from` onto `onto`, with the lists of the scratch memory.
     fn collapse(&mut self, from: u32, onto: u32) {
         let step = self.progression.left.len() as u32 - 1;
         for &(triangle, corners, shared) in &self.room.around {
@@ -346,7 +347,7 @@ impl<'a> Collapser<'a> {
     }
 }
 
-/// Twice the area along the normal.
+/// Returns the normal with twice the area as its length.
 fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }

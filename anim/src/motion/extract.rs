@@ -1,4 +1,4 @@
-//! Taking the motion out.
+//! Extraction of root motion from a take.
 
 use super::frame::{Frame, ancestors};
 use super::keys::{Refine, slopes, spins, union, with_values};
@@ -8,15 +8,15 @@ use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take, Track, Tran
 use crate::sample::{Value, rest_pose, sample_track};
 use glam::{DQuat, DVec3, Quat, Vec3};
 
-/// Takes the motion of `bone` out of `take`: the motion, and the take in place.
+/// Extracts the motion of `bone` from `take`. Returns the motion, and the take in place.
 ///
-/// A bone without keys whose ancestors do not move gives a motion without keys and the take as it was. Where ancestors
+/// A bone without keys whose ancestors do not move gives a motion without keys and the unchanged take. Where ancestors
 /// move, the bone gets keys at their key times too. Nothing else of the take is changed.
 ///
-/// Everything the options take out is gone at the key times; between them as well if only translations are taken out and
-/// the ancestors rest. With yaw, place and direction between two keys differ from the take by what the mix of two
-/// products differs from the product of two mixes: of second order in the angle between the keys. What [`put_back`](super::put_back())
-/// makes of the two is the take again at all times.
+/// At the key times, everything that the options extract is removed; between them too, if only translations are
+/// extracted and the ancestors do not move. With yaw, position and direction between two keys differ from the take by
+/// the difference of an interpolated product from a product of interpolated values: of second order in the angle
+/// between the keys. Applying [`put_back`](super::put_back()) to both results gives the original take at all times.
 pub fn extract(
     take: &Take,
     skeleton: &Skeleton,
@@ -30,7 +30,7 @@ pub fn extract(
     Ok((motion, with_track(take, track)))
 }
 
-/// The take of [`extract`] alone.
+/// Returns only the take of [`extract`].
 pub fn in_place(
     take: &Take,
     skeleton: &Skeleton,
@@ -40,7 +40,7 @@ pub fn in_place(
     extract(take, skeleton, bone, options).map(|(_, take)| take)
 }
 
-/// `take` with another track for one bone.
+/// Returns `take` with another track for one bone.
 pub(super) fn with_track(take: &Take, track: Track) -> Take {
     let mut take = take.clone();
     let index = track.bone as usize;
@@ -51,13 +51,13 @@ pub(super) fn with_track(take: &Take, track: Track) -> Take {
     take
 }
 
-/// The track of `bone`; an empty one where the take has none.
+/// Returns the track of `bone`; an empty one where the take has none.
 pub(super) fn track_of(take: &Take, bone: BoneIndex) -> Track {
     let track = take.tracks.get(bone as usize).cloned().unwrap_or_default();
     Track { bone, ..track }
 }
 
-/// Key times of everything above `bone`.
+/// Returns the key times of all ancestors of `bone`.
 pub(super) fn times_above(take: &Take, skeleton: &Skeleton, bone: BoneIndex) -> Vec<f32> {
     let tracks = ancestors(skeleton, bone).filter_map(|ancestor| take.tracks.get(ancestor));
     let lists =
@@ -65,13 +65,13 @@ pub(super) fn times_above(take: &Take, skeleton: &Skeleton, bone: BoneIndex) -> 
     union(lists.map(|times| &times[..]))
 }
 
-/// Must the translation have keys wherever the rotation has? Where something horizontal stays in the take while the yaw
-/// does not, the yaw turns what stays.
+/// Returns whether the translation needs keys wherever the rotation has some. Where a horizontal component stays in the
+/// take while the yaw does not, the yaw rotates that component.
 fn is_coupled(horizontal: [bool; 3], up: usize, moves: bool) -> bool {
     moves && (0..3).any(|axis| axis != up && !horizontal[axis])
 }
 
-/// The track of the bone with all keys that the conversion needs.
+/// Returns the track of the bone with all keys that the conversion needs.
 fn refined(
     take: &Take,
     skeleton: &Skeleton,
@@ -94,7 +94,7 @@ fn refined(
     track
 }
 
-/// The motion of a refined track.
+/// Computes the motion of a refined track.
 fn measure(
     take: &Take,
     skeleton: &Skeleton,
@@ -130,7 +130,7 @@ fn measure(
             let about = |rotation: Quat| along(frame.turn(rotation.as_dquat()) * back, up);
             let raw = about(value);
             let length = raw.length();
-            // Half a turn about a horizontal axis: no yaw can be told; it stays as it was.
+            // Half a turn about a horizontal axis: the yaw is undefined; it keeps its last value.
             let yaw = if length > 1e-6 { raw / length } else { last };
             let sign = if yaw.dot(last) < 0.0 { -1.0 } else { 1.0 };
             last = yaw * sign;
@@ -144,13 +144,13 @@ fn measure(
     Ok(motion)
 }
 
-/// The part of a quaternion about `axis`, not normalised.
+/// Returns the part of a quaternion about `axis`, not normalized.
 fn along(rotation: DQuat, axis: DVec3) -> DQuat {
     let part = axis * rotation.xyz().dot(axis);
     DQuat::from_xyzw(part.x, part.y, part.z, rotation.w)
 }
 
-/// A channel with every key's value, and a spline's tangents, changed.
+/// Returns a channel with every key's value, and a spline's tangents, changed.
 pub(super) fn map(
     channel: &Channel<Vec3>,
     rest: Vec3,
@@ -167,7 +167,7 @@ pub(super) fn map(
     Ok(with_values(channel, values))
 }
 
-/// [`map`] for rotations.
+/// As [`map`], for rotations.
 pub(super) fn map_turns(
     channel: &Channel<Quat>,
     rest: Quat,

@@ -1,4 +1,4 @@
-//! The space of the parent of the bone, at one time.
+//! The space of the bone's parent at one time.
 
 use super::MotionError;
 use crate::animation::to_parent;
@@ -15,7 +15,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Of the parent of `bone` at `time` seconds of `take`.
+    /// Computes the space of the parent of `bone` at `time` seconds of `take`.
     pub(super) fn at(
         take: &Take,
         skeleton: &Skeleton,
@@ -36,45 +36,46 @@ impl Frame {
         Ok(Self { to_root, from_root, rotation: rotation_of(DMat3::from_mat4(to_root)) })
     }
 
-    /// A place relative to the parent, in to-root space.
+    /// Converts a position relative to the parent to to-root space.
     pub(super) fn place(&self, translation: DVec3) -> DVec3 {
         self.to_root.transform_point3(translation)
     }
 
-    /// A place in to-root space, relative to the parent.
+    /// Converts a position in to-root space to one relative to the parent.
     pub(super) fn unplace(&self, place: DVec3) -> DVec3 {
         self.from_root.transform_point3(place)
     }
 
-    /// The same for a speed, or a difference of two places.
+    /// Converts a velocity, or a difference of two positions, to to-root space.
     pub(super) fn direct(&self, vector: DVec3) -> DVec3 {
         self.to_root.transform_vector3(vector)
     }
 
-    /// And back.
+    /// Converts a velocity, or a difference of two positions, to the parent's space.
     pub(super) fn undirect(&self, vector: DVec3) -> DVec3 {
         self.from_root.transform_vector3(vector)
     }
 
-    /// `R⁻¹ Y R`: a rotation of to-root space as one of the parent's space. Any quaternion, the length is kept.
+    /// Returns `R⁻¹ Y R`: a rotation of to-root space as one of the parent's space. Any quaternion, the length is kept.
     pub(super) fn inward(&self, rotation: DQuat) -> DQuat {
         let turned = self.rotation.conjugate() * rotation.xyz();
         DQuat::from_xyzw(turned.x, turned.y, turned.z, rotation.w)
     }
 
-    /// `R q`: a rotation relative to the parent in to-root space.
+    /// Returns `R q`: a rotation relative to the parent in to-root space.
     pub(super) fn turn(&self, rotation: DQuat) -> DQuat {
         self.rotation * rotation
     }
 }
 
-/// The ancestors of `bone`, nearest first; a parent that does not come before its child counts as none.
+/// Iterates over the ancestors of `bone`, nearest first; a parent that does not come before its child is ignored.
 pub(super) fn ancestors(skeleton: &Skeleton, bone: BoneIndex) -> impl Iterator<Item = usize> + '_ {
     let parent = |bone: u32| skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
     std::iter::successors(parent(bone), move |&bone| parent(bone)).map(|bone| bone as usize)
 }
 
-/// The rotation of a matrix; of a mirrored one that of its negative: `P⁻¹ Y P` and `R⁻¹ Y R` are the same either way.
+/// Returns the rotation of a matrix; of a mirrored one that of its negative: `P⁻¹ Y P` and `R⁻¹ Y R` are equal in both
+/// cases.
 fn rotation_of(matrix: DMat3) -> DQuat {
     let matrix = if matrix.determinant() < 0.0 { -matrix } else { matrix };
     let z = matrix.z_axis.normalize_or(DVec3::Z);

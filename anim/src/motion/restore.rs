@@ -1,4 +1,4 @@
-//! Putting the motion back, and the formula that both ways share.
+//! Restoring motion, and the formula that extraction and restoration share.
 
 use super::extract::{map, map_turns, times_above, track_of, with_track};
 use super::frame::Frame;
@@ -8,12 +8,12 @@ use crate::data::{Channel, Interpolation, Skeleton, Take, Track};
 use crate::sample::{rest_pose, sample_channel};
 use glam::{DQuat, DVec3, Quat, Vec3};
 
-/// Puts `motion` into `take`: what [`extract`](super::extract()) took out moves the figure again.
+/// Restores `motion` in `take`: the inverse of [`extract`](super::extract()).
 ///
 /// For the motion and the take in place of one extraction this gives the original again, within rounding, at keys and
-/// between. Either may have been edited: the bone gets keys wherever the motion has some. Where one of the two
-/// is a cubic spline and the other is not, or one has steps and the other has not, the result takes the interpolation of
-/// the bone's own channel (the motion's, where the bone has no keys) and follows the motion at its keys.
+/// between. Either may have been edited: the bone gets keys wherever the motion has some. Where only one of the two is
+/// a cubic spline, or only one has steps, the result has the interpolation of the bone's own channel (the motion's,
+/// where the bone has no keys) and follows the motion at its keys.
 ///
 /// The take keeps its start and length; keys of the motion outside them are kept too.
 pub fn put_back(take: &Take, skeleton: &Skeleton, motion: &RootMotion) -> Result<Take, MotionError> {
@@ -33,7 +33,7 @@ pub fn put_back(take: &Take, skeleton: &Skeleton, motion: &RootMotion) -> Result
     if turning || !motion.translation.is_empty() {
         track.translation = Vec3::refined(&track.translation, rest.translation, &above);
     }
-    // Does anything lie off the axis of rotation, so that it is turned?
+    // Whether the bone leaves the axis of rotation, so that its translation is rotated.
     let off_axis = !track.translation.is_empty() && has_horizontal(take, skeleton, &track, motion)?;
     if off_axis && turning {
         track.translation = Vec3::refined(&track.translation, rest.translation, &motion.rotation.times);
@@ -42,7 +42,7 @@ pub fn put_back(take: &Take, skeleton: &Skeleton, motion: &RootMotion) -> Result
     Ok(with_track(take, track))
 }
 
-/// `channel` with keys at `times`; without any it becomes one of kind `kind`.
+/// Returns `channel` with keys at `times`; one without keys gets the interpolation `kind`.
 fn keyed<T: Refine>(channel: &Channel<T>, rest: T, times: &[f32], kind: Interpolation) -> Channel<T> {
     if !channel.is_empty() {
         return T::refined(channel, rest, times);
@@ -57,7 +57,7 @@ fn keyed<T: Refine>(channel: &Channel<T>, rest: T, times: &[f32], kind: Interpol
     }
 }
 
-/// Does the bone in place ever leave the axis of rotation by more than rounding?
+/// Returns whether the bone in place ever leaves the axis of rotation by more than rounding.
 fn has_horizontal(
     take: &Take,
     skeleton: &Skeleton,
@@ -76,16 +76,16 @@ fn has_horizontal(
     Ok(false)
 }
 
-/// Which way the formula is read.
+/// Direction of the conversion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Way {
-    /// Motion out of the take.
+    /// Extracts motion from the take.
     Out,
-    /// Motion into the take.
+    /// Restores motion in the take.
     Back,
 }
 
-/// The track with the motion taken out of its keys, or put into them.
+/// Returns the track with the motion extracted from its keys, or restored in them.
 pub(super) fn apply(
     take: &Take,
     skeleton: &Skeleton,
@@ -115,7 +115,7 @@ pub(super) fn apply(
     Ok(result)
 }
 
-/// The motion at one time, and how fast it changes before and after.
+/// The motion at one time, and its derivatives before and after.
 struct Moment {
     pivot: DVec3,
     moved: DVec3,
@@ -138,7 +138,8 @@ impl Moment {
         }
     }
 
-    /// Translation and its rate. With w = Y⁻¹ (p - c - m): p = c + m + Y w, and by the product rule p' = m' + Y' w + Y w'.
+    /// Converts a translation and its rate. With w = Y⁻¹ (p - c - m): p = c + m + Y w, and by the product rule p' = m'
+    /// + Y' w + Y w'.
     fn place(&self, frame: &Frame, value: Vec3, rate: Vec3, side: usize, way: Way) -> (Vec3, Vec3) {
         let (speed, spin) = self.rates[side];
         let (value, rate) = (frame.place(value.as_dvec3()), frame.direct(rate.as_dvec3()));
@@ -157,7 +158,7 @@ impl Moment {
         (frame.unplace(value).as_vec3(), frame.undirect(rate).as_vec3())
     }
 
-    /// Rotation and its rate: q = S q' with S = R⁻¹ Y R, and by the product rule.
+    /// Converts a rotation and its rate: q = S q' with S = R⁻¹ Y R, and by the product rule.
     fn turn(&self, frame: &Frame, value: Quat, rate: Quat, side: usize, way: Way) -> (Quat, Quat) {
         let (turned, spin) = (frame.inward(self.turned), frame.inward(self.rates[side].1));
         let (value, rate) = (value.as_dquat(), rate.as_dquat());
@@ -172,8 +173,8 @@ impl Moment {
     }
 }
 
-/// How fast `vector` moves when it is turned by `turned`, which changes by `spin`: the vector part of
-/// `Y' w Y* + Y w Y'*`.
+/// Returns the velocity of `vector` when it is rotated by `turned`, which changes by `spin`: the vector part of `Y' w
+/// Y* + Y w Y'*`.
 fn swept(turned: DQuat, spin: DQuat, vector: DVec3) -> DVec3 {
     let vector = DQuat::from_xyzw(vector.x, vector.y, vector.z, 0.0);
     (spin * vector * turned.conjugate() + turned * vector * spin.conjugate()).xyz()

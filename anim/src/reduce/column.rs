@@ -1,9 +1,9 @@
-//! The keys of one channel while some of them are being removed.
+//! The keys of one channel during their removal.
 
 use crate::data::{BoneIndex, Channel};
 use crate::sample::{Keys, Value, mix_factor, sample_between};
 
-/// Which property of a bone a channel moves.
+/// The property of a bone that a channel animates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Property {
     Translation,
@@ -11,23 +11,23 @@ pub(super) enum Property {
     Scale,
 }
 
-/// The keys of one channel: which are left, and the neighbours of each among those.
+/// The keys of one channel: the remaining ones, and the neighbors of each among those.
 pub(super) struct Column {
     pub(super) bone: BoneIndex,
     pub(super) property: Property,
-    /// The frame on which each key lies.
+    /// The frame of each key.
     pub(super) frames: Vec<u32>,
-    /// Is it still there?
+    /// Whether each key remains.
     pub(super) kept: Vec<bool>,
     before: Vec<Option<u32>>,
     after: Vec<Option<u32>>,
-    /// How many are left.
+    /// Number of remaining keys.
     pub(super) count: usize,
 }
 
 impl Column {
-    /// All keys of `channel`, whose times are among `times`; `None` when the channel has no keys, or is not sound enough
-    /// to be touched.
+    /// Creates the list of all keys of `channel`, whose times are among `times`; `None` when the channel has no keys,
+    /// or is not valid enough to be changed.
     pub(super) fn new<T: Value>(
         bone: BoneIndex,
         property: Property,
@@ -55,7 +55,7 @@ impl Column {
         })
     }
 
-    /// What takes the place of key `key` when it goes: nothing but its neighbours.
+    /// Returns the gap that replaces key `key` when it is removed: its neighbors.
     pub(super) fn gap(&self, key: usize) -> Gap {
         Gap {
             before: self.before[key].map(|key| key as usize),
@@ -63,7 +63,7 @@ impl Column {
         }
     }
 
-    /// Frames inside `gap`, which sampling finds between its two keys.
+    /// Returns the frames inside `gap`, at which sampling uses its two keys.
     pub(super) fn window(&self, gap: Gap, frames: usize) -> std::ops::Range<usize> {
         let from = gap.before.map_or(0, |key| self.frames[key] as usize + 1);
         let to = gap.after.map_or(frames, |key| self.frames[key] as usize);
@@ -85,7 +85,7 @@ impl Column {
         }
     }
 
-    /// Leaves exactly the keys of `kept`, ascending.
+    /// Keeps exactly the keys of `kept`, ascending.
     pub(super) fn keep(&mut self, kept: &[usize]) {
         self.kept.fill(false);
         self.count = kept.len();
@@ -96,13 +96,13 @@ impl Column {
         }
     }
 
-    /// Positions of the keys that are left, ascending.
+    /// Iterates over the positions of the remaining keys, ascending.
     pub(super) fn keys(&self) -> impl Iterator<Item = usize> + '_ {
         self.kept.iter().enumerate().filter(|(_, kept)| **kept).map(|(key, _)| key)
     }
 }
 
-/// Two keys that are, or would be, neighbours; `None`: nothing on that side.
+/// Two keys that are, or would be, neighbors; `None`: no key on that side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Gap {
     pub(super) before: Option<usize>,
@@ -110,8 +110,8 @@ pub(super) struct Gap {
 }
 
 impl Gap {
-    /// The value at `time`, which lies inside the gap: what sampling gives for a channel in which the two keys are
-    /// neighbours.
+    /// Returns the value at `time`, which is inside the gap: the sampled value of a channel in which the two keys are
+    /// neighbors.
     pub(super) fn sample<T: Value>(self, channel: &Channel<T>, rest: T, time: f32) -> T {
         let keys = match (self.before, self.after) {
             (Some(before), Some(after)) => {

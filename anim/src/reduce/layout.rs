@@ -1,38 +1,39 @@
-//! Each channel laid out anew with the fewest keys that all the others allow.
+//! Replaces each channel's keys by the fewest that the other channels allow.
 //!
-//! While the other channels stay as they are, whether two keys can be neighbours depends on nothing but the frames
-//! between them. So the keys are places, the allowed gaps are ways of length one, and the fewest keys are the shortest
-//! way from the beginning to the end of the channel.
+//! While the other channels stay as they are, whether two keys can be neighbors depends on nothing but the frames
+//! between them. So the keys are nodes, the allowed gaps are edges of length one, and the fewest keys are the shortest
+//! path from the start to the end of the channel.
 
 use super::column::Gap;
 use super::search::Search;
 
-/// Gaps in a row that are not allowed before a longer one is given up: a longer gap is nearly always worse.
+/// Number of consecutive gaps that are not allowed after which longer ones are not tried: a longer gap is nearly always
+/// worse.
 const PATIENCE: usize = 4;
 
-/// Bones moved on a frame, all channels together, after which the rest stays as it is: a few seconds of work. What is
-/// left out is the last few keys in a hundred.
+/// Limit of work in bones moved on a frame, all channels together, after which the rest stays as it is: a few seconds.
+/// What is left out is the last few percent of the keys.
 const WORK: u64 = 20_000_000;
 
-/// Lays out every channel once, those with most keys first.
+/// Optimizes every channel once, those with most keys first.
 pub(super) fn lay_out(search: &mut Search<'_>) {
     search.work = 0;
     let mut order: Vec<usize> = (0..search.columns.len()).collect();
     order.sort_by_key(|&column| std::cmp::Reverse(search.columns[column].count));
     for column in order {
-        // Two keys or fewer cannot be bettered: a first and a last that differ are needed.
+        // Two keys or fewer cannot be improved: a first and a last that differ are needed.
         if search.columns[column].count > 2 && !search.takes_closest(column) {
             shortest(search, column);
         }
     }
 }
 
-/// The shortest way for one channel, taken when it is shorter than what is there.
+/// Computes the shortest path for one channel, and uses it when it has fewer keys than the channel.
 fn shortest(search: &mut Search<'_>, column: usize) {
     let first = search.columns[column].keys().next().unwrap_or(0);
     let last = search.columns[column].keys().last().unwrap_or(0);
     let keys: Vec<usize> = (first..=last).collect();
-    // For each key: the fewest keys up to it, and the one before it on that way.
+    // For each key: the fewest keys up to it, and the one before it on that path.
     let mut best: Vec<(usize, usize)> = vec![(usize::MAX, 0); keys.len()];
     best[0] = (1, 0);
     for from in 0..keys.len() {

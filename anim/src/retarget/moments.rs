@@ -1,25 +1,25 @@
-//! When the values of several channels together are written down.
+//! The times at which a combination of several channels is sampled.
 
 use crate::data::{Channel, Interpolation};
 
-/// Between two keys whose product is not a straight line, so many values a second are written down ...
+/// Number of samples per second between two keys whose product is not linear ...
 const PER_SECOND: f32 = 60.0;
 
-/// ... but not more than so many, so that the work stays in proportion to the keys.
+/// ... and largest number of samples between two keys, so that the work stays in proportion to the keys.
 const MOST_BETWEEN: f32 = 16.0;
 
-/// The key times of channels whose values are combined.
+/// The key times of the channels that are combined.
 #[derive(Default)]
 pub(super) struct Moments {
     times: Vec<f32>,
-    /// The last moment before each key of a step channel.
+    /// The last time before each key of a step channel.
     before_steps: Vec<f32>,
-    /// Of the channels with more than one key.
+    /// Interpolations of the channels with more than one key.
     kinds: Vec<Interpolation>,
 }
 
 impl Moments {
-    /// One more channel that counts.
+    /// Adds one channel.
     pub(super) fn add<T: Copy>(&mut self, channel: &Channel<T>) {
         self.times.extend_from_slice(&channel.times);
         if channel.interpolation == Interpolation::Step {
@@ -30,8 +30,9 @@ impl Moments {
         }
     }
 
-    /// When to sample, ascending, each once, and how the samples are combined: at every key; just before each step, where
-    /// others do not step; and between, where the way from key to key is `bent` or a channel is curved.
+    /// Returns the sample times, ascending, each once, and the interpolation of the samples: at every key; just before
+    /// each step, where other channels do not step; and between, where the path from key to key is `bent` or a channel
+    /// is curved.
     pub(super) fn all(mut self, bent: bool) -> (Vec<f32>, Interpolation) {
         let only_steps = self.kinds.iter().all(|&kind| kind == Interpolation::Step);
         if !only_steps {

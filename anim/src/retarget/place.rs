@@ -1,4 +1,4 @@
-//! Where a bone is relative to its nearest bound ancestor, when bones between move that are bound to none.
+//! The position of a bone relative to its nearest bound ancestor, when unbound bones between them move.
 //!
 //! With `B(t)` the product of `to_parent` of the bones between, top first, and `x(t)` the bone's own translation:
 //!
@@ -13,7 +13,7 @@ use crate::data::{Channel, Interpolation, Skeleton, Take, Track};
 use crate::sample::{Value, rest_pose, sample_track};
 use glam::{DMat3, DMat4, DVec3, Vec3};
 
-/// A bone of the source and those above it, up to the nearest that is bound.
+/// A bone of the source and its ancestors, up to the nearest that is bound.
 pub(super) struct Place<'a> {
     take: &'a Take,
     source: &'a Skeleton,
@@ -22,8 +22,8 @@ pub(super) struct Place<'a> {
 }
 
 impl<'a> Place<'a> {
-    /// `None` where no bone between moves: the bone's own translations say everything. Also where `above` is no ancestor
-    /// of `bone`.
+    /// Returns `None` where no bone between moves, so that the bone's own translation suffices. Also where `above` is
+    /// not an ancestor of `bone`.
     pub(super) fn of(
         take: &'a Take,
         source: &'a Skeleton,
@@ -36,7 +36,7 @@ impl<'a> Place<'a> {
         moves.then_some(place)
     }
 
-    /// `p(t) - p(0)` through `map`, added to `rest`, key by key.
+    /// Returns `p(t) - p(0)` transformed by `map`, added to `rest`, key by key.
     pub(super) fn carried(&self, rest: Vec3, map: DMat3) -> Channel<Vec3> {
         if !map.is_finite() {
             return Channel::default();
@@ -51,13 +51,13 @@ impl<'a> Place<'a> {
         Channel::new(times, values, interpolation)
     }
 
-    /// The tracks of the bones between.
+    /// Iterates over the tracks of the bones between.
     fn between(&self) -> impl Iterator<Item = &'a Track> + '_ {
         let between = &self.path[..self.path.len().saturating_sub(1)];
         between.iter().filter_map(|&bone| self.take.tracks.get(bone))
     }
 
-    /// `p` at a time; `None`: at rest.
+    /// Returns `p` at a time; `None`: at rest.
     fn at(&self, time: Option<f32>) -> DVec3 {
         let none = Track::default();
         let pose = |bone: usize| match time {
@@ -74,7 +74,7 @@ impl<'a> Place<'a> {
         above.transform_point3(pose(last).translation.as_dvec3())
     }
 
-    /// When values are written down, and how they are combined.
+    /// Returns the sample times, and the interpolation of the samples.
     fn times(&self) -> (Vec<f32>, Interpolation) {
         let mut moments = Moments::default();
         if let Some(own) = self.path.last().and_then(|&bone| self.take.tracks.get(bone)) {

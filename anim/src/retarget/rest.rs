@@ -1,4 +1,4 @@
-//! Two rest poses side by side: how they differ in direction and size.
+//! Comparison of two rest poses: directions and sizes.
 
 use super::Binding;
 use crate::animation::to_root;
@@ -7,11 +7,11 @@ use crate::ik::turn::arc_between;
 use crate::sample::rest_pose;
 use glam::{DMat3, DQuat, DVec3, Mat4, Vec3};
 
-/// Radians: directions to several children that one rotation brings together within this are the same shape in another
-/// pose (5°).
+/// Tolerance in radians (5°): if one rotation aligns the directions to several children within this, they have the same
+/// shape in another pose.
 pub const SAME_SHAPE: f64 = 0.087_27;
 
-/// A skeleton at rest.
+/// A skeleton in its rest pose.
 pub(super) struct Rest {
     /// Bone space → to-root space.
     pub(super) to_root: Vec<Mat4>,
@@ -35,24 +35,24 @@ impl Rest {
         Self { to_root: matrices, turned, own }
     }
 
-    /// Origin of a bone, to-root space.
+    /// Returns the origin of a bone, to-root space.
     pub(super) fn place(&self, bone: usize) -> DVec3 {
         self.to_root[bone].w_axis.truncate().as_dvec3()
     }
 }
 
-/// The parent of a bone; one that does not come before its child counts as none.
+/// Returns the parent of a bone; one that does not come before its child is ignored.
 pub(super) fn parent_of(skeleton: &Skeleton, bone: usize) -> Option<usize> {
     skeleton.bones.get(bone)?.parent.map(|parent| parent as usize).filter(|&parent| parent < bone)
 }
 
-/// The bone of the source that moves bone `bone` of the target.
+/// Returns the bone of the source that moves bone `bone` of the target.
 pub(super) fn source_of(binding: &Binding, source: &Skeleton, bone: usize) -> Option<usize> {
     let bound = binding.source_of.get(bone).copied().flatten()? as usize;
     (bound < source.len()).then_some(bound)
 }
 
-/// The nearest ancestor of `bone` in the target that is bound.
+/// Returns the nearest ancestor of `bone` in the target that is bound.
 pub(super) fn bound_above(
     binding: &Binding,
     source: &Skeleton,
@@ -63,7 +63,7 @@ pub(super) fn bound_above(
     above.into_iter().find(|&bone| source_of(binding, source, bone).is_some())
 }
 
-/// `C` of every bone of the target.
+/// Returns `C` of every bone of the target.
 pub(super) fn alignments(
     binding: &Binding,
     (source, source_rest): (&Skeleton, &Rest),
@@ -85,7 +85,7 @@ pub(super) fn alignments(
         let parent = parent_of(target, bone).map_or(DQuat::IDENTITY, |parent| aligned[parent]);
         aligned.push(match &pairs[..] {
             [] => parent,
-            // From where the parent's rotation brings it, so that the bone is not twisted against its parent.
+            // Starts from the parent's alignment, so that the bone is not twisted relative to its parent.
             &[(way, wanted)] => (arc_between(parent * way, wanted) * parent).normalize(),
             several => common_turn(several).unwrap_or(parent),
         });
@@ -93,7 +93,7 @@ pub(super) fn alignments(
     aligned
 }
 
-/// The one rotation that brings all first directions onto the second ones within [`SAME_SHAPE`].
+/// Returns the one rotation that aligns all first directions with the second ones within [`SAME_SHAPE`].
 fn common_turn(pairs: &[(DVec3, DVec3)]) -> Option<DQuat> {
     let (first, first_wanted) = *pairs.first()?;
     let off_axis = |pair: &&(DVec3, DVec3)| first.cross(pair.0).length();
@@ -103,7 +103,7 @@ fn common_turn(pairs: &[(DVec3, DVec3)]) -> Option<DQuat> {
     pairs.iter().all(fits).then(|| turn.normalize())
 }
 
-/// Axes from two directions; `None` where they are parallel.
+/// Returns axes from two directions; `None` where they are parallel.
 fn frame(first: DVec3, second: DVec3) -> Option<DQuat> {
     let third = first.cross(second);
     if third.length() < 1e-3 {
@@ -113,11 +113,12 @@ fn frame(first: DVec3, second: DVec3) -> Option<DQuat> {
     Some(DQuat::from_mat3(&DMat3::from_cols(first, third.cross(first), third)))
 }
 
-/// Ratio of sizes, target to source: of the heights of the hips at rest over the lowest bound bone, along `up`.
+/// Returns the ratio of sizes, target to source: of the heights of the hips at rest over the lowest bound bone, along
+/// `up`.
 ///
 /// `hips` is a bone of the target. Where the hips are not bound, or one of the heights is below a thousandth of the
 /// skeleton's size (a snake, a fish): the ratio of the summed distances of bound bones from their nearest bound
-/// ancestor. 1 where that says nothing either. Always positive and finite.
+/// ancestor. 1 where that is undefined too. Always positive and finite.
 pub fn height_ratio(
     source: &Skeleton,
     target: &Skeleton,
@@ -148,9 +149,10 @@ pub fn height_ratio(
     usable(sizes[1] / sizes[0]).unwrap_or(1.0)
 }
 
-/// Ratio of the lengths of a leg at rest, target to source: from `thigh` down to `foot`, bones of the target.
+/// Returns the ratio of the lengths of a leg at rest, target to source: from `thigh` down to `foot`, bones of the
+/// target.
 ///
-/// `None` where one of the two is not bound, `foot` is not below `thigh`, or a leg has no length.
+/// `None` where one of the two is not bound, `foot` is not a descendant of `thigh`, or a leg has no length.
 pub fn leg_ratio(
     source: &Skeleton,
     target: &Skeleton,
@@ -164,7 +166,7 @@ pub fn leg_ratio(
     usable(target_length / source_length)
 }
 
-/// Length of the way from one bone down to another.
+/// Returns the length of the path from one bone down to another.
 fn length(skeleton: &Skeleton, rest: &Rest, above: usize, mut below: usize) -> Option<f64> {
     if below >= skeleton.len() {
         return None;

@@ -1,4 +1,4 @@
-//! Names that do not tell bones apart: what binds takes by name takes the first.
+//! Duplicate bone names: takes bound by name move only the first such bone.
 
 use crate::check::{Findings, Kind, Place};
 use crate::data::ModelData;

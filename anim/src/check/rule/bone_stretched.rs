@@ -1,19 +1,19 @@
-//! Translations that make a bone longer or shorter than it rests.
+//! Translations that make a bone longer or shorter than at rest.
 //!
 //! ```text
 //! length = |translation|                     from the parent's origin to the bone's
 //! stretch = |length(key) / length(rest) − 1|   reported above 5 %, the worst key of a track
 //! ```
 //!
-//! Roots have no length. A translation that turns without changing its length is none of this.
+//! Roots have no length. A translation that turns without changing its length is not reported.
 
 use crate::check::column::{channel_place, keys};
 use crate::check::{Findings, Kind, TakeOf};
 
-/// Part of the rest length.
+/// Fraction of the rest length.
 const THRESHOLD: f32 = 0.05;
 
-/// Bones shorter than this part of the longest stand where their parent stands, and have no length to keep.
+/// Bones shorter than this fraction of the longest are at their parent's origin, and have no length to keep.
 const SHORTEST: f32 = 1e-3;
 
 pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {

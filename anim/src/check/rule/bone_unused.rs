@@ -1,11 +1,11 @@
-//! Bones that no vertex and no mesh follows, nor any bone below them.
+//! Bones that neither move a vertex or a mesh nor have a descendant that does.
 
 use crate::check::{Findings, Kind, Place};
 use crate::data::ModelData;
 
 pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
     let bones = &model.animation.skeleton.bones;
-    // A model of bones alone uses them all.
+    // In a model of bones alone all bones count as used.
     if model.meshes.is_empty() {
         return;
     }

@@ -1,4 +1,4 @@
-//! Columns that should be as long as others.
+//! Vertex columns whose lengths differ.
 
 use crate::check::column::primitives;
 use crate::check::{Findings, Kind, Place};

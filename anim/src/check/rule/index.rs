@@ -1,4 +1,4 @@
-//! Indices past the end of what they index.
+//! Indices out of range.
 
 use crate::check::column::primitives;
 use crate::check::{Findings, Kind, Place};

@@ -1,4 +1,4 @@
-//! Influences of a mesh that a skin moves, against the joints of that skin.
+//! Influences of a skinned mesh whose joint is missing in the skin.
 
 use crate::check::{Findings, Kind, Place};
 use crate::data::ModelData;

@@ -1,4 +1,4 @@
-//! Keys that turn a bone inside out on the way.
+//! Keys that mirror a bone compared with its rest pose, so that it turns inside out on the way.
 
 use super::is_mirrored;
 use crate::check::column::{channel_place, keys};
@@ -9,7 +9,7 @@ pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
         let Some(bone) = of.skeleton.bones.get(track.bone as usize) else { continue };
         let at_rest = is_mirrored(bone.rest.scale);
         for (key, time, scale) in keys(&track.scale) {
-            // A flat bone is neither.
+            // A flat bone is neither mirrored nor unmirrored.
             if scale.min_element() != 0.0 && scale.max_element() != 0.0 && is_mirrored(scale) != at_rest {
                 let text = || format!("at {time} s: scale {scale}, at rest {}", bone.rest.scale);
                 findings.add(|| (channel_place(of, number, 2).then(Kind::Key, key, ""), text()));

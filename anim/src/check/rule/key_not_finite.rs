@@ -1,4 +1,4 @@
-//! Keys that sampling has to replace by something else.
+//! Non-finite keys, which sampling replaces.
 
 use crate::check::column::columns;
 use crate::check::{Findings, Kind, TakeOf};

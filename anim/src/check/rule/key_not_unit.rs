@@ -1,4 +1,4 @@
-//! Rotation keys that would scale.
+//! Rotation keys that are not of unit length, and would scale.
 
 use super::UNIT_TOLERANCE;
 use crate::check::column::{channel_place, keys};

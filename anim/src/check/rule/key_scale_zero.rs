@@ -1,4 +1,4 @@
-//! Keys that flatten a bone and everything below it: often a way to hide something.
+//! Keys that flatten a bone and all its descendants, often used to hide something.
 
 use super::is_flat;
 use crate::check::column::{channel_place, keys};

@@ -1,11 +1,11 @@
-//! Keys before the time at which playing usually begins.
+//! Keys before time 0, at which playing usually starts.
 
 use crate::check::column::columns;
 use crate::check::{Findings, Kind, TakeOf};
 
 pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
     for column in columns(of) {
-        // Once a channel: the others before 0 follow.
+        // Reported once per channel: the other keys before 0 follow.
         if let Some((key, time)) =
             column.times.iter().enumerate().find(|(_, time)| **time < 0.0 && time.is_finite())
         {

@@ -1,4 +1,4 @@
-//! Two keys at one time: which counts depends on who looks.
+//! Two keys at the same time: which of them counts is undefined.
 
 use super::neighbours;
 use crate::check::{Findings, TakeOf};

@@ -1,4 +1,4 @@
-//! Keys that are not found, because times are searched as if they rose.
+//! Descending key times: the key search assumes ascending ones and does not find them.
 
 use super::neighbours;
 use crate::check::{Findings, TakeOf};

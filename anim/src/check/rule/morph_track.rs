@@ -1,4 +1,4 @@
-//! Morph tracks against the instances whose weights they set.
+//! Morph tracks that do not fit the instance whose weights they set.
 
 use crate::check::{Findings, Kind, TakeOf};
 use crate::data::Interpolation;

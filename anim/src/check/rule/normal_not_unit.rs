@@ -1,4 +1,4 @@
-//! Normals that make a surface too bright or too dark.
+//! Normals that are not of unit length and make a surface too bright or too dark.
 
 use super::UNIT_TOLERANCE;
 use crate::check::column::primitives;

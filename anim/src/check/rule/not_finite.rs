@@ -1,4 +1,4 @@
-//! Numbers of the model that are none.
+//! Numbers of the model that are NaN or infinite.
 
 use crate::check::column::primitives;
 use crate::check::{Findings, Kind, Place};

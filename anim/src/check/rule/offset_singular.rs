@@ -1,4 +1,4 @@
-//! Offsets that flatten what they move, so that nothing leads back from bone space to bind space.
+//! Singular offsets: they flatten what they move, so bone space cannot be mapped to bind space again.
 
 use crate::check::{Findings, Kind, Place};
 use crate::data::ModelData;
@@ -26,7 +26,7 @@ pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
     }
 }
 
-/// Each side is made of unit length first, so that small models are not taken for flat ones.
+/// Normalizes each side first, so that small models do not count as flat.
 fn is_singular(offset: &Mat4) -> bool {
     let sides = Mat3::from_mat4(*offset);
     let unit = |side: glam::Vec3| side.normalize_or_zero();

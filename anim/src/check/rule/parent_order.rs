@@ -1,4 +1,5 @@
-//! The order that lets one forward pass meet parents first, and rules out cycles.
+//! Parents that do not come before their children; the order lets one forward pass visit parents first, and excludes
+//! cycles.
 
 use crate::check::{Findings, Kind, Place};
 use crate::data::ModelData;

@@ -1,4 +1,4 @@
-//! Bones whose rest pose turns left into right: an odd number of negative factors.
+//! Bones whose rest pose is mirrored: an odd number of scale factors is negative.
 
 use super::is_mirrored;
 use crate::check::{Findings, Kind, Place};

@@ -1,4 +1,4 @@
-//! Rest rotations that would scale.
+//! Rest rotations that are not of unit length, and would scale.
 
 use super::UNIT_TOLERANCE;
 use crate::check::{Findings, Kind, Place};

@@ -1,4 +1,4 @@
-//! Bones that rest flat.
+//! Bones whose rest pose is flat.
 
 use super::is_flat;
 use crate::check::{Findings, Kind, Place};

@@ -1,4 +1,4 @@
-//! Rotations that go further from key to key than anybody could follow.
+//! Rotations that change too fast from key to key to be seen as motion.
 //!
 //! ```text
 //! turn  = 2 · acos |q₁ · q₂|                 the short way, 0..π
@@ -16,7 +16,7 @@ const FRAME: f32 = 1.0 / 30.0;
 
 pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
     for (number, track) in of.take.tracks.iter().enumerate() {
-        // A step is meant to jump.
+        // Step interpolation jumps intentionally.
         if matches!(track.rotation.interpolation, Interpolation::Step | Interpolation::Closest) {
             continue;
         }
@@ -34,7 +34,7 @@ pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
     }
 }
 
-/// Radians, the short way; NaN where a rotation is none.
+/// Returns the angle in radians, the short way; NaN where a rotation is invalid.
 fn turn_between(from: Quat, to: Quat) -> f32 {
     let (from, to) = (from.normalize(), to.normalize());
     2.0 * from.dot(to).abs().min(1.0).acos()

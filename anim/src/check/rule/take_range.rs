@@ -1,8 +1,8 @@
-//! A take that says another time than its keys.
+//! Takes whose start and length do not match their keys.
 
 use crate::check::{Findings, TakeOf};
 
-/// Seconds, and part of the larger number, that may be lost by adding start and length.
+/// Tolerance in seconds, and as a fraction of the larger number, for the rounding of start plus length.
 const TOLERANCE: f32 = 1e-5;
 
 pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {

@@ -1,4 +1,4 @@
-//! Takes that do not play.
+//! Takes of length zero.
 
 use crate::check::{Findings, TakeOf};
 

@@ -1,4 +1,4 @@
-//! Tracks that move nothing because their bone is not there.
+//! Tracks whose bone does not exist.
 
 use crate::check::{Findings, Kind, TakeOf};
 

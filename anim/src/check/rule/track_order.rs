@@ -1,11 +1,11 @@
-//! Tracks that do not stand at the position of their bone, where sampling looks for them.
+//! Tracks that are not at the position of their bone, where sampling expects them.
 
 use crate::check::{Findings, Kind, TakeOf};
 
 pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
     let (tracks, bones) = (&of.take.tracks, of.skeleton.len());
     let named: std::collections::BTreeSet<u32> = tracks.iter().map(|track| track.bone).collect();
-    // Tracks of no bone, and of one bone twice, have rules of their own.
+    // Tracks of missing bones, and duplicate tracks, have rules of their own.
     let each_once = named.len() == tracks.len() && named.iter().all(|&bone| (bone as usize) < bones);
     if !each_once {
         return;

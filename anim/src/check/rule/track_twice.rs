@@ -1,4 +1,4 @@
-//! Tracks that contradict each other.
+//! Several tracks for one bone.
 
 use crate::check::{Findings, Kind, TakeOf};
 

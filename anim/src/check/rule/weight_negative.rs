@@ -1,4 +1,4 @@
-//! Weights that push a vertex away from its bone.
+//! Negative weights, which push a vertex away from its bone.
 
 use crate::check::column::primitives;
 use crate::check::{Findings, Kind};

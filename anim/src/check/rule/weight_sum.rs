@@ -1,10 +1,10 @@
-//! Weights that leave a part of the vertex in the origin, or move it too far.
+//! Weights whose sum is not 1: a part of the vertex stays at the origin, or it moves too far.
 
 use crate::check::column::primitives;
 use crate::check::{Findings, Kind};
 use crate::data::ModelData;
 
-/// How far from 1 a sum may be: what weights of 8 bits lose is less.
+/// Tolerance of a sum; weights of 8 bits lose less.
 const TOLERANCE: f32 = 4e-3;
 
 pub(crate) fn look(model: &ModelData, findings: &mut Findings) {

@@ -1,4 +1,4 @@
-//! Brings a take to the layout that [`super`] describes.
+//! Converts a take to the layout described in [`super`].
 
 use super::super::between::steps;
 use super::super::grid::Grid;
@@ -12,7 +12,7 @@ use crate::data::{Channel, Interpolation, Skeleton, Take, Track, Transform};
 use crate::sample::{Value, rest_pose, sample_channel};
 use glam::{Quat, Vec3};
 
-/// One property of one bone: its channel, and what stands in where that has nothing.
+/// One property of one bone: its channel, and the value used where that is empty.
 struct Lane<'a, T> {
     channel: &'a Channel<T>,
     rest: T,
@@ -23,7 +23,7 @@ impl<T: Value + PartialEq> Lane<'_, T> {
         sample_channel(self.channel, self.rest, time)
     }
 
-    /// The one value that it always has.
+    /// Returns the value if it is constant.
     fn constant(&self) -> Option<T> {
         let first = self.channel.times.first().map_or(self.rest, |&time| self.at(time));
         let is_first =
@@ -32,27 +32,27 @@ impl<T: Value + PartialEq> Lane<'_, T> {
         (self.channel.len() < 2 || straight && (0..self.channel.len()).all(is_first)).then_some(first)
     }
 
-    /// Can it be played between keys by a straight line or a turn?
+    /// Returns whether values between keys can be computed by linear interpolation or slerp.
     fn is_linear(&self) -> bool {
         self.channel.interpolation == Interpolation::Linear
             && Grid::new(self.channel.times.to_vec()).is_some()
     }
 }
 
-/// What one property of all bones comes to.
+/// One property of all bones.
 struct Property<const N: usize, T> {
     tracks: Vec<Tracks<N>>,
     still: Vec<u32>,
-    /// Value of each bone where no track or odd channel changes it.
+    /// Value of each bone where no track or fallback channel changes it.
     base: Vec<T>,
     odd: Vec<usize>,
 }
 
-/// Between which times a block needs keys, and the numbers of a value.
+/// A value that can be stored in blocks of eight lanes.
 trait Layout<const N: usize>: Value + PartialEq {
-    /// Into how many steps the way from one key to the next is cut.
+    /// Returns the number of steps into which the interval between two keys is cut.
     fn steps(from: Self, to: Self) -> usize;
-    /// The value that follows `before`, in its hemisphere; and as numbers without tiny ones.
+    /// Returns this value in the hemisphere of `before`, the value it follows.
     fn following(self, before: Self) -> Self;
     fn numbers(self) -> [f32; N];
 }
@@ -133,7 +133,7 @@ pub(super) fn build(skeleton: &Skeleton, take: &Take) -> KeyedTake {
     }
 }
 
-/// Sorts the lanes of a property into what stands still, what a track plays and what the open path plays.
+/// Sorts the lanes of a property into constants, tracks, and channels that the open path plays.
 fn property<const N: usize, T: Layout<N>>(lanes: Vec<Lane<'_, T>>) -> Property<N, T> {
     let mut base: Vec<T> = Vec::with_capacity(lanes.len());
     let (mut odd, mut is_track) = (Vec::new(), vec![false; lanes.len()]);
@@ -165,11 +165,12 @@ fn property<const N: usize, T: Layout<N>>(lanes: Vec<Lane<'_, T>>) -> Property<N
     Property { tracks: Tracks::collect(tracks), still, base, odd }
 }
 
-/// The times at which the block of `lanes` needs keys: all of theirs, and more in wide turns. `None` without lanes.
+/// Returns the times at which the block of `lanes` needs keys: all of theirs, and more in wide rotations. `None`
+/// without lanes.
 fn grid_of<const N: usize, T: Layout<N>>(lanes: Vec<&Lane<'_, T>>) -> Option<Grid> {
     let mut times: Vec<f32> = lanes.iter().flat_map(|lane| lane.channel.times.iter().copied()).collect();
     times.sort_by(f32::total_cmp);
-    // 0.0 and -0.0 are one time.
+    // 0.0 and -0.0 are the same time.
     times.dedup_by(|a, b| a == b);
     let mut all = Vec::with_capacity(times.len());
     for pair in times.windows(2) {
@@ -177,12 +178,12 @@ fn grid_of<const N: usize, T: Layout<N>>(lanes: Vec<&Lane<'_, T>>) -> Option<Gri
         all.extend((0..count).map(|step| pair[0] + (pair[1] - pair[0]) * (step as f32 / count as f32)));
     }
     all.extend(times.last());
-    // Times next to each other leave no room between.
+    // Between adjacent floats there is no other time.
     all.dedup();
     Grid::new(all)
 }
 
-/// A key of eight bones for each time, tiny numbers made zero.
+/// Returns a key of eight bones for each time, with tiny numbers set to zero.
 fn keys_of<const N: usize, T: Layout<N>>(
     times: &[f32],
     bones: std::ops::Range<usize>,
@@ -208,7 +209,7 @@ fn keys_of<const N: usize, T: Layout<N>>(
     keys
 }
 
-/// For the lanes past the last bone: no turn. A vector there may be anything that is finite.
+/// Returns values for the lanes past the last bone: no rotation. For vectors any finite number would do.
 fn identity<const N: usize>() -> Key<N> {
     let mut key = [[0.0; LANES]; N];
     if let Some(last) = key.last_mut() {

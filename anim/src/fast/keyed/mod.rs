@@ -1,16 +1,16 @@
-//! A take with its keys as they are, brought to a layout that is sampled eight bones at once.
+//! A take with its original keys, in a layout that is sampled eight bones at once.
 //!
 //! ```text
 //! keys of rotations, tracks that share their times:   key 0: block, block, …   key 1: block, block, …
 //! a block: the same eight bones as in the pose, x of all eight, then y, z, w
 //! ```
 //!
-//! The two keys around a time are two neighbouring stretches of memory. Eight bones that are keyed at different times get
-//! the union of their times; what is put in between lies where the open path has it, so nothing moves. What does not
-//! change in a take is no track but part of its base pose. Numbers are not packed: that is for compressed takes.
+//! The two keys around a time are two neighboring ranges of memory. Eight bones that are keyed at different times get
+//! the union of their times; the inserted keys are the values of the open path there, so nothing moves. Constant
+//! channels have no track but are part of the take's base pose. Numbers are not packed: that is for compressed takes.
 //!
-//! Linear channels are played this way. Those of another interpolation, and ones whose times do not ascend, are
-//! played by the open path itself, one by one ([`KeyedTake::odd_channels`] says how many).
+//! Linear channels are played this way. Those of another interpolation, and ones whose times do not ascend, are played
+//! by the open path itself, one by one ([`KeyedTake::fallback_channels`] returns their number).
 
 mod build;
 mod tracks;
@@ -29,7 +29,7 @@ use tracks::Tracks;
 pub struct KeyedTake {
     start: f32,
     length: f32,
-    /// What no track changes; complete, so that tracks may also be missing.
+    /// Values that no track changes; complete, so that tracks may also be missing.
     base: Pose,
     rotations: Vec<Tracks<4>>,
     translations: Vec<Tracks<3>>,
@@ -55,28 +55,29 @@ enum Odd {
 }
 
 impl KeyedTake {
-    /// `take` for the bones of `skeleton`. Bones without a track rest.
+    /// Converts `take` for the bones of `skeleton`. Bones without a track keep their rest pose.
     ///
     /// Takes about the memory of the take's own keys where all bones of a block are keyed at the same times, at most
-    /// about six times it where each is keyed alone, and at most six times that where every turn is wide enough to be cut
-    /// into steps (more than 35° from key to key).
+    /// about six times it where each is keyed alone, and at most six times that where every rotation is wide enough to
+    /// be cut into steps (more than 35° from key to key).
     pub fn new(skeleton: &Skeleton, take: &Take) -> Self {
         build::build(skeleton, take)
     }
 
-    /// Channels that the open path plays, because their interpolation is not linear or their times do not ascend.
+    /// Returns the number of channels that the open path plays, because their interpolation is not linear or their
+    /// times do not ascend.
     pub fn odd_channels(&self) -> usize {
         self.odd.len()
     }
 
-    /// Bytes of keys.
+    /// Returns the size of the keys in bytes.
     pub fn key_bytes(&self) -> usize {
         let rotations = self.rotations.iter().map(Tracks::key_bytes).sum::<usize>();
         let vectors = self.translations.iter().chain(&self.scales).map(Tracks::key_bytes).sum::<usize>();
         rotations + vectors
     }
 
-    /// What does not change, copied.
+    /// Copies the constant values.
     #[inline(always)]
     fn copy_still<S: Simd>(&self, out: &mut [PoseBlock]) {
         let base = self.base.blocks();
@@ -97,7 +98,7 @@ impl KeyedTake {
         }
     }
 
-    /// What the open path plays.
+    /// Samples the channels that the open path plays.
     #[cold]
     fn sample_odd(&self, time: f32, out: &mut [PoseBlock]) {
         for odd in &self.odd {

@@ -19,7 +19,7 @@ pub(super) struct Tracks<const N: usize> {
 }
 
 impl<const N: usize> Tracks<N> {
-    /// Collects tracks (block, its times, a key for each) into groups of equal times.
+    /// Groups tracks (block, its times, a key for each) by equal times.
     pub(super) fn collect(tracks: Vec<(u32, Grid, Vec<Key<N>>)>) -> Vec<Self> {
         let mut groups: Vec<(Grid, Vec<Track<N>>)> = Vec::new();
         for (block, grid, keys) in tracks {
@@ -39,7 +39,7 @@ impl<const N: usize> Tracks<N> {
         size_of_val(self.keys.as_slice())
     }
 
-    /// Every block with its keys before and after `time`, and how far between them it is.
+    /// Iterates over every block with its keys before and after `time`, and the fraction between them.
     #[inline(always)]
     pub(super) fn around<S: Simd>(
         &self,
