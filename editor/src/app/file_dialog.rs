@@ -1,7 +1,7 @@
 //! The system's dialogs for files, asked in a thread of their own: they may take minutes to answer.
 
-use crate::document::{Offer, Then};
 use dragonfly_anim::format::FORMATS;
+use dragonfly_document::{Offer, Then};
 use dragonfly_runtime::Address;
 use std::path::PathBuf;
 
