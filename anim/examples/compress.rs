@@ -1,6 +1,6 @@
 //! Compresses every take of a model and says what that came to: `cargo run --example compress -- model.glb`.
 
-use dragonfly_anim::compressed::{CompressedTake, Exactness, Settings, compress};
+use dragonfly_anim::compressed::{CompressedTake, CompressionSettings, Exactness, compress};
 use dragonfly_anim::fast::Pose;
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use std::error::Error;
@@ -19,7 +19,7 @@ pub(crate) fn show(path: &str) -> Result<(), Box<dyn Error>> {
     let rest = dragonfly_anim::animation::Animation::of(&model);
     let size = rest.to_root().iter().map(|bone| bone.w_axis.truncate().length()).fold(0.0, f32::max);
     let everywhere = Exactness { tolerance: size * 0.001, shell: size * 0.1 };
-    let settings = Settings { everywhere, ..Settings::default() };
+    let settings = CompressionSettings { everywhere, ..CompressionSettings::default() };
 
     for take in &model.animation.takes {
         let (compressed, report) = compress(take, skeleton, &settings)?;

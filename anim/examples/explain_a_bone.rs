@@ -4,7 +4,7 @@
 //! cargo run -p dragonfly-anim --example explain_a_bone -- [FILE.glb [BONE [SECONDS]]]
 //! ```
 
-use dragonfly_anim::explain::{Subject, What, explain};
+use dragonfly_anim::explain::{ExplainTarget, Subject, explain};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use std::error::Error;
 
@@ -22,7 +22,7 @@ pub(crate) fn show(file: &str, name: &str, time: f32) -> Result<(), Box<dyn Erro
     let bone = model.animation.skeleton.find(name).ok_or("no bone has that name")?;
     let take = if model.animation.takes.is_empty() { None } else { Some(0) };
 
-    let explanation = explain(&model, take, time, What::Bone(bone))?;
+    let explanation = explain(&model, take, time, ExplainTarget::Bone(bone))?;
     println!("{explanation}");
 
     // The same as data: nothing has to be read out of the text.

@@ -3,7 +3,7 @@
 //! `cargo run -p dragonfly-anim --example root_motion`
 
 use dragonfly_anim::data::{Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
-use dragonfly_anim::motion::{RootMotionOptions, extract, put_back};
+use dragonfly_anim::motion::{RootMotionOptions, extract, restore};
 use dragonfly_anim::sample::PlayMode;
 use glam::{Mat4, Vec3};
 
@@ -37,7 +37,7 @@ pub(crate) fn main() {
     // The motion is plain channels: make the steps half as long, and put it back.
     let mut shorter = motion.clone();
     shorter.translation.values = motion.translation.values.iter().map(|&place| place * 0.5).collect();
-    let stroll = put_back(&in_place, &skeleton, &shorter).expect("a bone");
+    let stroll = restore(&in_place, &skeleton, &shorter).expect("a bone");
     println!("stroll:   {:?}", stroll.tracks[0].translation.values);
-    assert_eq!(put_back(&in_place, &skeleton, &motion).expect("a bone"), walk);
+    assert_eq!(restore(&in_place, &skeleton, &motion).expect("a bone"), walk);
 }

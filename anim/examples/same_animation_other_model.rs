@@ -4,7 +4,7 @@
 
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
-use dragonfly_anim::retarget::{Binding, RetargetOptions, retarget};
+use dragonfly_anim::retarget::{RetargetOptions, SkeletonBinding, retarget};
 use glam::{Mat4, Quat, Vec3};
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ pub(crate) fn main() {
     // T-pose here, arms straight down there.
     let source = figure(["Hips", "LeftFoot", "LeftArm", "LeftHand"], 1.0, 0.0);
     let target = figure(["mixamorig:Hips", "foot.L", "arm.L", "hand_l"], 1.5, -FRAC_PI_2);
-    let binding = Binding::by_name(&source, &target);
+    let binding = SkeletonBinding::by_name(&source, &target);
     assert_eq!((binding.bound(), &binding.unbound_target[..]), (4, &[][..]));
 
     // The source takes a step and raises its arm.

@@ -41,7 +41,7 @@ pub enum Space {
 /// Rotations turn about the bone's own origin in each space; scales are along the bone's own axes, multiplied component
 /// by component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum Change {
+pub enum AdditionalMode {
     /// Adds to the animated pose.
     #[default]
     Add,
@@ -51,7 +51,7 @@ pub enum Change {
 
 /// The parts of a pose that an [`Additional`] changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Parts {
+pub struct PoseParts {
     /// Whether the translation is changed.
     pub translation: bool,
     /// Whether the rotation is changed.
@@ -60,7 +60,7 @@ pub struct Parts {
     pub scale: bool,
 }
 
-impl Parts {
+impl PoseParts {
     /// The whole pose.
     pub const ALL: Self = Self { translation: true, rotation: true, scale: true };
 
@@ -68,7 +68,7 @@ impl Parts {
     pub const ROTATION: Self = Self { translation: false, rotation: true, scale: false };
 }
 
-impl Default for Parts {
+impl Default for PoseParts {
     fn default() -> Self {
         Self::ALL
     }
@@ -84,9 +84,9 @@ pub struct Additional {
     /// The axes in which `transform` is given.
     pub space: Space,
     /// Whether `transform` is added or replaces the pose.
-    pub change: Change,
+    pub mode: AdditionalMode,
     /// The parts of the pose that are changed.
-    pub parts: Parts,
+    pub parts: PoseParts,
     /// Strength of the effect, 0..=1; rotations turn at constant speed.
     pub weight: f32,
 }
@@ -95,7 +95,7 @@ impl Additional {
     /// Creates an entry that turns `bone` by `rotation` on top of the animation, in `space`, with weight 1.
     pub fn turn(bone: BoneIndex, rotation: glam::Quat, space: Space) -> Self {
         let transform = Transform { rotation, ..Transform::IDENTITY };
-        Self { bone, transform, space, change: Change::Add, parts: Parts::ALL, weight: 1.0 }
+        Self { bone, transform, space, mode: AdditionalMode::Add, parts: PoseParts::ALL, weight: 1.0 }
     }
 }
 

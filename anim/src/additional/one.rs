@@ -1,7 +1,7 @@
 //! Application of one additional transformation.
 
 use super::space::parent_to_root;
-use super::{Additional, Change, Space};
+use super::{Additional, AdditionalMode, Space};
 use crate::axes::Axes;
 use crate::blend::{fraction, mix_poses};
 use crate::data::{Bone, Skeleton, Transform};
@@ -20,9 +20,9 @@ pub(super) fn apply_one(skeleton: &Skeleton, additional: &Additional, poses: &mu
         Additional { transform: healthy(additional.transform, Transform::IDENTITY), ..*additional };
     let pose = healthy(pose, rest_pose(bone));
     let parent = || parent_to_root(skeleton, index, poses);
-    let full = match additional.change {
-        Change::Add => added(pose, &additional, parent),
-        Change::Replace => replaced(bone, &additional, parent),
+    let full = match additional.mode {
+        AdditionalMode::Add => added(pose, &additional, parent),
+        AdditionalMode::Replace => replaced(bone, &additional, parent),
     };
     let parts = additional.parts;
     let full = Transform {

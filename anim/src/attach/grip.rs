@@ -16,7 +16,7 @@ pub struct Grip {
 
 /// A bone's goal, for inverse kinematics.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Target {
+pub struct GripTarget {
     /// Origin of the hand's bone in the carrier's scene space.
     pub position: Vec3,
     /// Axes of the hand's bone in the carrier's scene space, a unit quaternion.
@@ -37,7 +37,7 @@ impl Grip {
     /// no length, the rotation is the identity. `in_hand.translation` is in the carrier's unit, so a hand whose bone is
     /// scaled has to include its scale in `in_hand`. Numbers that are not finite are replaced by those of the identity;
     /// a position that is not finite by the object's position, or the origin. Allocates nothing.
-    pub fn target(&self, object: Mat4) -> Target {
+    pub fn target(&self, object: Mat4) -> GripTarget {
         let object = if object.is_finite() { object } else { Mat4::IDENTITY };
         let on_object = healthy(self.on_object, Transform::IDENTITY);
         let in_hand = healthy(self.in_hand, Transform::IDENTITY);
@@ -46,6 +46,6 @@ impl Grip {
         let rotation = (axes * in_hand.rotation.conjugate()).normalize();
         let position = object.transform_point3(on_object.translation) - rotation * in_hand.translation;
         let place = object.w_axis.truncate();
-        Target { position: if position.is_finite() { position } else { place }, rotation }
+        GripTarget { position: if position.is_finite() { position } else { place }, rotation }
     }
 }

@@ -15,7 +15,7 @@
 mod grip;
 mod socket;
 
-pub use grip::{Grip, Target};
+pub use grip::{Grip, GripTarget};
 pub use socket::{NoSuchSocketBone, ScaleOf, Socket};
 
 use glam::Mat4;

@@ -92,7 +92,7 @@ pub fn blend(base: &[Transform], layers: &[Layer], out: &mut [Transform]) {
 /// weight at all.
 ///
 /// So all weights may be multiplied by one factor without changing anything. Otherwise as [`blend`].
-pub fn blend_normalised(base: &[Transform], layers: &[Layer], out: &mut [Transform]) {
+pub fn blend_normalized(base: &[Transform], layers: &[Layer], out: &mut [Transform]) {
     blend_each(base, layers, out, |sum| if sum > 0.0 { 0.0 } else { 1.0 });
 }
 

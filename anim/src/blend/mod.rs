@@ -48,7 +48,7 @@ pub use curve::weight_at;
 pub use cycle::{Cycle, common_length};
 pub use fade::{FadeCurve, Faded};
 pub use free_fade::FreeFade;
-pub use layer::{Layer, blend, blend_normalised};
+pub use layer::{Layer, blend, blend_normalized};
 pub use mask::{Mask, NoSuchBone};
 pub use one_shot::OneShot;
 pub use playback::Playback;

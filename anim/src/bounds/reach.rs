@@ -45,7 +45,7 @@ pub(super) struct Delta {
 
 /// One part of a mesh: a range of boxes, and sums of weights.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reach {
+pub(super) struct PartReach {
     pub(super) boxes: (u32, u32),
     /// Box of the vertices that do not move.
     pub(super) still: AxisBox,
@@ -57,7 +57,7 @@ pub(super) struct Reach {
 /// Any number of parts, in flat lists.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Reaches {
-    pub(super) parts: Vec<Reach>,
+    pub(super) parts: Vec<PartReach>,
     pub(super) boxes: Vec<JointBox>,
     pub(super) deltas: Vec<Delta>,
 }
@@ -83,8 +83,7 @@ impl Reaches {
         for joint in self.boxes(part) {
             let held = self.held(joint, weights);
             if held == AxisBox::WHOLE {
-                // Where the sum cannot be computed, skinning leaves the vertex at its stored position, wherever that
-                // is.
+                // If the sum cannot be computed, skinning leaves the vertex at its stored position, wherever that is.
                 return held;
             }
             hull = hull.union(held.moved(&placed(joint, movement)));
@@ -151,7 +150,7 @@ fn placed(joint: &JointBox, movement: Movement<'_>) -> Mat4 {
 }
 
 /// Returns `[P] * hull - [N] * hull`.
-fn weighted(hull: AxisBox, reach: &Reach) -> AxisBox {
+fn weighted(hull: AxisBox, reach: &PartReach) -> AxisBox {
     if hull.is_empty() {
         return hull;
     }

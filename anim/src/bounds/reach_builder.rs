@@ -1,7 +1,7 @@
 //! Construction of the boxes of [`super::reach`]: once per model, from its vertices.
 
 use super::axis_box::AxisBox;
-use super::reach::{Delta, JointBox, Reach, Reaches};
+use super::reach::{Delta, JointBox, PartReach, Reaches};
 use crate::data::{Primitive, Skin};
 use glam::{Mat3, Mat4, Vec3};
 
@@ -39,7 +39,7 @@ impl ReachBuilder {
         vertices: impl Iterator<Item = usize> + Clone,
     ) {
         let first = self.reaches.boxes.len();
-        let mut reach = Reach {
+        let mut reach = PartReach {
             boxes: (first as u32, 0),
             still: AxisBox::EMPTY,
             positive: [f32::INFINITY, 0.0],
@@ -117,13 +117,13 @@ impl ReachBuilder {
         });
         self.store(deltas, first);
         self.forget(first);
-        let sums = |of: fn(&Reach) -> [f32; 2]| match (of_a.boxes.1, of_b.boxes.1) {
+        let sums = |of: fn(&PartReach) -> [f32; 2]| match (of_a.boxes.1, of_b.boxes.1) {
             // The sums of a part that nothing moves have no meaning.
             (0, _) => of(&of_b),
             (_, 0) => of(&of_a),
             _ => [of(&of_a)[0].min(of(&of_b)[0]), of(&of_a)[1].max(of(&of_b)[1])],
         };
-        self.reaches.parts.push(Reach {
+        self.reaches.parts.push(PartReach {
             boxes: (first as u32, (self.reaches.boxes.len() - first) as u32),
             still: of_a.still.union(of_b.still),
             positive: sums(|part| part.positive),
@@ -162,7 +162,7 @@ impl ReachBuilder {
         skinned: bool,
         vertex: usize,
         stored: Vec3,
-        reach: &mut Reach,
+        reach: &mut PartReach,
     ) {
         if !stored.is_finite() {
             // Skinning puts a vertex that cannot be computed at the origin.
@@ -203,7 +203,7 @@ impl ReachBuilder {
         targets: &[u32],
         vertices: impl Iterator<Item = usize> + Clone,
         first: usize,
-        reach: &mut Reach,
+        reach: &mut PartReach,
     ) {
         let boxes = self.reaches.boxes.len() - first;
         let mut found: Vec<(usize, Delta)> = Vec::new();

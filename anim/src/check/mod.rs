@@ -18,11 +18,11 @@
 //! }
 //! ```
 
-mod column;
-mod place;
+mod channels;
+mod path;
 mod rule;
 
-pub use place::{Kind, Place, Step};
+pub use path::{ModelPath, PathKind, PathStep};
 
 use crate::data::{ModelData, Skeleton, Take};
 use std::fmt;
@@ -40,11 +40,11 @@ pub enum Severity {
 
 /// The function of a rule, by what it examines.
 #[derive(Clone, Copy)]
-pub(crate) enum Look {
+pub(crate) enum RuleFunction {
     /// Examines the model without its takes.
     Model(fn(&ModelData, &mut Findings)),
     /// Examines one take and the skeleton it moves.
-    Take(fn(&TakeOf<'_>, &mut Findings)),
+    Take(fn(&TakeContext<'_>, &mut Findings)),
 }
 
 /// One rule.
@@ -56,7 +56,7 @@ pub struct Rule {
     pub severity: Severity,
     /// The problem that the rule finds, in one sentence.
     pub meaning: &'static str,
-    look: Look,
+    check_rule: RuleFunction,
 }
 
 impl Rule {
@@ -64,18 +64,18 @@ impl Rule {
         id: &'static str,
         severity: Severity,
         meaning: &'static str,
-        look: fn(&ModelData, &mut Findings),
+        check_rule: fn(&ModelData, &mut Findings),
     ) -> Self {
-        Self { id, severity, meaning, look: Look::Model(look) }
+        Self { id, severity, meaning, check_rule: RuleFunction::Model(check_rule) }
     }
 
     const fn take(
         id: &'static str,
         severity: Severity,
         meaning: &'static str,
-        look: fn(&TakeOf<'_>, &mut Findings),
+        check_rule: fn(&TakeContext<'_>, &mut Findings),
     ) -> Self {
-        Self { id, severity, meaning, look: Look::Take(look) }
+        Self { id, severity, meaning, check_rule: RuleFunction::Take(check_rule) }
     }
 }
 
@@ -87,7 +87,7 @@ pub struct Finding {
     /// [`Rule::severity`].
     pub severity: Severity,
     /// The violating element.
-    pub place: Place,
+    pub path: ModelPath,
     /// Description of the problem, with the numbers.
     pub text: String,
 }
@@ -99,34 +99,34 @@ impl fmt::Display for Finding {
             Severity::Warning => "warning",
             Severity::Note => "note",
         };
-        write!(f, "{severity}: {}: {}", self.place, self.text)
+        write!(f, "{severity}: {}: {}", self.path, self.text)
     }
 }
 
 /// Number of findings of one rule that a [`check`] lists one by one; the rest is only counted.
-pub const MOST_OF_A_RULE: usize = 100;
+pub const MAX_PER_RULE: usize = 100;
 
 /// Collects the findings of one rule.
 pub(crate) struct Findings {
     rule: &'static Rule,
     list: Vec<Finding>,
-    untold: usize,
+    omitted: usize,
 }
 
 impl Findings {
     /// Adds a finding; `describe` is only called while the list is not full.
-    pub(crate) fn add(&mut self, tell: impl FnOnce() -> (Place, String)) {
-        if self.list.len() >= MOST_OF_A_RULE {
-            self.untold += 1;
+    pub(crate) fn add(&mut self, describe: impl FnOnce() -> (ModelPath, String)) {
+        if self.list.len() >= MAX_PER_RULE {
+            self.omitted += 1;
             return;
         }
-        let (place, text) = tell();
-        self.list.push(Finding { rule: self.rule.id, severity: self.rule.severity, place, text });
+        let (path, text) = describe();
+        self.list.push(Finding { rule: self.rule.id, severity: self.rule.severity, path, text });
     }
 }
 
 /// A take with its context.
-pub(crate) struct TakeOf<'a> {
+pub(crate) struct TakeContext<'a> {
     pub(crate) take: &'a Take,
     pub(crate) skeleton: &'a Skeleton,
     /// Number of the take in its model.
@@ -135,52 +135,52 @@ pub(crate) struct TakeOf<'a> {
     pub(crate) model: Option<&'a ModelData>,
 }
 
-impl TakeOf<'_> {
+impl TakeContext<'_> {
     /// Returns the path of the take.
-    pub(crate) fn place(&self) -> Place {
-        Place::of(Kind::Take, self.number, &self.take.name)
+    pub(crate) fn path(&self) -> ModelPath {
+        ModelPath::of(PathKind::Take, self.number, &self.take.name)
     }
 
     /// Returns the path of a bone of the skeleton, within the take.
-    pub(crate) fn bone(&self, bone: usize) -> Place {
+    pub(crate) fn bone(&self, bone: usize) -> ModelPath {
         let name = self.skeleton.bones.get(bone).map_or("", |bone| bone.name.as_str());
-        self.place().then(Kind::Bone, bone, name)
+        self.path().then(PathKind::Bone, bone, name)
     }
 }
 
 /// Returns everything wrong with `model`, the worst first, then in the order of [`RULES`].
 pub fn check(model: &ModelData) -> Vec<Finding> {
-    let takes = model.animation.takes.iter().enumerate().map(|(number, take)| TakeOf {
+    let takes = model.animation.takes.iter().enumerate().map(|(number, take)| TakeContext {
         take,
         skeleton: &model.animation.skeleton,
         number,
         model: Some(model),
     });
-    let takes: Vec<TakeOf<'_>> = takes.collect();
-    run(|look, findings| match look {
-        Look::Model(look) => look(model, findings),
-        Look::Take(look) => takes.iter().for_each(|take| look(take, findings)),
+    let takes: Vec<TakeContext<'_>> = takes.collect();
+    run(|check_rule, findings| match check_rule {
+        RuleFunction::Model(check_rule) => check_rule(model, findings),
+        RuleFunction::Take(check_rule) => takes.iter().for_each(|take| check_rule(take, findings)),
     })
 }
 
 /// Returns everything wrong with `take` as one that moves `skeleton`; in paths it is take number 0.
 pub fn check_take(take: &Take, skeleton: &Skeleton) -> Vec<Finding> {
-    let of = TakeOf { take, skeleton, number: 0, model: None };
-    run(|look, findings| match look {
-        Look::Model(_) => {}
-        Look::Take(look) => look(&of, findings),
+    let of = TakeContext { take, skeleton, number: 0, model: None };
+    run(|check_rule, findings| match check_rule {
+        RuleFunction::Model(_) => {}
+        RuleFunction::Take(check_rule) => check_rule(&of, findings),
     })
 }
 
-fn run(mut look: impl FnMut(Look, &mut Findings)) -> Vec<Finding> {
+fn run(mut check_rule: impl FnMut(RuleFunction, &mut Findings)) -> Vec<Finding> {
     let mut all = Vec::new();
     for rule in RULES {
-        let mut findings = Findings { rule, list: Vec::new(), untold: 0 };
-        look(rule.look, &mut findings);
+        let mut findings = Findings { rule, list: Vec::new(), omitted: 0 };
+        check_rule(rule.check_rule, &mut findings);
         all.append(&mut findings.list);
-        if findings.untold > 0 {
-            let text = format!("and {} more of these", findings.untold);
-            all.push(Finding { rule: rule.id, severity: rule.severity, place: Place::default(), text });
+        if findings.omitted > 0 {
+            let text = format!("and {} more of these", findings.omitted);
+            all.push(Finding { rule: rule.id, severity: rule.severity, path: ModelPath::default(), text });
         }
     }
     all.sort_by_key(|finding| finding.severity);
@@ -191,122 +191,177 @@ use Severity::{Error, Note, Warning};
 
 /// All rules, in the order in which findings of equal severity are listed.
 pub static RULES: &[Rule] = &[
-    Rule::model("NOT_FINITE", Error, "A number of the model is NaN or infinite.", rule::not_finite::look),
+    Rule::model(
+        "NOT_FINITE",
+        Error,
+        "A number of the model is NaN or infinite.",
+        rule::not_finite::check_rule,
+    ),
     Rule::model(
         "COLUMN_LENGTH",
         Error,
-        "A column is not as long as it should be.",
-        rule::column_length::look,
+        "A channels is not as long as it should be.",
+        rule::column_length::check_rule,
     ),
-    Rule::model("INDEX", Error, "An index names nothing.", rule::index::look),
-    Rule::model("PARENT_ORDER", Error, "A parent does not come before its child.", rule::parent_order::look),
+    Rule::model("INDEX", Error, "An index names nothing.", rule::index::check_rule),
+    Rule::model(
+        "PARENT_ORDER",
+        Error,
+        "A parent does not come before its child.",
+        rule::parent_order::check_rule,
+    ),
     Rule::model(
         "JOINT_MISSING",
         Error,
         "An influence names a joint that the skin lacks.",
-        rule::joint_missing::look,
+        rule::joint_missing::check_rule,
     ),
     Rule::model(
         "WEIGHT_NEGATIVE",
         Error,
         "The weight of an influence is negative.",
-        rule::weight_negative::look,
+        rule::weight_negative::check_rule,
     ),
-    Rule::model("WEIGHT_SUM", Error, "The weights of a vertex do not sum to 1.", rule::weight_sum::look),
+    Rule::model(
+        "WEIGHT_SUM",
+        Error,
+        "The weights of a vertex do not sum to 1.",
+        rule::weight_sum::check_rule,
+    ),
     Rule::model(
         "REST_NOT_UNIT",
         Error,
         "The rotation of a rest pose is not of unit length.",
-        rule::rest_not_unit::look,
+        rule::rest_not_unit::check_rule,
     ),
-    Rule::model("OFFSET_SINGULAR", Error, "An offset cannot be inverted.", rule::offset_singular::look),
-    Rule::model("NORMAL_NOT_UNIT", Warning, "A normal is not of unit length.", rule::normal_not_unit::look),
+    Rule::model("OFFSET_SINGULAR", Error, "An offset cannot be inverted.", rule::offset_singular::check_rule),
+    Rule::model(
+        "NORMAL_NOT_UNIT",
+        Warning,
+        "A normal is not of unit length.",
+        rule::normal_not_unit::check_rule,
+    ),
     Rule::model(
         "REST_SCALE_ZERO",
         Warning,
         "A bone rests without extent along an axis.",
-        rule::rest_scale_zero::look,
+        rule::rest_scale_zero::check_rule,
     ),
-    Rule::model("BONE_NAME_TWICE", Warning, "Two bones have one name.", rule::bone_name_twice::look),
-    Rule::model("REST_MIRRORED", Note, "The rest pose of a bone is mirrored.", rule::rest_mirrored::look),
+    Rule::model("BONE_NAME_TWICE", Warning, "Two bones have one name.", rule::bone_name_twice::check_rule),
+    Rule::model(
+        "REST_MIRRORED",
+        Note,
+        "The rest pose of a bone is mirrored.",
+        rule::rest_mirrored::check_rule,
+    ),
     Rule::model(
         "REST_NOT_UNIFORM",
         Note,
         "A bone's rest scale differs along its axes.",
-        rule::rest_not_uniform::look,
+        rule::rest_not_uniform::check_rule,
     ),
-    Rule::model("BONE_UNUSED", Note, "A bone and those below it move nothing.", rule::bone_unused::look),
-    Rule::model("TRIANGLE_DEGENERATE", Note, "A triangle has no area.", rule::triangle_degenerate::look),
+    Rule::model(
+        "BONE_UNUSED",
+        Note,
+        "A bone and those below it move nothing.",
+        rule::bone_unused::check_rule,
+    ),
+    Rule::model(
+        "TRIANGLE_DEGENERATE",
+        Note,
+        "A triangle has no area.",
+        rule::triangle_degenerate::check_rule,
+    ),
     Rule::take(
         "TRACK_OF_NO_BONE",
         Error,
         "A track is that of a bone that is not there.",
-        rule::track_of_no_bone::look,
+        rule::track_of_no_bone::check_rule,
     ),
-    Rule::take("TRACK_TWICE", Error, "Two tracks of a take are of one bone.", rule::track_twice::look),
-    Rule::take("TRACK_ORDER", Error, "Tracks are not one a bone in bone order.", rule::track_order::look),
+    Rule::take("TRACK_TWICE", Error, "Two tracks of a take are of one bone.", rule::track_twice::check_rule),
+    Rule::take(
+        "TRACK_ORDER",
+        Error,
+        "Tracks are not one a bone in bone order.",
+        rule::track_order::check_rule,
+    ),
     Rule::take(
         "KEY_COUNT",
         Error,
         "A channel has not as many values as its times need.",
-        rule::key_count::look,
+        rule::key_count::check_rule,
     ),
     Rule::take(
         "KEY_NOT_FINITE",
         Error,
         "A key's time, value or tangent is NaN or infinite.",
-        rule::key_not_finite::look,
+        rule::key_not_finite::check_rule,
     ),
-    Rule::take("KEY_TIMES_FALL", Error, "A key comes before its predecessor.", rule::key_times_fall::look),
-    Rule::take("KEY_TIME_TWICE", Error, "Two keys of a channel have one time.", rule::key_time_twice::look),
+    Rule::take(
+        "KEY_TIMES_FALL",
+        Error,
+        "A key comes before its predecessor.",
+        rule::key_times_fall::check_rule,
+    ),
+    Rule::take(
+        "KEY_TIME_TWICE",
+        Error,
+        "Two keys of a channel have one time.",
+        rule::key_time_twice::check_rule,
+    ),
     Rule::take(
         "KEY_NOT_UNIT",
         Error,
         "The rotation of a key is not of unit length.",
-        rule::key_not_unit::look,
+        rule::key_not_unit::check_rule,
     ),
-    Rule::take("MORPH_TRACK", Error, "A morph track does not fit its instance.", rule::morph_track::look),
+    Rule::take(
+        "MORPH_TRACK",
+        Error,
+        "A morph track does not fit its instance.",
+        rule::morph_track::check_rule,
+    ),
     Rule::take(
         "TAKE_RANGE",
         Error,
         "Start and length of a take are not those of its keys.",
-        rule::take_range::look,
+        rule::take_range::check_rule,
     ),
     Rule::take(
         "KEY_SCALE_ZERO",
         Warning,
         "A key leaves a bone without extent along an axis.",
-        rule::key_scale_zero::look,
+        rule::key_scale_zero::check_rule,
     ),
     Rule::take(
         "KEY_MIRRORED",
         Warning,
         "A key mirrors a bone that rests unmirrored, or back.",
-        rule::key_mirrored::look,
+        rule::key_mirrored::check_rule,
     ),
     Rule::take(
         "ROTATION_FLIP",
         Warning,
         "Neighbouring rotation keys lie in opposite hemispheres.",
-        rule::rotation_flip::look,
+        rule::rotation_flip::check_rule,
     ),
     Rule::take(
         "ROTATION_JUMP",
         Warning,
         "A rotation turns faster than half a turn a frame.",
-        rule::rotation_jump::look,
+        rule::rotation_jump::check_rule,
     ),
-    Rule::take("KEY_TIME_NEGATIVE", Note, "A key comes before time 0.", rule::key_time_negative::look),
+    Rule::take("KEY_TIME_NEGATIVE", Note, "A key comes before time 0.", rule::key_time_negative::check_rule),
     Rule::take(
         "BONE_STRETCHED",
         Note,
         "A translation track changes the length of a bone.",
-        rule::bone_stretched::look,
+        rule::bone_stretched::check_rule,
     ),
     Rule::take(
         "TAKE_WITHOUT_LENGTH",
         Note,
         "A take is a single pose, or nothing.",
-        rule::take_without_length::look,
+        rule::take_without_length::check_rule,
     ),
 ];

@@ -1,10 +1,10 @@
 //! Compression of a take: encodes with several choices, measures each, and keeps the smallest.
 
-use super::encode::{Choice, Encoder};
-use super::frames::{Frames, all_to_root};
+use super::encode::{EncodeChoice, Encoder};
+use super::frames::{SampledFrames, all_to_root};
 use super::metric::{LargestError, largest_error};
-use super::plan::Plan;
-use super::settings::{Exactness, Settings};
+use super::plan::TrackPlan;
+use super::settings::{CompressionSettings, Exactness};
 use super::write::write;
 use super::{CompressError, CompressedTake};
 use crate::data::{Skeleton, Take, Transform};
@@ -12,9 +12,9 @@ use crate::fast::Pose;
 
 /// Results of a compression.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct CompressionReport {
     /// Sizes in bytes, by content.
-    pub bytes: Bytes,
+    pub bytes: ByteSizes,
     /// Size in bytes of the same keys as plain floats: 40 per bone and key.
     pub raw_bytes: usize,
     /// The largest error at any key time, measured on the decoded result, and its position.
@@ -31,7 +31,7 @@ pub struct Report {
 
 /// Sizes in bytes, by content.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Bytes {
+pub struct ByteSizes {
     /// Name, times, checksums.
     pub header: usize,
     /// Constant channels.
@@ -44,7 +44,7 @@ pub struct Bytes {
     pub keys: usize,
 }
 
-impl Bytes {
+impl ByteSizes {
     /// Returns the sum: the length of [`CompressedTake::as_bytes`].
     pub fn total(&self) -> usize {
         self.header + self.constants + self.ranges + self.whole + self.keys
@@ -61,7 +61,7 @@ const MIDDLE: u32 = 6;
 
 /// Compresses `take`, whose bones are those of `skeleton`.
 ///
-/// The take is sampled at evenly spaced times (its own, where they are; see [`Settings::rate`]). At each of them, each
+/// The take is sampled at evenly spaced times (its own, where they are; see [`CompressionSettings::rate`]). At each of them, each
 /// of the three shell points of each bone is within the tolerance of its position in the raw take, in scene space: that
 /// is measured on the decoded bytes before they are returned.
 ///
@@ -71,16 +71,16 @@ const MIDDLE: u32 = 6;
 pub fn compress(
     take: &Take,
     skeleton: &Skeleton,
-    settings: &Settings,
-) -> Result<(CompressedTake, Report), CompressError> {
-    let frames = Frames::of(take, skeleton, settings)?;
+    settings: &CompressionSettings,
+) -> Result<(CompressedTake, CompressionReport), CompressError> {
+    let frames = SampledFrames::of(take, skeleton, settings)?;
     let exactness = settings.per_bone(skeleton.len());
-    let plan = Plan::new(&frames, skeleton, exactness.clone());
-    let attempt = |choice: Choice| Attempt::new(take, skeleton, &frames, &plan, &exactness, choice);
+    let plan = TrackPlan::new(&frames, skeleton, exactness.clone());
+    let attempt = |choice: EncodeChoice| Attempt::new(take, skeleton, &frames, &plan, &exactness, choice);
     let mut best: Option<Attempt> = None;
     let mut shares = SHARES[0];
     for next in SHARES {
-        let found = attempt(Choice { shift: MIDDLE, shares: next, whole: false })?;
+        let found = attempt(EncodeChoice { shift: MIDDLE, shares: next, whole: false })?;
         let first = best.is_none();
         if better(found, &mut best) {
             shares = next;
@@ -91,20 +91,21 @@ pub fn compress(
     for sizes in [SMALLER, LARGER] {
         for shift in sizes {
             let helps = frames.count() > 1 << shift.min(MIDDLE)
-                && better(attempt(Choice { shift, shares, whole: false })?, &mut best);
+                && better(attempt(EncodeChoice { shift, shares, whole: false })?, &mut best);
             if !helps {
                 break;
             }
         }
     }
     if best.is_none() {
-        better(attempt(Choice { shift: MIDDLE, shares: SHARES[0], whole: true })?, &mut best);
+        better(attempt(EncodeChoice { shift: MIDDLE, shares: SHARES[0], whole: true })?, &mut best);
     }
     match best {
         Some(best) => Ok((best.take, best.report)),
-        None => {
-            Err(out_of_reach(attempt(Choice { shift: MIDDLE, shares: SHARES[0], whole: true })?, &exactness))
-        }
+        None => Err(out_of_reach(
+            attempt(EncodeChoice { shift: MIDDLE, shares: SHARES[0], whole: true })?,
+            &exactness,
+        )),
     }
 }
 
@@ -127,7 +128,7 @@ fn better(attempt: Attempt, best: &mut Option<Attempt>) -> bool {
 /// A take compressed with one choice, and its report.
 struct Attempt {
     take: CompressedTake,
-    report: Report,
+    report: CompressionReport,
 }
 
 impl Attempt {
@@ -139,10 +140,10 @@ impl Attempt {
     fn new(
         take: &Take,
         skeleton: &Skeleton,
-        frames: &Frames,
-        plan: &Plan,
+        frames: &SampledFrames,
+        plan: &TrackPlan,
         exactness: &[Exactness],
-        choice: Choice,
+        choice: EncodeChoice,
     ) -> Result<Self, CompressError> {
         let stored = Encoder::new(frames, skeleton, plan, choice).run(&take.name);
         let (bytes, spent) = write(&stored)?;
@@ -154,7 +155,7 @@ impl Attempt {
         let (share_of_tolerance, largest_error) = largest_error(frames, &decoded, exactness);
         let mut channels = [0; 4];
         stored.bones.iter().flatten().for_each(|part| channels[part.kind() as usize] += 1);
-        let report = Report {
+        let report = CompressionReport {
             bytes: spent,
             raw_bytes: frames.poses.len() * 40,
             largest_error,
@@ -168,7 +169,7 @@ impl Attempt {
 }
 
 /// Returns the decoded poses at every key time, frame after frame.
-fn poses(take: &CompressedTake, frames: &Frames) -> Vec<Transform> {
+fn poses(take: &CompressedTake, frames: &SampledFrames) -> Vec<Transform> {
     let interval = frames.clock.interval();
     let mut pose = Pose::new(frames.bones);
     let mut poses = vec![Transform::IDENTITY; frames.poses.len()];

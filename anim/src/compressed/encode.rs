@@ -1,10 +1,10 @@
 //! Encodes frames, bone after bone from the root, each relative to its parent as it will be decoded.
 
-use super::frames::Frames;
+use super::frames::SampledFrames;
 use super::grid::{WHOLE_BITS, rotation_from, rotation_numbers};
-use super::plan::{Plan, mean};
-use super::points::{Point, aimed, shell};
-use super::stored::{Packed, Part, Range, Reference, Stored, rotation_of};
+use super::plan::{TrackPlan, mean};
+use super::points::{RigidPoint, aimed, shell};
+use super::stored::{PackedChannel, Reference, StoredChannel, StoredTake, ValueRange, rotation_of};
 use super::track::{Coded, Wanted, code};
 use crate::animation::to_parent;
 use crate::data::{Skeleton, Transform};
@@ -12,7 +12,7 @@ use glam::{Affine3A, Quat, Vec3, Vec3Swizzles};
 
 /// Parameters that the compressor may choose.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Choice {
+pub(super) struct EncodeChoice {
     /// A segment has `1 << shift` keys.
     pub(super) shift: u32,
     /// Shares of the tolerance allowed for the first and the last joint of a chain.
@@ -34,23 +34,28 @@ const SMALLEST_W: f32 = 0.3;
 
 /// Everything needed to encode a bone.
 pub(super) struct Encoder<'a> {
-    pub(super) frames: &'a Frames,
+    pub(super) frames: &'a SampledFrames,
     pub(super) skeleton: &'a Skeleton,
-    pub(super) plan: &'a Plan,
-    pub(super) choice: Choice,
+    pub(super) plan: &'a TrackPlan,
+    pub(super) choice: EncodeChoice,
     /// As decoded, frame after frame: bone space → scene space.
     to_root: Vec<Affine3A>,
 }
 
 impl<'a> Encoder<'a> {
-    pub(super) fn new(frames: &'a Frames, skeleton: &'a Skeleton, plan: &'a Plan, choice: Choice) -> Self {
+    pub(super) fn new(
+        frames: &'a SampledFrames,
+        skeleton: &'a Skeleton,
+        plan: &'a TrackPlan,
+        choice: EncodeChoice,
+    ) -> Self {
         Self { frames, skeleton, plan, choice, to_root: vec![Affine3A::IDENTITY; frames.to_root.len()] }
     }
 
     /// Encodes every bone.
-    pub(super) fn run(mut self, name: &str) -> Stored {
+    pub(super) fn run(mut self, name: &str) -> StoredTake {
         let bones = (0..self.frames.bones).map(|bone| self.bone(bone)).collect();
-        Stored {
+        StoredTake {
             name: name.to_owned(),
             clock: self.frames.clock,
             shift: self.choice.shift,
@@ -72,17 +77,17 @@ impl<'a> Encoder<'a> {
         self.plan.tolerance[bone] * share
     }
 
-    fn bone(&mut self, bone: usize) -> [Part; 3] {
+    fn bone(&mut self, bone: usize) -> [StoredChannel; 3] {
         let count = self.frames.count();
         let mut parts = self.plan.parts[bone].clone();
         let mut poses = vec![self.plan.still_pose(bone); count];
-        if matches!(parts[2], Part::Whole(_)) {
+        if matches!(parts[2], StoredChannel::Whole(_)) {
             parts[2] = self.scale(bone, &mut poses);
         }
-        if matches!(parts[1], Part::Whole(_)) {
+        if matches!(parts[1], StoredChannel::Whole(_)) {
             parts[1] = self.translation(bone, &mut poses);
         }
-        if matches!(parts[0], Part::Whole(_)) {
+        if matches!(parts[0], StoredChannel::Whole(_)) {
             parts[0] = self.rotation(bone, &mut poses);
         }
         let rules = &self.skeleton.bones[bone];
@@ -95,7 +100,7 @@ impl<'a> Encoder<'a> {
         parts
     }
 
-    fn scale(&self, bone: usize, poses: &mut [Transform]) -> Part {
+    fn scale(&self, bone: usize, poses: &mut [Transform]) -> StoredChannel {
         let wanted: Vec<Vec3> = (0..poses.len()).map(|frame| self.frames.pose(frame, bone).scale).collect();
         let points = self.points(bone);
         let limit = self.plan.tolerance[bone] * SCALED;
@@ -109,7 +114,7 @@ impl<'a> Encoder<'a> {
                 (scale - unscaled) / unscaled,
                 scale - unscaled,
             );
-            let far = |point: &Point| (largest(frame) * (ratio * point.local)).length();
+            let far = |point: &RigidPoint| (largest(frame) * (ratio * point.local)).length();
             points.iter().map(far).fold(0.0, f32::max) / limit
         };
         self.vector(&wanted, Vec3::splat(COARSE * limit / reach), error, |frame, scale| {
@@ -117,7 +122,7 @@ impl<'a> Encoder<'a> {
         })
     }
 
-    fn translation(&self, bone: usize, poses: &mut [Transform]) -> Part {
+    fn translation(&self, bone: usize, poses: &mut [Transform]) -> StoredChannel {
         let limit = self.joint_limit(bone) * MOVED;
         let parents: Vec<Affine3A> = (0..poses.len()).map(|frame| self.parent(frame, bone)).collect();
         let raw: Vec<Vec3> =
@@ -146,19 +151,19 @@ impl<'a> Encoder<'a> {
         step: Vec3,
         error: impl FnMut(usize, Vec3) -> f32,
         mut put: impl FnMut(usize, Vec3),
-    ) -> Part {
+    ) -> StoredChannel {
         let range = vector_range(values).filter(|_| !self.choice.whole);
         let coded =
             range.and_then(|range| code(&Wanted { values, range, shift: self.choice.shift, step }, error));
         let Some(Coded { range, segments, values: decoded }) = coded else {
             values.iter().enumerate().for_each(|(frame, &value)| put(frame, value));
-            return Part::Whole(values.iter().map(|value| value.extend(0.0).to_array()).collect());
+            return StoredChannel::Whole(values.iter().map(|value| value.extend(0.0).to_array()).collect());
         };
         decoded.iter().enumerate().for_each(|(frame, &value)| put(frame, value));
-        Part::Packed(Packed { reference: Reference::NONE, range, segments })
+        StoredChannel::PackedChannel(PackedChannel { reference: Reference::NONE, range, segments })
     }
 
-    fn rotation(&self, bone: usize, poses: &mut [Transform]) -> Part {
+    fn rotation(&self, bone: usize, poses: &mut [Transform]) -> StoredChannel {
         let points = self.points(bone);
         let count = poses.len();
         let parents: Vec<Affine3A> = (0..count).map(|frame| self.parent(frame, bone)).collect();
@@ -172,9 +177,9 @@ impl<'a> Encoder<'a> {
         if !self.choice.whole {
             let share = |frame: usize, rotation: Quat| {
                 let pose = Transform { rotation, ..poses[frame] };
-                Point::share(&points, raw_of(frame), &(parents[frame] * pose.to_affine()))
+                RigidPoint::share(&points, raw_of(frame), &(parents[frame] * pose.to_affine()))
             };
-            // Where the parents left a larger error than a rotation can correct, no number of bits would suffice.
+            // If the parents left a larger error than a rotation can correct, no number of bits would suffice.
             let reachable: Vec<f32> = wanted
                 .iter()
                 .enumerate()
@@ -184,7 +189,7 @@ impl<'a> Encoder<'a> {
             if let Some((packed, decoded)) = self.pack_rotation(&wanted, self.turn_step(bone, &points), error)
             {
                 poses.iter_mut().zip(decoded).for_each(|(pose, rotation)| pose.rotation = rotation);
-                return Part::Packed(packed);
+                return StoredChannel::PackedChannel(packed);
             }
         }
         let whole = |rotation: Quat| {
@@ -192,7 +197,7 @@ impl<'a> Encoder<'a> {
             rotation_from(dropped, numbers, WHOLE_BITS)
         };
         poses.iter_mut().zip(&wanted).for_each(|(pose, &rotation)| pose.rotation = whole(rotation));
-        Part::Whole(wanted.iter().map(|rotation| rotation.to_array()).collect())
+        StoredChannel::Whole(wanted.iter().map(|rotation| rotation.to_array()).collect())
     }
 
     /// Returns the rotation that best corrects the error of the parents.
@@ -200,7 +205,7 @@ impl<'a> Encoder<'a> {
         &self,
         bone: usize,
         frame: usize,
-        points: &[Point],
+        points: &[RigidPoint],
         raw: &[Vec3],
         parent: &Affine3A,
         pose: &Transform,
@@ -219,7 +224,7 @@ impl<'a> Encoder<'a> {
     }
 
     /// Returns a step for each component of a rotation that is too coarse for its points.
-    fn turn_step(&self, bone: usize, points: &[Point]) -> Vec3 {
+    fn turn_step(&self, bone: usize, points: &[RigidPoint]) -> Vec3 {
         let scale = self.frames.pose(0, bone).scale;
         let mut step = Vec3::splat(1.0);
         for point in points {
@@ -235,7 +240,7 @@ impl<'a> Encoder<'a> {
         wanted: &[Quat],
         step: Vec3,
         mut error: impl FnMut(usize, Quat) -> f32,
-    ) -> Option<(Packed, Vec<Quat>)> {
+    ) -> Option<(PackedChannel, Vec<Quat>)> {
         let reference = Reference::near(mean(wanted.iter().copied()));
         let middle = reference.rotation();
         let back = middle.conjugate();
@@ -251,17 +256,17 @@ impl<'a> Encoder<'a> {
             if xyz.length_squared() <= 1.0 { error(frame, rotation_of(middle, xyz)) } else { f32::INFINITY }
         })?;
         let decoded = coded.values.iter().map(|&xyz| rotation_of(middle, xyz)).collect();
-        Some((Packed { reference, range: coded.range, segments: coded.segments }, decoded))
+        Some((PackedChannel { reference, range: coded.range, segments: coded.segments }, decoded))
     }
 
     /// Returns the points that only `bone` can correct: its shell, the joints that move on it, and everything rigidly
     /// attached to it.
-    fn points(&self, bone: usize) -> Vec<Point> {
+    fn points(&self, bone: usize) -> Vec<RigidPoint> {
         let mut points = Vec::new();
         let mut open = vec![(bone, Affine3A::IDENTITY)];
         while let Some((owner, to_bone)) = open.pop() {
             let exactness = &self.plan.exactness[owner];
-            points.extend(shell(exactness).map(|of_owner| Point {
+            points.extend(shell(exactness).map(|of_owner| RigidPoint {
                 local: to_bone.transform_point3(of_owner),
                 owner,
                 of_owner,
@@ -271,8 +276,8 @@ impl<'a> Encoder<'a> {
                 let still = self.plan.still_pose(child);
                 if self.plan.is_rigid(child) {
                     open.push((child, to_bone * still.to_affine()));
-                } else if !matches!(self.plan.parts[child][1], Part::Whole(_)) {
-                    points.push(Point {
+                } else if !matches!(self.plan.parts[child][1], StoredChannel::Whole(_)) {
+                    points.push(RigidPoint {
                         local: to_bone.transform_point3(still.translation),
                         owner: child,
                         of_owner: Vec3::ZERO,
@@ -300,10 +305,10 @@ fn well(to_root: &Affine3A) -> bool {
 const MARGIN: f32 = 0.006;
 
 /// Returns the range of vectors; `None` where that leaves the range of numbers.
-fn vector_range(values: &[Vec3]) -> Option<Range> {
+fn vector_range(values: &[Vec3]) -> Option<ValueRange> {
     let (low, high) = ends(values);
     let extent = high - low;
-    let range = Range { low: low - extent * MARGIN, extent: extent * (1.0 + 2.0 * MARGIN) };
+    let range = ValueRange { low: low - extent * MARGIN, extent: extent * (1.0 + 2.0 * MARGIN) };
     (range.low.is_finite() && range.extent.is_finite() && range.extent.max_element() < 1e18).then_some(range)
 }
 
@@ -311,12 +316,12 @@ fn vector_range(values: &[Vec3]) -> Option<Range> {
 pub(super) const TURN_UNIT: f32 = 1.0 / 16_384.0;
 
 /// Returns the range of components of rotations, in whole [`TURN_UNIT`]s.
-fn turn_range(values: &[Vec3]) -> Range {
+fn turn_range(values: &[Vec3]) -> ValueRange {
     let (low, high) = ends(values);
     let extent = high - low;
     let low = ((low - extent * MARGIN) / TURN_UNIT).floor();
     let high = ((high + extent * MARGIN) / TURN_UNIT).ceil();
-    Range { low: low * TURN_UNIT, extent: (high - low) * TURN_UNIT }
+    ValueRange { low: low * TURN_UNIT, extent: (high - low) * TURN_UNIT }
 }
 
 fn ends(values: &[Vec3]) -> (Vec3, Vec3) {

@@ -1,7 +1,7 @@
 //! A take sampled at evenly spaced times: the input of the compressor.
 
 use super::stored::LARGEST;
-use super::{CompressError, MAX_BONES, MAX_FRAMES, MAX_VALUES, Settings};
+use super::{CompressError, CompressionSettings, MAX_BONES, MAX_FRAMES, MAX_VALUES};
 use crate::animation::to_root;
 use crate::data::{Channel, Interpolation, Skeleton, Take, Transform};
 use crate::sample::sample_take;
@@ -17,7 +17,7 @@ const FINER: u32 = 8;
 
 /// Evenly spaced times.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Clock {
+pub(super) struct FrameClock {
     /// Seconds.
     pub(super) start: f32,
     /// Seconds from the first frame to the last; zero for one frame.
@@ -26,7 +26,7 @@ pub(super) struct Clock {
     pub(super) frames: u32,
 }
 
-impl Clock {
+impl FrameClock {
     /// Returns the seconds between two frames; 1 where there is only one.
     pub(super) fn interval(&self) -> f64 {
         let steps = f64::from(self.frames.saturating_sub(1));
@@ -42,8 +42,8 @@ impl Clock {
 
 /// The poses of a take at evenly spaced times.
 #[derive(Debug)]
-pub(super) struct Frames {
-    pub(super) clock: Clock,
+pub(super) struct SampledFrames {
+    pub(super) clock: FrameClock,
     pub(super) bones: usize,
     /// Poses relative to the parents, one per bone, frame after frame.
     pub(super) poses: Vec<Transform>,
@@ -51,8 +51,12 @@ pub(super) struct Frames {
     pub(super) to_root: Vec<Affine3A>,
 }
 
-impl Frames {
-    pub(super) fn of(take: &Take, skeleton: &Skeleton, settings: &Settings) -> Result<Self, CompressError> {
+impl SampledFrames {
+    pub(super) fn of(
+        take: &Take,
+        skeleton: &Skeleton,
+        settings: &CompressionSettings,
+    ) -> Result<Self, CompressError> {
         let (clock, bones) = (clock(take, settings)?, skeleton.len());
         limit("bones", bones as u64, MAX_BONES as u64)?;
         limit("poses", u64::from(clock.frames) * bones as u64 * 3, MAX_VALUES as u64)?;
@@ -103,11 +107,11 @@ pub(super) fn limit(what: &'static str, count: u64, limit: u64) -> Result<(), Co
     if count <= limit { Ok(()) } else { Err(CompressError::TooLarge { what, count, limit }) }
 }
 
-fn clock(take: &Take, settings: &Settings) -> Result<Clock, CompressError> {
+fn clock(take: &Take, settings: &CompressionSettings) -> Result<FrameClock, CompressError> {
     let start = if take.start.is_finite() { take.start } else { 0.0 };
     let length = if take.length.is_finite() && take.length > 0.0 { take.length } else { 0.0 };
     if length == 0.0 || !(start + length).is_finite() || start + length <= start {
-        return Ok(Clock { start, length: 0.0, frames: 1 });
+        return Ok(FrameClock { start, length: 0.0, frames: 1 });
     }
     let rate = settings.rate.filter(|rate| rate.is_finite() && *rate > 0.0);
     let steps = match rate {
@@ -115,7 +119,7 @@ fn clock(take: &Take, settings: &Settings) -> Result<Clock, CompressError> {
         None => own_steps(take, start, length).unwrap_or_else(|| steps_at(length, USUAL_RATE)),
     };
     limit("keys", steps + 1, MAX_FRAMES as u64)?;
-    Ok(Clock { start, length, frames: steps as u32 + 1 })
+    Ok(FrameClock { start, length, frames: steps as u32 + 1 })
 }
 
 fn steps_at(length: f32, rate: f32) -> u64 {

@@ -1,6 +1,6 @@
 //! Rounding of values outside segments: constants, and rotations stored whole.
 
-use super::stored::Grid;
+use super::stored::RoundingGrid;
 use glam::Quat;
 
 /// Bits of a component of a rotation stored whole: as exact as single precision is after a few products.
@@ -47,7 +47,7 @@ pub(super) fn rotation_from(dropped: u32, numbers: [u32; 3], bits: u32) -> Quat 
     Quat::from_array(components).normalize()
 }
 
-impl Grid {
+impl RoundingGrid {
     /// Returns a rotation as it will be decoded.
     pub(super) fn rotation(&self, rotation: Quat) -> Quat {
         if self.rotation_bits == FLOATS {

@@ -11,7 +11,7 @@
 //!
 //! Numbers are masked in place and not shifted: the step is divided by the resulting power of two. That is exact.
 
-use super::stored::{Head, Range};
+use super::stored::{SegmentHead, ValueRange};
 use crate::fast::simd::LANES;
 
 /// Bits of a word that numbers may occupy: the sign bit stays free.
@@ -46,7 +46,7 @@ pub(super) struct WideBlock {
 
 /// One lane in a plain form.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Lane {
+pub(super) struct LaneLayout {
     /// Bits from the start of the key to its first number.
     pub(super) bit: u32,
     /// Bits of each number.
@@ -55,8 +55,8 @@ pub(super) struct Lane {
     pub(super) step: [f32; 3],
 }
 
-impl Lane {
-    pub(super) fn new(bit: u32, range: &Range, head: &Head) -> Self {
+impl LaneLayout {
+    pub(super) fn new(bit: u32, range: &ValueRange, head: &SegmentHead) -> Self {
         let [x, y, z] = [0, 1, 2].map(|axis| head.start_and_step(range, axis));
         let (start, step) = ([x.0, y.0, z.0], [x.1, y.1, z.1]);
         Self { bit, widths: head.bits.map(u32::from), start, step }
@@ -84,7 +84,7 @@ const WORD: [usize; 3] = [0, 0, 1];
 
 impl HeadBlock {
     /// Creates a block of lanes in the order of their bits; lanes without numbers may be anywhere.
-    pub(super) fn new(lanes: &[Lane; LANES], wide: &mut Vec<WideBlock>) -> Self {
+    pub(super) fn new(lanes: &[LaneLayout; LANES], wide: &mut Vec<WideBlock>) -> Self {
         let mut block = Self {
             start: [0, 1, 2].map(|axis| lanes.map(|lane| lane.start[axis])),
             masks: [[0; LANES]; 3],
@@ -100,7 +100,7 @@ impl HeadBlock {
         });
         let first = halves[0].or(halves[1]).map_or(0, |(begin, _)| begin / 8);
         let second = halves[1].map_or(first, |(begin, _)| begin / 8);
-        let held = |lane: &Lane| {
+        let held = |lane: &LaneLayout| {
             let ([_, _, z, end], [first, second]) = (lane.edges(), lane.words());
             z - first <= HELD && end - second <= HELD
         };
@@ -121,7 +121,7 @@ impl HeadBlock {
     }
 
     /// Stores a lane whose words are counted from bit `from` on; `None`: it is wide.
-    fn put(&mut self, index: usize, lane: &Lane, from: Option<u32>) {
+    fn put(&mut self, index: usize, lane: &LaneLayout, from: Option<u32>) {
         let (edges, words) = (lane.edges(), lane.words());
         if let Some(from) = from {
             (0..2).for_each(|word| self.words[word][index] = ((words[word] - from) / 8) as u8);
@@ -140,7 +140,7 @@ impl HeadBlock {
     }
 
     /// Returns a lane of this block.
-    pub(super) fn lane(&self, index: usize, wide: &[WideBlock]) -> Lane {
+    pub(super) fn lane(&self, index: usize, wide: &[WideBlock]) -> LaneLayout {
         let masks = [0, 1, 2].map(|axis| self.masks[axis][index]);
         let bit = if self.is_wide() {
             wide[self.at as usize].bits[0][index]
@@ -153,7 +153,7 @@ impl HeadBlock {
             let scale = if masks[axis] == 0 { 1.0 } else { (1_u32 << masks[axis].trailing_zeros()) as f32 };
             f32::from_bits(u32::from(self.step[axis][index]) << 16) * scale
         };
-        Lane {
+        LaneLayout {
             bit,
             widths: masks.map(u32::count_ones),
             start: [0, 1, 2].map(|axis| self.start[axis][index]),
@@ -185,11 +185,11 @@ mod tests {
         for round in 0..2000 {
             let most = if round % 2 == 0 { 8.99 } else { 22.99 };
             let mut bit = random.between(0.0, 300.0) as u32;
-            let lanes: [Lane; LANES] = std::array::from_fn(|_| {
+            let lanes: [LaneLayout; LANES] = std::array::from_fn(|_| {
                 let widths = [0; 3]
                     .map(|_: u32| if random.unit() < 0.2 { 0 } else { random.between(0.0, most) as u32 });
                 let step = widths.map(|width| if width == 0 { 0.0 } else { 0.75 });
-                let lane = Lane { bit, widths, start: [1.0, 2.0, 3.0], step };
+                let lane = LaneLayout { bit, widths, start: [1.0, 2.0, 3.0], step };
                 bit += widths.iter().sum::<u32>();
                 lane
             });
@@ -198,7 +198,7 @@ mod tests {
             for (index, lane) in lanes.iter().enumerate() {
                 let back = block.lane(index, &wide);
                 let bit = if lane.widths == [0; 3] { back.bit } else { lane.bit };
-                assert_eq!(back, Lane { bit, ..*lane });
+                assert_eq!(back, LaneLayout { bit, ..*lane });
             }
         }
         assert!(!wide.is_empty());

@@ -8,8 +8,8 @@
 //!
 //! Vectors are then interpolated; rotations get their w restored and are slerped with the weights of [`Slerp`].
 
-use super::arrange::Group;
 use super::head::{HeadBlock, WideBlock};
+use super::lane_groups::LaneGroup;
 use super::slerp::Slerp;
 use super::table::{Tables, Turning};
 use crate::fast::PoseBlock;
@@ -47,7 +47,7 @@ pub(super) struct Decode<'a> {
 
 /// The two keys to decode, and the fraction of the time between them.
 #[derive(Clone, Copy, Debug)]
-struct Keys<'a> {
+struct KeyPair<'a> {
     bytes: &'a [u8],
     wide: &'a [WideBlock],
     /// The segment of each key.
@@ -87,7 +87,7 @@ fn around(tables: &Tables, time: f32) -> (u32, f32) {
     (key, if mix > 0.0 { mix.min(1.0) } else { 0.0 })
 }
 
-impl<'a> Keys<'a> {
+impl<'a> KeyPair<'a> {
     #[inline(always)]
     fn new(tables: &'a Tables, bytes: &'a [u8], key: u32, mix: f32) -> Option<Self> {
         // Checked here so that no load has to check.
@@ -196,7 +196,7 @@ fn vectors(block: &mut PoseBlock, part: usize) -> &mut [[f32; LANES]; 3] {
 /// Copies each lane that has a track to its bone.
 #[inline(always)]
 fn scatter<const ROWS: usize>(
-    group: &Group,
+    group: &LaneGroup,
     lanes: &[[f32; LANES]; ROWS],
     out: &mut [PoseBlock],
     rows: impl Fn(&mut PoseBlock) -> &mut [[f32; LANES]; ROWS],
@@ -232,7 +232,7 @@ impl Kernel for Decode<'_> {
             }
         }
         let (key, mix) = around(tables, time);
-        if let Some(keys) = Keys::new(tables, bytes, key, mix) {
+        if let Some(keys) = KeyPair::new(tables, bytes, key, mix) {
             if keys.segments[0] == keys.segments[1] {
                 keys.put::<S, true>(tables, out);
             } else {

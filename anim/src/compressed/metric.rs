@@ -10,7 +10,7 @@
 //! finger, where it is visible. ACL (Animation Compression Library) measures the same three points with its `qvvf`
 //! transforms; here the matrices are those of the open path, so scale and shear of parents count as they are drawn.
 
-use super::frames::Frames;
+use super::frames::SampledFrames;
 use super::settings::Exactness;
 use glam::{Affine3A, Vec3A};
 
@@ -48,7 +48,7 @@ pub(super) fn shell_distance(raw: &Affine3A, decoded: &Affine3A, shell: f32) -> 
 ///
 /// `decoded` has the layout of the matrices of `frames`.
 pub(super) fn largest_error(
-    frames: &Frames,
+    frames: &SampledFrames,
     decoded: &[Affine3A],
     exactness: &[Exactness],
 ) -> (f32, LargestError) {

@@ -4,13 +4,13 @@
 //! bytes, and decompresses it to an ordinary take.
 //!
 //! ```
-//! use dragonfly_anim::compressed::{CompressedTake, Exactness, Settings, compress};
+//! use dragonfly_anim::compressed::{CompressedTake, Exactness, CompressionSettings, compress};
 //! use dragonfly_anim::fast::Pose;
 //! # use dragonfly_anim::data::{Skeleton, Take};
 //! # let (take, skeleton) = (Take::default(), Skeleton::default());
 //!
 //! // No point 10 cm from a bone may move by more than 1 mm.
-//! let settings = Settings { everywhere: Exactness::COARSE, ..Settings::default() };
+//! let settings = CompressionSettings { everywhere: Exactness::COARSE, ..CompressionSettings::default() };
 //! let (compressed, report) = compress(&take, &skeleton, &settings)?;
 //! assert!(report.share_of_tolerance <= 1.0);
 //!
@@ -84,7 +84,7 @@
 //! | of each segment and packed track, for x, y, z: place, extent, bits; of the only segment: bits | 8 + 8 + 5 bits |
 //! | *next whole byte* zeros, until 32 bytes follow the last key | |
 //!
-//! Whole tracks: all rotations in bone order, then translations, then scales. Packed tracks have the same order, but
+//! Whole tracks: all rotations in bone order, then translations, then scales. PackedChannel tracks have the same order, but
 //! the tracks of some blocks (bones 8 i to 8 i + 7) come last among those of their property, again in bone order: those
 //! of the `k` blocks with fewest packed tracks (of equals the first), where `k` is the smallest number that minimizes
 //!
@@ -127,7 +127,6 @@
 //!
 //! Morph weights are not included ([`CompressionReport::morphs_left_out`]).
 
-mod arrange;
 mod bits;
 mod compress;
 mod encode;
@@ -136,6 +135,7 @@ mod frames;
 mod grid;
 mod head;
 mod kernel;
+mod lane_groups;
 mod metric;
 mod plan;
 mod points;
@@ -149,10 +149,10 @@ mod track;
 mod whole;
 mod write;
 
-pub use compress::{Bytes, Report, compress};
+pub use compress::{ByteSizes, CompressionReport, compress};
 pub use error::{CompressError, FormatError};
 pub use metric::LargestError;
-pub use settings::{Exactness, Settings};
+pub use settings::{CompressionSettings, Exactness};
 pub use take::CompressedTake;
 
 /// Magic number: the first bytes of a compressed take.

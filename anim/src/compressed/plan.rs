@@ -1,9 +1,9 @@
 //! Analysis of a take: which channels are constant and which move, and how far an error of a bone reaches.
 
-use super::frames::Frames;
+use super::frames::SampledFrames;
 use super::grid::{FLOATS, MOST_BITS};
 use super::settings::Exactness;
-use super::stored::{Grid, Part, constant};
+use super::stored::{RoundingGrid, StoredChannel, constant};
 use crate::data::{Skeleton, Transform};
 use glam::{Quat, Vec3, Vec4};
 
@@ -14,7 +14,7 @@ const ROUNDING: f32 = 0.05;
 
 /// The bones of a take, with their tolerances.
 #[derive(Debug)]
-pub(super) struct Plan {
+pub(super) struct TrackPlan {
     pub(super) exactness: Vec<Exactness>,
     pub(super) parents: Vec<Option<usize>>,
     pub(super) children: Vec<Vec<usize>>,
@@ -23,12 +23,12 @@ pub(super) struct Plan {
     /// Number of bones from the root to a bone, and to the farthest below it.
     pub(super) depth: Vec<(f32, f32)>,
     /// Constant channels, rounded; [`StoredChannel::Whole`] without values for the channels that move.
-    pub(super) parts: Vec<[Part; 3]>,
-    pub(super) grid: Grid,
+    pub(super) parts: Vec<[StoredChannel; 3]>,
+    pub(super) grid: RoundingGrid,
 }
 
-impl Plan {
-    pub(super) fn new(frames: &Frames, skeleton: &Skeleton, exactness: Vec<Exactness>) -> Self {
+impl TrackPlan {
+    pub(super) fn new(frames: &SampledFrames, skeleton: &Skeleton, exactness: Vec<Exactness>) -> Self {
         let count = skeleton.len();
         let earlier = |bone: usize| skeleton.bones[bone].parent.map(|at| at as usize).filter(|&at| at < bone);
         let parents: Vec<Option<usize>> = (0..count).map(earlier).collect();
@@ -59,7 +59,7 @@ impl Plan {
 
     /// Returns whether every channel of `bone` is constant.
     pub(super) fn is_rigid(&self, bone: usize) -> bool {
-        self.parts[bone].iter().all(|part| !matches!(part, Part::Whole(_)))
+        self.parts[bone].iter().all(|part| !matches!(part, StoredChannel::Whole(_)))
     }
 
     /// Returns the pose of a rigid bone.
@@ -70,17 +70,17 @@ impl Plan {
     /// Rounds the constants, and drops those that are the default.
     fn round(&mut self) {
         for parts in &mut self.parts {
-            if let Part::Constant(value) = &mut parts[0] {
+            if let StoredChannel::Constant(value) = &mut parts[0] {
                 *value = self.grid.rotation(Quat::from_array(*value)).to_array();
             }
-            if let Part::Constant(value) = &mut parts[1] {
+            if let StoredChannel::Constant(value) = &mut parts[1] {
                 *value = value.map(|component| self.grid.component(component));
             }
             for (part, default) in
                 parts.iter_mut().zip([[0.0, 0.0, 0.0, 1.0], [0.0; 4], [1.0, 1.0, 1.0, 0.0]])
             {
-                if matches!(part, Part::Constant(value) if *value == default) {
-                    *part = Part::Default;
+                if matches!(part, StoredChannel::Constant(value) if *value == default) {
+                    *part = StoredChannel::Default;
                 }
             }
         }
@@ -89,14 +89,16 @@ impl Plan {
 
 /// Returns the constant channels, and how they are to be rounded.
 fn still(
-    frames: &Frames,
+    frames: &SampledFrames,
     exactness: &[Exactness],
     tolerance: &[f32],
     children: &[Vec<usize>],
-) -> (Vec<[Part; 3]>, Grid) {
+) -> (Vec<[StoredChannel; 3]>, RoundingGrid) {
     let count = frames.bones;
-    let moves = || [Part::Whole(Vec::new()), Part::Whole(Vec::new()), Part::Whole(Vec::new())];
-    let mut parts: Vec<[Part; 3]> = (0..count).map(|_| moves()).collect();
+    let moves = || {
+        [StoredChannel::Whole(Vec::new()), StoredChannel::Whole(Vec::new()), StoredChannel::Whole(Vec::new())]
+    };
+    let mut parts: Vec<[StoredChannel; 3]> = (0..count).map(|_| moves()).collect();
     // Distance from the bone's origin of the points that it alone must correct.
     let mut reach: Vec<f32> = exactness.iter().map(|of| of.shell).collect();
     let (mut finest_turn, mut finest_step, mut farthest) = (f32::MAX, f32::MAX, 0.0_f32);
@@ -104,7 +106,7 @@ fn still(
         let pose = |frame: usize| frames.pose(frame, bone);
         for &child in &children[bone] {
             let away = (0..frames.count()).map(|frame| frames.pose(frame, child).translation.length());
-            let hangs = parts[child].iter().all(|part| !matches!(part, Part::Whole(_)));
+            let hangs = parts[child].iter().all(|part| !matches!(part, StoredChannel::Whole(_)));
             reach[bone] = reach[bone].max(away.fold(0.0, f32::max) + if hangs { reach[child] } else { 0.0 });
         }
         let largest =
@@ -112,18 +114,18 @@ fn still(
         let allowed = tolerance[bone] * STILL;
         if let Some(scale) = middle(frames.count(), |frame| pose(frame).scale, allowed / reach[bone]) {
             parts[bone][2] =
-                Part::Constant(rounded_scale(scale, allowed / reach[bone]).extend(0.0).to_array());
+                StoredChannel::Constant(rounded_scale(scale, allowed / reach[bone]).extend(0.0).to_array());
         }
         reach[bone] *= largest;
         if let Some(translation) = middle(frames.count(), |frame| pose(frame).translation, allowed) {
-            parts[bone][1] = Part::Constant(translation.extend(0.0).to_array());
+            parts[bone][1] = StoredChannel::Constant(translation.extend(0.0).to_array());
             finest_step = finest_step.min(tolerance[bone] * ROUNDING);
             farthest = farthest.max(translation.abs().max_element());
         }
         if let Some(rotation) =
             middle_turn(frames.count(), |frame| pose(frame).rotation, allowed / reach[bone])
         {
-            parts[bone][0] = Part::Constant(rotation.to_array());
+            parts[bone][0] = StoredChannel::Constant(rotation.to_array());
             finest_turn = finest_turn.min(tolerance[bone] * ROUNDING / reach[bone]);
         }
     }
@@ -131,13 +133,13 @@ fn still(
 }
 
 /// Returns the bits for rotations exact to `turn` radians, and for translations to `step` up to `farthest`.
-fn grid(turn: f32, step: f32, farthest: f32) -> Grid {
+fn grid(turn: f32, step: f32, farthest: f32) -> RoundingGrid {
     let bits = |numbers: f32| {
         let bits = numbers.log2().ceil();
         if bits <= MOST_BITS as f32 { (bits as u32).max(4) } else { FLOATS }
     };
     let translation_bits = if farthest > 0.0 { bits(2.0 * farthest / step + 4.0) } else { 4 };
-    Grid {
+    RoundingGrid {
         // Half a step in each of three components, and a rotation turns twice as far as its quaternion.
         rotation_bits: bits(2.5 / turn + 2.0),
         step: if step.is_normal() && step < 1e18 { step } else { 1.0 },

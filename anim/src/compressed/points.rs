@@ -1,12 +1,12 @@
 //! The points that a bone must keep in position, and the rotation that does it best.
 
-use super::frames::Frames;
+use super::frames::SampledFrames;
 use super::settings::Exactness;
 use glam::{Affine3A, Mat3, Quat, Vec3};
 
 /// A point rigidly attached to a bone.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Point {
+pub(super) struct RigidPoint {
     /// Position in the space of the bone.
     pub(super) local: Vec3,
     /// The bone that it belongs to: the bone itself, or a descendant rigidly attached to it.
@@ -17,9 +17,9 @@ pub(super) struct Point {
     pub(super) limit: f32,
 }
 
-impl Point {
+impl RigidPoint {
     /// Returns the position in the raw take: scene space.
-    pub(super) fn raw(&self, frames: &Frames, frame: usize) -> Vec3 {
+    pub(super) fn raw(&self, frames: &SampledFrames, frame: usize) -> Vec3 {
         frames.to_root(frame, self.owner).transform_point3(self.of_owner)
     }
 

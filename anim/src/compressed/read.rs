@@ -2,9 +2,11 @@
 
 use super::bits::BitReader;
 use super::encode::TURN_UNIT;
-use super::frames::Clock;
+use super::frames::FrameClock;
 use super::grid::{FLOATS, MOST_BITS, rotation_from};
-use super::stored::{CONSTANT, Grid, Head, LARGEST, MAX_BITS, PACKED, Range, Reference, SHIFTS, WHOLE};
+use super::stored::{
+    CONSTANT, LARGEST, MAX_BITS, PACKED, Reference, RoundingGrid, SHIFTS, SegmentHead, ValueRange, WHOLE,
+};
 use super::table::{SegmentPlace, Tables};
 use super::whole::WholeTrack;
 use super::write::{AHEAD, PREFACE, SUMMED};
@@ -24,7 +26,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
     let constants = constants(&mut bits, &header, &kinds)?;
     let mut tables = Tables::new(header.clock, header.shift, name, &kinds, &constants);
     let mut tracks = Vec::new();
-    for place in tables.places() {
+    for place in tables.slots() {
         let (reference, range) = track(&mut bits, place.part)?;
         if place.part == 0 {
             tables.refer(&place, reference);
@@ -41,7 +43,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
     for segment in 0..segments {
         let heads = tracks.iter().map(|_| head(&mut bits, segments == 1)).collect::<Result<Vec<_>>>()?;
         let stride = tables.add_segment(&tracks, &heads).div_ceil(8);
-        // Where this is too large for 32 bits, so is the total, which is detected before it is used.
+        // If this exceeds 32 bits, so does the total, which is checked before it is used.
         tables.segments.push(SegmentPlace { at: at as u32, stride });
         at += stride as usize
             * (header.clock.frames - (segment << header.shift)).min(1 << header.shift) as usize;
@@ -86,11 +88,11 @@ fn check_preface(bytes: &[u8]) -> Result<usize> {
     check(16, "the end of the keys", end_of_keys, right)
 }
 
-struct Header {
-    clock: Clock,
+struct TakeHeader {
+    clock: FrameClock,
     bones: usize,
     shift: u32,
-    grid: Grid,
+    grid: RoundingGrid,
 }
 
 /// Returns `value` if `right`, and an error otherwise.
@@ -98,7 +100,7 @@ fn check<T: Copy + std::fmt::Display>(offset: usize, what: &str, value: T, right
     if right { Ok(value) } else { Err(FormatError::new(offset, format!("{what} is {value}"))) }
 }
 
-fn header(bits: &mut BitReader<'_>) -> Result<(Header, String)> {
+fn header(bits: &mut BitReader<'_>) -> Result<(TakeHeader, String)> {
     let at = bits.offset();
     let start = bits.take_float()?;
     let length = bits.take_float()?;
@@ -120,12 +122,12 @@ fn header(bits: &mut BitReader<'_>) -> Result<(Header, String)> {
     let place = bits.offset();
     let name: Vec<u8> = (0..length_of_name).map(|_| Ok(bits.take(8)? as u8)).collect::<Result<_>>()?;
     let name = String::from_utf8(name).map_err(|_| FormatError::new(place, "the name is no text"))?;
-    let grid = Grid { rotation_bits, step, translation_bits };
-    Ok((Header { clock: Clock { start, length, frames }, bones, shift, grid }, name))
+    let grid = RoundingGrid { rotation_bits, step, translation_bits };
+    Ok((TakeHeader { clock: FrameClock { start, length, frames }, bones, shift, grid }, name))
 }
 
 /// Reads the storage of three channels per bone.
-fn kinds(bits: &mut BitReader<'_>, header: &Header) -> Result<Vec<[u32; 3]>> {
+fn kinds(bits: &mut BitReader<'_>, header: &TakeHeader) -> Result<Vec<[u32; 3]>> {
     let at = bits.offset();
     let mut kinds = Vec::new();
     for _ in 0..header.bones {
@@ -143,7 +145,7 @@ fn of_kind(kinds: &[[u32; 3]], kind: u32) -> Vec<(usize, usize)> {
     (0..3).flat_map(|part| of(part).map(move |(bone, _)| (bone, part))).collect()
 }
 
-fn constants(bits: &mut BitReader<'_>, header: &Header, kinds: &[[u32; 3]]) -> Result<Vec<Transform>> {
+fn constants(bits: &mut BitReader<'_>, header: &TakeHeader, kinds: &[[u32; 3]]) -> Result<Vec<Transform>> {
     let mut poses = Vec::new();
     for &[rotation, translation, scale] in kinds {
         let mut pose = Transform::IDENTITY;
@@ -177,7 +179,7 @@ fn constant_rotation(bits: &mut BitReader<'_>, width: u32) -> Result<Quat> {
     }
 }
 
-fn constant_length(bits: &mut BitReader<'_>, grid: &Grid) -> Result<f32> {
+fn constant_length(bits: &mut BitReader<'_>, grid: &RoundingGrid) -> Result<f32> {
     let width = grid.translation_bits;
     if width == FLOATS {
         return number(bits);
@@ -205,7 +207,7 @@ fn constant_factor(bits: &mut BitReader<'_>) -> Result<f32> {
     }
 }
 
-fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, Range)> {
+fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, ValueRange)> {
     if part == 0 {
         let mut reference = [0; 4];
         for number in &mut reference {
@@ -213,7 +215,7 @@ fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, Range)> {
         }
         let low = three(|| Ok(f32::from(bits.take(16)? as u16 as i16) * TURN_UNIT))?;
         let extent = three(|| Ok(bits.take(16)? as f32 * TURN_UNIT))?;
-        return Ok((Reference(reference), Range { low, extent }));
+        return Ok((Reference(reference), ValueRange { low, extent }));
     }
     let low = three(|| bits.take_float())?;
     let at = bits.offset();
@@ -222,11 +224,11 @@ fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, Range)> {
         && extent.max_element() < 2e18
         && low.abs().max_element() <= 2.0 * LARGEST;
     check(at, "the extent of a track", extent, right)?;
-    Ok((Reference::NONE, Range { low, extent }))
+    Ok((Reference::NONE, ValueRange { low, extent }))
 }
 
-fn head(bits: &mut BitReader<'_>, only: bool) -> Result<Head> {
-    let mut head = Head::default();
+fn head(bits: &mut BitReader<'_>, only: bool) -> Result<SegmentHead> {
+    let mut head = SegmentHead::default();
     for axis in 0..3 {
         if !only {
             head.place[axis] = bits.take(8)? as u8;
@@ -236,7 +238,7 @@ fn head(bits: &mut BitReader<'_>, only: bool) -> Result<Head> {
         let width = bits.take(5)?;
         head.bits[axis] = check(at, "the width of keys", width, width <= MAX_BITS)? as u8;
     }
-    Ok(if only { Head::only(head.bits) } else { head })
+    Ok(if only { SegmentHead::only(head.bits) } else { head })
 }
 
 fn check_whole(bytes: &[u8], tables: &Tables) -> Result<()> {

@@ -16,14 +16,14 @@ pub struct Exactness {
 /// Settings of [`super::compress()`].
 ///
 /// ```
-/// use dragonfly_anim::compressed::{Exactness, Settings};
+/// use dragonfly_anim::compressed::{Exactness, CompressionSettings};
 ///
 /// let coarse = Exactness { tolerance: 0.001, shell: 0.10 };
 /// let hand = Exactness { tolerance: 0.000_1, shell: 0.03 };
-/// let settings = Settings { everywhere: coarse, bones: vec![(12, hand)], ..Settings::default() };
+/// let settings = CompressionSettings { everywhere: coarse, bones: vec![(12, hand)], ..CompressionSettings::default() };
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct CompressionSettings {
     /// Accuracy of every bone that is not in `bones`. By default 0.1 mm at 3 cm, where a unit is a meter.
     pub everywhere: Exactness,
     /// Bones with another accuracy. The last entry of a bone counts; a bone past the skeleton's end is ignored.
@@ -36,13 +36,13 @@ pub struct Settings {
     pub rate: Option<f32>,
 }
 
-impl Default for Settings {
+impl Default for CompressionSettings {
     fn default() -> Self {
         Self { everywhere: Exactness::FINE, bones: Vec::new(), rate: None }
     }
 }
 
-impl Settings {
+impl CompressionSettings {
     /// Returns the accuracy of each of `count` bones, every number positive and finite.
     pub(super) fn per_bone(&self, count: usize) -> Vec<Exactness> {
         let mut bones = vec![self.everywhere.healed(); count];
@@ -58,7 +58,7 @@ impl Settings {
 impl Exactness {
     /// 0.1 mm at 3 cm, for a model in meters: invisible even from near.
     pub const FINE: Self = Self { tolerance: 0.000_1, shell: 0.03 };
-    /// 1 mm at 10 cm, for a model in metres.
+    /// 1 mm at 10 cm, for a model in meters.
     pub const COARSE: Self = Self { tolerance: 0.001, shell: 0.1 };
 
     fn healed(self) -> Self {

@@ -1,6 +1,6 @@
 //! The content of a compressed take before it is written as bytes.
 
-use super::frames::Clock;
+use super::frames::FrameClock;
 use crate::data::{Interpolation, Transform};
 use glam::{Quat, Vec3};
 
@@ -15,19 +15,19 @@ pub(super) const SHIFTS: std::ops::RangeInclusive<u32> = 1..=16;
 
 /// The content of a compressed take.
 #[derive(Clone, Debug)]
-pub(super) struct Stored {
+pub(super) struct StoredTake {
     pub(super) name: String,
-    pub(super) clock: Clock,
+    pub(super) clock: FrameClock,
     /// A segment has `1 << shift` keys.
     pub(super) shift: u32,
-    pub(super) grid: Grid,
+    pub(super) grid: RoundingGrid,
     /// For each bone: rotation, translation, scale.
-    pub(super) bones: Vec<[Part; PARTS]>,
+    pub(super) bones: Vec<[StoredChannel; PARTS]>,
 }
 
 /// Rounding of constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Grid {
+pub(super) struct RoundingGrid {
     /// Bits of each of three components of a rotation; 32 means four whole floats.
     pub(super) rotation_bits: u32,
     /// Length of one step of a translation.
@@ -38,21 +38,21 @@ pub(super) struct Grid {
 
 /// Rotation, translation or scale of one bone.
 #[derive(Clone, Debug)]
-pub(super) enum Part {
+pub(super) enum StoredChannel {
     /// Identity: no rotation, no translation, scale 1.
     Default,
     /// One value at all times; a vector's fourth number is 0.
     Constant([f32; 4]),
     /// Numbers of few bits.
-    Packed(Packed),
+    PackedChannel(PackedChannel),
     /// One value per key, in single precision.
     Whole(Vec<[f32; 4]>),
 }
 
-impl Part {
+impl StoredChannel {
     /// Returns the packed numbers, if it is packed.
-    pub(super) fn packed(&self) -> Option<&Packed> {
-        if let Self::Packed(packed) = self { Some(packed) } else { None }
+    pub(super) fn packed(&self) -> Option<&PackedChannel> {
+        if let Self::PackedChannel(packed) = self { Some(packed) } else { None }
     }
 
     /// Returns the code of the storage in the bytes.
@@ -60,7 +60,7 @@ impl Part {
         match self {
             Self::Default => DEFAULT,
             Self::Constant(_) => CONSTANT,
-            Self::Packed(_) => PACKED,
+            Self::PackedChannel(_) => PACKED,
             Self::Whole(_) => WHOLE,
         }
     }
@@ -73,11 +73,11 @@ pub(super) const WHOLE: u32 = 3;
 
 /// Three components in few bits.
 #[derive(Clone, Debug)]
-pub(super) struct Packed {
+pub(super) struct PackedChannel {
     /// For a rotation: the rotation that the components are relative to.
     pub(super) reference: Reference,
-    pub(super) range: Range,
-    pub(super) segments: Vec<Segment>,
+    pub(super) range: ValueRange,
+    pub(super) segments: Vec<TrackSegment>,
 }
 
 /// A rotation near all those of a track, in 32 bits.
@@ -101,22 +101,22 @@ impl Reference {
 
 /// Range of the components of a track over the whole take.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Range {
+pub(super) struct ValueRange {
     pub(super) low: Vec3,
     pub(super) extent: Vec3,
 }
 
 /// One track in one segment.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Segment {
-    pub(super) head: Head,
+pub(super) struct TrackSegment {
+    pub(super) head: SegmentHead,
     /// The numbers of each key.
     pub(super) keys: Vec<[u32; 3]>,
 }
 
 /// Range of the components in one segment, and the bits of each; `[x, y, z]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Head {
+pub(super) struct SegmentHead {
     /// Start, as a fraction of the take's range.
     pub(super) place: [u8; 3],
     /// Extent, as a fraction of the take's range.
@@ -124,7 +124,7 @@ pub(super) struct Head {
     pub(super) bits: [u8; 3],
 }
 
-impl Head {
+impl SegmentHead {
     /// Returns the head in a take of one segment, which spans the whole range: only the bits are stored then.
     pub(super) fn only(bits: [u8; 3]) -> Self {
         let (place, extent) = (bits.map(|bits| if bits == 0 { 127 } else { 0 }), [255; 3]);
@@ -134,7 +134,7 @@ impl Head {
     /// Returns start and step of component `axis`: the value of a key with the number `n` is `start + step n`.
     ///
     /// The step is rounded up to the 16 highest bits of a float, so that tables can store it in those.
-    pub(super) fn start_and_step(&self, range: &Range, axis: usize) -> (f32, f32) {
+    pub(super) fn start_and_step(&self, range: &ValueRange, axis: usize) -> (f32, f32) {
         let together = f32::from(u16::from(self.place[axis]) << 8 | u16::from(self.extent[axis]));
         let start = range.low[axis] + range.extent[axis] * (together * PER_PLACE);
         if self.bits[axis] == 0 {
@@ -151,9 +151,9 @@ impl Head {
     }
 }
 
-/// Unit of [`Head::place`] and [`Head::extent`], read as one number, as a fraction of a range.
+/// Unit of [`SegmentHead::place`] and [`SegmentHead::extent`], read as one number, as a fraction of a range.
 pub(super) const PER_PLACE: f32 = 1.0 / 65_535.0;
-/// Unit of [`Head::extent`] as a fraction of a range.
+/// Unit of [`SegmentHead::extent`] as a fraction of a range.
 pub(super) const PER_EXTENT: f32 = 1.0 / 255.0;
 
 /// Returns the rotation whose components relative to `reference` are `xyz`; its w is not negative there.
@@ -172,8 +172,10 @@ impl ToUnit for Vec3 {
 }
 
 /// Returns the pose of a bone's constant channels; channels that move give the default.
-pub(super) fn constant(parts: &[Part; PARTS]) -> Transform {
-    let of = |part: &Part, default: [f32; 4]| if let Part::Constant(value) = part { *value } else { default };
+pub(super) fn constant(parts: &[StoredChannel; PARTS]) -> Transform {
+    let of = |part: &StoredChannel, default: [f32; 4]| {
+        if let StoredChannel::Constant(value) = part { *value } else { default }
+    };
     let three = |[x, y, z, _]: [f32; 4]| Vec3::new(x, y, z);
     Transform {
         rotation: Quat::from_array(of(&parts[0], [0.0, 0.0, 0.0, 1.0])),

@@ -1,10 +1,10 @@
 //! The tables that decoding needs in addition to the bytes: one set per take, shared by all characters that play it.
 
-use super::arrange::{Group, Place, groups, places};
 use super::bits::BitReader;
-use super::frames::Clock;
-use super::head::{HeadBlock, Lane, WideBlock};
-use super::stored::{Head, PARTS, Range, Reference, rotation_of};
+use super::frames::FrameClock;
+use super::head::{HeadBlock, LaneLayout, WideBlock};
+use super::lane_groups::{LaneGroup, TrackSlot, groups, slots};
+use super::stored::{PARTS, Reference, SegmentHead, ValueRange, rotation_of};
 use super::whole::WholeTrack;
 use crate::data::Transform;
 use crate::fast::PoseBlock;
@@ -15,7 +15,7 @@ use glam::{Quat, Vec3};
 #[derive(Clone, Debug)]
 pub(super) struct Tables {
     pub(super) name: String,
-    pub(super) clock: Clock,
+    pub(super) clock: FrameClock,
     /// Seconds between two keys.
     pub(super) interval: f64,
     pub(super) shift: u32,
@@ -29,7 +29,7 @@ pub(super) struct Tables {
     /// Rotations that move.
     pub(super) turning: Vec<Turning>,
     /// Translations and scales that move.
-    pub(super) moving: [Vec<Group>; 2],
+    pub(super) moving: [Vec<LaneGroup>; 2],
     /// Segment after segment, one per group: of rotations, then translations, then scales.
     heads: Vec<HeadBlock>,
     pub(super) segments: Vec<SegmentPlace>,
@@ -43,7 +43,7 @@ pub(super) struct Tables {
 pub(super) struct Turning {
     /// Rotations that the components are relative to.
     pub(super) reference: [[f32; LANES]; 4],
-    pub(super) group: Group,
+    pub(super) group: LaneGroup,
 }
 
 /// Position of the keys of a segment, in bytes from the first key.
@@ -57,7 +57,7 @@ pub(super) struct SegmentPlace {
 impl Tables {
     /// Creates the tables of a take without keys, from the storage of its bones' channels and their constant poses.
     pub(super) fn new(
-        clock: Clock,
+        clock: FrameClock,
         shift: u32,
         name: String,
         kinds: &[[u32; PARTS]],
@@ -68,7 +68,7 @@ impl Tables {
             base[bone / LANES].set(bone, pose);
         }
         let [turning, translations, scales] = groups(kinds);
-        let reference = |group: &Group| match group.block {
+        let reference = |group: &LaneGroup| match group.block {
             Some(block) => base[block as usize].rotation,
             None => PoseBlock::IDENTITY.rotation,
         };
@@ -116,14 +116,14 @@ impl Tables {
     }
 
     /// Returns every packed track, in the order in which tracks are stored.
-    pub(super) fn places(&self) -> Vec<Place> {
+    pub(super) fn slots(&self) -> Vec<TrackSlot> {
         let [translations, scales] = &self.moving;
         let turning = self.turning.iter().map(|turning| turning.group.clone()).collect();
-        places(&[turning, translations.clone(), scales.clone()])
+        slots(&[turning, translations.clone(), scales.clone()])
     }
 
     /// Sets the rotation that the components of a track are relative to.
-    pub(super) fn refer(&mut self, place: &Place, reference: Reference) {
+    pub(super) fn refer(&mut self, place: &TrackSlot, reference: Reference) {
         let rotation = reference.rotation().to_array();
         (0..4).for_each(|axis| self.turning[place.group].reference[axis][place.lane] = rotation[axis]);
     }
@@ -136,13 +136,13 @@ impl Tables {
     }
 
     /// Returns the head of a track in a segment.
-    fn head(&self, place: &Place, segment: usize) -> &HeadBlock {
+    fn head(&self, place: &TrackSlot, segment: usize) -> &HeadBlock {
         let before = [0, self.turning.len(), self.turning.len() + self.moving[0].len()];
         &self.heads_of(segment)[before[place.part] + place.group]
     }
 
     /// Adds a segment: the range and the head of every track. Returns the bits of one key.
-    pub(super) fn add_segment(&mut self, tracks: &[(Place, Range)], heads: &[Head]) -> u32 {
+    pub(super) fn add_segment(&mut self, tracks: &[(TrackSlot, ValueRange)], heads: &[SegmentHead]) -> u32 {
         let mut tracks = tracks.iter().zip(heads).peekable();
         let mut bit = 0;
         let counts = [self.turning.len(), self.moving[0].len(), self.moving[1].len()];
@@ -152,7 +152,7 @@ impl Tables {
             while let Some(((place, range), head)) =
                 tracks.next_if(|((place, _), _)| (place.part, place.group) == (part, group))
             {
-                lanes[place.lane] = Lane::new(bit, range, head);
+                lanes[place.lane] = LaneLayout::new(bit, range, head);
                 bit += head.width();
             }
             self.heads.push(HeadBlock::new(&lanes, &mut self.wide));
@@ -161,14 +161,14 @@ impl Tables {
     }
 
     /// Returns lanes without numbers: the constants of the group.
-    fn still_lanes(&self, part: usize, group: usize) -> [Lane; LANES] {
+    fn still_lanes(&self, part: usize, group: usize) -> [LaneLayout; LANES] {
         let block = part.checked_sub(1).and_then(|vector| self.moving[vector][group].block);
         let rows = match block {
             Some(block) if part == 1 => self.still[block as usize],
             Some(block) => self.still_scale(block as usize),
             None => [[0.0; LANES]; 3],
         };
-        std::array::from_fn(|lane| Lane { start: rows.map(|row| row[lane]), ..Lane::default() })
+        std::array::from_fn(|lane| LaneLayout { start: rows.map(|row| row[lane]), ..LaneLayout::default() })
     }
 
     /// Returns the size of the tables in bytes.
@@ -187,7 +187,7 @@ impl Tables {
 
     /// Returns the value of a key of a packed track by the plain formula, with which the fast one must agree; the
     /// fourth number of a vector is 0.
-    pub(super) fn value(&self, bytes: &[u8], place: &Place, key: u32) -> [f32; 4] {
+    pub(super) fn value(&self, bytes: &[u8], place: &TrackSlot, key: u32) -> [f32; 4] {
         let segment = (key >> self.shift) as usize;
         let SegmentPlace { at, stride } = self.segments[segment];
         let row = at + stride * (key & ((1 << self.shift) - 1));

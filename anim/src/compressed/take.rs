@@ -6,7 +6,7 @@ use super::read::read;
 use super::stored::BETWEEN;
 use super::table::Tables;
 use crate::data::{Channel, Take, Track};
-use crate::fast::simd::{Kernel, Level, Simd};
+use crate::fast::simd::{Kernel, Simd, SimdLevel};
 use crate::fast::{Playable, Pose, PoseBlock};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub struct CompressedTake {
     bytes: Arc<[u8]>,
     tables: Tables,
-    level: Level,
+    level: SimdLevel,
 }
 
 impl CompressedTake {
@@ -30,7 +30,7 @@ impl CompressedTake {
     pub fn from_bytes(bytes: impl Into<Arc<[u8]>>) -> Result<Self, FormatError> {
         let bytes = bytes.into();
         let tables = read(&bytes)?;
-        Ok(Self { bytes, tables, level: Level::best() })
+        Ok(Self { bytes, tables, level: SimdLevel::best() })
     }
 
     /// Returns the bytes: little-endian, complete, with a version; see [`super`] for the layout.
@@ -39,7 +39,7 @@ impl CompressedTake {
     }
 
     /// Returns the take, to be sampled with the instructions of `level`.
-    pub fn with_level(mut self, level: Level) -> Self {
+    pub fn with_level(mut self, level: SimdLevel) -> Self {
         self.level = level;
         self
     }
@@ -91,7 +91,7 @@ impl CompressedTake {
         let clock = &self.tables.clock;
         let times: Arc<[f32]> = (0..clock.frames).map(|key| clock.time(key, self.tables.interval)).collect();
         let mut tracks: Vec<Track> = (0..self.tables.bones).map(|bone| self.still(bone)).collect();
-        for place in self.tables.places() {
+        for place in self.tables.slots() {
             let value = |key| self.tables.value(&self.bytes, &place, key);
             put(&mut tracks[place.bone], place.part, &times, value);
         }

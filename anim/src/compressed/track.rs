@@ -6,14 +6,14 @@
 //!
 //! Each key is independent of the others, so any time can be decoded from two keys.
 
-use super::stored::{Head, MAX_BITS, PER_EXTENT, PER_PLACE, Range, Segment};
+use super::stored::{MAX_BITS, PER_EXTENT, PER_PLACE, SegmentHead, TrackSegment, ValueRange};
 use glam::{BVec3, Vec3};
 
 /// An encoded track and its decoded values.
 #[derive(Debug)]
 pub(super) struct Coded {
-    pub(super) range: Range,
-    pub(super) segments: Vec<Segment>,
+    pub(super) range: ValueRange,
+    pub(super) segments: Vec<TrackSegment>,
     /// Decoded values, one per key.
     pub(super) values: Vec<Vec3>,
 }
@@ -23,7 +23,7 @@ pub(super) struct Wanted<'a> {
     /// The values, one per key.
     pub(super) values: &'a [Vec3],
     /// Range of the components; all of `values` are inside.
-    pub(super) range: Range,
+    pub(super) range: ValueRange,
     /// A segment has `1 << shift` keys.
     pub(super) shift: u32,
     /// The step to start with, coarser than needed, per component.
@@ -43,14 +43,14 @@ pub(super) fn code(wanted: &Wanted<'_>, mut error: impl FnMut(usize, Vec3) -> f3
     let mut values = wanted.values.to_vec();
     let segments = (0..count.div_ceil(length)).map(|index| {
         let keys = index * length..count.min((index + 1) * length);
-        Search { wanted, keys, values: &mut values, error: &mut error }.best()
+        BitSearch { wanted, keys, values: &mut values, error: &mut error }.best()
     });
     let segments = segments.collect::<Option<_>>()?;
     Some(Coded { range: wanted.range, segments, values })
 }
 
 /// The search for the fewest bits of one segment.
-struct Search<'a, E> {
+struct BitSearch<'a, E> {
     wanted: &'a Wanted<'a>,
     keys: std::ops::Range<usize>,
     /// Decoded values; those inside the segment are overwritten.
@@ -58,8 +58,8 @@ struct Search<'a, E> {
     error: &'a mut E,
 }
 
-impl<E: FnMut(usize, Vec3) -> f32> Search<'_, E> {
-    fn best(&mut self) -> Option<Segment> {
+impl<E: FnMut(usize, Vec3) -> f32> BitSearch<'_, E> {
+    fn best(&mut self) -> Option<TrackSegment> {
         let span = self.span();
         let mut bits = [0; 3];
         let mut step = self.wanted.step;
@@ -102,20 +102,20 @@ impl<E: FnMut(usize, Vec3) -> f32> Search<'_, E> {
     }
 
     /// Encodes the segment with `bits`; `None` where an error is too large.
-    fn attempt(&mut self, bits: [u8; 3]) -> Option<Segment> {
+    fn attempt(&mut self, bits: [u8; 3]) -> Option<TrackSegment> {
         let head = self.head(bits);
         let (start, step) = self.start_and_step(&head);
         let most = Vec3::from_array(bits.map(|bits| ((1_u32 << bits) - 1) as f32));
         let keys = self.keys.clone().map(|key| self.round(key, start, step, most));
-        Some(Segment { head, keys: keys.collect::<Option<_>>()? })
+        Some(TrackSegment { head, keys: keys.collect::<Option<_>>()? })
     }
 
     /// Returns the head with which all keys are within the numbers of `bits`.
-    fn head(&self, bits: [u8; 3]) -> Head {
+    fn head(&self, bits: [u8; 3]) -> SegmentHead {
         if self.wanted.values.len() <= 1 << self.wanted.shift {
-            return Head::only(bits);
+            return SegmentHead::only(bits);
         }
-        let (mut head, span) = (Head { bits, ..Head::default() }, self.span());
+        let (mut head, span) = (SegmentHead { bits, ..SegmentHead::default() }, self.span());
         for axis in 0..3 {
             let (place, extent) = place_and_extent(&self.wanted.range, axis, span[axis], bits[axis]);
             (head.place[axis], head.extent[axis]) = (place, extent);
@@ -123,13 +123,13 @@ impl<E: FnMut(usize, Vec3) -> f32> Search<'_, E> {
         head
     }
 
-    fn start_and_step(&self, head: &Head) -> (Vec3, Vec3) {
+    fn start_and_step(&self, head: &SegmentHead) -> (Vec3, Vec3) {
         let [x, y, z] = [0, 1, 2].map(|axis| head.start_and_step(&self.wanted.range, axis));
         (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
     }
 
     /// Returns the decoded values for the keys of a segment.
-    fn decoded(&self, segment: &Segment) -> Vec<Vec3> {
+    fn decoded(&self, segment: &TrackSegment) -> Vec<Vec3> {
         let (start, step) = self.start_and_step(&segment.head);
         let value = |numbers: &[u32; 3]| start + step * Vec3::from_array(numbers.map(|number| number as f32));
         segment.keys.iter().map(value).collect()
@@ -200,7 +200,7 @@ fn first_bits(span: (f32, f32), step: f32) -> u8 {
 }
 
 /// Returns the position of `span` in `range`: the smallest extent, and the largest start, that contain it.
-fn place_and_extent(range: &Range, axis: usize, span: (f32, f32), bits: u8) -> (u8, u8) {
+fn place_and_extent(range: &ValueRange, axis: usize, span: (f32, f32), bits: u8) -> (u8, u8) {
     let whole = range.extent[axis];
     if whole <= 0.0 {
         return (0, 0);

@@ -1,6 +1,6 @@
 //! The steps from keys to `to_root`, for every bone of a chain.
 
-use super::{ExplainError, Posed, Subject};
+use super::{ExplainError, SampledPose, Subject};
 use crate::animation::{final_pose, to_parent};
 use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Track, Transform};
 use crate::sample::{Value, find_keys, in_tangent, key_value, out_tangent, rest_pose, sample_channel};
@@ -82,7 +82,10 @@ pub struct BoneResult {
 }
 
 /// Returns the result of a bone, and the bones whose chains it needs.
-pub(super) fn result(pose: &Posed<'_>, index: BoneIndex) -> Result<(Vec<BoneIndex>, Subject), ExplainError> {
+pub(super) fn result(
+    pose: &SampledPose<'_>,
+    index: BoneIndex,
+) -> Result<(Vec<BoneIndex>, Subject), ExplainError> {
     let missing = ExplainError::NoBone { bone: index, bones: pose.skeleton.len() };
     let bone = pose.skeleton.bones.get(index as usize).ok_or(missing)?;
     let final_pose = final_pose(pose.to_root[index as usize], bone.offset);
@@ -90,7 +93,7 @@ pub(super) fn result(pose: &Posed<'_>, index: BoneIndex) -> Result<(Vec<BoneInde
 }
 
 /// Returns the steps of `ends` and of all their ancestors, parents first.
-pub(super) fn chain(pose: &Posed<'_>, ends: &[BoneIndex]) -> Vec<BoneStep> {
+pub(super) fn chain(pose: &SampledPose<'_>, ends: &[BoneIndex]) -> Vec<BoneStep> {
     let mut wanted = vec![false; pose.skeleton.len()];
     for &end in ends {
         let mut at = Some(end);
@@ -110,7 +113,7 @@ fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
     skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
 }
 
-fn step(pose: &Posed<'_>, index: usize) -> BoneStep {
+fn step(pose: &SampledPose<'_>, index: usize) -> BoneStep {
     let bone = &pose.skeleton.bones[index];
     let rest = rest_pose(bone);
     let none = Track::default();

@@ -29,7 +29,7 @@ use glam::Mat4;
 
 /// The bone or vertex to explain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum What {
+pub enum ExplainTarget {
     /// A bone, by its position in [`Skeleton::bones`].
     Bone(BoneIndex),
     /// A vertex of a placed mesh.
@@ -156,7 +156,7 @@ pub fn explain(
     model: &ModelData,
     take: Option<usize>,
     time: f32,
-    what: What,
+    what: ExplainTarget,
 ) -> Result<Explanation, ExplainError> {
     let takes = &model.animation.takes;
     let chosen = match take {
@@ -165,10 +165,10 @@ pub fn explain(
             Some(takes.get(take).ok_or(ExplainError::NoTake { take, takes: takes.len() })?.as_ref())
         }
     };
-    let pose = Posed::new(&model.animation.skeleton, chosen, time);
+    let pose = SampledPose::new(&model.animation.skeleton, chosen, time);
     let (ends, subject) = match what {
-        What::Bone(bone) => bone::result(&pose, bone)?,
-        What::Vertex { instance, primitive, vertex } => {
+        ExplainTarget::Bone(bone) => bone::result(&pose, bone)?,
+        ExplainTarget::Vertex { instance, primitive, vertex } => {
             vertex::result(model, &pose, [instance, primitive, vertex])?
         }
     };
@@ -182,7 +182,7 @@ pub fn explain(
 }
 
 /// The skeleton at one time.
-struct Posed<'a> {
+struct SampledPose<'a> {
     skeleton: &'a Skeleton,
     take: Option<&'a Take>,
     time: f32,
@@ -190,7 +190,7 @@ struct Posed<'a> {
     to_root: Vec<Mat4>,
 }
 
-impl<'a> Posed<'a> {
+impl<'a> SampledPose<'a> {
     fn new(skeleton: &'a Skeleton, take: Option<&'a Take>, time: f32) -> Self {
         let mut posed = Self {
             skeleton,

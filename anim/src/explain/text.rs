@@ -211,7 +211,7 @@ fn rotation(rotation: Quat) -> String {
     format!("({} )", rotation.to_array().map(number).join(""))
 }
 
-/// Formats in ten characters: with as many decimals as fit, and an exponent where none would.
+/// Formats in ten characters, with the decimals that fit, and an exponent where none would.
 fn number(number: f32) -> String {
     let size = number.abs();
     if number == 0.0 {

@@ -1,6 +1,6 @@
 //! The last steps of a vertex: morph targets, then the skin or the bone that carries it.
 
-use super::{ExplainError, Posed, Subject};
+use super::{ExplainError, SampledPose, Subject};
 use crate::animation::final_poses;
 use crate::data::{BoneIndex, Influence, Interpolation, MeshInstance, ModelData, Primitive};
 use crate::sample::{find_keys, sample_morph_weights};
@@ -113,7 +113,7 @@ pub struct InfluenceStep {
 /// Returns the result of a vertex, and the bones that contribute to it.
 pub(super) fn result(
     model: &ModelData,
-    pose: &Posed<'_>,
+    pose: &SampledPose<'_>,
     [instance, primitive, vertex]: [u32; 3],
 ) -> Result<(Vec<BoneIndex>, Subject), ExplainError> {
     let (placed, part) = find(model, [instance, primitive, vertex])?;
@@ -168,7 +168,7 @@ fn find(
 }
 
 /// Returns the final poses of the instance's skin; none without a skin.
-fn finals(model: &ModelData, placed: &MeshInstance, pose: &Posed<'_>) -> Vec<Mat4> {
+fn finals(model: &ModelData, placed: &MeshInstance, pose: &SampledPose<'_>) -> Vec<Mat4> {
     let Some(skin) = placed.skin.and_then(|skin| model.skins.get(skin as usize)) else { return Vec::new() };
     let mut finals = vec![Mat4::IDENTITY; skin.bones.len()];
     final_poses(skin, &pose.to_root, &mut finals);
@@ -206,7 +206,7 @@ fn explain_movement(
     (bones, MovementStep::Skin { skin, influences })
 }
 
-fn morph_keys(pose: &Posed<'_>, instance: u32) -> Option<MorphKeys> {
+fn morph_keys(pose: &SampledPose<'_>, instance: u32) -> Option<MorphKeys> {
     let track = pose.take?.morphs.iter().find(|track| track.instance == instance)?;
     let keys = find_keys(&track.times, pose.time)?;
     let key = |index: usize| (index, track.times[index]);

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Rotations are differences in the parent's space, applied from the left. `d^w` turns about `d`'s axis by `w` times
-//! its angle, the short way; it is `d` itself at weight 1, and for weights between, slerp from the identity:
+//! its angle, the short way; it is `d` itself at weight 1, and for weights slerp, slerp from the identity:
 //!
 //! ```text
 //! d^w = (xyz * sin(w h) / sin h, cos(w h))      h: half the angle, 0..=π/2
@@ -14,13 +14,13 @@
 
 use super::mask::{LaneMask, usable};
 use super::pose::PoseBlock;
-use super::simd::{Float8, Kernel, Level, Simd};
+use super::simd::{Float8, Kernel, Simd, SimdLevel};
 
 /// Computes the difference of `pose` from `reference`, for the blocks that all three have.
 ///
 /// Added to `reference` with weight 1 it gives `pose` again. Where the reference scales by 0 the factor is 1. Allocates
 /// nothing.
-pub fn difference(level: Level, pose: &[PoseBlock], reference: &[PoseBlock], out: &mut [PoseBlock]) {
+pub fn difference(level: SimdLevel, pose: &[PoseBlock], reference: &[PoseBlock], out: &mut [PoseBlock]) {
     level.run(Difference { pose, reference, out });
 }
 
@@ -29,7 +29,7 @@ pub fn difference(level: Level, pose: &[PoseBlock], reference: &[PoseBlock], out
 /// Weight 0 (also a negative one and NaN) gives the base, 1 adds the full difference; more is clamped to 1. Allocates
 /// nothing.
 pub fn add(
-    level: Level,
+    level: SimdLevel,
     base: &[PoseBlock],
     difference: &[PoseBlock],
     weight: f32,
@@ -104,7 +104,7 @@ impl Kernel for AddTo<'_> {
                 turn = power::<S>(turn, weight);
             }
             let turned = product::<S>(turn, S::F8::load_four(&base.rotation));
-            S::F8::store_four(super::between::unit::<S>(turned), &mut out.rotation);
+            S::F8::store_four(super::slerp::unit::<S>(turned), &mut out.rotation);
             let ([a, b, c], [x, y, z]) =
                 (S::F8::load_three(&base.translation), S::F8::load_three(&more.translation));
             let moved = [x.mul_add(weight, a), y.mul_add(weight, b), z.mul_add(weight, c)];

@@ -14,10 +14,10 @@
 //! `q` and `-q` are the same rotation: each is moved to the hemisphere of the one with the largest share, of equal ones
 //! the first, the base before all. So the sum cannot vanish.
 
-use super::between::{dot, unit};
 use super::mask::{LaneMask, usable};
 use super::pose::PoseBlock;
-use super::simd::{Float8, Kernel, Level, Simd};
+use super::simd::{Float8, Kernel, Simd, SimdLevel};
+use super::slerp::{dot, unit};
 
 /// Sum of weights from which a bone counts as fully weighted: the remainder is rounding.
 const WHOLE: f32 = 1.0 - 1e-6;
@@ -25,7 +25,7 @@ const WHOLE: f32 = 1.0 - 1e-6;
 /// One of several poses to blend.
 #[derive(Clone, Copy, Debug)]
 pub struct PoseLayer<'a> {
-    /// Blocks of the pose, as many as the others have.
+    /// Blocks of the pose; every layer has the same number.
     pub pose: &'a [PoseBlock],
     /// Weight relative to the other layers' weights, 0 or more (no percentage); negative and NaN count as 0.
     pub weight: f32,
@@ -50,21 +50,21 @@ impl<'a> PoseLayer<'a> {
 /// `base` is usually the rest pose ([`super::Rig::rest`]). Writes the blocks that `base` and `out` both have; a layer
 /// that is shorter does not affect the bones it lacks. Unit rotations and finite numbers in give the same out.
 /// Allocates nothing.
-pub fn blend(level: Level, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
-    level.run(Blend { base, layers, out, normalised: false });
+pub fn blend(level: SimdLevel, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
+    level.run(Blend { base, layers, out, normalized: false });
 }
 
 /// Blends `layers` with their weights divided by their sum, however small; `base` is used only where a bone has no
 /// weight at all. Otherwise as [`blend`].
-pub fn blend_normalised(level: Level, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
-    level.run(Blend { base, layers, out, normalised: true });
+pub fn blend_normalized(level: SimdLevel, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
+    level.run(Blend { base, layers, out, normalized: true });
 }
 
 struct Blend<'a> {
     base: &'a [PoseBlock],
     layers: &'a [PoseLayer<'a>],
     out: &'a mut [PoseBlock],
-    normalised: bool,
+    normalized: bool,
 }
 
 impl Kernel for Blend<'_> {
@@ -72,7 +72,7 @@ impl Kernel for Blend<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self) {
-        blend_with::<S>(self.base, self.layers, self.out, self.normalised);
+        blend_with::<S>(self.base, self.layers, self.out, self.normalized);
     }
 }
 
@@ -82,20 +82,20 @@ pub(super) fn blend_with<S: Simd>(
     base: &[PoseBlock],
     layers: &[PoseLayer],
     out: &mut [PoseBlock],
-    normalised: bool,
+    normalized: bool,
 ) {
     let blocks = base.len().min(out.len());
     let (base, out) = (&base[..blocks], &mut out[..blocks]);
-    if !evenly::<S>(base, layers, out, normalised) {
-        by_lane::<S>(base, layers, out, normalised);
+    if !evenly::<S>(base, layers, out, normalized) {
+        by_lane::<S>(base, layers, out, normalized);
     }
 }
 
 /// Returns the base's weight when the layers' weights sum to `sum`.
 #[inline(always)]
-fn base_weight(sum: f32, normalised: bool) -> f32 {
-    let whole = if normalised { sum > 0.0 } else { sum >= WHOLE };
-    match (whole, normalised) {
+fn base_weight(sum: f32, normalized: bool) -> f32 {
+    let whole = if normalized { sum > 0.0 } else { sum >= WHOLE };
+    match (whole, normalized) {
         (true, _) => 0.0,
         (false, true) => 1.0,
         (false, false) => 1.0 - sum,
@@ -109,7 +109,7 @@ fn evenly<S: Simd>(
     base: &[PoseBlock],
     layers: &[PoseLayer],
     out: &mut [PoseBlock],
-    normalised: bool,
+    normalized: bool,
 ) -> bool {
     // The base is the first, whether it contributes or not.
     let (mut poses, mut weights) = ([base; 1 + MOST], [0.0; 1 + MOST]);
@@ -131,7 +131,7 @@ fn evenly<S: Simd>(
             count += 1;
         }
     }
-    let base_weight = base_weight(sum, normalised);
+    let base_weight = base_weight(sum, normalized);
     weights[0] = base_weight;
     let first = usize::from(base_weight <= 0.0);
     let leader = if most > base_weight { leader } else { 0 };
@@ -152,14 +152,14 @@ fn evenly<S: Simd>(
 }
 
 /// A pose and its share.
-type Part<'a> = (&'a [PoseBlock], f32);
+type WeightedPose<'a> = (&'a [PoseBlock], f32);
 
 /// Above this number, layers are blended lane by lane.
 const MOST: usize = 4;
 
 /// Computes the sums of the formulas above, with the same shares for all bones; the first pose leads.
 #[inline(always)]
-fn mix<S: Simd, const N: usize>(parts: [Part; N], out: &mut [PoseBlock]) {
+fn mix<S: Simd, const N: usize>(parts: [WeightedPose; N], out: &mut [PoseBlock]) {
     let count = parts.iter().map(|part| part.0.len()).fold(out.len(), usize::min);
     let parts = parts.map(|(pose, share)| (&pose[..count], share));
     for (block, out) in out[..count].iter_mut().enumerate() {
@@ -193,14 +193,14 @@ fn mix<S: Simd, const N: usize>(parts: [Part; N], out: &mut [PoseBlock]) {
 
 /// Blends with masks: every bone has its own shares, and its own leading layer.
 #[inline(always)]
-fn by_lane<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock], normalised: bool) {
+fn by_lane<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock], normalized: bool) {
     let (zero, one) = (S::F8::splat(0.0), S::F8::splat(1.0));
     for (block, (out, base)) in out.iter_mut().zip(base).enumerate() {
         let mut sum = zero;
         for layer in layers {
             sum = sum + weights::<S>(layer, block);
         }
-        let (short, missing) = if normalised {
+        let (short, missing) = if normalized {
             (sum.less(S::F8::splat(f32::MIN_POSITIVE)), one)
         } else {
             (sum.less(S::F8::splat(WHOLE)), one - sum)

@@ -50,9 +50,9 @@ pub(super) fn lower(matrix: &Matrix34) -> &[f32; 4] {
 
 /// Rows of a matrix in registers: 0 and 1, and 2.
 #[derive(Clone, Copy)]
-pub(super) struct Rows<S: Simd>(pub(super) S::F8, pub(super) S::F4);
+pub(super) struct MatrixRows<S: Simd>(pub(super) S::F8, pub(super) S::F4);
 
-impl<S: Simd> Rows<S> {
+impl<S: Simd> MatrixRows<S> {
     #[inline(always)]
     pub(super) fn load(matrix: &Matrix34) -> Self {
         Self(S::F8::load(upper(matrix)), S::F4::load(lower(matrix)))

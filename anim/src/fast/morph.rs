@@ -14,12 +14,12 @@ use glam::Vec3;
 /// Positions and normals of eight vertices, or differences of them.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(32))]
-pub(super) struct Shape {
+pub(super) struct ShapeBlock {
     pub(super) positions: [[f32; LANES]; 3],
     pub(super) normals: [[f32; LANES]; 3],
 }
 
-impl Shape {
+impl ShapeBlock {
     pub(super) fn set(&mut self, lane: usize, position: Vec3, normal: Vec3) {
         for at in 0..3 {
             (self.positions[at][lane], self.normals[at][lane]) = (position[at], normal[at]);
@@ -37,7 +37,7 @@ impl Shape {
 pub(super) struct Differences {
     targets: usize,
     /// Differences of the first block, one per target; then those of the second.
-    shapes: Vec<Shape>,
+    shapes: Vec<ShapeBlock>,
 }
 
 impl Differences {
@@ -48,7 +48,7 @@ impl Differences {
         let mut shapes = Vec::with_capacity(targets.len() * count.div_ceil(LANES));
         for first in (0..count).step_by(LANES) {
             for target in targets {
-                let mut shape = Shape::default();
+                let mut shape = ShapeBlock::default();
                 for (lane, index) in (first..count).enumerate().take(LANES) {
                     let of = |column: &[Vec3]| column.get(index).copied().unwrap_or(Vec3::ZERO);
                     shape.set(lane, of(&target.positions), of(&target.normals));
@@ -66,7 +66,7 @@ impl Differences {
 
     /// Returns `stored`, block `block`, with all differences times their `weights` added.
     #[inline(always)]
-    pub(super) fn added<S: Simd>(&self, block: usize, stored: &Shape, weights: &[f32]) -> Shape {
+    pub(super) fn added<S: Simd>(&self, block: usize, stored: &ShapeBlock, weights: &[f32]) -> ShapeBlock {
         let [mut x, mut y, mut z] = S::F8::load_three(&stored.positions);
         let [mut a, mut b, mut c] = S::F8::load_three(&stored.normals);
         let first = block * self.targets;
@@ -81,7 +81,7 @@ impl Differences {
                 (a, b, c) = (da.mul_add(weight, a), db.mul_add(weight, b), dc.mul_add(weight, c));
             }
         }
-        let mut morphed = Shape::default();
+        let mut morphed = ShapeBlock::default();
         S::F8::store_three([x, y, z], &mut morphed.positions);
         S::F8::store_three([a, b, c], &mut morphed.normals);
         morphed

@@ -8,13 +8,13 @@
 //! ([`Scratch`], shared by all); a character itself is only its takes, times and weights.
 
 use super::blend::{PoseLayer, blend_with};
-use super::final_poses::{Binding, final_poses_with};
+use super::final_poses::{SkinBinding, final_poses_with};
 use super::mask::{LaneMask, usable};
 use super::matrix::Matrix34;
 use super::playable::Playable;
 use super::pose::Pose;
 use super::rig::Rig;
-use super::simd::{Kernel, Level, Simd};
+use super::simd::{Kernel, Simd, SimdLevel};
 use super::to_root::{RootPoses, to_root_with};
 
 /// A take that a character plays, possibly with others.
@@ -82,9 +82,9 @@ impl Scratch {
 /// Several layers are blended as by [`super::blend()`]; without any the result is the rest pose. `scratch` has to be
 /// made for `rig`. Allocates nothing.
 pub fn pose_character<T: Playable>(
-    level: Level,
+    level: SimdLevel,
     rig: &Rig,
-    binding: &Binding,
+    binding: &SkinBinding,
     layers: &[Playing<T>],
     scratch: &mut Scratch,
     out: &mut [Matrix34],
@@ -97,9 +97,9 @@ pub fn pose_character<T: Playable>(
 /// Each of `characters` is the layers that one of them plays. Characters past the end of `out` are left out. Otherwise
 /// as [`pose_character`]. Allocates nothing.
 pub fn pose_crowd<'a, T: Playable + 'a>(
-    level: Level,
+    level: SimdLevel,
     rig: &Rig,
-    binding: &Binding,
+    binding: &SkinBinding,
     characters: impl IntoIterator<Item = &'a [Playing<'a, T>]>,
     scratch: &mut Scratch,
     out: &mut [Matrix34],
@@ -109,7 +109,7 @@ pub fn pose_crowd<'a, T: Playable + 'a>(
 
 struct Crowd<'a, I> {
     rig: &'a Rig,
-    binding: &'a Binding,
+    binding: &'a SkinBinding,
     characters: I,
     scratch: &'a mut Scratch,
     out: &'a mut [Matrix34],

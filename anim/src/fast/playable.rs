@@ -41,6 +41,6 @@ impl<T: Playable> super::simd::Kernel for Sample<'_, T> {
 
 /// Samples the poses of all bones of `take` at `time` seconds, each relative to its parent; see
 /// [`Playable::sample_with`]. Allocates nothing.
-pub fn sample<T: Playable>(level: super::simd::Level, take: &T, time: f32, out: &mut [PoseBlock]) {
+pub fn sample<T: Playable>(level: super::simd::SimdLevel, take: &T, time: f32, out: &mut [PoseBlock]) {
     level.run(Sample { take, time, out });
 }

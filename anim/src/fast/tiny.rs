@@ -5,7 +5,7 @@
 //! fall there.
 
 /// Relative threshold below which a number is flushed to zero; far below the precision of `f32`.
-const NOTHING: f32 = 1e-12;
+const RELATIVE_THRESHOLD: f32 = 1e-12;
 
 /// Returns the largest magnitude of `values`; 0 without any.
 pub(super) fn largest(values: impl IntoIterator<Item = f32>) -> f32 {
@@ -14,7 +14,7 @@ pub(super) fn largest(values: impl IntoIterator<Item = f32>) -> f32 {
 
 /// Returns `value`; zero where it is insignificant relative to `largest`, or subnormal.
 pub(super) fn flushed(value: f32, largest: f32) -> f32 {
-    if value.abs() < largest * NOTHING || value.is_subnormal() { 0.0 } else { value }
+    if value.abs() < largest * RELATIVE_THRESHOLD || value.is_subnormal() { 0.0 } else { value }
 }
 
 #[cfg(test)]

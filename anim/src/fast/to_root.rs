@@ -16,23 +16,24 @@
 //!             └ a (2xz - 2yw)       b (2yz + 2xw)       c (1 - 2x² - 2y²)  tz ┘
 //! ```
 
-use super::matrix::{IDENTITY, Matrix34, Rows, mat4, matrix34};
+use super::matrix::{IDENTITY, Matrix34, MatrixRows, mat4, matrix34};
 use super::pose::PoseBlock;
 use super::rig::Rig;
-use super::simd::{Float4, Float8, Kernel, Level, Simd};
+use super::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
 use glam::Mat4;
 use std::cell::Cell;
 
 /// `to_root` of every bone of one character.
 #[derive(Clone, Debug)]
 pub struct RootPoses {
-    /// The identity, used as the parent of roots; then one per lane; at least as many as a byte can index.
+    /// The identity, used as the parent of roots; then one per lane; padded to the number of matrices that a byte can
+    /// index.
     pub(super) matrices: Vec<Matrix34>,
     /// Results of the first pass, for the second.
-    local: Vec<Local>,
+    local: Vec<LocalMatrices>,
     bones: usize,
     /// Instructions with which limbs are solved ([`super::two_bone()`]).
-    pub(super) level: Level,
+    pub(super) level: SimdLevel,
 }
 
 impl RootPoses {
@@ -43,7 +44,7 @@ impl RootPoses {
             matrices: vec![IDENTITY; (1 + blocks * 8).max(NARROW)],
             local: vec![[[[0.0; 8]; 4]; 3]; blocks],
             bones: rig.bones,
-            level: Level::best(),
+            level: SimdLevel::best(),
         }
     }
 
@@ -62,7 +63,7 @@ impl RootPoses {
 ///
 /// Where `pose` has fewer blocks than the rig, rest poses are used. A bone whose product is not finite gets its
 /// parent's `to_root`, as on the open path. Allocates nothing, unless `out` was made for another rig.
-pub fn to_root(level: Level, rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
+pub fn to_root(level: SimdLevel, rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     level.run(ToRoot { rig, pose, out });
 }
 
@@ -111,12 +112,12 @@ pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut Roo
 pub(super) const NARROW: usize = 256;
 
 /// The index of a matrix.
-trait Slot: Copy {
+trait MatrixIndex: Copy {
     /// Returns the element of `all` with this index; `first` are the first elements of `all`.
     fn of<'a, T>(self, first: &'a [T; NARROW], all: &'a [T]) -> Option<&'a T>;
 }
 
-impl Slot for u8 {
+impl MatrixIndex for u8 {
     // Without a bounds check: a byte is always within `first`.
     #[inline(always)]
     fn of<'a, T>(self, first: &'a [T; NARROW], _: &'a [T]) -> Option<&'a T> {
@@ -124,7 +125,7 @@ impl Slot for u8 {
     }
 }
 
-impl Slot for u32 {
+impl MatrixIndex for u32 {
     #[inline(always)]
     fn of<'a, T>(self, _: &'a [T; NARROW], all: &'a [T]) -> Option<&'a T> {
         all.get(self as usize)
@@ -140,11 +141,11 @@ fn fit(rig: &Rig, out: &mut RootPoses) {
 }
 
 /// `to_parent` of eight bones: rows of bone `k` in the low halves and of bone `k + 4` in the high halves of `[row][k]`.
-type Local = [[[f32; 8]; 4]; 3];
+type LocalMatrices = [[[f32; 8]; 4]; 3];
 
 /// Computes `T · R · S` of eight bones.
 #[inline(always)]
-fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
+fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut LocalMatrices) {
     let [x, y, z, w] = S::F8::load_four(&pose.rotation);
     let [a, b, c] = S::F8::load_three(&pose.scale);
     let [tx, ty, tz] = S::F8::load_three(&pose.translation);
@@ -161,14 +162,19 @@ fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
 
 /// Computes `to_root` of every bone, parents first.
 #[inline(always)]
-fn chain<S: Simd, P: Slot>(bones: usize, parents: &[[P; 8]], local: &[Local], out: &mut [Matrix34]) {
+fn chain<S: Simd, P: MatrixIndex>(
+    bones: usize,
+    parents: &[[P; 8]],
+    local: &[LocalMatrices],
+    out: &mut [Matrix34],
+) {
     // Cells, because a block is written while its own first bones are read as parents of the others.
     let out = Cell::from_mut(out).as_slice_of_cells();
     let (Some(first), Some(own)) = (out.first_chunk(), out.get(1..)) else { return };
     let mut left = bones;
     for ((parents, local), block) in parents.iter().zip(local).zip(own.as_chunks::<8>().0) {
         // Unrolled, so that every index is known at compile time.
-        let link = Link { parents, local, first, out, block };
+        let link = BlockLinks { parents, local, first, out, block };
         if left < 8 {
             link.some::<S>(left);
             return;
@@ -186,15 +192,15 @@ fn chain<S: Simd, P: Slot>(bones: usize, parents: &[[P; 8]], local: &[Local], ou
 }
 
 /// The data needed for a block of bones.
-struct Link<'a, P> {
+struct BlockLinks<'a, P> {
     parents: &'a [P; 8],
-    local: &'a Local,
+    local: &'a LocalMatrices,
     first: &'a [Cell<Matrix34>; NARROW],
     out: &'a [Cell<Matrix34>],
     block: &'a [Cell<Matrix34>; 8],
 }
 
-impl<P: Slot> Link<'_, P> {
+impl<P: MatrixIndex> BlockLinks<'_, P> {
     /// Computes `to_root` of bone `at` of the block.
     #[inline(always)]
     fn bone<S: Simd>(&self, at: usize) {
@@ -207,7 +213,7 @@ impl<P: Slot> Link<'_, P> {
             S::F8::twice(&z[two].as_chunks::<4>().0[half]),
         ];
         let mut product = IDENTITY;
-        Rows::<S>::load(&parent.get()).times(rows).store(&mut product);
+        MatrixRows::<S>::load(&parent.get()).times(rows).store(&mut product);
         self.block[at % 8].set(product);
     }
 
@@ -240,7 +246,7 @@ impl<P: Slot> Link<'_, P> {
 
 /// Replaces the matrices of sheared bones in their rest pose by the exact rest matrices.
 #[cold]
-fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [Local]) {
+fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [LocalMatrices]) {
     for sheared in &rig.sheared {
         let (block, at) = (sheared.bone / 8, sheared.bone % 8);
         let posed = pose.get(block).or(rig.rest().blocks().get(block));
@@ -257,7 +263,7 @@ fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [Local]) {
 /// Returns whether all leaves are finite. A number that is not spreads along its row from parent to child, and so
 /// reaches the leaves.
 #[inline(always)]
-fn leaves_are_finite<S: Simd, P: Slot>(leaves: &[P], matrices: &[Matrix34]) -> bool {
+fn leaves_are_finite<S: Simd, P: MatrixIndex>(leaves: &[P], matrices: &[Matrix34]) -> bool {
     let Some(first) = matrices.first_chunk() else { return false };
     let zero = S::F8::splat(0.0);
     let (mut upper, mut lower) = (zero, zero.low());

@@ -34,7 +34,7 @@ use glam::{Quat, Vec3, Vec3A, Vec4};
 
 /// A limb of two parts, and how to move it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TwoBone {
+pub struct FastTwoBone {
     /// Shoulder or hip; it is turned.
     pub root: u32,
     /// Elbow or knee, below `root`; it is turned.
@@ -49,7 +49,7 @@ pub struct TwoBone {
     pub weight: f32,
 }
 
-impl TwoBone {
+impl FastTwoBone {
     /// Creates a limb that bends as posed, stops hard and is solved at full weight.
     pub fn new(root: u32, middle: u32, end: u32) -> Self {
         Self { root, middle, end, pole: Vec3::ZERO, softness: 0.0, weight: 1.0 }
@@ -62,14 +62,14 @@ impl TwoBone {
 /// `to_root` is that of `pose` ([`super::to_root()`]) and has to be computed again afterwards. Exact where the scales
 /// of the limb and above it are the same along all axes, mirrored or not. Nothing is changed where a bone is missing, a
 /// part has no length, or a number is not finite. Allocates nothing.
-pub fn two_bone(limb: &TwoBone, target: Vec3, to_root: &RootPoses, pose: &mut Pose) -> bool {
+pub fn two_bone(limb: &FastTwoBone, target: Vec3, to_root: &RootPoses, pose: &mut Pose) -> bool {
     to_root.level.run(Solve { limb, target, to_root, pose })
 }
 
 /// A kernel only for the shorter code that its compiler makes of the same operations: results are the same bit for bit
 /// at all levels.
 struct Solve<'a> {
-    limb: &'a TwoBone,
+    limb: &'a FastTwoBone,
     target: Vec3,
     to_root: &'a RootPoses,
     pose: &'a mut Pose,
@@ -124,7 +124,7 @@ fn set_rotation(blocks: &mut [PoseBlock], bone: u32, rotation: Quat) {
 /// Returns the rotations of root and middle, each in its own space and of any length; not finite, or zero, where there
 /// is none.
 #[inline(always)]
-fn solve(limb: &TwoBone, target: Vec3A, [root, middle, end]: [&Matrix34; 3]) -> [Quat; 2] {
+fn solve(limb: &FastTwoBone, target: Vec3A, [root, middle, end]: [&Matrix34; 3]) -> [Quat; 2] {
     let (origin, elbow) = (place(root), place(middle));
     let (upper, lower, wanted) = (elbow - origin, place(end) - elbow, target - origin);
     let (a2, b2, d2) = (upper.length_squared(), lower.length_squared(), wanted.length_squared());
@@ -260,6 +260,6 @@ fn shortened(turn: Quat, weight: f32) -> Quat {
 }
 
 /// Returns the distance of the end of `limb` from `target`, from the to-root matrices.
-pub fn distance_left(limb: &TwoBone, target: Vec3, to_root: &RootPoses) -> f32 {
+pub fn distance_left(limb: &FastTwoBone, target: Vec3, to_root: &RootPoses) -> f32 {
     (transform_point(to_root.get(limb.end as usize), Vec3::ZERO) - target).length()
 }

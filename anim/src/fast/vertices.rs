@@ -12,8 +12,8 @@
 //! see [`crate::skin`].
 
 use super::matrix::{IDENTITY, Matrix34, lower, mat4, upper};
-use super::morph::{Differences, Shape};
-use super::simd::{Float8, Kernel, LANES, Level, Simd};
+use super::morph::{Differences, ShapeBlock};
+use super::simd::{Float8, Kernel, LANES, Simd, SimdLevel};
 use crate::data::{Primitive, Vertices};
 use crate::skin::{first_direction, near_one, normal_matrix};
 use glam::{Mat3, Mat4, Vec3};
@@ -23,8 +23,8 @@ use std::hint::black_box;
 #[derive(Clone, Debug, Default)]
 pub struct SkinnedVertices {
     count: usize,
-    blocks: Vec<Block>,
-    influences: Vec<Influences>,
+    blocks: Vec<VertexBlock>,
+    influences: Vec<InfluenceBlock>,
     differences: Differences,
     /// Whether it has no joint past the first 256.
     is_narrow: bool,
@@ -34,24 +34,25 @@ pub struct SkinnedVertices {
 const NARROW: usize = 256;
 
 /// Number of vertices from which a table pays off; building it costs about as much as skinning forty of them.
-const MANY: usize = 128;
+const TABLE_THRESHOLD: usize = 128;
 
 /// A matrix aligned to its size, so that a shifted index is its offset.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
-struct Row([f32; 16]);
+struct PaddedMatrix([f32; 16]);
 
 /// A matrix for each value of a byte, so that no index has to be checked.
-type Table = [Row; NARROW];
+type MatrixTable = [PaddedMatrix; NARROW];
 
 /// The identity, and padding.
-const NOTHING: Row = Row([1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
+const PADDED_IDENTITY: PaddedMatrix =
+    PaddedMatrix([1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
 
 /// Eight vertices; those past the end repeat the first of the eight.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-struct Block {
-    shape: Shape,
+struct VertexBlock {
+    shape: ShapeBlock,
     /// First of its influences, and number of influences of each of its vertices: 1, 2, 4 or 8.
     first: u32,
     each: u32,
@@ -60,7 +61,7 @@ struct Block {
 /// The `k`-th influence of eight vertices.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-struct Influences {
+struct InfluenceBlock {
     joints: [u16; LANES],
     weights: [f32; LANES],
 }
@@ -68,7 +69,8 @@ struct Influences {
 impl SkinnedVertices {
     /// Converts the vertices of `primitive` and their morph targets. Missing normals are +Y.
     ///
-    /// Each block has as many influences per vertex as the vertex in it with the most needs: 1, 2, 4 or 8.
+    /// All vertices of a block have the same number of influences, 1, 2, 4 or 8: the largest number that one of them
+    /// needs.
     pub fn new(primitive: &Primitive) -> Self {
         let vertices = &primitive.vertices;
         let (count, differences) = (vertices.len(), Differences::new(primitive));
@@ -86,8 +88,8 @@ impl SkinnedVertices {
             |index: usize| vertices.influences_of(index).iter().filter(|influence| influence.weight != 0.0);
         let most = lanes.iter().map(|&index| used(index).count()).max().unwrap_or(0);
         let each = most.next_power_of_two().clamp(1, 8);
-        let mut shape = Shape::default();
-        let nothing = Influences { joints: [0; LANES], weights: [0.0; LANES] };
+        let mut shape = ShapeBlock::default();
+        let nothing = InfluenceBlock { joints: [0; LANES], weights: [0.0; LANES] };
         let mut influences = [nothing; 8];
         for (lane, index) in lanes.into_iter().enumerate() {
             let position = vertices.positions.get(index).copied().unwrap_or(Vec3::ZERO);
@@ -99,7 +101,7 @@ impl SkinnedVertices {
                 self.is_narrow &= usize::from(influence.joint) < NARROW;
             }
         }
-        self.blocks.push(Block { shape, first: self.influences.len() as u32, each: each as u32 });
+        self.blocks.push(VertexBlock { shape, first: self.influences.len() as u32, each: each as u32 });
         self.influences.extend_from_slice(&influences[..each]);
     }
 
@@ -113,7 +115,7 @@ impl SkinnedVertices {
         self.count == 0
     }
 
-    fn influences_of(&self, block: &Block) -> &[Influences] {
+    fn influences_of(&self, block: &VertexBlock) -> &[InfluenceBlock] {
         let first = block.first as usize;
         self.influences.get(first..first + block.each as usize).unwrap_or(&[])
     }
@@ -125,7 +127,7 @@ impl SkinnedVertices {
 /// a result is not finite, or a normal has no direction, the result is as documented in [`crate::skin`]. Returns the
 /// number of vertices written. Allocates nothing.
 pub fn skin_vertices(
-    level: Level,
+    level: SimdLevel,
     vertices: &SkinnedVertices,
     finals: &[Matrix34],
     positions: &mut [[f32; 3]],
@@ -133,7 +135,7 @@ pub fn skin_vertices(
 ) -> usize {
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
-    level.run(Skin::<false> { vertices, morph_weights: &[], finals, positions, normals });
+    level.run(SkinKernel::<false> { vertices, morph_weights: &[], finals, positions, normals });
     count
 }
 
@@ -143,7 +145,7 @@ pub fn skin_vertices(
 /// of a take). A vertex that is not finite after that counts as not morphed; otherwise the results are as documented in
 /// [`crate::skin`]. Allocates nothing.
 pub fn skin_morphed_vertices(
-    level: Level,
+    level: SimdLevel,
     vertices: &SkinnedVertices,
     morph_weights: &[f32],
     finals: &[Matrix34],
@@ -153,14 +155,14 @@ pub fn skin_morphed_vertices(
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
     if vertices.differences.are_added(morph_weights) {
-        level.run(Skin::<true> { vertices, morph_weights, finals, positions, normals });
+        level.run(SkinKernel::<true> { vertices, morph_weights, finals, positions, normals });
     } else {
-        level.run(Skin::<false> { vertices, morph_weights, finals, positions, normals });
+        level.run(SkinKernel::<false> { vertices, morph_weights, finals, positions, normals });
     }
     count
 }
 
-struct Skin<'a, const MORPHED: bool> {
+struct SkinKernel<'a, const MORPHED: bool> {
     vertices: &'a SkinnedVertices,
     morph_weights: &'a [f32],
     finals: &'a [Matrix34],
@@ -168,14 +170,14 @@ struct Skin<'a, const MORPHED: bool> {
     normals: &'a mut [[f32; 3]],
 }
 
-impl<const MORPHED: bool> Kernel for Skin<'_, MORPHED> {
+impl<const MORPHED: bool> Kernel for SkinKernel<'_, MORPHED> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self) {
-        if self.vertices.is_narrow && self.positions.len() >= MANY {
+        if self.vertices.is_narrow && self.positions.len() >= TABLE_THRESHOLD {
             // Opaque to the compiler, so that rows are written whole and not byte by byte through a call.
-            let mut table = [black_box(NOTHING); NARROW];
+            let mut table = [black_box(PADDED_IDENTITY); NARROW];
             for (row, matrix) in table.iter_mut().zip(self.finals) {
                 row.0[..12].copy_from_slice(matrix);
             }
@@ -188,16 +190,16 @@ impl<const MORPHED: bool> Kernel for Skin<'_, MORPHED> {
 }
 
 /// Eight points, one after the other.
-type Points = [f32; 3 * LANES];
+type PointBlock = [f32; 3 * LANES];
 
-impl<const MORPHED: bool> Skin<'_, MORPHED> {
+impl<const MORPHED: bool> SkinKernel<'_, MORPHED> {
     #[inline(always)]
     fn with<S: Simd>(self, finals: &(impl Finals + ?Sized)) {
         let Self { vertices, morph_weights, positions, normals, .. } = self;
         let (points, last_points) = positions.as_flattened_mut().as_chunks_mut();
         let (directions, last_directions) = normals.as_flattened_mut().as_chunks_mut();
         let mut blocks = vertices.blocks.iter().enumerate();
-        let mut matrices = [NOTHING; LANES];
+        let mut matrices = [PADDED_IDENTITY; LANES];
         for ((moved, turned), (at, block)) in points.iter_mut().zip(directions).zip(&mut blocks) {
             weigh_block::<S>(vertices.influences_of(block), finals, &mut matrices);
             if MORPHED {
@@ -243,7 +245,7 @@ impl Finals for [Matrix34] {
     }
 }
 
-impl Finals for Table {
+impl Finals for MatrixTable {
     #[inline(always)]
     fn upper<S: Simd>(&self, joint: u16) -> S::F8 {
         S::F8::load(&self[usize::from(joint as u8)].0.as_chunks().0[0])
@@ -257,7 +259,11 @@ impl Finals for Table {
 
 /// Computes the weighted sum of the matrices of each of eight vertices, for the block's number of influences.
 #[inline(always)]
-fn weigh_block<S: Simd>(influences: &[Influences], finals: &(impl Finals + ?Sized), out: &mut [Row; LANES]) {
+fn weigh_block<S: Simd>(
+    influences: &[InfluenceBlock],
+    finals: &(impl Finals + ?Sized),
+    out: &mut [PaddedMatrix; LANES],
+) {
     match influences {
         [a] => weigh::<S, 1>([a], finals, out),
         [a, b] => weigh::<S, 2>([a, b], finals, out),
@@ -270,9 +276,9 @@ fn weigh_block<S: Simd>(influences: &[Influences], finals: &(impl Finals + ?Size
 /// Computes the sums with the number of influences known at compile time.
 #[inline(always)]
 fn weigh<S: Simd, const N: usize>(
-    influences: [&Influences; N],
+    influences: [&InfluenceBlock; N],
     finals: &(impl Finals + ?Sized),
-    out: &mut [Row; LANES],
+    out: &mut [PaddedMatrix; LANES],
 ) {
     // Unrolled, so that every index is known at compile time.
     weigh_one::<S, N>(influences, finals, out, 0);
@@ -287,9 +293,9 @@ fn weigh<S: Simd, const N: usize>(
 
 #[inline(always)]
 fn weigh_one<S: Simd, const N: usize>(
-    influences: [&Influences; N],
+    influences: [&InfluenceBlock; N],
     finals: &(impl Finals + ?Sized),
-    out: &mut [Row; LANES],
+    out: &mut [PaddedMatrix; LANES],
     lane: usize,
 ) {
     let joint = influences[0].joints[lane];
@@ -309,7 +315,7 @@ fn weigh_one<S: Simd, const N: usize>(
 
 /// Returns row `row` of eight matrices: four vectors, one per column.
 #[inline(always)]
-fn columns<S: Simd>(matrices: &[Row; LANES], row: usize) -> [S::F8; 4] {
+fn columns<S: Simd>(matrices: &[PaddedMatrix; LANES], row: usize) -> [S::F8; 4] {
     let [a, b, c, d, e, f, g, h] = matrices;
     let [a, b, c, d] = [a, b, c, d].map(|matrix| &matrix.0.as_chunks::<4>().0[row]);
     let [e, f, g, h] = [e, f, g, h].map(|matrix| &matrix.0.as_chunks::<4>().0[row]);
@@ -324,11 +330,11 @@ fn columns<S: Simd>(matrices: &[Row; LANES], row: usize) -> [S::F8; 4] {
 /// Moves eight vertices; `stored` are their values before morphing.
 #[inline(always)]
 fn move_block<S: Simd>(
-    shape: &Shape,
-    stored: &Shape,
-    matrices: &[Row; LANES],
-    moved: &mut Points,
-    turned: &mut Points,
+    shape: &ShapeBlock,
+    stored: &ShapeBlock,
+    matrices: &[PaddedMatrix; LANES],
+    moved: &mut PointBlock,
+    turned: &mut PointBlock,
 ) {
     let ([ax, bx, cx, tx], [ay, by, cy, ty]) = (columns::<S>(matrices, 0), columns::<S>(matrices, 1));
     let [az, bz, cz, tz] = columns::<S>(matrices, 2);
@@ -366,11 +372,11 @@ fn cross<S: Simd>([ax, ay, az]: [S::F8; 3], [bx, by, bz]: [S::F8; 3]) -> [S::F8;
 /// Computes as the open path does, one vertex at a time.
 #[cold]
 fn carefully(
-    shape: &Shape,
-    stored: &Shape,
-    matrices: &[Row; LANES],
-    moved: &mut Points,
-    turned: &mut Points,
+    shape: &ShapeBlock,
+    stored: &ShapeBlock,
+    matrices: &[PaddedMatrix; LANES],
+    moved: &mut PointBlock,
+    turned: &mut PointBlock,
 ) {
     for (lane, matrix) in matrices.iter().enumerate() {
         let matrix = matrix.0.first_chunk().map_or(Mat4::IDENTITY, mat4);

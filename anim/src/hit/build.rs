@@ -1,6 +1,6 @@
 //! Construction of the tree: the triangles of each leaf, and the leaves of each node.
 
-use super::tree::{HitLeaf, HitNode, HitTreeParts, is_sound};
+use super::tree::{HitLeaf, HitNode, HitTreeParts, is_valid};
 use crate::data::{MAX_INFLUENCES, MeshInstance, ModelData, Primitive};
 use crate::evaluator::Evaluator;
 use glam::Vec3;
@@ -53,7 +53,7 @@ fn items(model: &ModelData) -> Vec<Item> {
         for (index, primitive) in evaluator.primitives(instance).iter().enumerate() {
             positions.resize(primitive.vertices.len(), Vec3::ZERO);
             evaluator.positions(instance, index, &mut positions);
-            for triangle in (0..primitive.indices.len() / 3).filter(|&triangle| is_sound(primitive, triangle))
+            for triangle in (0..primitive.indices.len() / 3).filter(|&triangle| is_valid(primitive, triangle))
             {
                 let corners = &primitive.indices[triangle * 3..triangle * 3 + 3];
                 let center = corners.iter().map(|&corner| positions[corner as usize] / 3.0).sum();

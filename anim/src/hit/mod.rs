@@ -23,8 +23,8 @@
 //! triangle without area, one whose plane contains the ray, and anything that is not finite is no hit.
 
 mod build;
+mod candidate;
 mod open;
-mod place;
 mod pose;
 mod tree;
 mod triangle;

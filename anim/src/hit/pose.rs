@@ -1,8 +1,8 @@
 //! The tree in a pose: its boxes refitted, and the traversal for queries.
 
-use super::place::{Found, RaySearch, SphereSearch, Which, complete};
+use super::candidate::{Candidate, RaySearch, SphereSearch, TriangleAddress, complete};
 use super::tree::MIXED;
-use super::triangle::Line;
+use super::triangle::UnitRay;
 use super::{Hit, HitNode, HitSettings, HitTree, Ray, TREE_DEPTH};
 use crate::bounds::AxisBox;
 use crate::data::Primitive;
@@ -140,7 +140,7 @@ impl HitPose {
         evaluator: &Evaluator,
         mut search: SphereSearch,
         instance: Option<u32>,
-    ) -> Option<Found> {
+    ) -> Option<Candidate> {
         let pad = self.pad(search.center);
         self.start(|held| distance_to(search.center, held));
         while let Some((node, begin)) = self.stack.pop() {
@@ -154,8 +154,8 @@ impl HitPose {
                     self.push(evaluator, node, children, |held| distance_to(search.center, held))
                 }
                 HitNode::Leaf(leaf) => {
-                    self.for_each_triangle(evaluator, leaf, |primitive, movement, which, corners| {
-                        search.test(primitive, movement, which, corners);
+                    self.for_each_triangle(evaluator, leaf, |primitive, movement, address, corners| {
+                        search.test(primitive, movement, address, corners);
                         true
                     });
                 }
@@ -171,8 +171,8 @@ impl HitPose {
         ray: &Ray,
         settings: &HitSettings,
         any: bool,
-    ) -> Option<Found> {
-        let line = Line::of(ray)?;
+    ) -> Option<Candidate> {
+        let line = UnitRay::of(ray)?;
         let slabs = Slabs { line, inverse: inverse(line.direction), pad: self.pad(line.origin) };
         let mut search = RaySearch { line, settings: *settings, best: None };
         self.start(|held| slabs.entry(held));
@@ -185,8 +185,8 @@ impl HitPose {
             match self.tree.parts().nodes[node as usize] {
                 HitNode::Inner(children) => self.push(evaluator, node, children, |held| slabs.entry(held)),
                 HitNode::Leaf(leaf) => {
-                    self.for_each_triangle(evaluator, leaf, |primitive, movement, which, corners| {
-                        !(search.test(primitive, movement, which, corners) && any)
+                    self.for_each_triangle(evaluator, leaf, |primitive, movement, address, corners| {
+                        !(search.test(primitive, movement, address, corners) && any)
                     });
                     if any && search.best.is_some() {
                         break;
@@ -239,7 +239,7 @@ impl HitPose {
         &mut self,
         evaluator: &Evaluator,
         leaf: u32,
-        mut look: impl FnMut(&Primitive, Movement<'_>, Which, [Vec3; 3]) -> bool,
+        mut visit: impl FnMut(&Primitive, Movement<'_>, TriangleAddress, [Vec3; 3]) -> bool,
     ) {
         let of = self.tree.parts().leaves[leaf as usize];
         let (instance, index) = (of.instance as usize, of.primitive as usize);
@@ -259,8 +259,8 @@ impl HitPose {
         for at in of.first as usize..(of.first + of.count) as usize {
             let corners = self.tree.corners[at].map(|corner| self.positions[first + usize::from(corner)]);
             let triangle = self.tree.parts().triangles[at];
-            let which = Which { instance: of.instance, primitive: of.primitive, triangle };
-            if !look(primitive, movement, which, corners) {
+            let address = TriangleAddress { instance: of.instance, primitive: of.primitive, triangle };
+            if !visit(primitive, movement, address, corners) {
                 return;
             }
         }
@@ -276,7 +276,7 @@ fn inverse(direction: DVec3) -> DVec3 {
 
 /// A ray prepared for tests against many boxes.
 struct Slabs {
-    line: Line,
+    line: UnitRay,
     inverse: DVec3,
     pad: f64,
 }

@@ -237,7 +237,7 @@ fn count(model: &ModelData) -> u64 {
 }
 
 /// Returns whether all three corners of the triangle exist.
-pub(super) fn is_sound(primitive: &Primitive, triangle: usize) -> bool {
+pub(super) fn is_valid(primitive: &Primitive, triangle: usize) -> bool {
     let corners = primitive.indices.get(triangle * 3..triangle * 3 + 3);
     corners.is_some_and(|corners| corners.iter().all(|&corner| (corner as usize) < primitive.vertices.len()))
 }
@@ -267,16 +267,16 @@ fn check_nodes(parts: &HitTreeParts) -> Result<(), HitTreeError> {
         match node {
             HitNode::Inner(children) => {
                 for &child in children {
-                    let place =
+                    let seen =
                         named.get_mut(child as usize).filter(|_| child as usize > index).ok_or(wrong)?;
-                    if std::mem::replace(place, true) {
+                    if std::mem::replace(seen, true) {
                         return Err(HitTreeError::Node { node: child as usize });
                     }
                 }
             }
             HitNode::Leaf(leaf) => {
-                let place = leaves.get_mut(*leaf as usize).ok_or(wrong)?;
-                if std::mem::replace(place, true) {
+                let seen = leaves.get_mut(*leaf as usize).ok_or(wrong)?;
+                if std::mem::replace(seen, true) {
                     return Err(HitTreeError::Leaf { leaf: *leaf as usize });
                 }
             }
@@ -303,7 +303,7 @@ fn check_leaves(parts: &HitTreeParts, model: &ModelData) -> Result<(), HitTreeEr
         for primitive in primitives {
             of_instance.push((primitive, all));
             let count = primitive.indices.len() / 3;
-            expected += (0..count).filter(|&triangle| is_sound(primitive, triangle)).count();
+            expected += (0..count).filter(|&triangle| is_valid(primitive, triangle)).count();
             all += count;
         }
         starts.push(of_instance);
@@ -318,7 +318,7 @@ fn check_leaves(parts: &HitTreeParts, model: &ModelData) -> Result<(), HitTreeEr
             return Err(wrong);
         }
         for (at, &triangle) in parts.triangles.get(next..next + count).ok_or(wrong)?.iter().enumerate() {
-            let fits = is_sound(primitive, triangle as usize);
+            let fits = is_valid(primitive, triangle as usize);
             if !fits || std::mem::replace(&mut seen[start + triangle as usize], true) {
                 return Err(HitTreeError::Triangle { leaf: index, position: next + at });
             }

@@ -23,18 +23,18 @@ pub struct Crossing {
 
 /// A ray in `f64` whose direction has unit length.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct UnitRay {
     pub(super) origin: DVec3,
     pub(super) direction: DVec3,
 }
 
-impl Line {
+impl UnitRay {
     /// Converts a ray. `None` where it has no direction, or a number is not finite.
     pub(super) fn of(ray: &Ray) -> Option<Self> {
         let direction = ray.direction.as_dvec3();
         let length = direction.length();
-        let sound = ray.origin.is_finite() && length.is_finite() && length > 0.0;
-        sound.then(|| Self { origin: ray.origin.as_dvec3(), direction: direction / length })
+        let valid = ray.origin.is_finite() && length.is_finite() && length > 0.0;
+        valid.then(|| Self { origin: ray.origin.as_dvec3(), direction: direction / length })
     }
 }
 
@@ -51,11 +51,11 @@ impl Line {
 /// The edges are included. `None` also where the triangle has no area, the ray is in its plane, or a number is not
 /// finite.
 pub fn crossing(ray: &Ray, corners: [Vec3; 3]) -> Option<Crossing> {
-    meet(&Line::of(ray)?, corners)
+    meet(&UnitRay::of(ray)?, corners)
 }
 
 /// As [`crossing`], for a prepared ray.
-pub(super) fn meet(line: &Line, corners: [Vec3; 3]) -> Option<Crossing> {
+pub(super) fn meet(line: &UnitRay, corners: [Vec3; 3]) -> Option<Crossing> {
     let [a, b, c] = corners.map(|corner| corner.as_dvec3());
     let (e1, e2) = (b - a, c - a);
     let p = line.direction.cross(e2);
@@ -83,8 +83,8 @@ fn normal(e1: DVec3, e2: DVec3) -> Option<(DVec3, f64)> {
     let normal = e1.cross(e2);
     let length = normal.length();
     // False where a number is NaN.
-    let sound = length > DEGENERATE * (e1.length() * e2.length()) && length.is_finite();
-    sound.then(|| (normal / length, length))
+    let valid = length > DEGENERATE * (e1.length() * e2.length()) && length.is_finite();
+    valid.then(|| (normal / length, length))
 }
 
 /// Returns the unit normal of a triangle, on the side from which its corners run counter-clockwise; `None` without

@@ -67,7 +67,7 @@ impl Chain {
 /// Working memory of [`chain()`], kept between calls so that they allocate nothing.
 #[derive(Clone, Debug, Default)]
 pub struct ChainScratch {
-    pub(super) links: Vec<Link>,
+    pub(super) links: Vec<ChainLink>,
     pub(super) joints: Vec<DVec3>,
     pub(super) lengths: Vec<f64>,
     /// Freedoms of the turning links, where there are limits.
@@ -76,7 +76,7 @@ pub struct ChainScratch {
 
 /// One bone of the chain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Link {
+pub(super) struct ChainLink {
     pub(super) bone: BoneIndex,
     pub(super) posed: Transform,
     pub(super) rotation: DQuat,
@@ -155,7 +155,7 @@ impl ChainScratch {
         loop {
             let posed = pose_of(skeleton, poses, bone)?;
             let rotation = posed.rotation.as_dquat().normalize();
-            self.links.push(Link { bone, posed, rotation, best: rotation, kept: rotation });
+            self.links.push(ChainLink { bone, posed, rotation, best: rotation, kept: rotation });
             if bone == settings.root && self.links.len() > 1 {
                 break;
             }
@@ -248,7 +248,7 @@ impl ChainScratch {
     }
 }
 
-impl Link {
+impl ChainLink {
     pub(super) fn linear(&self) -> DMat3 {
         DMat3::from_quat(self.rotation) * DMat3::from_diagonal(self.posed.scale.as_dvec3())
     }

@@ -127,7 +127,7 @@ impl Points<'_> {
         if self.joints[last].distance(base) <= wanted {
             self.unfold(wanted, self.way(target));
         } else {
-            self.lay_on_circle(wanted, self.way(target));
+            self.place_on_circle(wanted, self.way(target));
         }
         let turn = arc_between(self.joints[last] - base, target - base);
         for joint in self.joints.iter_mut().skip(1) {
@@ -159,7 +159,7 @@ impl Points<'_> {
         }
     }
 
-    fn lay_on_circle(&mut self, wanted: f64, towards: DVec3) {
+    fn place_on_circle(&mut self, wanted: f64, towards: DVec3) {
         let base = self.joints[0];
         let side = self.joints.iter().map(|joint| (*joint - base).reject_from_normalized(towards));
         let side = side.fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a });

@@ -89,8 +89,8 @@ pub fn place_feet(
     let mut lowered = 0.0_f32;
     for (index, leg) in feet.legs.iter().enumerate() {
         let ankle = check(skeleton, to_root, feet, leg, poses)?;
-        let stand = stand(feet, leg, ground(grounds, index), ankle, up);
-        lowered = lowered.max((ankle - stand.ankle).dot(up));
+        let foot_target = foot_target(feet, leg, ground(grounds, index), ankle, up);
+        lowered = lowered.max((ankle - foot_target.ankle).dot(up));
     }
     let most = if feet.lower >= 0.0 { feet.lower } else { 0.0 };
     let lowered = lowered.min(most) * weight;
@@ -106,16 +106,16 @@ pub fn place_feet(
     }
     for (index, leg) in feet.legs.iter().enumerate() {
         let ankle = to_root[leg.foot as usize].w_axis.truncate();
-        let stand = stand(feet, leg, ground(grounds, index), ankle, up);
+        let foot_target = foot_target(feet, leg, ground(grounds, index), ankle, up);
         let thigh = parent_to_root(skeleton, to_root, leg.thigh)?;
-        solve(skeleton, Mat4::from_translation(-up * lowered) * thigh, feet, leg, stand, poses)?;
+        solve(skeleton, Mat4::from_translation(-up * lowered) * thigh, feet, leg, foot_target, poses)?;
     }
     Ok(lowered)
 }
 
 /// Target of an ankle, and rotation of its foot.
 #[derive(Clone, Copy)]
-struct Stand {
+struct FootTarget {
     ankle: Vec3,
     turn: Quat,
 }
@@ -127,8 +127,8 @@ fn ground(grounds: &[Option<Ground>], index: usize) -> Option<Ground> {
     ground.point.is_finite().then_some(Ground { normal, ..ground })
 }
 
-fn stand(feet: &Feet<'_>, leg: &Leg, ground: Option<Ground>, ankle: Vec3, up: Vec3) -> Stand {
-    let posed = Stand { ankle, turn: Quat::IDENTITY };
+fn foot_target(feet: &Feet<'_>, leg: &Leg, ground: Option<Ground>, ankle: Vec3, up: Vec3) -> FootTarget {
+    let posed = FootTarget { ankle, turn: Quat::IDENTITY };
     // cos 89°
     let Some(ground) = ground.filter(|ground| ground.normal.dot(up) > 0.017_45) else { return posed };
     let slope = ground.normal.dot(up);
@@ -140,7 +140,7 @@ fn stand(feet: &Feet<'_>, leg: &Leg, ground: Option<Ground>, ankle: Vec3, up: Ve
     let tilt = if feet.tilt >= 0.0 { feet.tilt } else { 0.0 };
     let axis = full.xyz().try_normalize();
     let turn = axis.map_or(Quat::IDENTITY, |axis| Quat::from_axis_angle(axis, angle.min(tilt)));
-    if target.is_finite() { Stand { ankle: target, turn } } else { posed }
+    if target.is_finite() { FootTarget { ankle: target, turn } } else { posed }
 }
 
 /// Checks the bones of a leg and returns the position of its ankle.
@@ -175,15 +175,15 @@ fn solve(
     parent: Mat4,
     feet: &Feet<'_>,
     leg: &Leg,
-    stand: Stand,
+    foot_target: FootTarget,
     poses: &mut [Transform],
 ) -> Result<Reach, IkError> {
     let limb = TwoBone {
         pole: leg.pole,
         softness: feet.softness,
-        end_orientation: EndOrientation::TurnToRoot(stand.turn),
+        end_orientation: EndOrientation::TurnToRoot(foot_target.turn),
         weight: feet.weight,
         ..TwoBone::new(leg.thigh, leg.shin, leg.foot)
     };
-    two_bone_below(skeleton, parent, &limb, stand.ankle, poses)
+    two_bone_below(skeleton, parent, &limb, foot_target.ankle, poses)
 }

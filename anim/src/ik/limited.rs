@@ -70,9 +70,9 @@ impl ChainScratch {
                 break;
             }
             if start > 0 {
-                self.begin_anew(start);
+                self.restart(start);
             }
-            self.hold(limit);
+            self.apply_limits(limit);
             self.descend(goal, tolerance, total, limit);
             if self.gap(goal) < nearest - worth {
                 nearest = self.gap(goal);
@@ -84,7 +84,7 @@ impl ChainScratch {
     }
 
     /// Sets another start pose: every joint turned at random from its posed rotation, further from start to start.
-    fn begin_anew(&mut self, start: u32) {
+    fn restart(&mut self, start: u32) {
         let most = [0.8, 1.6, 2.4, 3.1][start as usize % 4];
         for (index, link) in self.links.iter_mut().enumerate() {
             let turn = scattered(start, index as u32) * most;
@@ -93,7 +93,7 @@ impl ChainScratch {
     }
 
     /// Applies the limit to every joint.
-    fn hold(&mut self, limit: Limit<'_>) {
+    fn apply_limits(&mut self, limit: Limit<'_>) {
         let turning = self.lengths.len();
         for link in &mut self.links[..turning] {
             link.rotation = limited(limit, link.bone, link.rotation);

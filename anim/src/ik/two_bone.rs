@@ -135,8 +135,8 @@ pub(super) fn two_bone_below(
     target: Vec3,
     poses: &mut [Transform],
 ) -> Result<Reach, IkError> {
-    let shape = Shape::of(skeleton, poses, limb)?;
-    let space = Space::of(parent, limb, target)?;
+    let shape = LimbShape::of(skeleton, poses, limb)?;
+    let space = LimbSpace::of(parent, limb, target)?;
     let solved = solve(&shape, &space, limb);
     let left = parent.transform_vector3(solved.end - space.target);
     let weight = share(limb.weight);
@@ -158,7 +158,7 @@ pub(super) fn two_bone_below(
 }
 
 /// The limb in its pose.
-struct Shape {
+struct LimbShape {
     root: Transform,
     middle: Transform,
     upper: Segment,
@@ -167,7 +167,7 @@ struct Shape {
     from_between: Option<Mat3>,
 }
 
-impl Shape {
+impl LimbShape {
     fn of(skeleton: &Skeleton, poses: &[Transform], limb: &TwoBone) -> Result<Self, IkError> {
         let root = pose_of(skeleton, poses, limb.root)?;
         let middle = pose_of(skeleton, poses, limb.middle)?;
@@ -194,12 +194,12 @@ impl Shape {
 }
 
 /// Target and pole in the space of the root's parent.
-struct Space {
+struct LimbSpace {
     target: Vec3,
     pole: Option<Pole>,
 }
 
-impl Space {
+impl LimbSpace {
     fn of(parent: Mat4, limb: &TwoBone, target: Vec3) -> Result<Self, IkError> {
         if !target.is_finite() {
             return Err(IkError::NotFinite { bone: limb.root });
@@ -232,7 +232,7 @@ struct Solved {
     end: Vec3,
 }
 
-fn solve(shape: &Shape, space: &Space, limb: &TwoBone) -> Solved {
+fn solve(shape: &LimbShape, space: &LimbSpace, limb: &TwoBone) -> Solved {
     let wanted = space.target - shape.root.translation;
     let (distance, pole) = (wanted.length(), space.pole_from(shape.root.translation));
     let rotation = shape.root.rotation;
@@ -298,7 +298,7 @@ fn end_rotation(
     parent: Mat4,
     limb: &TwoBone,
     poses: &[Transform],
-    shape: &Shape,
+    shape: &LimbShape,
     (root, middle): (Quat, Quat),
 ) -> Result<Option<Quat>, IkError> {
     if limb.end_orientation == EndOrientation::FollowParent {

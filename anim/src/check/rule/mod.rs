@@ -37,8 +37,8 @@ pub(super) mod triangle_degenerate;
 pub(super) mod weight_negative;
 pub(super) mod weight_sum;
 
-use super::column::columns;
-use super::{Kind, Place, TakeOf};
+use super::channels::channels;
+use super::{ModelPath, PathKind, TakeContext};
 use glam::Vec3;
 
 /// Tolerance of the length of a unit vector or quaternion; half floats lose less.
@@ -56,16 +56,16 @@ fn is_mirrored(scale: Vec3) -> bool {
 }
 
 /// Calls `each` with every two neighboring key times of every channel and morph track, and the path of the later one.
-fn neighbours(of: &TakeOf<'_>, mut each: impl FnMut(&dyn Fn() -> Place, f32, f32)) {
-    for column in columns(of) {
-        for (key, pair) in column.times.windows(2).enumerate() {
-            each(&|| column.place(of).then(Kind::Key, key + 1, ""), pair[0], pair[1]);
+fn neighbors(of: &TakeContext<'_>, mut each: impl FnMut(&dyn Fn() -> ModelPath, f32, f32)) {
+    for channel in channels(of) {
+        for (key, pair) in channel.times.windows(2).enumerate() {
+            each(&|| channel.path(of).then(PathKind::Key, key + 1, ""), pair[0], pair[1]);
         }
     }
     for (number, morph) in of.take.morphs.iter().enumerate() {
         for (key, pair) in morph.times.windows(2).enumerate() {
-            let place = || of.place().then(Kind::MorphTrack, number, "").then(Kind::Key, key + 1, "");
-            each(&place, pair[0], pair[1]);
+            let path = || of.path().then(PathKind::MorphTrack, number, "").then(PathKind::Key, key + 1, "");
+            each(&path, pair[0], pair[1]);
         }
     }
 }

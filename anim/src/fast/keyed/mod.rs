@@ -9,16 +9,16 @@
 //! the union of their times; the inserted keys are the values of the open path there, so nothing moves. Constant
 //! channels have no track but are part of the take's base pose. Numbers are not packed: that is for compressed takes.
 //!
-//! Linear channels are played this way. Those of another interpolation, and ones whose times do not ascend, are played
+//! Linear channels are played this slerp. Those of another interpolation, and ones whose times do not ascend, are played
 //! by the open path itself, one by one ([`KeyedTake::fallback_channels`] returns their number).
 
 mod build;
 mod tracks;
 
-use super::between::Way;
 use super::playable::Playable;
 use super::pose::{Pose, PoseBlock};
 use super::simd::{Float8, LANES, Simd};
+use super::slerp::FastSlerp;
 use crate::data::{Channel, Skeleton, Take, Transform};
 use crate::sample::sample_channel;
 use glam::{Quat, Vec3};
@@ -34,13 +34,13 @@ pub struct KeyedTake {
     rotations: Vec<Tracks<4>>,
     translations: Vec<Tracks<3>>,
     scales: Vec<Tracks<3>>,
-    still: Still,
-    odd: Vec<Odd>,
+    constant: ConstantBlocks,
+    fallback: Vec<FallbackChannel>,
 }
 
 /// Blocks that no track writes, for each property.
 #[derive(Clone, Debug, Default)]
-struct Still {
+struct ConstantBlocks {
     rotations: Vec<u32>,
     translations: Vec<u32>,
     scales: Vec<u32>,
@@ -48,7 +48,7 @@ struct Still {
 
 /// A channel that the open path plays.
 #[derive(Clone, Debug)]
-enum Odd {
+enum FallbackChannel {
     Rotation(usize, Channel<Quat>, Quat),
     Translation(usize, Channel<Vec3>, Vec3),
     Scale(usize, Channel<Vec3>, Vec3),
@@ -66,8 +66,8 @@ impl KeyedTake {
 
     /// Returns the number of channels that the open path plays, because their interpolation is not linear or their
     /// times do not ascend.
-    pub fn odd_channels(&self) -> usize {
-        self.odd.len()
+    pub fn fallback_channels(&self) -> usize {
+        self.fallback.len()
     }
 
     /// Returns the size of the keys in bytes.
@@ -79,19 +79,19 @@ impl KeyedTake {
 
     /// Copies the constant values.
     #[inline(always)]
-    fn copy_still<S: Simd>(&self, out: &mut [PoseBlock]) {
+    fn copy_constant<S: Simd>(&self, out: &mut [PoseBlock]) {
         let base = self.base.blocks();
-        for &block in &self.still.rotations {
+        for &block in &self.constant.rotations {
             if let (Some(out), Some(base)) = (out.get_mut(block as usize), base.get(block as usize)) {
                 copy::<S, 4>(&base.rotation, &mut out.rotation);
             }
         }
-        for &block in &self.still.translations {
+        for &block in &self.constant.translations {
             if let (Some(out), Some(base)) = (out.get_mut(block as usize), base.get(block as usize)) {
                 copy::<S, 3>(&base.translation, &mut out.translation);
             }
         }
-        for &block in &self.still.scales {
+        for &block in &self.constant.scales {
             if let (Some(out), Some(base)) = (out.get_mut(block as usize), base.get(block as usize)) {
                 copy::<S, 3>(&base.scale, &mut out.scale);
             }
@@ -100,19 +100,21 @@ impl KeyedTake {
 
     /// Samples the channels that the open path plays.
     #[cold]
-    fn sample_odd(&self, time: f32, out: &mut [PoseBlock]) {
-        for odd in &self.odd {
-            let (Odd::Rotation(bone, ..) | Odd::Translation(bone, ..) | Odd::Scale(bone, ..)) = odd;
+    fn sample_fallback(&self, time: f32, out: &mut [PoseBlock]) {
+        for fallback in &self.fallback {
+            let (FallbackChannel::Rotation(bone, ..)
+            | FallbackChannel::Translation(bone, ..)
+            | FallbackChannel::Scale(bone, ..)) = fallback;
             let Some(block) = out.get_mut(bone / LANES) else { continue };
             let pose = block.get(*bone);
-            let pose = match odd {
-                Odd::Rotation(_, channel, rest) => {
+            let pose = match fallback {
+                FallbackChannel::Rotation(_, channel, rest) => {
                     Transform { rotation: sample_channel(channel, *rest, time), ..pose }
                 }
-                Odd::Translation(_, channel, rest) => {
+                FallbackChannel::Translation(_, channel, rest) => {
                     Transform { translation: sample_channel(channel, *rest, time), ..pose }
                 }
-                Odd::Scale(_, channel, rest) => {
+                FallbackChannel::Scale(_, channel, rest) => {
                     Transform { scale: sample_channel(channel, *rest, time), ..pose }
                 }
             };
@@ -136,44 +138,44 @@ impl Playable for KeyedTake {
 
     #[inline(always)]
     fn sample_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]) {
-        self.copy_still::<S>(out);
+        self.copy_constant::<S>(out);
         for tracks in &self.rotations {
-            let (way, keys) = tracks.around::<S>(time);
+            let (slerp, keys) = tracks.around::<S>(time);
             for (block, before, after) in keys {
                 let Some(out) = out.get_mut(block as usize) else { continue };
-                let turned = way.turn(S::F8::load_four(before), S::F8::load_four(after));
+                let turned = slerp.turn(S::F8::load_four(before), S::F8::load_four(after));
                 S::F8::store_four(turned, &mut out.rotation);
             }
         }
         for tracks in &self.translations {
-            let (way, keys) = tracks.around::<S>(time);
+            let (slerp, keys) = tracks.around::<S>(time);
             for (block, before, after) in keys {
                 let Some(out) = out.get_mut(block as usize) else { continue };
-                straight::<S>(&way, before, after, &mut out.translation);
+                straight::<S>(&slerp, before, after, &mut out.translation);
             }
         }
         for tracks in &self.scales {
-            let (way, keys) = tracks.around::<S>(time);
+            let (slerp, keys) = tracks.around::<S>(time);
             for (block, before, after) in keys {
                 let Some(out) = out.get_mut(block as usize) else { continue };
-                straight::<S>(&way, before, after, &mut out.scale);
+                straight::<S>(&slerp, before, after, &mut out.scale);
             }
         }
-        if !self.odd.is_empty() {
-            self.sample_odd(time, out);
+        if !self.fallback.is_empty() {
+            self.sample_fallback(time, out);
         }
     }
 }
 
 #[inline(always)]
 fn straight<S: Simd>(
-    way: &Way<S>,
+    slerp: &FastSlerp<S>,
     before: &[[f32; LANES]; 3],
     after: &[[f32; LANES]; 3],
     out: &mut [[f32; LANES]; 3],
 ) {
     for ((out, before), after) in out.iter_mut().zip(before).zip(after) {
-        way.straight(S::F8::load(before), S::F8::load(after)).store(out);
+        slerp.straight(S::F8::load(before), S::F8::load(after)).store(out);
     }
 }
 

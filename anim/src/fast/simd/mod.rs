@@ -72,24 +72,24 @@ pub trait Kernel {
 
 /// A set of instructions of the current machine (AVX2, or the portable fallback).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Level(Kind);
+pub struct SimdLevel(Instructions);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Kind {
+enum Instructions {
     Portable,
     #[cfg(target_arch = "x86_64")]
-    Avx2(avx2::Present),
+    Avx2(avx2::CpuSupport),
 }
 
-impl Level {
+impl SimdLevel {
     /// The level that every machine has.
-    pub const PORTABLE: Self = Self(Kind::Portable);
+    pub const PORTABLE: Self = Self(Instructions::Portable);
 
     /// Returns the fastest level of this machine. Cheap, but call it once, at set-up.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if let Some(present) = avx2::Present::detect() {
-            return Self(Kind::Avx2(present));
+        if let Some(support) = avx2::CpuSupport::detect() {
+            return Self(Instructions::Avx2(support));
         }
         Self::PORTABLE
     }
@@ -104,9 +104,9 @@ impl Level {
     /// Returns the name in the table of [`self`].
     pub fn name(self) -> &'static str {
         match self.0 {
-            Kind::Portable => "portable",
+            Instructions::Portable => "portable",
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx2(_) => "avx2",
+            Instructions::Avx2(_) => "avx2",
         }
     }
 
@@ -114,14 +114,14 @@ impl Level {
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
-            Kind::Portable => portable::run(kernel),
+            Instructions::Portable => portable::run(kernel),
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx2(present) => present.run(kernel),
+            Instructions::Avx2(support) => support.run(kernel),
         }
     }
 }
 
-impl Default for Level {
+impl Default for SimdLevel {
     fn default() -> Self {
         Self::best()
     }

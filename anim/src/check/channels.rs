@@ -1,51 +1,55 @@
 //! Iterators over a model that several rules share.
 
-use super::TakeOf;
-use super::place::{Kind, Place};
+use super::TakeContext;
+use super::path::{ModelPath, PathKind};
 use crate::data::{Channel, Interpolation, ModelData, Primitive};
 use glam::{Quat, Vec3};
 
 /// Iterates over every primitive with its path.
-pub(super) fn primitives(model: &ModelData) -> impl Iterator<Item = (usize, &Primitive, impl Fn() -> Place)> {
+pub(super) fn primitives(
+    model: &ModelData,
+) -> impl Iterator<Item = (usize, &Primitive, impl Fn() -> ModelPath)> {
     model.meshes.iter().enumerate().flat_map(|(number, mesh)| {
         mesh.primitives.iter().enumerate().map(move |(index, primitive)| {
-            let place = move || Place::of(Kind::Mesh, number, &mesh.name).then(Kind::Primitive, index, "");
-            (number, primitive, place)
+            let path = move || {
+                ModelPath::of(PathKind::Mesh, number, &mesh.name).then(PathKind::Primitive, index, "")
+            };
+            (number, primitive, path)
         })
     })
 }
 
 /// The values of a channel.
 #[derive(Clone, Copy)]
-pub(super) enum Values<'a> {
+pub(super) enum ValueList<'a> {
     Vectors(&'a [Vec3]),
     Rotations(&'a [Quat]),
 }
 
 /// A channel with values of any type.
-pub(super) struct Column<'a> {
+pub(super) struct ChannelView<'a> {
     /// Position of the track in the take.
     pub(super) track: usize,
     pub(super) number: usize,
     pub(super) times: &'a [f32],
-    pub(super) values: Values<'a>,
+    pub(super) values: ValueList<'a>,
     pub(super) interpolation: Interpolation,
 }
 
-impl Column<'_> {
+impl ChannelView<'_> {
     /// Returns the number of values.
     pub(super) fn len(&self) -> usize {
         match self.values {
-            Values::Vectors(values) => values.len(),
-            Values::Rotations(values) => values.len(),
+            ValueList::Vectors(values) => values.len(),
+            ValueList::Rotations(values) => values.len(),
         }
     }
 
     /// Returns whether value `index` is finite.
     pub(super) fn is_finite(&self, index: usize) -> bool {
         match self.values {
-            Values::Vectors(values) => values.get(index).is_none_or(|value| value.is_finite()),
-            Values::Rotations(values) => values.get(index).is_none_or(|value| value.is_finite()),
+            ValueList::Vectors(values) => values.get(index).is_none_or(|value| value.is_finite()),
+            ValueList::Rotations(values) => values.get(index).is_none_or(|value| value.is_finite()),
         }
     }
 
@@ -55,32 +59,37 @@ impl Column<'_> {
     }
 
     /// Returns the path of the channel in `of`.
-    pub(super) fn place(&self, of: &TakeOf<'_>) -> Place {
-        channel_place(of, self.track, self.number)
+    pub(super) fn path(&self, of: &TakeContext<'_>) -> ModelPath {
+        channel_path(of, self.track, self.number)
     }
 }
 
 /// Returns the path of channel `number` of the track at position `track`.
-pub(super) fn channel_place(of: &TakeOf<'_>, track: usize, number: usize) -> Place {
+pub(super) fn channel_path(of: &TakeContext<'_>, track: usize, number: usize) -> ModelPath {
     let bone = of.take.tracks.get(track).map_or(track, |track| track.bone as usize);
     let name = ["translation", "rotation", "scale"].get(number).copied().unwrap_or("");
-    of.bone(bone).then(Kind::Channel, number, name)
+    of.bone(bone).then(PathKind::Channel, number, name)
 }
 
 /// Iterates over every channel of a take that has keys or values.
-pub(super) fn columns<'a>(of: &TakeOf<'a>) -> impl Iterator<Item = Column<'a>> {
+pub(super) fn channels<'a>(of: &TakeContext<'a>) -> impl Iterator<Item = ChannelView<'a>> {
     let take = of.take;
-    let column =
-        |track, number, times, values, interpolation| Column { track, number, times, values, interpolation };
+    let view = |track, number, times, values, interpolation| ChannelView {
+        track,
+        number,
+        times,
+        values,
+        interpolation,
+    };
     take.tracks.iter().enumerate().flat_map(move |(index, track)| {
         let vectors = |number, channel: &'a Channel<Vec3>| {
-            column(index, number, &channel.times, Values::Vectors(&channel.values), channel.interpolation)
+            view(index, number, &channel.times, ValueList::Vectors(&channel.values), channel.interpolation)
         };
         let rotation = &track.rotation;
-        let rotations = Values::Rotations(&rotation.values);
+        let rotations = ValueList::Rotations(&rotation.values);
         [
             vectors(0, &track.translation),
-            column(index, 1, &rotation.times, rotations, rotation.interpolation),
+            view(index, 1, &rotation.times, rotations, rotation.interpolation),
             vectors(2, &track.scale),
         ]
     })

@@ -13,8 +13,8 @@
 //! s' = s (1 + (s² - 1) (x/3 + 2/15 (1 + s²) x² + …))
 //! ```
 //!
-//! The two terms written are exact to 1e-7 up to θ = 17.8° ([`WIDEST`]), which are 35.6° of rotation between two keys;
-//! wider steps get keys in between when the data is built ([`steps`]). The formula follows from the series of the
+//! The two terms written are exact to 1e-7 up to θ = 17.8° ([`WIDEST`]), which are 35.6° of rotation slerp two keys;
+//! wider steps get keys in slerp when the data is built ([`steps`]). The formula follows from the series of the
 //! tangent and of the arc sine.
 
 use super::simd::{Float8, Simd};
@@ -25,7 +25,7 @@ const WIDEST: f32 = 0.024;
 
 /// The fraction between two keys, prepared for any number of rotations.
 #[derive(Clone, Copy)]
-pub(super) struct Way<S: Simd> {
+pub(super) struct FastSlerp<S: Simd> {
     mix: S::F8,
     rest: S::F8,
     /// s (s² - 1) / 2
@@ -34,7 +34,7 @@ pub(super) struct Way<S: Simd> {
     second: S::F8,
 }
 
-impl<S: Simd> Way<S> {
+impl<S: Simd> FastSlerp<S> {
     /// Prepares the fraction `mix` from the first key to the second, 0..=1.
     #[inline(always)]
     pub(super) fn new(mix: f32) -> Self {
@@ -98,7 +98,7 @@ pub(super) fn steps(a: Quat, b: Quat) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fast::simd::{Kernel, Level};
+    use crate::fast::simd::{Kernel, SimdLevel};
     use crate::sample::mix::slerp;
 
     struct Turn(Quat, Quat, f32);
@@ -110,7 +110,7 @@ mod tests {
         fn run<S: Simd>(self) -> Quat {
             let eight = |rotation: Quat| S::F8::load_four(&rotation.to_array().map(|part| [part; 8]));
             let mut lanes = [[0.0; 8]; 4];
-            S::F8::store_four(Way::<S>::new(self.2).turn(eight(self.0), eight(self.1)), &mut lanes);
+            S::F8::store_four(FastSlerp::<S>::new(self.2).turn(eight(self.0), eight(self.1)), &mut lanes);
             Quat::from_array(lanes.map(|part| part[3]))
         }
     }
@@ -124,7 +124,7 @@ mod tests {
             assert_eq!(steps(a, b), 1, "{degrees}");
             for mix in 0..=20 {
                 let mix = mix as f32 / 20.0;
-                for level in Level::all() {
+                for level in SimdLevel::all() {
                     let off = (level.run(Turn(a, b, mix)) - slerp(a, b, mix)).length();
                     assert!(off < 4e-7, "{} {degrees}° {mix}: {off}", level.name());
                 }

@@ -1,6 +1,6 @@
 //! Candidates of a query, their order, and the complete hit of the best one.
 
-use super::triangle::{Line, meet, nearest_on_flat, nearest_on_triangle, normal_of};
+use super::triangle::{UnitRay, meet, nearest_on_flat, nearest_on_triangle, normal_of};
 use super::{Hit, HitSettings};
 use crate::data::{BoneIndex, MAX_INFLUENCES, ModelData, Primitive};
 use crate::evaluator::Evaluator;
@@ -9,7 +9,7 @@ use glam::{DVec3, Mat3, Vec3};
 
 /// Address of a triangle in the scene; ordered as in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Which {
+pub(super) struct TriangleAddress {
     pub(super) instance: u32,
     pub(super) primitive: u32,
     pub(super) triangle: u32,
@@ -17,20 +17,20 @@ pub(super) struct Which {
 
 /// The best candidate so far, before the complete hit is computed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
+pub(super) struct Candidate {
     pub(super) distance: f64,
-    which: Which,
+    address: TriangleAddress,
     barycentric: DVec3,
     corners: [Vec3; 3],
     front: bool,
 }
 
-impl Found {
+impl Candidate {
     /// Replaces `best` by this candidate if that is nearer, or equally near and earlier in the file: so the result does
     /// not depend on the order of the tests.
     fn outdo(self, best: &mut Option<Self>) {
         let better = |best: Self| {
-            self.distance < best.distance || (self.distance == best.distance && self.which < best.which)
+            self.distance < best.distance || (self.distance == best.distance && self.address < best.address)
         };
         if best.is_none_or(better) {
             *best = Some(self);
@@ -40,9 +40,9 @@ impl Found {
 
 /// State of a ray query.
 pub(super) struct RaySearch {
-    pub(super) line: Line,
+    pub(super) line: UnitRay,
     pub(super) settings: HitSettings,
-    pub(super) best: Option<Found>,
+    pub(super) best: Option<Candidate>,
 }
 
 impl RaySearch {
@@ -56,17 +56,17 @@ impl RaySearch {
         &mut self,
         primitive: &Primitive,
         movement: Movement<'_>,
-        which: Which,
+        address: TriangleAddress,
         corners: [Vec3; 3],
     ) -> bool {
         let Some(crossing) = meet(&self.line, corners) else { return false };
         let within = crossing.distance <= f64::from(self.settings.max_distance);
-        let front = crossing.counter_clockwise != mirrored(primitive, movement, which.triangle);
+        let front = crossing.counter_clockwise != mirrored(primitive, movement, address.triangle);
         if !within || !(front || self.settings.back_faces) {
             return false;
         }
         let (distance, barycentric) = (crossing.distance, crossing.barycentric);
-        Found { distance, which, barycentric, corners, front }.outdo(&mut self.best);
+        Candidate { distance, address, barycentric, corners, front }.outdo(&mut self.best);
         true
     }
 }
@@ -77,7 +77,7 @@ pub(super) struct SphereSearch {
     pub(super) radius: f64,
     /// Whether triangles without area count.
     pub(super) flat: bool,
-    pub(super) best: Option<Found>,
+    pub(super) best: Option<Candidate>,
 }
 
 impl SphereSearch {
@@ -102,7 +102,7 @@ impl SphereSearch {
         &mut self,
         primitive: &Primitive,
         movement: Movement<'_>,
-        which: Which,
+        address: TriangleAddress,
         corners: [Vec3; 3],
     ) {
         let mut nearest = nearest_on_triangle(self.center, corners);
@@ -115,8 +115,8 @@ impl SphereSearch {
         }
         let normal = normal_of(corners).unwrap_or(DVec3::Y);
         let counter_clockwise = normal.dot(self.center - corners[0].as_dvec3()) >= 0.0;
-        let front = counter_clockwise != mirrored(primitive, movement, which.triangle);
-        Found { distance, which, barycentric, corners, front }.outdo(&mut self.best);
+        let front = counter_clockwise != mirrored(primitive, movement, address.triangle);
+        Candidate { distance, address, barycentric, corners, front }.outdo(&mut self.best);
     }
 }
 
@@ -129,8 +129,8 @@ fn mirrored(primitive: &Primitive, movement: Movement<'_>, triangle: u32) -> boo
 }
 
 /// Computes the complete hit of a candidate.
-pub(super) fn complete(evaluator: &Evaluator, found: &Found) -> Hit {
-    let Which { instance, primitive, triangle } = found.which;
+pub(super) fn complete(evaluator: &Evaluator, found: &Candidate) -> Hit {
+    let TriangleAddress { instance, primitive, triangle } = found.address;
     let [a, b, c] = found.corners.map(|corner| corner.as_dvec3());
     let shares = found.barycentric;
     let normal = normal_of(found.corners).unwrap_or(DVec3::Y);
