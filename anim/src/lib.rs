@@ -25,7 +25,6 @@ mod axes;
 pub mod blend;
 pub mod bounds;
 pub mod check;
-mod checksum;
 pub mod compressed;
 pub mod data;
 pub mod evaluator;

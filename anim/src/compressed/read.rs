@@ -11,7 +11,6 @@ use super::table::{SegmentPlace, Tables};
 use super::whole::WholeTrack;
 use super::write::{AHEAD, PREFACE, SUMMED};
 use super::{FormatError, MAGIC, MAX_BONES, MAX_BYTES, MAX_FRAMES, MAX_VALUES, VERSION};
-use crate::checksum::Checksum;
 use crate::data::Transform;
 use glam::{Quat, Vec3};
 
@@ -80,7 +79,7 @@ fn check_preface(bytes: &[u8]) -> Result<usize> {
     if word(8) as usize != bytes.len() || bytes.len() > MAX_BYTES {
         return Err(FormatError::new(8, format!("{} bytes were written, {} are here", word(8), bytes.len())));
     }
-    if word(12) != Checksum::START.with(&bytes[SUMMED..]).value() {
+    if word(12) != crc32fast::hash(&bytes[SUMMED..]) {
         return Err(FormatError::new(12, "the bytes were altered: their sum is another"));
     }
     let end_of_keys = word(16) as usize;

@@ -7,7 +7,6 @@ use super::grid::{FLOATS, WHOLE_BITS, rotation_numbers};
 use super::lane_groups::{TrackSlot, groups, slots};
 use super::stored::{PARTS, PackedChannel, StoredChannel, StoredTake};
 use super::{ByteSizes, CompressError, MAGIC, MAX_BYTES, VERSION};
-use crate::checksum::Checksum;
 use glam::Quat;
 
 /// Bytes before the keys: magic number, version, length, checksum, and the end of the keys.
@@ -52,7 +51,7 @@ pub(super) fn write(stored: &StoredTake) -> Result<(Vec<u8>, ByteSizes), Compres
 
 /// Fills in the first bytes, after all others are written.
 fn preface(bytes: &mut [u8]) {
-    let (length, sum) = (bytes.len() as u32, Checksum::START.with(&bytes[SUMMED..]).value());
+    let (length, sum) = (bytes.len() as u32, crc32fast::hash(&bytes[SUMMED..]));
     bytes[..4].copy_from_slice(&MAGIC);
     bytes[4..6].copy_from_slice(&VERSION.to_le_bytes());
     bytes[6..8].copy_from_slice(&[0; 2]);

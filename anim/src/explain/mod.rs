@@ -156,7 +156,7 @@ pub fn explain(
     model: &ModelData,
     take: Option<usize>,
     time: f32,
-    what: ExplainTarget,
+    target: ExplainTarget,
 ) -> Result<Explanation, ExplainError> {
     let takes = &model.animation.takes;
     let chosen = match take {
@@ -166,7 +166,7 @@ pub fn explain(
         }
     };
     let pose = SampledPose::new(&model.animation.skeleton, chosen, time);
-    let (ends, subject) = match what {
+    let (ends, subject) = match target {
         ExplainTarget::Bone(bone) => bone::result(&pose, bone)?,
         ExplainTarget::Vertex { instance, primitive, vertex } => {
             vertex::result(model, &pose, [instance, primitive, vertex])?
