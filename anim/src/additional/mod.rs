@@ -17,6 +17,7 @@ use crate::data::{BoneIndex, Skeleton, Transform};
 
 /// The axes in which the transform of an [`Additional`] is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+#[doc(alias("local space", "model space"))]
 pub enum Space {
     /// The bone's own axes (local space).
     #[default]

@@ -18,6 +18,7 @@ use glam::Mat4;
 ///
 /// The matrix `T · R · S` of `pose`. A bone in its rest pose whose rest is sheared gives the exact rest matrix, which
 /// no pose could express.
+#[doc(alias("local space", "local matrix"))]
 pub fn to_parent(bone: &Bone, pose: Transform) -> Mat4 {
     match bone.rest_matrix {
         Some(matrix) if matrix.is_finite() && pose == rest_pose(bone) => matrix,
@@ -30,6 +31,7 @@ pub fn to_parent(bone: &Bone, pose: Transform) -> Mat4 {
 /// One pass in index order, because parents come before children: O(number of bones). Where `poses` is shorter than the
 /// skeleton, rest poses are used. A bone whose product is not finite gets its parent's `to_root` (a root: the
 /// identity); a parent that does not come before its child is ignored. Allocates nothing.
+#[doc(alias("model space", "global transform", "world matrix"))]
 pub fn to_root(skeleton: &Skeleton, poses: &[Transform], out: &mut [Mat4]) {
     let count = skeleton.len().min(out.len());
     for (index, bone) in skeleton.bones.iter().enumerate().take(count) {
@@ -53,6 +55,7 @@ pub(crate) fn child_to_root(parent: Option<Mat4>, to_parent: Mat4) -> Mat4 {
 ///
 /// `to_root` is the result of [`to_root()`] for the skeleton. A missing offset is the identity; where the product is
 /// not finite, the result is `to_root` alone; a joint whose bone does not exist gives the identity. Allocates nothing.
+#[doc(alias("skinning matrices", "joint matrices"))]
 pub fn final_poses(skin: &Skin, to_root: &[Mat4], out: &mut [Mat4]) {
     for (joint, (&bone, out)) in skin.bones.iter().zip(out).enumerate() {
         let to_root = to_root.get(bone as usize).copied().unwrap_or(Mat4::IDENTITY);
@@ -61,6 +64,7 @@ pub fn final_poses(skin: &Skin, to_root: &[Mat4], out: &mut [Mat4]) {
 }
 
 /// Returns `to_root * offset`, or `to_root` alone where that is not finite.
+#[doc(alias = "skinning matrix")]
 pub fn final_pose(to_root: Mat4, offset: Mat4) -> Mat4 {
     let product = to_root * offset;
     if product.is_finite() { product } else { to_root }

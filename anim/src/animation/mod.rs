@@ -59,6 +59,7 @@ impl Animation {
 
     /// Fills the output with the bind pose of each bone, its offset: bind space → bone space (the identity where it is
     /// not finite).
+    #[doc(alias = "inverse bind matrices")]
     pub fn bind_bone_poses(&mut self) -> &[Mat4] {
         self.output.clear();
         self.output.extend(
@@ -109,6 +110,7 @@ impl Animation {
 
     /// Fills the output with the final pose of each joint of `skin`, in the skin's order, from the most recent
     /// `to_root` poses.
+    #[doc(alias = "skinning matrices")]
     pub fn skin_poses(&mut self, skin: &Skin) -> &[Mat4] {
         self.output.clear();
         self.output.resize(skin.bones.len(), Mat4::IDENTITY);

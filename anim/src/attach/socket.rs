@@ -18,6 +18,7 @@ pub enum ScaleOf {
 
 /// An attachment point on a bone.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias = "attachment point")]
 pub struct Socket {
     /// The bone that carries the socket.
     pub bone: BoneIndex,

@@ -19,6 +19,7 @@ use glam::{Quat, Vec3};
 ///
 /// Added to `reference` with weight 1 it gives `poses` again, within rounding; a value that is equal in both gives
 /// exactly no difference. Where `poses` or `reference` is shorter than `out`: no difference. Allocates nothing.
+#[doc(alias = "additive")]
 pub fn difference(poses: &[Transform], reference: &[Transform], out: &mut [Transform]) {
     for (bone, out) in out.iter_mut().enumerate() {
         *out = match (poses.get(bone), reference.get(bone)) {
@@ -66,6 +67,7 @@ pub fn difference_of(pose: Transform, reference: Transform) -> Transform {
 /// adds the full difference; more than 1 exaggerates it. Where `differences` is shorter, the base is kept; where `base`
 /// is shorter, the identity is used. For several additive layers, call this once per layer with `out` of one call as
 /// `base` of the next, or use [`add_to`]. Allocates nothing.
+#[doc(alias = "additive")]
 pub fn add(
     base: &[Transform],
     differences: &[Transform],

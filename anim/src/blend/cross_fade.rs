@@ -30,6 +30,7 @@ use super::fade::{Fade, FadeCurve, Faded};
 /// assert_eq!(now.from_time, now.to_time * 2.0);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[doc(alias = "transition")]
 pub struct CrossFade {
     from: Cycle,
     to: Cycle,

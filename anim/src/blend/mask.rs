@@ -14,6 +14,7 @@ use crate::data::{BoneIndex, Skeleton};
 /// let legs = upper_body.inverted();
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[doc(alias("bone mask", "avatar mask"))]
 pub struct Mask {
     weights: Vec<f32>,
 }

@@ -10,6 +10,7 @@ pub type BoneIndex = u32;
 ///
 /// Any scene node that moves is a bone: joints of skins, animated nodes, and the ancestors of both.
 #[derive(Clone, Debug, PartialEq)]
+#[doc(alias = "joint")]
 pub struct Bone {
     /// As in the file; need not be unique, may be empty.
     pub name: String,
@@ -22,6 +23,7 @@ pub struct Bone {
     pub rest_matrix: Option<Mat4>,
     /// Offset (inverse bind matrix): bind space → bone space, never modified. That of the first skin that uses the
     /// bone; for bones of no skin the inverse of the rest pose's to-root.
+    #[doc(alias = "inverse bind matrix")]
     pub offset: Mat4,
     /// Index of the node in a glTF file; `None` for other formats.
     pub node: Option<u32>,
@@ -29,6 +31,7 @@ pub struct Bone {
 
 /// All bones, parents before children.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[doc(alias("rig", "armature"))]
 pub struct Skeleton {
     /// The bones; every parent comes before its children.
     pub bones: Vec<Bone>,
@@ -66,5 +69,6 @@ pub struct Skin {
     /// The joints, in the skin's order.
     pub bones: Vec<BoneIndex>,
     /// Bind space → bone space, one per joint (inverse bind matrices).
+    #[doc(alias = "inverse bind matrices")]
     pub offsets: Vec<Mat4>,
 }

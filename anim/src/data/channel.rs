@@ -21,6 +21,7 @@ pub enum Interpolation {
 /// `values` has one value per key, or three for [`Interpolation::CubicSpline`]: in-tangent, value, out-tangent. An
 /// empty channel means "not animated": the bone keeps its rest value.
 #[derive(Clone, Debug, PartialEq)]
+#[doc(alias("curve", "F-curve"))]
 pub struct Channel<T> {
     /// Seconds, strictly ascending.
     pub times: Arc<[f32]>,

@@ -69,6 +69,7 @@ impl Vertices {
 
 /// Differences that a morph target (blend shape) adds to the vertices, times its weight.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[doc(alias("blend shape", "shape key"))]
 pub struct MorphTarget {
     /// As in the file; may be empty.
     pub name: String,

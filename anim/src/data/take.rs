@@ -5,6 +5,7 @@ use glam::{Quat, Vec3};
 
 /// The pose of one bone at one time, assembled from a track's columns (thesis §3.1.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias = "key")]
 pub struct Keyframe {
     /// Seconds.
     pub time: f32,
@@ -66,6 +67,7 @@ pub struct MorphTrack {
 
 /// A take (clip, glTF animation): one track per bone, a start and a length (thesis §3.1.2).
 #[derive(Clone, Debug, Default, PartialEq)]
+#[doc(alias("clip", "animation", "action"))]
 pub struct Take {
     /// As in the file; may be empty.
     pub name: String,

@@ -6,6 +6,7 @@ use glam::{Affine3A, Mat4, Quat, Vec3};
 ///
 /// As a matrix: scale first, then rotation, then translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias("local transform", "TRS"))]
 pub struct Transform {
     /// Meters, or the length unit of the file.
     pub translation: Vec3,

@@ -62,6 +62,7 @@ impl SkinBinding {
 /// Computes `final_pose` of every joint of `binding`, in the skin's order, up to the length of `out`.
 ///
 /// Where a product is not finite: the bone's `to_root` alone, as on the open path. Allocates nothing.
+#[doc(alias = "skinning matrices")]
 pub fn final_poses(level: SimdLevel, binding: &SkinBinding, to_root: &RootPoses, out: &mut [Matrix34]) {
     level.run(FinalPoses { binding, to_root, out });
 }

@@ -63,6 +63,7 @@ impl RootPoses {
 ///
 /// Where `pose` has fewer blocks than the rig, rest poses are used. A bone whose product is not finite gets its
 /// parent's `to_root`, as on the open path. Allocates nothing, unless `out` was made for another rig.
+#[doc(alias = "model space")]
 pub fn to_root(level: SimdLevel, rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     level.run(ToRoot { rig, pose, out });
 }

@@ -104,6 +104,7 @@ impl HitPose {
 
     /// Returns the nearest hit of `ray` on the mesh; of two equally near the first in the file. The same result as
     /// [`super::ray_open`]. `None` when nothing is hit. Allocates nothing.
+    #[doc(alias = "raycast")]
     pub fn ray(&mut self, evaluator: &Evaluator, ray: &Ray, settings: &HitSettings) -> Option<Hit> {
         let best = self.search_ray(evaluator, ray, settings, false)?;
         Some(complete(evaluator, &best))

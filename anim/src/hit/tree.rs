@@ -104,6 +104,7 @@ pub enum HitTreeError {
 /// Built once, or restored from stored [`HitTreeParts`]; it never changes, so it is shared as an `Arc`. A
 /// [`super::HitPose`] fits it to a pose and answers queries.
 #[derive(Clone, Debug)]
+#[doc(alias = "BVH")]
 pub struct HitTree {
     parts: HitTreeParts,
     /// One part per node, except for mixed ones.

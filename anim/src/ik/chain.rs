@@ -97,6 +97,7 @@ pub(super) struct ChainLink {
 /// the target than the pose was: a pose beyond its limits stays as it is where nothing within them is nearer.
 ///
 /// `to_root` is read at the root's parent only. Returns the distance left at full weight, and the number of sweeps.
+#[doc(alias = "FABRIK")]
 pub fn chain(
     skeleton: &Skeleton,
     to_root: &[Mat4],

@@ -74,6 +74,7 @@ pub struct Feet<'a> {
 /// `to_root` are the matrices of the given poses; it is read at the parents of the hips and of the thighs and at the
 /// feet. On an error nothing has moved, except where the poses of one leg contain numbers that are not finite: the legs
 /// before it may have.
+#[doc(alias("foot placement", "foot IK"))]
 pub fn place_feet(
     skeleton: &Skeleton,
     to_root: &[Mat4],

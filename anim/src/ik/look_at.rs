@@ -78,6 +78,7 @@ impl<'a> LookAt<'a> {
 /// some axis at a right angle to forward, always the same. `to_root` is read at the parent of the first bone only. On
 /// an error no bone has moved. Returns the distance from the target to the last bone's line of sight, or to its eye
 /// where the target is opposite to it; 0 without bones.
+#[doc(alias = "aim")]
 pub fn look_at(
     skeleton: &Skeleton,
     to_root: &[Mat4],

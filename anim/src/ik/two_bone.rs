@@ -26,6 +26,7 @@ use glam::{Mat3, Mat4, Quat, Vec3};
 
 /// The direction in which the middle bends (pole vector).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[doc(alias = "pole vector")]
 pub enum Pole {
     /// As in the pose; a straight limb bends in a direction that is always the same for the same pose.
     #[default]
@@ -116,6 +117,7 @@ pub fn soft_distance(distance: f32, length: f32, softness: f32) -> f32 {
 /// lower part depends on its direction: the solve is repeated, at most eight times.
 ///
 /// `to_root` is read at the root's parent only. Returns the distance left at full weight.
+#[doc(alias = "limb IK")]
 pub fn two_bone(
     skeleton: &Skeleton,
     to_root: &[Mat4],

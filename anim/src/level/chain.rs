@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 /// One level of detail of a model: other indices for the same vertices.
 #[derive(Clone, Debug, PartialEq)]
+#[doc(alias = "level of detail")]
 pub struct Lod {
     /// Indices that replace those of [`ModelData::meshes`]: one list per mesh, in it one per primitive.
     pub indices: Vec<Vec<Vec<u32>>>,

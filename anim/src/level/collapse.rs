@@ -40,6 +40,7 @@ impl Default for SimplifySettings {
 /// over. The rules are those of the [module](super). Total: triangles with two corners at one place, and those with
 /// missing vertices, are removed in the first step; positions that are not finite stay. A `skin` that is negative or
 /// not finite counts as 0. O(n log n); the same input gives the same order.
+#[doc(alias("decimate", "edge collapse"))]
 pub fn simplify(
     primitive: &Primitive,
     poses: &[Vec<Vec3>],

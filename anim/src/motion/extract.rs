@@ -16,7 +16,8 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 /// At the key times, everything that the options extract is removed; between them too, if only translations are
 /// extracted and the ancestors do not move. With yaw, position and direction between two keys differ from the take by
 /// the difference of an interpolated product from a product of interpolated values: of second order in the angle
-/// between the keys. Applying [`restore`](super::put_back()) to both results gives the original take at all times.
+/// between the keys. Applying [`restore`](super::restore()) to both results gives the original take at all times.
+#[doc(alias = "root motion")]
 pub fn extract(
     take: &Take,
     skeleton: &Skeleton,

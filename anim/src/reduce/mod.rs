@@ -152,6 +152,7 @@ pub enum ReduceError {
 /// assert!(reduced.measurement.holds());
 /// # Ok::<(), dragonfly_anim::reduce::ReduceError>(())
 /// ```
+#[doc(alias = "key reduction")]
 pub fn reduce(take: &Take, skeleton: &Skeleton, settings: &ReduceSettings) -> Result<Reduced, ReduceError> {
     let source = frames::SampledTake::new(take, skeleton, settings)?;
     let mut search = search::KeySearch::new(take, skeleton, &source, Lengths::of(settings));

@@ -62,6 +62,7 @@ pub fn keyframe_at(track: &Track, bone: &Bone, time: f32) -> Keyframe {
 ///
 /// Without `take`, or for a bone whose track is missing: the rest pose. Writes up to the length of the shorter of `out`
 /// and the skeleton; allocates nothing.
+#[doc(alias("evaluate", "pose"))]
 pub fn sample_take(take: Option<&Take>, skeleton: &Skeleton, time: f32, out: &mut [Transform]) {
     for (index, (bone, pose)) in skeleton.bones.iter().zip(out).enumerate() {
         *pose = match take.and_then(|take| take.tracks.get(index)) {

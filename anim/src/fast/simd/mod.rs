@@ -72,6 +72,7 @@ pub trait Kernel {
 
 /// A set of instructions of the current machine (AVX2, or the portable fallback).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[doc(alias("AVX2", "instruction set"))]
 pub struct SimdLevel(Instructions);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
