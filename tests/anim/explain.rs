@@ -320,7 +320,7 @@ fn the_text_names_each_section_and_its_columns_line_up() {
         "  Keys around the time, and the temporary key-frame (§2.1.5.2)",
         "  To-root (§2.1.5.1) = to_parent, because a root has no parent",
         "The vertex as stored (§2.1.2.1)",
-        "Skin 0: what each bone adds (§2.1.4)",
+        "Skin 0: contribution of each bone (§2.1.4)",
         "Result, scene space",
     ] {
         assert!(text.lines().any(|line| line == heading), "the heading \"{heading}\" is missing");

@@ -41,11 +41,11 @@ impl Grip {
         let object = if object.is_finite() { object } else { Mat4::IDENTITY };
         let on_object = healthy(self.on_object, Transform::IDENTITY);
         let in_hand = healthy(self.in_hand, Transform::IDENTITY);
-        let held = Mat4::from_rotation_translation(on_object.rotation, on_object.translation);
-        let axes = Axes::of(object * held).map_or(Quat::IDENTITY, |axes| axes.rotation());
+        let grip = Mat4::from_rotation_translation(on_object.rotation, on_object.translation);
+        let axes = Axes::of(object * grip).map_or(Quat::IDENTITY, |axes| axes.rotation());
         let rotation = (axes * in_hand.rotation.conjugate()).normalize();
         let position = object.transform_point3(on_object.translation) - rotation * in_hand.translation;
-        let place = object.w_axis.truncate();
-        GripTarget { position: if position.is_finite() { position } else { place }, rotation }
+        let fallback = object.w_axis.truncate();
+        GripTarget { position: if position.is_finite() { position } else { fallback }, rotation }
     }
 }

@@ -30,7 +30,7 @@ pub struct Socket {
 
 /// Error for a socket on a bone that the skeleton does not have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("socket: no bone of {bones} is called {name:?}")]
+#[error("the socket needs a bone called {name:?}; the skeleton ({bones} bones) has none")]
 pub struct NoSuchSocketBone {
     /// The name that was given.
     pub name: String,

@@ -116,9 +116,9 @@ impl Cycle {
 
     /// Returns the mark before a phase, and the fraction of the way to the next.
     pub(super) fn split(&self, phase: f64) -> (usize, f64) {
-        let place = wrapped(phase) * self.marks.len() as f64;
-        let mark = (place as usize).min(self.marks.len() - 1);
-        (mark, place - mark as f64)
+        let position = wrapped(phase) * self.marks.len() as f64;
+        let mark = (position as usize).min(self.marks.len() - 1);
+        (mark, position - mark as f64)
     }
 }
 

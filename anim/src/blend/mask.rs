@@ -21,7 +21,7 @@ pub struct Mask {
 
 /// Error for a mask of a bone that the skeleton does not have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("mask: no bone of {bones} is called {name:?}")]
+#[error("the mask needs a bone called {name:?}; the skeleton ({bones} bones) has none")]
 pub struct NoSuchBone {
     /// The name that was given.
     pub name: String,

@@ -56,7 +56,7 @@ pub struct Rule {
     pub severity: Severity,
     /// The problem that the rule finds, in one sentence.
     pub meaning: &'static str,
-    check_rule: RuleFunction,
+    function: RuleFunction,
 }
 
 impl Rule {
@@ -64,18 +64,18 @@ impl Rule {
         id: &'static str,
         severity: Severity,
         meaning: &'static str,
-        check_rule: fn(&ModelData, &mut Findings),
+        function: fn(&ModelData, &mut Findings),
     ) -> Self {
-        Self { id, severity, meaning, check_rule: RuleFunction::Model(check_rule) }
+        Self { id, severity, meaning, function: RuleFunction::Model(function) }
     }
 
     const fn take(
         id: &'static str,
         severity: Severity,
         meaning: &'static str,
-        check_rule: fn(&TakeContext<'_>, &mut Findings),
+        function: fn(&TakeContext<'_>, &mut Findings),
     ) -> Self {
-        Self { id, severity, meaning, check_rule: RuleFunction::Take(check_rule) }
+        Self { id, severity, meaning, function: RuleFunction::Take(function) }
     }
 }
 
@@ -157,26 +157,26 @@ pub fn check(model: &ModelData) -> Vec<Finding> {
         model: Some(model),
     });
     let takes: Vec<TakeContext<'_>> = takes.collect();
-    run(|check_rule, findings| match check_rule {
-        RuleFunction::Model(check_rule) => check_rule(model, findings),
-        RuleFunction::Take(check_rule) => takes.iter().for_each(|take| check_rule(take, findings)),
+    run(|function, findings| match function {
+        RuleFunction::Model(function) => function(model, findings),
+        RuleFunction::Take(function) => takes.iter().for_each(|take| function(take, findings)),
     })
 }
 
 /// Returns everything wrong with `take` as one that moves `skeleton`; in paths it is take number 0.
 pub fn check_take(take: &Take, skeleton: &Skeleton) -> Vec<Finding> {
     let of = TakeContext { take, skeleton, number: 0, model: None };
-    run(|check_rule, findings| match check_rule {
+    run(|function, findings| match function {
         RuleFunction::Model(_) => {}
-        RuleFunction::Take(check_rule) => check_rule(&of, findings),
+        RuleFunction::Take(function) => function(&of, findings),
     })
 }
 
-fn run(mut check_rule: impl FnMut(RuleFunction, &mut Findings)) -> Vec<Finding> {
+fn run(mut call: impl FnMut(RuleFunction, &mut Findings)) -> Vec<Finding> {
     let mut all = Vec::new();
     for rule in RULES {
         let mut findings = Findings { rule, list: Vec::new(), omitted: 0 };
-        check_rule(rule.check_rule, &mut findings);
+        call(rule.function, &mut findings);
         all.append(&mut findings.list);
         if findings.omitted > 0 {
             let text = format!("and {} more of these", findings.omitted);
@@ -191,177 +191,142 @@ use Severity::{Error, Note, Warning};
 
 /// All rules, in the order in which findings of equal severity are listed.
 pub static RULES: &[Rule] = &[
-    Rule::model(
-        "NOT_FINITE",
-        Error,
-        "A number of the model is NaN or infinite.",
-        rule::not_finite::check_rule,
-    ),
-    Rule::model(
-        "COLUMN_LENGTH",
-        Error,
-        "A channels is not as long as it should be.",
-        rule::column_length::check_rule,
-    ),
-    Rule::model("INDEX", Error, "An index names nothing.", rule::index::check_rule),
-    Rule::model(
-        "PARENT_ORDER",
-        Error,
-        "A parent does not come before its child.",
-        rule::parent_order::check_rule,
-    ),
+    Rule::model("NOT_FINITE", Error, "A number of the model is NaN or infinite.", rule::not_finite::check),
+    Rule::model("COLUMN_LENGTH", Error, "A list has the wrong length.", rule::column_length::check),
+    Rule::model("INDEX", Error, "An index is out of range.", rule::index::check),
+    Rule::model("PARENT_ORDER", Error, "A parent does not come before its child.", rule::parent_order::check),
     Rule::model(
         "JOINT_MISSING",
         Error,
-        "An influence names a joint that the skin lacks.",
-        rule::joint_missing::check_rule,
+        "An influence refers to a joint that the skin does not have.",
+        rule::joint_missing::check,
     ),
     Rule::model(
         "WEIGHT_NEGATIVE",
         Error,
         "The weight of an influence is negative.",
-        rule::weight_negative::check_rule,
+        rule::weight_negative::check,
     ),
-    Rule::model(
-        "WEIGHT_SUM",
-        Error,
-        "The weights of a vertex do not sum to 1.",
-        rule::weight_sum::check_rule,
-    ),
+    Rule::model("WEIGHT_SUM", Error, "The weights of a vertex do not sum to 1.", rule::weight_sum::check),
     Rule::model(
         "REST_NOT_UNIT",
         Error,
         "The rotation of a rest pose is not of unit length.",
-        rule::rest_not_unit::check_rule,
+        rule::rest_not_unit::check,
     ),
-    Rule::model("OFFSET_SINGULAR", Error, "An offset cannot be inverted.", rule::offset_singular::check_rule),
     Rule::model(
-        "NORMAL_NOT_UNIT",
-        Warning,
-        "A normal is not of unit length.",
-        rule::normal_not_unit::check_rule,
+        "OFFSET_SINGULAR",
+        Error,
+        "An offset matrix cannot be inverted.",
+        rule::offset_singular::check,
     ),
+    Rule::model("NORMAL_NOT_UNIT", Warning, "A normal is not of unit length.", rule::normal_not_unit::check),
     Rule::model(
         "REST_SCALE_ZERO",
         Warning,
-        "A bone rests without extent along an axis.",
-        rule::rest_scale_zero::check_rule,
+        "The rest scale of a bone is zero along an axis.",
+        rule::rest_scale_zero::check,
     ),
-    Rule::model("BONE_NAME_TWICE", Warning, "Two bones have one name.", rule::bone_name_twice::check_rule),
-    Rule::model(
-        "REST_MIRRORED",
-        Note,
-        "The rest pose of a bone is mirrored.",
-        rule::rest_mirrored::check_rule,
-    ),
+    Rule::model("BONE_NAME_TWICE", Warning, "Two bones have the same name.", rule::bone_name_twice::check),
+    Rule::model("REST_MIRRORED", Note, "The rest pose of a bone is mirrored.", rule::rest_mirrored::check),
     Rule::model(
         "REST_NOT_UNIFORM",
         Note,
         "A bone's rest scale differs along its axes.",
-        rule::rest_not_uniform::check_rule,
+        rule::rest_not_uniform::check,
     ),
-    Rule::model(
-        "BONE_UNUSED",
-        Note,
-        "A bone and those below it move nothing.",
-        rule::bone_unused::check_rule,
-    ),
-    Rule::model(
-        "TRIANGLE_DEGENERATE",
-        Note,
-        "A triangle has no area.",
-        rule::triangle_degenerate::check_rule,
-    ),
+    Rule::model("BONE_UNUSED", Note, "A bone and its descendants move nothing.", rule::bone_unused::check),
+    Rule::model("TRIANGLE_DEGENERATE", Note, "A triangle has no area.", rule::triangle_degenerate::check),
     Rule::take(
         "TRACK_OF_NO_BONE",
         Error,
-        "A track is that of a bone that is not there.",
-        rule::track_of_no_bone::check_rule,
+        "The bone of a track does not exist.",
+        rule::track_of_no_bone::check,
     ),
-    Rule::take("TRACK_TWICE", Error, "Two tracks of a take are of one bone.", rule::track_twice::check_rule),
+    Rule::take(
+        "TRACK_TWICE",
+        Error,
+        "Two tracks of a take belong to the same bone.",
+        rule::track_twice::check,
+    ),
     Rule::take(
         "TRACK_ORDER",
         Error,
-        "Tracks are not one a bone in bone order.",
-        rule::track_order::check_rule,
+        "The tracks of a take are not one per bone in bone order.",
+        rule::track_order::check,
     ),
     Rule::take(
         "KEY_COUNT",
         Error,
-        "A channel has not as many values as its times need.",
-        rule::key_count::check_rule,
+        "The number of values of a channel does not match its key times.",
+        rule::key_count::check,
     ),
     Rule::take(
         "KEY_NOT_FINITE",
         Error,
         "A key's time, value or tangent is NaN or infinite.",
-        rule::key_not_finite::check_rule,
+        rule::key_not_finite::check,
     ),
     Rule::take(
         "KEY_TIMES_FALL",
         Error,
-        "A key comes before its predecessor.",
-        rule::key_times_fall::check_rule,
+        "The key times of a channel do not ascend.",
+        rule::key_times_fall::check,
     ),
     Rule::take(
         "KEY_TIME_TWICE",
         Error,
-        "Two keys of a channel have one time.",
-        rule::key_time_twice::check_rule,
+        "Two keys of a channel have the same time.",
+        rule::key_time_twice::check,
     ),
     Rule::take(
         "KEY_NOT_UNIT",
         Error,
         "The rotation of a key is not of unit length.",
-        rule::key_not_unit::check_rule,
+        rule::key_not_unit::check,
     ),
-    Rule::take(
-        "MORPH_TRACK",
-        Error,
-        "A morph track does not fit its instance.",
-        rule::morph_track::check_rule,
-    ),
+    Rule::take("MORPH_TRACK", Error, "A morph track does not fit its instance.", rule::morph_track::check),
     Rule::take(
         "TAKE_RANGE",
         Error,
-        "Start and length of a take are not those of its keys.",
-        rule::take_range::check_rule,
+        "Start and length of a take do not match its keys.",
+        rule::take_range::check,
     ),
     Rule::take(
         "KEY_SCALE_ZERO",
         Warning,
-        "A key leaves a bone without extent along an axis.",
-        rule::key_scale_zero::check_rule,
+        "A key scales a bone to zero along an axis.",
+        rule::key_scale_zero::check,
     ),
     Rule::take(
         "KEY_MIRRORED",
         Warning,
-        "A key mirrors a bone that rests unmirrored, or back.",
-        rule::key_mirrored::check_rule,
+        "A key is mirrored and the rest pose is not, or the reverse.",
+        rule::key_mirrored::check,
     ),
     Rule::take(
         "ROTATION_FLIP",
         Warning,
-        "Neighbouring rotation keys lie in opposite hemispheres.",
-        rule::rotation_flip::check_rule,
+        "Neighboring rotation keys are in opposite hemispheres.",
+        rule::rotation_flip::check,
     ),
     Rule::take(
         "ROTATION_JUMP",
         Warning,
-        "A rotation turns faster than half a turn a frame.",
-        rule::rotation_jump::check_rule,
+        "A rotation turns by more than half a turn per frame.",
+        rule::rotation_jump::check,
     ),
-    Rule::take("KEY_TIME_NEGATIVE", Note, "A key comes before time 0.", rule::key_time_negative::check_rule),
+    Rule::take("KEY_TIME_NEGATIVE", Note, "A key comes before time 0.", rule::key_time_negative::check),
     Rule::take(
         "BONE_STRETCHED",
         Note,
         "A translation track changes the length of a bone.",
-        rule::bone_stretched::check_rule,
+        rule::bone_stretched::check,
     ),
     Rule::take(
         "TAKE_WITHOUT_LENGTH",
         Note,
-        "A take is a single pose, or nothing.",
-        rule::take_without_length::check_rule,
+        "A take has a single pose, or no keys.",
+        rule::take_without_length::check,
     ),
 ];

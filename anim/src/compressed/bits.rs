@@ -93,7 +93,7 @@ impl<'a> BitReader<'a> {
         if value.is_finite() {
             Ok(value)
         } else {
-            Err(FormatError::new(offset, format!("{value} is no number")))
+            Err(FormatError::new(offset, format!("{value} is not a finite number")))
         }
     }
 

@@ -149,7 +149,7 @@ impl Attempt {
         let (bytes, spent) = write(&stored)?;
         let compressed = match CompressedTake::from_bytes(bytes) {
             Ok(compressed) => compressed,
-            Err(error) => unreachable!("what was written cannot be read: {error}"),
+            Err(error) => unreachable!("the bytes just written cannot be read: {error}"),
         };
         let decoded = all_to_root(skeleton, &poses(&compressed, frames));
         let (share_of_tolerance, largest_error) = largest_error(frames, &decoded, exactness);

@@ -56,7 +56,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
 /// Checks that after the last bit only the zeros follow that reading ahead needs.
 fn check_end(bytes: &[u8], end: usize, end_of_keys: usize) -> Result<()> {
     if bytes.len() != end.max(end_of_keys + AHEAD) {
-        return Err(FormatError::new(end, format!("{} bytes are here, and not needed", bytes.len() - end)));
+        return Err(FormatError::new(end, format!("{} unexpected bytes at the end", bytes.len() - end)));
     }
     match bytes[end..].iter().position(|&byte| byte != 0) {
         Some(place) => Err(FormatError::new(end + place, "the last bytes are not zero")),
@@ -67,20 +67,26 @@ fn check_end(bytes: &[u8], end: usize, end_of_keys: usize) -> Result<()> {
 /// Returns the byte after the last key, where the description starts.
 fn check_preface(bytes: &[u8]) -> Result<usize> {
     if bytes.len() < PREFACE + AHEAD {
-        return Err(FormatError::new(bytes.len(), format!("{} bytes are too few", bytes.len())));
+        return Err(FormatError::new(
+            bytes.len(),
+            format!("{} bytes are too few for a compressed take", bytes.len()),
+        ));
     }
     let word = |at: usize| u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
     if bytes[..4] != MAGIC {
-        return Err(FormatError::new(0, "this is no compressed take"));
+        return Err(FormatError::new(0, "not a compressed take: the magic number is wrong"));
     }
     if word(4) != u32::from(VERSION) {
-        return Err(FormatError::new(4, format!("version {} is not known", word(4))));
+        return Err(FormatError::new(4, format!("version {} is not supported", word(4))));
     }
     if word(8) as usize != bytes.len() || bytes.len() > MAX_BYTES {
-        return Err(FormatError::new(8, format!("{} bytes were written, {} are here", word(8), bytes.len())));
+        return Err(FormatError::new(
+            8,
+            format!("the stored length is {} bytes, but there are {}", word(8), bytes.len()),
+        ));
     }
     if word(12) != crc32fast::hash(&bytes[SUMMED..]) {
-        return Err(FormatError::new(12, "the bytes were altered: their sum is another"));
+        return Err(FormatError::new(12, "the checksum does not match: the bytes were changed"));
     }
     let end_of_keys = word(16) as usize;
     let right = (PREFACE..=bytes.len() - AHEAD).contains(&end_of_keys);
@@ -96,7 +102,7 @@ struct TakeHeader {
 
 /// Returns `value` if `right`, and an error otherwise.
 fn check<T: Copy + std::fmt::Display>(offset: usize, what: &str, value: T, right: bool) -> Result<T> {
-    if right { Ok(value) } else { Err(FormatError::new(offset, format!("{what} is {value}"))) }
+    if right { Ok(value) } else { Err(FormatError::new(offset, format!("{what} is invalid: {value}"))) }
 }
 
 fn header(bits: &mut BitReader<'_>) -> Result<(TakeHeader, String)> {
@@ -120,7 +126,7 @@ fn header(bits: &mut BitReader<'_>) -> Result<(TakeHeader, String)> {
     let length_of_name = bits.take(8)?;
     let place = bits.offset();
     let name: Vec<u8> = (0..length_of_name).map(|_| Ok(bits.take(8)? as u8)).collect::<Result<_>>()?;
-    let name = String::from_utf8(name).map_err(|_| FormatError::new(place, "the name is no text"))?;
+    let name = String::from_utf8(name).map_err(|_| FormatError::new(place, "the name is not UTF-8"))?;
     let grid = RoundingGrid { rotation_bits, step, translation_bits };
     Ok((TakeHeader { clock: FrameClock { start, length, frames }, bones, shift, grid }, name))
 }
@@ -202,7 +208,7 @@ fn constant_factor(bits: &mut BitReader<'_>) -> Result<f32> {
         0 => Ok(1.0),
         1 => Ok(-1.0),
         2 => number(bits),
-        other => Err(FormatError::new(at, format!("a factor is of kind {other}"))),
+        other => Err(FormatError::new(at, format!("unknown code {other} of a constant factor"))),
     }
 }
 

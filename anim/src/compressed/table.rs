@@ -123,9 +123,9 @@ impl Tables {
     }
 
     /// Sets the rotation that the components of a track are relative to.
-    pub(super) fn refer(&mut self, place: &TrackSlot, reference: Reference) {
+    pub(super) fn refer(&mut self, slot: &TrackSlot, reference: Reference) {
         let rotation = reference.rotation().to_array();
-        (0..4).for_each(|axis| self.turning[place.group].reference[axis][place.lane] = rotation[axis]);
+        (0..4).for_each(|axis| self.turning[slot.group].reference[axis][slot.lane] = rotation[axis]);
     }
 
     /// Returns the heads of all groups in a segment and in those after it; none past the end.
@@ -136,9 +136,9 @@ impl Tables {
     }
 
     /// Returns the head of a track in a segment.
-    fn head(&self, place: &TrackSlot, segment: usize) -> &HeadBlock {
+    fn head(&self, slot: &TrackSlot, segment: usize) -> &HeadBlock {
         let before = [0, self.turning.len(), self.turning.len() + self.moving[0].len()];
-        &self.heads_of(segment)[before[place.part] + place.group]
+        &self.heads_of(segment)[before[slot.part] + slot.group]
     }
 
     /// Adds a segment: the range and the head of every track. Returns the bits of one key.
@@ -149,10 +149,10 @@ impl Tables {
         let groups = (0..PARTS).flat_map(|part| (0..counts[part]).map(move |group| (part, group)));
         for (part, group) in groups {
             let mut lanes = self.still_lanes(part, group);
-            while let Some(((place, range), head)) =
-                tracks.next_if(|((place, _), _)| (place.part, place.group) == (part, group))
+            while let Some(((slot, range), head)) =
+                tracks.next_if(|((slot, _), _)| (slot.part, slot.group) == (part, group))
             {
-                lanes[place.lane] = LaneLayout::new(bit, range, head);
+                lanes[slot.lane] = LaneLayout::new(bit, range, head);
                 bit += head.width();
             }
             self.heads.push(HeadBlock::new(&lanes, &mut self.wide));
@@ -187,19 +187,19 @@ impl Tables {
 
     /// Returns the value of a key of a packed track by the plain formula, with which the fast one must agree; the
     /// fourth number of a vector is 0.
-    pub(super) fn value(&self, bytes: &[u8], place: &TrackSlot, key: u32) -> [f32; 4] {
+    pub(super) fn value(&self, bytes: &[u8], slot: &TrackSlot, key: u32) -> [f32; 4] {
         let segment = (key >> self.shift) as usize;
         let SegmentPlace { at, stride } = self.segments[segment];
         let row = at + stride * (key & ((1 << self.shift) - 1));
-        let lane = self.head(place, segment).lane(place.lane, &self.wide);
+        let lane = self.head(slot, segment).lane(slot.lane, &self.wide);
         let mut bits = BitReader::new(bytes, row as usize).after(lane.bit);
         let value = Vec3::from_array([0, 1, 2].map(|axis| {
             let number = bits.take(lane.widths[axis]).unwrap_or(0);
             lane.start[axis] + lane.step[axis] * number as f32
         }));
-        if place.part == 0 {
-            let reference = &self.turning[place.group].reference;
-            let reference = Quat::from_array([0, 1, 2, 3].map(|axis| reference[axis][place.lane]));
+        if slot.part == 0 {
+            let reference = &self.turning[slot.group].reference;
+            let reference = Quat::from_array([0, 1, 2, 3].map(|axis| reference[axis][slot.lane]));
             return rotation_of(reference, value).to_array();
         }
         value.extend(0.0).to_array()

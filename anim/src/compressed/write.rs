@@ -143,7 +143,7 @@ fn of_all<'a, T>(stored: &'a StoredTake, pick: impl Fn(&'a StoredChannel) -> Opt
 fn packed(stored: &StoredTake) -> Vec<(usize, &PackedChannel)> {
     let kinds: Vec<[u32; PARTS]> =
         stored.bones.iter().map(|parts| [0, 1, 2].map(|part| parts[part].kind())).collect();
-    let packed = |place: TrackSlot| Some((place.part, stored.bones[place.bone][place.part].packed()?));
+    let packed = |slot: TrackSlot| Some((slot.part, stored.bones[slot.bone][slot.part].packed()?));
     slots(&groups(&kinds)).into_iter().filter_map(packed).collect()
 }
 

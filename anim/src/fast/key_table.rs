@@ -33,8 +33,8 @@ impl KeyTable {
         }
         let mut key = 0;
         let table = (0..=pieces).map(|piece| {
-            let begin = first + piece as f32 / pieces_per_second;
-            while key + 2 < times.len() && times[key + 1] <= begin {
+            let start_key = first + piece as f32 / pieces_per_second;
+            while key + 2 < times.len() && times[key + 1] <= start_key {
                 key += 1;
             }
             key as u32
@@ -57,8 +57,8 @@ impl KeyTable {
         let time = time.max(*first).min(*last);
         let end = times.len() - 2;
         let piece = ((time - first) * self.pieces_per_second) as usize;
-        let begin = self.table.get(piece).map_or(end, |&key| key as usize);
-        let key = self.step(begin, time, piece);
+        let start_key = self.table.get(piece).map_or(end, |&key| key as usize);
+        let key = self.step(start_key, time, piece);
         let (Some(&before), Some(&after)) = (times.get(key), times.get(key + 1)) else {
             return KeyPosition { key: 0, mix: 0.0 };
         };
@@ -67,9 +67,9 @@ impl KeyTable {
 
     /// Returns the last key at or before `time`, at most the last but one, starting at a key near it.
     #[inline(always)]
-    fn step(&self, begin: usize, time: f32, piece: usize) -> usize {
+    fn step(&self, start_key: usize, time: f32, piece: usize) -> usize {
         let (times, end) = (self.times.as_slice(), self.times.len() - 2);
-        let mut key = begin.min(end);
+        let mut key = start_key.min(end);
         // The table may be one key ahead by rounding.
         while key > 0 && times[key] > time {
             key -= 1;

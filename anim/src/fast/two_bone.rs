@@ -125,8 +125,8 @@ fn set_rotation(blocks: &mut [PoseBlock], bone: u32, rotation: Quat) {
 /// is none.
 #[inline(always)]
 fn solve(limb: &FastTwoBone, target: Vec3A, [root, middle, end]: [&Matrix34; 3]) -> [Quat; 2] {
-    let (origin, elbow) = (place(root), place(middle));
-    let (upper, lower, wanted) = (elbow - origin, place(end) - elbow, target - origin);
+    let (origin, elbow) = (origin_of(root), origin_of(middle));
+    let (upper, lower, wanted) = (elbow - origin, origin_of(end) - elbow, target - origin);
     let (a2, b2, d2) = (upper.length_squared(), lower.length_squared(), wanted.length_squared());
     let (a, b) = (a2.sqrt(), b2.sqrt());
     let (sum, difference) = (a + b, a - b);
@@ -170,7 +170,7 @@ fn quat(vector: Vec3A, w: f32) -> Quat {
 
 /// Returns the position of a bone's origin.
 #[inline(always)]
-fn place(matrix: &Matrix34) -> Vec3A {
+fn origin_of(matrix: &Matrix34) -> Vec3A {
     Vec3A::new(matrix[3], matrix[7], matrix[11])
 }
 

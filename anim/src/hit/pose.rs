@@ -77,12 +77,12 @@ impl HitPose {
 
     /// Returns the box of a node in the pose, and fits it if needed.
     fn fit(&mut self, evaluator: &Evaluator, node: u32) -> AxisBox {
-        let (held, when) = self.boxes[node as usize];
+        let (bounds, when) = self.boxes[node as usize];
         if when == self.now {
-            return held;
+            return bounds;
         }
         let (part, instance, primitive) = self.tree.parts_of[node as usize];
-        let held = if part != MIXED {
+        let bounds = if part != MIXED {
             let movement = evaluator.movement(instance as usize, primitive as usize);
             let weights = evaluator.morph_weights(instance as usize);
             movement
@@ -93,13 +93,13 @@ impl HitPose {
         } else {
             AxisBox::EMPTY
         };
-        self.boxes[node as usize] = (held, self.now);
-        held
+        self.boxes[node as usize] = (bounds, self.now);
+        bounds
     }
 
     /// Returns a box around everything in the pose; empty before the first refit and without triangles.
     pub fn whole(&self) -> AxisBox {
-        self.boxes.first().map_or(AxisBox::EMPTY, |(held, _)| *held)
+        self.boxes.first().map_or(AxisBox::EMPTY, |(bounds, _)| *bounds)
     }
 
     /// Returns the nearest hit of `ray` on the mesh; of two equally near the first in the file. The same result as
@@ -143,16 +143,16 @@ impl HitPose {
         instance: Option<u32>,
     ) -> Option<Candidate> {
         let pad = self.pad(search.center);
-        self.start(|held| distance_to(search.center, held));
-        while let Some((node, begin)) = self.stack.pop() {
+        self.start(|bounds| distance_to(search.center, bounds));
+        while let Some((node, distance)) = self.stack.pop() {
             let (part, of, _) = self.tree.parts_of[node as usize];
             let other = instance.is_some_and(|instance| part != MIXED && instance != of);
-            if other || begin > search.limit() * NEAR_TIE + pad {
+            if other || distance > search.limit() * NEAR_TIE + pad {
                 continue;
             }
             match self.tree.parts().nodes[node as usize] {
                 HitNode::Inner(children) => {
-                    self.push(evaluator, node, children, |held| distance_to(search.center, held))
+                    self.push(evaluator, node, children, |bounds| distance_to(search.center, bounds))
                 }
                 HitNode::Leaf(leaf) => {
                     self.for_each_triangle(evaluator, leaf, |primitive, movement, address, corners| {
@@ -176,15 +176,17 @@ impl HitPose {
         let line = UnitRay::of(ray)?;
         let slabs = Slabs { line, inverse: inverse(line.direction), pad: self.pad(line.origin) };
         let mut search = RaySearch { line, settings: *settings, best: None };
-        self.start(|held| slabs.entry(held));
-        while let Some((node, begin)) = self.stack.pop() {
+        self.start(|bounds| slabs.entry(bounds));
+        while let Some((node, distance)) = self.stack.pop() {
             // Equal distances are visited: the triangle earlier in the file may be there. False where the limit is NaN.
-            let within = begin <= search.limit() * NEAR_TIE;
+            let within = distance <= search.limit() * NEAR_TIE;
             if !within {
                 continue;
             }
             match self.tree.parts().nodes[node as usize] {
-                HitNode::Inner(children) => self.push(evaluator, node, children, |held| slabs.entry(held)),
+                HitNode::Inner(children) => {
+                    self.push(evaluator, node, children, |bounds| slabs.entry(bounds))
+                }
                 HitNode::Leaf(leaf) => {
                     self.for_each_triangle(evaluator, leaf, |primitive, movement, address, corners| {
                         !(search.test(primitive, movement, address, corners) && any)
@@ -205,10 +207,10 @@ impl HitPose {
         (f64::from(largest) + point.abs().max_element()) * PAD
     }
 
-    /// Starts at the root, where `begin` returns the distance at which it begins, or `None` if it is not met.
-    fn start(&mut self, begin: impl Fn(&AxisBox) -> Option<f64>) {
+    /// Starts at the root, where `measure` returns the distance at which it begins, or `None` if it is not met.
+    fn start(&mut self, measure: impl Fn(&AxisBox) -> Option<f64>) {
         self.stack.clear();
-        if let Some(distance) = self.boxes.first().and_then(|(held, _)| begin(held)) {
+        if let Some(distance) = self.boxes.first().and_then(|(bounds, _)| measure(bounds)) {
             self.stack.push((0, distance));
         }
     }
@@ -219,14 +221,14 @@ impl HitPose {
         evaluator: &Evaluator,
         node: u32,
         [left, right]: [u32; 2],
-        begin: impl Fn(&AxisBox) -> Option<f64>,
+        measure: impl Fn(&AxisBox) -> Option<f64>,
     ) {
         let (of_left, of_right) = (self.fit(evaluator, left), self.fit(evaluator, right));
         // The union of the children is often smaller than the box, which helps the next query.
         let below = of_left.union(of_right);
         let own = &mut self.boxes[node as usize].0;
         *own = AxisBox { min: own.min.max(below.min), max: own.max.min(below.max) };
-        match (begin(&of_left), begin(&of_right)) {
+        match (measure(&of_left), measure(&of_right)) {
             (Some(a), Some(b)) if a <= b => self.stack.extend([(right, b), (left, a)]),
             (Some(a), Some(b)) => self.stack.extend([(left, a), (right, b)]),
             (Some(a), None) => self.stack.push((left, a)),
@@ -285,12 +287,12 @@ struct Slabs {
 impl Slabs {
     /// Returns the distance at which the ray enters the box, not negative; `None` where it misses (the slab test, Kay
     /// and Kajiya 1986).
-    fn entry(&self, held: &AxisBox) -> Option<f64> {
-        if held.is_empty() {
+    fn entry(&self, bounds: &AxisBox) -> Option<f64> {
+        if bounds.is_empty() {
             return None;
         }
-        let a = (held.min.as_dvec3() - self.pad - self.line.origin) * self.inverse;
-        let b = (held.max.as_dvec3() + self.pad - self.line.origin) * self.inverse;
+        let a = (bounds.min.as_dvec3() - self.pad - self.line.origin) * self.inverse;
+        let b = (bounds.max.as_dvec3() + self.pad - self.line.origin) * self.inverse;
         let near = a.min(b).max_element().max(0.0);
         let far = a.max(b).min_element();
         (near <= far * NEAR_TIE).then_some(near)
@@ -298,7 +300,7 @@ impl Slabs {
 }
 
 /// Returns the distance from `point` to the box, zero within; `None` for an empty one.
-fn distance_to(point: DVec3, held: &AxisBox) -> Option<f64> {
-    let nearest = point.max(held.min.as_dvec3()).min(held.max.as_dvec3());
-    (!held.is_empty()).then(|| point.distance(nearest))
+fn distance_to(point: DVec3, bounds: &AxisBox) -> Option<f64> {
+    let nearest = point.max(bounds.min.as_dvec3()).min(bounds.max.as_dvec3());
+    (!bounds.is_empty()).then(|| point.distance(nearest))
 }

@@ -57,26 +57,26 @@ pub struct HitTreeParts {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum HitTreeError {
     /// More triangles than [`TREE_TRIANGLES`], summed over instances.
-    #[error("{triangles} triangles in all instances; at most {TREE_TRIANGLES}")]
+    #[error("{triangles} triangles in all instances are too many; at most {TREE_TRIANGLES} are possible")]
     TooLarge {
         /// Number of triangles in the model.
         triangles: u64,
     },
     /// A node whose child is missing or does not come after it, or a node with no parent or several.
-    #[error("node {node} of the hierarchy is not part of a tree")]
+    #[error("node {node} of the hit tree is not part of a tree")]
     Node {
         /// Position in [`HitTreeParts::nodes`].
         node: usize,
     },
     /// A leaf whose primitive is missing, that does not begin at the end of the one before, or that belongs to no node
     /// or several.
-    #[error("leaf {leaf} of the hierarchy does not fit the model")]
+    #[error("leaf {leaf} of the hit tree does not fit the model")]
     Leaf {
         /// Position in [`HitTreeParts::leaves`].
         leaf: usize,
     },
     /// A triangle that the primitive does not have, or a duplicate.
-    #[error("triangle {position} of leaf {leaf} of the hierarchy does not fit the model")]
+    #[error("triangle {position} of leaf {leaf} of the hit tree does not fit the model")]
     Triangle {
         /// Position in [`HitTreeParts::leaves`].
         leaf: usize,
@@ -84,13 +84,13 @@ pub enum HitTreeError {
         position: usize,
     },
     /// The tree is deeper than any that is built here.
-    #[error("the hierarchy is {depth} nodes deep; at most {TREE_DEPTH}")]
+    #[error("the hit tree is {depth} nodes deep; at most {TREE_DEPTH} are possible")]
     Deep {
         /// Number of nodes on the longest path.
         depth: usize,
     },
     /// Triangles of the model that are in no leaf.
-    #[error("the hierarchy holds {found} triangles of {expected}")]
+    #[error("the hit tree contains {found} of {expected} triangles")]
     Missing {
         /// Number of triangles in leaves.
         found: usize,

@@ -83,7 +83,7 @@ pub(super) struct ChainLink {
     /// The rotation with the smallest distance to the target so far.
     pub(super) best: DQuat,
     /// The rotation before a step that may have to be undone.
-    pub(super) kept: DQuat,
+    pub(super) previous: DQuat,
 }
 
 /// Turns the bones of `settings` so that the end reaches `target` (to-root space), or comes as close as it can.
@@ -156,7 +156,7 @@ impl ChainScratch {
         loop {
             let posed = pose_of(skeleton, poses, bone)?;
             let rotation = posed.rotation.as_dquat().normalize();
-            self.links.push(ChainLink { bone, posed, rotation, best: rotation, kept: rotation });
+            self.links.push(ChainLink { bone, posed, rotation, best: rotation, previous: rotation });
             if bone == settings.root && self.links.len() > 1 {
                 break;
             }
@@ -175,7 +175,7 @@ impl ChainScratch {
 
     /// Sweeps until the goal is met or nothing helps; leaves the best rotations and their joints in the links.
     fn solve(&mut self, settings: &Chain, goal: DVec3, limit: &mut Option<Limit<'_>>) -> u32 {
-        self.place();
+        self.update_joints();
         let mut nearest = self.gap(goal);
         let total: f64 = self.lengths.iter().sum();
         let tolerance = f64::from(settings.tolerance.max(1e-7)) * total;
@@ -198,7 +198,7 @@ impl ChainScratch {
             }
         }
         self.links.iter_mut().for_each(|link| link.rotation = link.best);
-        self.place();
+        self.update_joints();
         if let Some(limit) = limit {
             self.search(goal, tolerance, limit);
         }
@@ -210,7 +210,7 @@ impl ChainScratch {
     }
 
     /// Computes joints and lengths from the rotations.
-    pub(super) fn place(&mut self) {
+    pub(super) fn update_joints(&mut self) {
         let mut linear = DMat3::IDENTITY;
         for index in 0..self.links.len() {
             let link = self.links[index];
@@ -245,7 +245,7 @@ impl ChainScratch {
             linear *= link.linear();
             position += linear * arm;
         }
-        self.place();
+        self.update_joints();
     }
 }
 

@@ -21,7 +21,7 @@ pub enum IkError {
         bone: BoneIndex,
     },
     /// The second bone is not a descendant of the first.
-    #[error("bone {below} is no descendant of bone {above}")]
+    #[error("bone {below} is not a descendant of bone {above}")]
     NotBelow {
         /// The expected ancestor.
         above: BoneIndex,
@@ -29,13 +29,13 @@ pub enum IkError {
         below: BoneIndex,
     },
     /// A target, a direction or a pose is NaN or infinite, or so large that the result would be.
-    #[error("a target, a direction or a pose at bone {bone} is not a finite number")]
+    #[error("a target, a direction or a pose at bone {bone} is not finite, or too large")]
     NotFinite {
         /// The first bone of the solve.
         bone: BoneIndex,
     },
     /// A scale of zero above the bone: its space has no volume, so nothing can be transformed into it.
-    #[error("the space in which bone {bone} turns is flat: a scale above it is zero")]
+    #[error("bone {bone} cannot be turned: a scale of one of its ancestors is zero")]
     Flat {
         /// The bone to turn.
         bone: BoneIndex,

@@ -57,15 +57,15 @@ impl Points<'_> {
         // One link longer than all others together keeps the end away from the base.
         let least = (2.0 * longest - total).max(0.0);
         let distance = target.distance(base);
-        let kept = distance.max(least).min(total);
-        if kept == distance { target } else { base + self.way(target) * kept }
+        let clamped = distance.max(least).min(total);
+        if clamped == distance { target } else { base + self.direction(target) * clamped }
     }
 
     /// Returns the direction from the base to `target`; where they coincide, to the last joint.
-    fn way(&self, target: DVec3) -> DVec3 {
+    fn direction(&self, target: DVec3) -> DVec3 {
         let (base, last) = (self.joints[0], self.joints[self.joints.len() - 1]);
-        let way = (target - base).try_normalize().or_else(|| (last - base).try_normalize());
-        way.unwrap_or(DVec3::X)
+        let direction = (target - base).try_normalize().or_else(|| (last - base).try_normalize());
+        direction.unwrap_or(DVec3::X)
     }
 
     /// Puts all joints on one line along unit vector `direction`; does nothing where it is not finite.
@@ -79,7 +79,7 @@ impl Points<'_> {
 
     /// Bends joints that are on the line to the target: a sweep would leave them there.
     fn unalign(&mut self, target: DVec3) {
-        let (base, along, total) = (self.joints[0], self.way(target), self.total());
+        let (base, along, total) = (self.joints[0], self.direction(target), self.total());
         let (mut bow, mut largest) = (DVec3::ZERO, 0.0);
         for joint in self.joints.iter() {
             let side = (*joint - base).reject_from_normalized(along);
@@ -91,10 +91,10 @@ impl Points<'_> {
             return;
         }
         let bow = if largest > 1e-9 * total { bow / largest } else { along.any_orthonormal_vector() };
-        let mut way = 0.0;
+        let mut distance = 0.0;
         for (joint, length) in self.joints.iter_mut().skip(1).zip(self.lengths) {
-            way += length;
-            *joint += bow * (0.3 * total * (std::f64::consts::PI * way / total).sin());
+            distance += length;
+            *joint += bow * (0.3 * total * (std::f64::consts::PI * distance / total).sin());
         }
     }
 
@@ -104,13 +104,13 @@ impl Points<'_> {
         self.joints[last] = target;
         for index in (0..last).rev() {
             let next = self.joints[index + 1];
-            let way = (self.joints[index] - next).try_normalize().unwrap_or(DVec3::X);
-            self.joints[index] = next + way * self.lengths[index];
+            let direction = (self.joints[index] - next).try_normalize().unwrap_or(DVec3::X);
+            self.joints[index] = next + direction * self.lengths[index];
         }
         self.joints[0] = base;
         for index in 0..last {
-            let way = (self.joints[index + 1] - self.joints[index]).try_normalize().unwrap_or(DVec3::X);
-            self.joints[index + 1] = self.joints[index] + way * self.lengths[index];
+            let direction = (self.joints[index + 1] - self.joints[index]).try_normalize().unwrap_or(DVec3::X);
+            self.joints[index + 1] = self.joints[index] + direction * self.lengths[index];
         }
     }
 
@@ -125,9 +125,9 @@ impl Points<'_> {
         let (base, last) = (self.joints[0], self.joints.len() - 1);
         let wanted = target.distance(base);
         if self.joints[last].distance(base) <= wanted {
-            self.unfold(wanted, self.way(target));
+            self.unfold(wanted, self.direction(target));
         } else {
-            self.place_on_circle(wanted, self.way(target));
+            self.place_on_circle(wanted, self.direction(target));
         }
         let turn = arc_between(self.joints[last] - base, target - base);
         for joint in self.joints.iter_mut().skip(1) {
@@ -154,8 +154,8 @@ impl Points<'_> {
             // The joint is overwritten, but the next link's direction needs its old position.
             let own = (self.joints[index + 1] - old).normalize_or_zero();
             old = self.joints[index + 1];
-            let way = (own * (1.0 - high) + towards * high).try_normalize().unwrap_or(towards);
-            self.joints[index + 1] = self.joints[index] + way * length;
+            let direction = (own * (1.0 - high) + towards * high).try_normalize().unwrap_or(towards);
+            self.joints[index + 1] = self.joints[index] + direction * length;
         }
     }
 

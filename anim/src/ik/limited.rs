@@ -14,7 +14,7 @@
 //! Every joint has two axes, across the line to the end. The limit is an opaque function, so it is probed with a small
 //! turn, once to the side to which the step would go if there were no limits. A joint that can turn to one side only
 //! contributes when the step goes there (`x_k > 0`), and the step is computed again without those that would go the
-//! other way. A step that does not bring the end nearer is halved, and the damping μ grows.
+//! other direction. A step that does not bring the end nearer is halved, and the damping μ grows.
 //!
 //! (C. W. Wampler: "Manipulator inverse kinematic solutions based on vector formulations and damped least-squares
 //! methods", IEEE Transactions on Systems, Man and Cybernetics 16, 1986.)
@@ -80,7 +80,7 @@ impl ChainScratch {
             }
         }
         self.links.iter_mut().for_each(|link| link.rotation = link.best);
-        self.place();
+        self.update_joints();
     }
 
     /// Sets another start pose: every joint turned at random from its posed rotation, further from start to start.
@@ -98,7 +98,7 @@ impl ChainScratch {
         for link in &mut self.links[..turning] {
             link.rotation = limited(limit, link.bone, link.rotation);
         }
-        self.place();
+        self.update_joints();
     }
 
     /// Makes steps until the goal is met or no step helps.
@@ -148,8 +148,8 @@ impl ChainScratch {
             let link = self.links[index];
             let free = &mut self.freedoms[index];
             for (turn, moved) in free.turns.iter_mut().zip(&mut free.moves) {
-                let way = if moved.dot(pull) < 0.0 { -*turn } else { *turn };
-                let wish = (DQuat::from_scaled_axis(way * PROBE) * link.rotation).normalize();
+                let direction = if moved.dot(pull) < 0.0 { -*turn } else { *turn };
+                let wish = (DQuat::from_scaled_axis(direction * PROBE) * link.rotation).normalize();
                 let got = limited(limit, link.bone, wish) * link.rotation.conjugate();
                 *turn = rotation_vector(got) / PROBE;
                 *moved = linear * turn.cross(arm);
@@ -188,20 +188,20 @@ impl ChainScratch {
             return false;
         }
         let mut size = (STRIDE / widest).min(1.0);
-        self.links.iter_mut().for_each(|link| link.kept = link.rotation);
+        self.links.iter_mut().for_each(|link| link.previous = link.rotation);
         for _ in 0..=HALVINGS {
             for (link, free) in self.links[..turning].iter_mut().zip(&self.freedoms) {
-                let wish = (DQuat::from_scaled_axis(free.turn() * size) * link.kept).normalize();
+                let wish = (DQuat::from_scaled_axis(free.turn() * size) * link.previous).normalize();
                 link.rotation = limited(limit, link.bone, wish);
             }
-            self.place();
+            self.update_joints();
             if self.gap(goal) < before {
                 return true;
             }
             size *= 0.5;
         }
-        self.links.iter_mut().for_each(|link| link.rotation = link.kept);
-        self.place();
+        self.links.iter_mut().for_each(|link| link.rotation = link.previous);
+        self.update_joints();
         false
     }
 }

@@ -30,12 +30,12 @@ impl JointLimits {
 
     /// Replaces the limit of `bone` and returns the old one; `None` removes it.
     pub fn set(&mut self, bone: BoneIndex, limit: impl Into<Option<JointLimit>>) -> Option<JointLimit> {
-        let place = self.limits.binary_search_by_key(&bone, |&(bone, _)| bone);
-        match (place, limit.into()) {
-            (Ok(place), Some(limit)) => Some(std::mem::replace(&mut self.limits[place].1, limit)),
-            (Ok(place), None) => Some(self.limits.remove(place).1),
-            (Err(place), Some(limit)) => {
-                self.limits.insert(place, (bone, limit));
+        let index = self.limits.binary_search_by_key(&bone, |&(bone, _)| bone);
+        match (index, limit.into()) {
+            (Ok(index), Some(limit)) => Some(std::mem::replace(&mut self.limits[index].1, limit)),
+            (Ok(index), None) => Some(self.limits.remove(index).1),
+            (Err(index), Some(limit)) => {
+                self.limits.insert(index, (bone, limit));
                 None
             }
             (Err(_), None) => None,
@@ -44,8 +44,8 @@ impl JointLimits {
 
     /// Returns the limit of a bone.
     pub fn get(&self, bone: BoneIndex) -> Option<&JointLimit> {
-        let place = self.limits.binary_search_by_key(&bone, |&(bone, _)| bone).ok()?;
-        Some(&self.limits[place].1)
+        let index = self.limits.binary_search_by_key(&bone, |&(bone, _)| bone).ok()?;
+        Some(&self.limits[index].1)
     }
 
     /// Iterates over all limits, ascending by bone.

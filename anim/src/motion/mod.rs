@@ -83,7 +83,9 @@ pub enum MotionError {
         bone: BoneIndex,
     },
     /// Above the bone, at some key, a scale is zero: to-root space cannot be transformed to that of the parent.
-    #[error("the space of the parent of bone {bone} is flat at {milliseconds} ms: a scale above it is zero")]
+    #[error(
+        "the motion of bone {bone} cannot be computed at {milliseconds} ms: a scale of one of its ancestors is zero"
+    )]
     Flat {
         /// The bone of the motion.
         bone: BoneIndex,

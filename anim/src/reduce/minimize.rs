@@ -63,12 +63,12 @@ fn shortest(search: &mut KeySearch<'_>, column: usize) {
     if count >= search.columns[column].count {
         return;
     }
-    let mut way = vec![keys.len() - 1];
-    while let Some(&at) = way.last()
+    let mut path = vec![keys.len() - 1];
+    while let Some(&at) = path.last()
         && at > 0
     {
-        way.push(best[at].1);
+        path.push(best[at].1);
     }
-    let kept: Vec<usize> = way.into_iter().rev().map(|at| keys[at]).collect();
-    search.set_keys(column, &kept);
+    let keys_kept: Vec<usize> = path.into_iter().rev().map(|at| keys[at]).collect();
+    search.set_keys(column, &keys_kept);
 }

@@ -74,10 +74,10 @@ pub(super) fn alignments(
         let Some(from) = source_of(binding, source, bone) else { continue };
         let Some(above) = bound_above(binding, source, target, bone) else { continue };
         let Some(from_above) = source_of(binding, source, above) else { continue };
-        let way = target_rest.origin(bone) - target_rest.origin(above);
+        let direction = target_rest.origin(bone) - target_rest.origin(above);
         let wanted = source_rest.origin(from) - source_rest.origin(from_above);
-        if let (Some(way), Some(wanted)) = (way.try_normalize(), wanted.try_normalize()) {
-            below[above].push((way, wanted));
+        if let (Some(direction), Some(wanted)) = (direction.try_normalize(), wanted.try_normalize()) {
+            below[above].push((direction, wanted));
         }
     }
     let mut aligned: Vec<DQuat> = Vec::with_capacity(target.len());
@@ -86,7 +86,7 @@ pub(super) fn alignments(
         aligned.push(match &pairs[..] {
             [] => parent,
             // Starts from the parent's alignment, so that the bone is not twisted relative to its parent.
-            &[(way, wanted)] => (arc_between(parent * way, wanted) * parent).normalize(),
+            &[(direction, wanted)] => (arc_between(parent * direction, wanted) * parent).normalize(),
             several => common_turn(several).unwrap_or(parent),
         });
     }
@@ -99,7 +99,8 @@ fn common_turn(pairs: &[(DVec3, DVec3)]) -> Option<DQuat> {
     let off_axis = |pair: &&(DVec3, DVec3)| first.cross(pair.0).length();
     let second = pairs.iter().max_by(|a, b| off_axis(a).total_cmp(&off_axis(b)))?;
     let turn = frame(first_wanted, second.1)? * frame(first, second.0)?.conjugate();
-    let fits = |(way, wanted): &(DVec3, DVec3)| (turn * *way).angle_between(*wanted) <= SAME_SHAPE;
+    let fits =
+        |(direction, wanted): &(DVec3, DVec3)| (turn * *direction).angle_between(*wanted) <= SAME_SHAPE;
     pairs.iter().all(fits).then(|| turn.normalize())
 }
 

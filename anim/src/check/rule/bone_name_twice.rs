@@ -4,7 +4,7 @@ use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 use std::collections::HashMap;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     let mut first = HashMap::new();
     let bones = &model.animation.skeleton.bones;
     for (number, bone) in bones.iter().enumerate().filter(|(_, bone)| !bone.name.is_empty()) {

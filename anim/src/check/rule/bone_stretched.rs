@@ -16,7 +16,7 @@ const THRESHOLD: f32 = 0.05;
 /// Bones shorter than this fraction of the longest are at their parent's origin, and have no length to keep.
 const SHORTEST: f32 = 1e-3;
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     let with_parents = of.skeleton.bones.iter().filter(|bone| bone.parent.is_some());
     let longest = with_parents.map(|bone| bone.rest.translation.length()).fold(0.0, f32::max);
     for (number, track) in of.take.tracks.iter().enumerate() {

@@ -3,7 +3,7 @@
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     let bones = &model.animation.skeleton.bones;
     // In a model of bones alone all bones count as used.
     if model.meshes.is_empty() {
@@ -38,7 +38,7 @@ pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
         }
     }
     for (number, bone) in bones.iter().enumerate().filter(|(number, _)| !used[*number]) {
-        let text = || "no vertex and no mesh follows it or a bone below it".to_owned();
+        let text = || "neither it nor a descendant moves a vertex or a mesh".to_owned();
         findings.add(|| (ModelPath::of(PathKind::Bone, number, &bone.name), text()));
     }
 }

@@ -4,12 +4,12 @@ use crate::check::channels::primitives;
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, primitive, path) in primitives(model) {
         let vertices = &primitive.vertices;
         let count = vertices.len();
         let [first, second] = &vertices.texture_coordinates;
-        let mut channels = vec![
+        let mut columns = vec![
             ("normals", vertices.normals.len()),
             ("tangents", vertices.tangents.len()),
             ("texture coordinates", first.len()),
@@ -18,9 +18,9 @@ pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
         ];
         for target in &primitive.morph_targets {
             let lengths = [target.positions.len(), target.normals.len(), target.tangents.len()];
-            channels.extend(lengths.map(|length| ("differences", length)));
+            columns.extend(lengths.map(|length| ("differences", length)));
         }
-        for (what, length) in channels.into_iter().filter(|(_, length)| *length != 0 && *length != count) {
+        for (what, length) in columns.into_iter().filter(|(_, length)| *length != 0 && *length != count) {
             findings.add(|| (path(), format!("{length} {what} for {count} vertices")));
         }
         let (influences, each) = (vertices.influences.len(), vertices.influences_per_vertex);
@@ -29,11 +29,13 @@ pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
                 .add(|| (path(), format!("{influences} influences for {count} vertices with {each} each")));
         }
         if !primitive.indices.len().is_multiple_of(3) {
-            findings.add(|| (path(), format!("{} indices are no whole triangles", primitive.indices.len())));
+            findings.add(|| {
+                (path(), format!("{} indices, which is not a multiple of 3", primitive.indices.len()))
+            });
         }
         let (targets, weights) = (primitive.morph_targets.len(), model.meshes[number].morph_weights.len());
         if targets != weights {
-            findings.add(|| (path(), format!("{targets} morph targets, {weights} weights")));
+            findings.add(|| (path(), format!("{weights} weights for {targets} morph targets")));
         }
     }
     for (number, skin) in model.skins.iter().enumerate() {

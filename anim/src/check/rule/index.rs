@@ -4,13 +4,13 @@ use crate::check::channels::primitives;
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (_, primitive, path) in primitives(model) {
         let count = primitive.vertices.len();
         for (at, &index) in
             primitive.indices.iter().enumerate().filter(|(_, index)| **index as usize >= count)
         {
-            let text = || format!("index {index} names none of {count} vertices");
+            let text = || format!("index {index} is out of range for {count} vertices");
             findings.add(|| (path().then(PathKind::Triangle, at / 3, ""), text()));
         }
         missing(primitive.material, model.materials.len(), "material", path, findings);
@@ -51,6 +51,6 @@ fn missing(
     findings: &mut Findings,
 ) {
     if let Some(index) = index.filter(|&index| index as usize >= count) {
-        findings.add(|| (path(), format!("there is no {what} {index}, only {count}")));
+        findings.add(|| (path(), format!("{what} {index} does not exist; the model has {count}")));
     }
 }

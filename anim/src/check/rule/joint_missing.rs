@@ -3,7 +3,7 @@
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, instance) in model.instances.iter().enumerate() {
         let mesh = model.meshes.get(instance.mesh as usize);
         let skin = instance.skin.and_then(|skin| model.skins.get(skin as usize));
@@ -18,7 +18,8 @@ pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
                     let path = path.then(PathKind::Mesh, instance.mesh as usize, &mesh.name);
                     path.then(PathKind::Primitive, index, "").then(PathKind::Vertex, at / each, "")
                 };
-                let text = || format!("names joint {}, the skin has {}", influence.joint, skin.bones.len());
+                let text =
+                    || format!("joint {} does not exist; the skin has {}", influence.joint, skin.bones.len());
                 findings.add(|| (path(), text()));
             }
         }

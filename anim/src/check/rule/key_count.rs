@@ -3,7 +3,7 @@
 use crate::check::channels::channels;
 use crate::check::{Findings, TakeContext};
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for channel in channels(of) {
         let (times, values) = (channel.times.len(), channel.len());
         if times.checked_mul(channel.values_per_key()) != Some(values) {

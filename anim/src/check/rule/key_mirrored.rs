@@ -4,7 +4,7 @@ use super::is_mirrored;
 use crate::check::channels::{channel_path, keys};
 use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for (number, track) in of.take.tracks.iter().enumerate() {
         let Some(bone) = of.skeleton.bones.get(track.bone as usize) else { continue };
         let at_rest = is_mirrored(bone.rest.scale);

@@ -3,7 +3,7 @@
 use crate::check::channels::channels;
 use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for channel in channels(of) {
         let per_key = channel.values_per_key();
         for (key, time) in channel.times.iter().enumerate() {

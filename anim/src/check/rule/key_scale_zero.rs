@@ -4,7 +4,7 @@ use super::is_flat;
 use crate::check::channels::{channel_path, keys};
 use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for (number, track) in of.take.tracks.iter().enumerate() {
         for (key, time, scale) in keys(&track.scale).filter(|(_, _, scale)| is_flat(*scale)) {
             let text = || format!("at {time} s: scale {scale}");

@@ -3,7 +3,7 @@
 use crate::check::channels::channels;
 use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for channel in channels(of) {
         // Reported once per channel: the other keys before 0 follow.
         if let Some((key, time)) =

@@ -3,7 +3,7 @@
 use super::neighbors;
 use crate::check::{Findings, TakeContext};
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     neighbors(of, |path, before, after| {
         if after < before {
             findings.add(|| (path(), format!("at {after} s, after one at {before} s")));

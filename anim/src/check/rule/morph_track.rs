@@ -3,7 +3,7 @@
 use crate::check::{Findings, PathKind, TakeContext};
 use crate::data::Interpolation;
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for (number, morph) in of.take.morphs.iter().enumerate() {
         let path = || of.path().then(PathKind::MorphTrack, number, "");
         let per_key = if morph.interpolation == Interpolation::CubicSpline { 3 } else { 1 };
@@ -15,11 +15,11 @@ pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
         }
         let Some(model) = of.model else { continue };
         match model.instances.get(morph.instance as usize) {
-            None => findings.add(|| (path(), format!("there is no instance {}", morph.instance))),
+            None => findings.add(|| (path(), format!("instance {} does not exist", morph.instance))),
             Some(instance) if instance.morph_weights.len() != morph.targets as usize => {
                 let has = instance.morph_weights.len();
                 findings.add(|| {
-                    (path(), format!("{} targets, instance {} has {has}", morph.targets, morph.instance))
+                    (path(), format!("{} targets; instance {} has {has}", morph.targets, morph.instance))
                 });
             }
             Some(_) => {}

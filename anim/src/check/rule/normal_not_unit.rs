@@ -5,7 +5,7 @@ use crate::check::channels::primitives;
 use crate::check::{Findings, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (_, primitive, path) in primitives(model) {
         for (vertex, normal) in primitive.vertices.normals.iter().enumerate() {
             let length = normal.length();

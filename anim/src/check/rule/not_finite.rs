@@ -4,7 +4,7 @@ use crate::check::channels::primitives;
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::{Material, ModelData, Primitive};
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (_, primitive, path) in primitives(model) {
         for vertex in 0..primitive.vertices.len() {
             if !vertex_is_finite(primitive, vertex) {

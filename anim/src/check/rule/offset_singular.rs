@@ -7,7 +7,7 @@ use glam::{Mat3, Mat4};
 /// Volume of a unit cube after the offset, relative to the product of its sides.
 const SMALLEST: f32 = 1e-6;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, skin) in model.skins.iter().enumerate() {
         for (joint, offset) in skin.offsets.iter().enumerate().filter(|(_, offset)| is_singular(offset)) {
             let name =

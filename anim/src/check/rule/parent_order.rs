@@ -4,7 +4,7 @@
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, bone) in model.animation.skeleton.bones.iter().enumerate() {
         if let Some(parent) = bone.parent.filter(|&parent| parent as usize >= number) {
             let text = || format!("its parent {parent} does not come before it");

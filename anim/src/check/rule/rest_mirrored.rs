@@ -4,7 +4,7 @@ use super::is_mirrored;
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, bone) in model.animation.skeleton.bones.iter().enumerate() {
         if is_mirrored(bone.rest.scale) {
             let text = || format!("the rest scale is {}", bone.rest.scale);

@@ -7,7 +7,7 @@ use crate::data::ModelData;
 /// Allowed difference of the factors, as a fraction of the largest.
 const TOLERANCE: f32 = 1e-3;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, bone) in model.animation.skeleton.bones.iter().enumerate() {
         let scale = bone.rest.scale.abs();
         let (least, most) = (scale.min_element(), scale.max_element());

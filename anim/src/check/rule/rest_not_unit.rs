@@ -4,7 +4,7 @@ use super::UNIT_TOLERANCE;
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, bone) in model.animation.skeleton.bones.iter().enumerate() {
         let length = bone.rest.rotation.length();
         if length.is_finite() && (length - 1.0).abs() > UNIT_TOLERANCE {

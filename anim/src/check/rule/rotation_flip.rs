@@ -4,7 +4,7 @@
 use crate::check::channels::{channel_path, keys};
 use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for (number, track) in of.take.tracks.iter().enumerate() {
         let mut before: Option<glam::Quat> = None;
         for (key, time, rotation) in keys(&track.rotation) {

@@ -14,7 +14,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 /// Seconds.
 const FRAME: f32 = 1.0 / 30.0;
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for (number, track) in of.take.tracks.iter().enumerate() {
         // Step interpolation jumps intentionally.
         if matches!(track.rotation.interpolation, Interpolation::Step | Interpolation::Closest) {

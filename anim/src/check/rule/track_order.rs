@@ -2,7 +2,7 @@
 
 use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     let (tracks, bones) = (&of.take.tracks, of.skeleton.len());
     let named: std::collections::BTreeSet<u32> = tracks.iter().map(|track| track.bone).collect();
     // Tracks of missing bones, and duplicate tracks, have rules of their own.
@@ -15,7 +15,7 @@ pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
     }
     for (number, track) in tracks.iter().enumerate().filter(|(number, track)| track.bone as usize != *number)
     {
-        let text = || format!("the track of bone {} is not at its path", track.bone);
+        let text = || format!("the track of bone {} is not at the position of the bone", track.bone);
         findings.add(|| (of.path().then(PathKind::Track, number, ""), text()));
     }
 }

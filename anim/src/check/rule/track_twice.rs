@@ -2,7 +2,7 @@
 
 use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn check_rule(of: &TakeContext<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     let mut first = vec![None; of.skeleton.len()];
     for (number, track) in of.take.tracks.iter().enumerate() {
         let Some(slot) = first.get_mut(track.bone as usize) else { continue };

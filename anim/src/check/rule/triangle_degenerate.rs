@@ -7,7 +7,7 @@ use crate::data::ModelData;
 /// Twice the area, relative to the square of the longest side.
 const SMALLEST: f64 = 1e-9;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (_, primitive, path) in primitives(model) {
         let position = |index: u32| primitive.vertices.positions.get(index as usize).map(|p| p.as_dvec3());
         for (number, corners) in primitive.indices.chunks_exact(3).enumerate() {

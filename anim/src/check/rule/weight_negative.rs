@@ -4,7 +4,7 @@ use crate::check::channels::primitives;
 use crate::check::{Findings, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (_, primitive, path) in primitives(model) {
         let vertices = &primitive.vertices;
         let each = vertices.influences_per_vertex.max(1);

@@ -7,7 +7,7 @@ use crate::data::ModelData;
 /// Tolerance of a sum; weights of 8 bits lose less.
 const TOLERANCE: f32 = 4e-3;
 
-pub(crate) fn check_rule(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (_, primitive, path) in primitives(model) {
         for vertex in 0..primitive.vertices.len() {
             let influences = primitive.vertices.influences_of(vertex);
