@@ -109,15 +109,16 @@ mod tests {
 
     #[test]
     fn a_moved_box_holds_its_moved_corners_and_little_more() {
-        let held = AxisBox { min: Vec3::new(-1.0, 2.0, 3.0), max: Vec3::new(4.0, 5.0, 9.0) };
+        let bounds = AxisBox { min: Vec3::new(-1.0, 2.0, 3.0), max: Vec3::new(4.0, 5.0, 9.0) };
         let turned = Quat::from_xyzw(0.3, -0.2, 0.5, 0.7).normalize();
         let matrix = Mat4::from_scale_rotation_translation(Vec3::new(1.0, -2.0, 0.5), turned, Vec3::X);
         let mut exact = AxisBox::EMPTY;
         for corner in 0..8 {
-            let pick = |axis: usize| if corner >> axis & 1 == 0 { held.min[axis] } else { held.max[axis] };
+            let pick =
+                |axis: usize| if corner >> axis & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] };
             exact.add(matrix.transform_point3(Vec3::new(pick(0), pick(1), pick(2))));
         }
-        let moved = held.moved(&matrix);
+        let moved = bounds.moved(&matrix);
         assert!(moved.contains(exact.min) && moved.contains(exact.max));
         assert!((moved.min - exact.min).length() < 1e-3 && (moved.max - exact.max).length() < 1e-3);
     }
@@ -125,10 +126,10 @@ mod tests {
     #[test]
     fn nothing_stays_nothing_and_too_much_is_everything() {
         assert!(AxisBox::EMPTY.moved(&Mat4::IDENTITY).is_empty());
-        let held = AxisBox::at(Vec3::splat(1e30));
-        assert_eq!(held.moved(&Mat4::from_scale(Vec3::splat(1e30))), AxisBox::WHOLE);
-        let mut held = AxisBox::EMPTY;
-        held.add(Vec3::NAN);
-        assert!(held.is_empty());
+        let bounds = AxisBox::at(Vec3::splat(1e30));
+        assert_eq!(bounds.moved(&Mat4::from_scale(Vec3::splat(1e30))), AxisBox::WHOLE);
+        let mut bounds = AxisBox::EMPTY;
+        bounds.add(Vec3::NAN);
+        assert!(bounds.is_empty());
     }
 }

@@ -60,15 +60,15 @@ impl BoneBoxes {
     ///
     /// Another model's pose gives finite but useless bounds. Allocates nothing where there is a vertex.
     pub fn bounds(&self, evaluator: &Evaluator) -> Bounds {
-        let whole = self.fold(evaluator, AxisBox::EMPTY, |whole, _, _, held| whole.union(held));
+        let whole = self.fold(evaluator, AxisBox::EMPTY, |whole, _, _, bounds| whole.union(bounds));
         if whole.is_empty() {
             return bounds_of_bones(evaluator.to_root());
         }
         let center = whole.center();
-        let radius = self.fold(evaluator, 0.0_f64, |radius, part, (instance, primitive), held| {
+        let radius = self.fold(evaluator, 0.0_f64, |radius, part, (instance, primitive), bounds| {
             let Some(movement) = evaluator.movement(instance, primitive) else { return radius };
             let weights = evaluator.morph_weights(instance);
-            radius.max(self.reaches.radius(part, movement, weights, center, held))
+            radius.max(self.reaches.radius(part, movement, weights, center, bounds))
         });
         // Rounded up twice: once for the cast, once for the square root.
         let radius = (radius as f32).next_up().next_up().min(f32::MAX);
@@ -96,8 +96,8 @@ impl BoneBoxes {
         for instance in 0..evaluator.model().instances.len() {
             for primitive in 0..evaluator.primitives(instance).len() {
                 let Some(part) = self.part(evaluator, instance, primitive) else { continue };
-                let held = self.of_primitive(evaluator, instance, primitive);
-                state = step(state, part, (instance, primitive), held);
+                let bounds = self.of_primitive(evaluator, instance, primitive);
+                state = step(state, part, (instance, primitive), bounds);
             }
         }
         state

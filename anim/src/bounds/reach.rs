@@ -30,7 +30,7 @@ pub(super) struct JointBox {
     /// Axes of the box → mesh space.
     pub(super) turn: Mat3,
     /// Extent along those axes.
-    pub(super) held: AxisBox,
+    pub(super) extent: AxisBox,
     /// Range of [`Reaches::deltas`]: first, and count.
     pub(super) deltas: (u32, u32),
 }
@@ -81,12 +81,12 @@ impl Reaches {
         let Some(reach) = self.parts.get(part) else { return AxisBox::EMPTY };
         let mut hull = AxisBox::EMPTY;
         for joint in self.boxes(part) {
-            let held = self.held(joint, weights);
-            if held == AxisBox::WHOLE {
+            let extent = self.extent(joint, weights);
+            if extent == AxisBox::WHOLE {
                 // If the sum cannot be computed, skinning leaves the vertex at its stored position, wherever that is.
-                return held;
+                return extent;
             }
-            hull = hull.union(held.moved(&placed(joint, movement)));
+            hull = hull.union(extent.moved(&placed(joint, movement)));
         }
         weighted(hull, reach).union(reach.still)
     }
@@ -109,7 +109,7 @@ impl Reaches {
         }
         let mut inner = 0.0_f64;
         for joint in self.boxes(part) {
-            inner = inner.max(corner(&self.held(joint, weights), &placed(joint, movement), center));
+            inner = inner.max(corner(&self.extent(joint, weights), &placed(joint, movement), center));
         }
         let off = (1.0 - reach.positive[0]).abs().max((reach.positive[1] - 1.0).abs());
         let size = within.min.abs().max(within.max.abs()).as_dvec3().length();
@@ -118,25 +118,25 @@ impl Reaches {
     }
 
     /// Returns the joint's box, grown by the movement of the morph targets.
-    fn held(&self, joint: &JointBox, weights: &[f32]) -> AxisBox {
+    fn extent(&self, joint: &JointBox, weights: &[f32]) -> AxisBox {
         let (first, count) = joint.deltas;
         let deltas = self.deltas.get(first as usize..(first + count) as usize).unwrap_or(&[]);
-        let mut held = joint.held;
+        let mut extent = joint.extent;
         let mut added = 0;
         for delta in deltas {
             let weight = weights.get(delta.target as usize).copied().unwrap_or(0.0);
             if weight != 0.0 {
                 let (a, b) = (delta.by.min * weight, delta.by.max * weight);
-                (held.min, held.max) = (held.min + a.min(b), held.max + a.max(b));
+                (extent.min, extent.max) = (extent.min + a.min(b), extent.max + a.max(b));
                 added += 1;
             }
         }
         if added > 0 {
             // Each sum may be rounded once more; both the box and the terms added are within these sizes.
-            let slack = widening(held.min.abs().max(held.max.abs())) * (added as f32 + 1.0);
-            (held.min, held.max) = (held.min - slack, held.max + slack);
+            let slack = widening(extent.min.abs().max(extent.max.abs())) * (added as f32 + 1.0);
+            (extent.min, extent.max) = (extent.min - slack, extent.max + slack);
         }
-        held.or_whole()
+        extent.or_whole()
     }
 }
 
@@ -165,15 +165,15 @@ fn weighted(hull: AxisBox, reach: &PartReach) -> AxisBox {
     AxisBox { min: min - slack, max: max + slack }.or_whole()
 }
 
-/// Returns the distance from `center` to the furthest corner of `held`.
-fn furthest(center: Vec3, held: AxisBox) -> f64 {
+/// Returns the distance from `center` to the furthest corner of `extent`.
+fn furthest(center: Vec3, extent: AxisBox) -> f64 {
     let center = center.as_dvec3();
-    (held.min.as_dvec3() - center).abs().max((held.max.as_dvec3() - center).abs()).length()
+    (extent.min.as_dvec3() - center).abs().max((extent.max.as_dvec3() - center).abs()).length()
 }
 
-/// Returns the distance from `center` to the furthest corner of `held` moved by `matrix`.
-fn corner(held: &AxisBox, matrix: &Mat4, center: Vec3) -> f64 {
-    let (middle, half) = (held.center(), held.half().as_dvec3());
+/// Returns the distance from `center` to the furthest corner of `extent` moved by `matrix`.
+fn corner(extent: &AxisBox, matrix: &Mat4, center: Vec3) -> f64 {
+    let (middle, half) = (extent.center(), extent.half().as_dvec3());
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.truncate().as_dvec3());
     let [x, y, z] = [axes[0] * half.x, axes[1] * half.y, axes[2] * half.z];
     let from = matrix.transform_point3(middle).as_dvec3() - center.as_dvec3();
@@ -182,7 +182,7 @@ fn corner(held: &AxisBox, matrix: &Mat4, center: Vec3) -> f64 {
         // Opposite corners together.
         furthest = furthest.max((from + corner).length_squared()).max((from - corner).length_squared());
     }
-    let sizes = (middle.abs() + held.half()).as_dvec3();
+    let sizes = (middle.abs() + extent.half()).as_dvec3();
     let summed = axes[0].abs() * sizes.x + axes[1].abs() * sizes.y + axes[2].abs() * sizes.z;
     let summed = summed.length() + matrix.w_axis.truncate().as_dvec3().length();
     furthest.sqrt() + summed * f64::from(ROUNDING)

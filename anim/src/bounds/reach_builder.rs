@@ -53,13 +53,13 @@ impl ReachBuilder {
             for joint in joints(primitive, skinned, vertex) {
                 let place = self.place_of(joint, first, skin, &mut turned);
                 let joint = &mut self.reaches.boxes[first + place];
-                joint.held.add(stored);
+                joint.extent.add(stored);
                 add_turned(&mut turned[place], joint.turn, stored);
             }
         }
         for (joint, turned) in self.reaches.boxes[first..].iter_mut().zip(turned) {
-            if turned.half_surface() < joint.held.half_surface() {
-                joint.held = turned;
+            if turned.half_surface() < joint.extent.half_surface() {
+                joint.extent = turned;
             } else {
                 joint.turn = Mat3::IDENTITY;
             }
@@ -84,7 +84,7 @@ impl ReachBuilder {
         if *place == 0 {
             let offset = skin.and_then(|skin| skin.offsets.get(usize::from(joint)));
             let turn = offset.map_or(Mat3::IDENTITY, |offset| axes(*offset));
-            self.reaches.boxes.push(JointBox { joint, turn, held: AxisBox::EMPTY, deltas: (0, 0) });
+            self.reaches.boxes.push(JointBox { joint, turn, extent: AxisBox::EMPTY, deltas: (0, 0) });
             turned.push(AxisBox::EMPTY);
             *place = (self.reaches.boxes.len() - first) as u32;
         }
@@ -102,7 +102,7 @@ impl ReachBuilder {
                 let joint = self.reaches.boxes[at as usize];
                 let place = self.place_of(joint.joint, first, None, &mut Vec::new());
                 let joined = &mut self.reaches.boxes[first + place];
-                joined.held = joined.held.union(joint.held);
+                joined.extent = joined.extent.union(joint.extent);
                 let of_joint = joint.deltas.0 as usize..(joint.deltas.0 + joint.deltas.1) as usize;
                 deltas.extend(self.reaches.deltas[of_joint].iter().map(|delta| (place, *delta)));
             }
@@ -256,14 +256,14 @@ fn joints(primitive: &Primitive, skinned: bool, vertex: usize) -> impl Iterator<
     moving.chain((!skinned).then_some(0))
 }
 
-/// Grows `held`, whose axes are given by `turn`, by a finite `vector`; to everything where rotating it leaves the range
+/// Grows `extent`, whose axes are given by `turn`, by a finite `vector`; to everything where rotating it leaves the range
 /// of f32.
-fn add_turned(held: &mut AxisBox, turn: Mat3, vector: Vec3) {
+fn add_turned(extent: &mut AxisBox, turn: Mat3, vector: Vec3) {
     let turned = turn.transpose() * vector;
     if vector.is_finite() && !turned.is_finite() {
-        *held = AxisBox::WHOLE;
+        *extent = AxisBox::WHOLE;
     }
-    held.add(turned);
+    extent.add(turned);
 }
 
 /// Returns the directions of a bone's axes in bind space, from its offset; the identity where they cannot be computed.

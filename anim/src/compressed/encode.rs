@@ -94,8 +94,8 @@ impl<'a> Encoder<'a> {
         for (frame, &pose) in poses.iter().enumerate() {
             let to_parent = Affine3A::from_mat4(to_parent(rules, pose));
             let to_root = self.parent(frame, bone) * to_parent;
-            let place = frame * self.frames.bones + bone;
-            self.to_root[place] = if to_root.is_finite() { to_root } else { self.parent(frame, bone) };
+            let index = frame * self.frames.bones + bone;
+            self.to_root[index] = if to_root.is_finite() { to_root } else { self.parent(frame, bone) };
         }
         parts
     }

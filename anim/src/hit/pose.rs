@@ -207,7 +207,7 @@ impl HitPose {
         (f64::from(largest) + point.abs().max_element()) * PAD
     }
 
-    /// Starts at the root, where `measure` returns the distance at which it begins, or `None` if it is not met.
+    /// Starts at the root, unless `measure` returns `None` for its box.
     fn start(&mut self, measure: impl Fn(&AxisBox) -> Option<f64>) {
         self.stack.clear();
         if let Some(distance) = self.boxes.first().and_then(|(bounds, _)| measure(bounds)) {

@@ -109,7 +109,7 @@ impl ChainScratch {
             if before <= tolerance || !before.is_finite() {
                 break;
             }
-            self.look(goal, damping * total * total, limit);
+            self.probe_limits(goal, damping * total * total, limit);
             if !self.step(goal, before, limit) {
                 if damping > 0.5 {
                     break;
@@ -125,7 +125,7 @@ impl ChainScratch {
     }
 
     /// Computes the freedom of every joint and its share in the step.
-    fn look(&mut self, goal: DVec3, damping: f64, limit: Limit<'_>) {
+    fn probe_limits(&mut self, goal: DVec3, damping: f64, limit: Limit<'_>) {
         let turning = self.lengths.len();
         let end = self.joints[turning];
         let mut linear = DMat3::IDENTITY;
@@ -149,8 +149,8 @@ impl ChainScratch {
             let free = &mut self.freedoms[index];
             for (turn, moved) in free.turns.iter_mut().zip(&mut free.moves) {
                 let direction = if moved.dot(pull) < 0.0 { -*turn } else { *turn };
-                let wish = (DQuat::from_scaled_axis(direction * PROBE) * link.rotation).normalize();
-                let got = limited(limit, link.bone, wish) * link.rotation.conjugate();
+                let wanted = (DQuat::from_scaled_axis(direction * PROBE) * link.rotation).normalize();
+                let got = limited(limit, link.bone, wanted) * link.rotation.conjugate();
                 *turn = rotation_vector(got) / PROBE;
                 *moved = linear * turn.cross(arm);
                 if !moved.is_finite() || turn.length() < 0.02 {
@@ -191,8 +191,8 @@ impl ChainScratch {
         self.links.iter_mut().for_each(|link| link.previous = link.rotation);
         for _ in 0..=HALVINGS {
             for (link, free) in self.links[..turning].iter_mut().zip(&self.freedoms) {
-                let wish = (DQuat::from_scaled_axis(free.turn() * size) * link.previous).normalize();
-                link.rotation = limited(limit, link.bone, wish);
+                let wanted = (DQuat::from_scaled_axis(free.turn() * size) * link.previous).normalize();
+                link.rotation = limited(limit, link.bone, wanted);
             }
             self.update_joints();
             if self.gap(goal) < before {
@@ -214,9 +214,9 @@ impl Freedom {
 }
 
 /// Returns a rotation with the limit applied.
-pub(super) fn limited(limit: Limit<'_>, bone: BoneIndex, wish: DQuat) -> DQuat {
-    let wish = wish.as_quat().normalize();
-    limit(bone, wish).healed(wish).as_dquat().normalize()
+pub(super) fn limited(limit: Limit<'_>, bone: BoneIndex, wanted: DQuat) -> DQuat {
+    let wanted = wanted.as_quat().normalize();
+    limit(bone, wanted).healed(wanted).as_dquat().normalize()
 }
 
 /// Returns a pseudo-random point of the cube from -1 to 1, which depends on start and bone only.

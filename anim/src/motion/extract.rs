@@ -106,11 +106,11 @@ fn measure(
     let (bone, up) = (track.bone, options.up.to_vec3().as_dvec3());
     let space = ParentSpace::at(take, skeleton, bone, take.start)?;
     let start = sample_track(track, &skeleton.bones[bone as usize], take.start);
-    let place = space.point_to_root(start.translation.as_dvec3());
+    let origin = space.point_to_root(start.translation.as_dvec3());
     let mut motion = RootMotion {
         bone,
         up: options.up,
-        pivot: (place - up * place.dot(up)).as_vec3(),
+        pivot: (origin - up * origin.dot(up)).as_vec3(),
         start: take.start,
         length: take.length,
         ..RootMotion::default()
@@ -119,7 +119,7 @@ fn measure(
         let chosen = DVec3::from_array(options.translation.map(|axis| f64::from(u8::from(axis))));
         motion.translation = map(&track.translation, rest.translation, |time, value, rates| {
             let space = ParentSpace::at(take, skeleton, bone, time)?;
-            let moved = chosen * (space.point_to_root(value.as_dvec3()) - place);
+            let moved = chosen * (space.point_to_root(value.as_dvec3()) - origin);
             Ok((
                 moved.as_vec3(),
                 rates.map(|rate| (chosen * space.vector_to_root(rate.as_dvec3())).as_vec3()),
@@ -127,11 +127,12 @@ fn measure(
         })?;
     }
     if options.yaw {
-        let back = space.rotation_to_root(start.rotation.as_dquat()).conjugate();
+        let inverse_start = space.rotation_to_root(start.rotation.as_dquat()).conjugate();
         let mut last = DQuat::IDENTITY;
         motion.rotation = map_turns(&track.rotation, rest.rotation, |time, value, rates| {
             let space = ParentSpace::at(take, skeleton, bone, time)?;
-            let about = |rotation: Quat| along(space.rotation_to_root(rotation.as_dquat()) * back, up);
+            let about =
+                |rotation: Quat| along(space.rotation_to_root(rotation.as_dquat()) * inverse_start, up);
             let raw = about(value);
             let length = raw.length();
             // Half a turn about a horizontal axis: the yaw is undefined; it keeps its last value.

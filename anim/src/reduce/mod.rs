@@ -110,7 +110,7 @@ impl Deviation {
 pub enum ReduceError {
     /// The take is too large to process in memory at once.
     #[error(
-        "{frames} frames of {bones} bones are more than {limit} poses; reduce a part of the take, or fewer frames a second"
+        "{frames} frames of {bones} bones are more than {limit} poses; reduce a part of the take, or use fewer frames per second"
     )]
     TooLarge {
         /// Number of key times, and frames between them.

@@ -116,7 +116,7 @@ impl<'a> KeySearch<'a> {
             let keys: Vec<usize> = self.columns[column].keys().collect();
             queue.extend(keys.into_iter().filter_map(|key| self.candidate(column, key)).map(Reverse));
         }
-        let mut gone = false;
+        let mut removed = false;
         while let Some(Reverse(tried)) = queue.pop() {
             let (column, key) = (tried.column as usize, tried.key as usize);
             match self.candidate(column, key) {
@@ -125,11 +125,11 @@ impl<'a> KeySearch<'a> {
                 Some(now) if now > tried => queue.push(Reverse(now)),
                 Some(_) => {
                     self.commit(column, self.columns[column].gap(key));
-                    gone = true;
+                    removed = true;
                 }
             }
         }
-        gone
+        removed
     }
 
     /// Returns the cost of removing a key; `None` when it cannot be removed.

@@ -72,7 +72,7 @@ macro_rules! instruction {
 /// An instruction that reads or writes memory through a reference to an array.
 macro_rules! memory {
     ($instruction:expr) => {
-        // SAFETY: as for `instruction`; and the array behind the reference has exactly the bytes that an unaligned
+        // SAFETY: as for `instruction`; and the array of the reference has exactly the bytes that an unaligned
         // access of this width touches.
         unsafe { $instruction }
     };
