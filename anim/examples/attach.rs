@@ -1,4 +1,4 @@
-//! Puts a staff into a hand, aims with it, keeps the elbow within its limits, and finds the place of the other hand.
+//! Attaches a staff to a hand, aims with it, clamps the elbow to its limits, and computes the target of the other hand.
 //!
 //! `cargo run -p dragonfly-anim --example attach`
 

@@ -1,4 +1,4 @@
-//! Blends two takes: walks, breaks into a run without a stumble, and looks around meanwhile.
+//! Blends two takes: a walk that changes to a run in step, while the figure looks around.
 //!
 //! `cargo run -p dragonfly-anim --example blend_two`
 

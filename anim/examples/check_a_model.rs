@@ -1,4 +1,4 @@
-//! Says everything that is wrong with a model: that of the file named, or a broken one made here.
+//! Prints everything that is wrong with a model: one from a file, or a broken one built here.
 
 use dragonfly_anim::check::{RULES, Severity, check};
 use dragonfly_anim::data::{Influence, Mesh, MeshInstance, ModelData, Primitive, Skin, Vertices};

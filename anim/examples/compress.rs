@@ -1,4 +1,4 @@
-//! Compresses every take of a model and says what that came to: `cargo run --example compress -- model.glb`.
+//! Compresses every take of a model and prints the results: `cargo run --example compress -- model.glb`.
 
 use dragonfly_anim::compressed::{CompressedTake, CompressionSettings, Exactness, compress};
 use dragonfly_anim::fast::Pose;

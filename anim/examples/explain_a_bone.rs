@@ -1,4 +1,4 @@
-//! How a bone comes to stand where it stands: every number on the way, with its formula.
+//! Prints every number in the computation of a bone's pose, with its formula.
 //!
 //! ```text
 //! cargo run -p dragonfly-anim --example explain_a_bone -- [FILE.glb [BONE [SECONDS]]]

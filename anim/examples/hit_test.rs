@@ -1,4 +1,4 @@
-//! Points at a running fox and says what is hit: `cargo run -p dragonfly-anim --example hit_test`.
+//! Casts rays at a running fox and prints the hits: `cargo run -p dragonfly-anim --example hit_test`.
 
 use dragonfly_anim::bounds::BoneBoxes;
 use dragonfly_anim::evaluator::Evaluator;

@@ -1,4 +1,4 @@
-//! An interpolation that the library does not have: a curve through the keys that needs no tangents (Catmull–Rom).
+//! Adds an interpolation that the library does not have: a curve through the keys without tangents (Catmull–Rom).
 //!
 //! `cargo run -p dragonfly-anim --example own_interpolation`
 

@@ -1,7 +1,7 @@
-//! How many keys an author really has to look at, for several tolerances.
+//! Prints the number of keys that remain after key reduction, for several tolerances.
 //!
 //! ```text
-//! cargo run --release -p dragonfly-anim --example reduce_keys -- [FILE.glb [MILLIMETRES PER UNIT]]
+//! cargo run --release -p dragonfly-anim --example reduce_keys -- [FILE.glb [MILLIMETERS PER UNIT]]
 //! ```
 
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};

@@ -1,4 +1,4 @@
-//! A walk that moves its figure: take the motion out, drive the figure by it for many loops, put it back.
+//! Extracts the root motion of a walk, moves the figure by it for many loops, and restores it in the take.
 //!
 //! `cargo run -p dragonfly-anim --example root_motion`
 

@@ -1,4 +1,4 @@
-//! One take on two models: a figure with arms out, and a taller one with arms down and other names.
+//! Plays one take on two models: a figure in a T-pose, and a taller one with its arms down and other bone names.
 //!
 //! `cargo run -p dragonfly-anim --example same_animation_other_model`
 

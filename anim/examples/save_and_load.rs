@@ -1,4 +1,4 @@
-//! Saves a model as `.dfm` and loads it again: that of the file named, or one made here. Nothing is lost on the way.
+//! Saves a model as `.dfm` and loads it again, without loss: one from a file, or one built here.
 
 use dragonfly_anim::data::{Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform};
 use dragonfly_anim::format::{NoFiles, ReadOptions, dfm, read};

@@ -5,17 +5,12 @@
 //! # #[cfg(feature = "gltf")]
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! use dragonfly_anim::animation::Animation;
-//! use dragonfly_anim::format::{ReadOptions, read};
+//! use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 //! use dragonfly_anim::sample::PlayMode;
-//! # use dragonfly_anim::format::{AssetError, AssetFs};
-//! # struct NoOtherFiles;
-//! # impl AssetFs for NoOtherFiles {
-//! #     fn read(&self, _path: &str, _limit: u64) -> Result<Vec<u8>, AssetError> { Err(AssetError::Missing) }
-//! # }
 //! # let bytes: &[u8] = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb"));
 //!
-//! // `NoOtherFiles` implements `AssetFs`: the model is complete in one file.
-//! let model = read("Fox.glb", bytes, &NoOtherFiles, &ReadOptions::default())?.model;
+//! // `NoFiles`: the model is complete in this file.
+//! let model = read("Fox.glb", bytes, &NoFiles, &ReadOptions::default())?.model;
 //! let mut animation = Animation::of(&model);
 //! let take = &model.animation.takes[0];
 //!

@@ -84,7 +84,7 @@
 //! | of each segment and packed track, for x, y, z: place, extent, bits; of the only segment: bits | 8 + 8 + 5 bits |
 //! | *next whole byte* zeros, until 32 bytes follow the last key | |
 //!
-//! Whole tracks: all rotations in bone order, then translations, then scales. PackedChannel tracks have the same order, but
+//! Whole tracks: all rotations in bone order, then translations, then scales. Packed tracks have the same order, but
 //! the tracks of some blocks (bones 8 i to 8 i + 7) come last among those of their property, again in bone order: those
 //! of the `k` blocks with fewest packed tracks (of equals the first), where `k` is the smallest number that minimizes
 //!

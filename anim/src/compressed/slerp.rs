@@ -9,7 +9,7 @@
 //!
 //! # How many terms
 //!
-//! KeyPair are near each other: at thirty a second, a bone that turns once in half a second turns by 24° from one to the
+//! Keys are near each other: at thirty per second, a bone that turns once in half a second turns by 24° from one to the
 //! next. For `-0.03 ≤ d ≤ 0` (rotations up to 28° apart) two terms are enough:
 //!
 //! ```text

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Rotations are differences in the parent's space, applied from the left. `d^w` turns about `d`'s axis by `w` times
-//! its angle, the short way; it is `d` itself at weight 1, and for weights slerp, slerp from the identity:
+//! its angle, the short way; it is `d` itself at weight 1, and for weights between, slerp from the identity:
 //!
 //! ```text
 //! d^w = (xyz * sin(w h) / sin h, cos(w h))      h: half the angle, 0..=π/2

@@ -13,8 +13,8 @@
 //! s' = s (1 + (s² - 1) (x/3 + 2/15 (1 + s²) x² + …))
 //! ```
 //!
-//! The two terms written are exact to 1e-7 up to θ = 17.8° ([`WIDEST`]), which are 35.6° of rotation slerp two keys;
-//! wider steps get keys in slerp when the data is built ([`steps`]). The formula follows from the series of the
+//! The two terms written are exact to 1e-7 up to θ = 17.8° ([`WIDEST`]), which are 35.6° of rotation between two keys;
+//! wider steps get keys in between when the data is built ([`steps`]). The formula follows from the series of the
 //! tangent and of the arc sine.
 
 use super::simd::{Float8, Simd};

@@ -14,7 +14,7 @@
 //! Every joint has two axes, across the line to the end. The limit is an opaque function, so it is probed with a small
 //! turn, once to the side to which the step would go if there were no limits. A joint that can turn to one side only
 //! contributes when the step goes there (`x_k > 0`), and the step is computed again without those that would go the
-//! other direction. A step that does not bring the end nearer is halved, and the damping μ grows.
+//! other way. A step that does not bring the end nearer is halved, and the damping μ grows.
 //!
 //! (C. W. Wampler: "Manipulator inverse kinematic solutions based on vector formulations and damped least-squares
 //! methods", IEEE Transactions on Systems, Man and Cybernetics 16, 1986.)

@@ -14,7 +14,7 @@
 //! ```
 //!
 //! A figure placed in the scene by the matrix `W` and drawn in place looks like the take when it is drawn with `W ·
-//! M(t)`; from space to space `W` is multiplied by [`RootMotion::delta`]. The twist of a rotation about an axis is its
+//! M(t)`; from frame to frame `W` is multiplied by [`RootMotion::delta`]. The twist of a rotation about an axis is its
 //! part about that axis: `(q·axis, w)` normalized (Dobrowolski, "Swing-twist decomposition in Clifford algebra", 2015).
 //!
 //! The formulas are applied key by key, so [`restore`] restores the take exactly, at keys and between them. The

@@ -9,7 +9,7 @@
 //! the union of their times; the inserted keys are the values of the open path there, so nothing moves. Constant
 //! channels have no track but are part of the take's base pose. Numbers are not packed: that is for compressed takes.
 //!
-//! Linear channels are played this slerp. Those of another interpolation, and ones whose times do not ascend, are played
+//! Linear channels are played this way. Those of another interpolation, and ones whose times do not ascend, are played
 //! by the open path itself, one by one ([`KeyedTake::fallback_channels`] returns their number).
 
 mod build;
