@@ -14,7 +14,7 @@ pub(crate) const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let file = arguments.next().unwrap_or_else(|| FOX.to_owned());
-    // The fox is drawn in centimetres; glTF asks for metres, which are 1000.
+    // The unit of the fox is the centimeter; glTF requires meters, which are 1000.
     show(&file, arguments.next().unwrap_or_else(|| "10".to_owned()).parse()?)
 }
 

@@ -14,7 +14,7 @@ fn bone(name: &str, parent: Option<u32>, translation: Vec3, rotation: Quat) -> B
     Bone { name: name.to_owned(), parent, rest, rest_matrix: None, offset: Mat4::IDENTITY, node: None }
 }
 
-/// Hips at `height` over a foot, an arm of 0.5 m at the shoulder that rests turned by `rest` about z.
+/// Hips at `height` over a foot, an arm of 0.5 m at the shoulder whose rest pose is rotated by `rest` about z.
 fn figure(names: [&str; 4], height: f32, rest: f32) -> Skeleton {
     let none = Quat::IDENTITY;
     let bones = vec![

@@ -38,7 +38,7 @@ fn has_alias(text: &str, alias: &str, item: &str) -> bool {
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
     let starts =
         |line: &&str| line.strip_prefix(item).is_some_and(|rest| !rest.starts_with(char::is_alphabetic));
-    let Some(at) = lines.iter().position(|line| starts(line)) else { return false };
+    let Some(at) = lines.iter().position(starts) else { return false };
     let above = lines[..at].iter().rev().take_while(|line| line.starts_with("#["));
     above.into_iter().any(|line| line.starts_with("#[doc(alias") && line.contains(&format!("\"{alias}\"")))
 }
