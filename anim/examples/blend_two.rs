@@ -1,4 +1,4 @@
-//! Blends two takes: walks, breaks into a run without a stumble, and looks around meanwhile.
+//! Blends two takes: a walk that changes to a run in step, while the figure looks around.
 //!
 //! `cargo run -p dragonfly-anim --example blend_two`
 
@@ -30,7 +30,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let (skeleton, bones) = (&*data.skeleton, data.skeleton.len());
     let (walk, run, survey) = (take(&data, "Walk")?, take(&data, "Run")?, take(&data, "Survey")?);
     let neck = skeleton.find("b_Neck_04").ok_or("the fox has no neck")?;
-    // The neck takes part by half, the head wholly; the running leaves both to the looking.
+    // The neck has the weight 0.5, the head 1.
     let head = Mask::of_branch(skeleton, neck).feathered(skeleton, 1);
     let body = head.clone().inverted();
 

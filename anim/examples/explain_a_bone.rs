@@ -1,10 +1,10 @@
-//! How a bone comes to stand where it stands: every number on the way, with its formula.
+//! Prints every number in the computation of a bone's pose, with its formula.
 //!
 //! ```text
 //! cargo run -p dragonfly-anim --example explain_a_bone -- [FILE.glb [BONE [SECONDS]]]
 //! ```
 
-use dragonfly_anim::explain::{Subject, What, explain};
+use dragonfly_anim::explain::{ExplainTarget, Subject, explain};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use std::error::Error;
 
@@ -22,10 +22,10 @@ pub(crate) fn show(file: &str, name: &str, time: f32) -> Result<(), Box<dyn Erro
     let bone = model.animation.skeleton.find(name).ok_or("no bone has that name")?;
     let take = if model.animation.takes.is_empty() { None } else { Some(0) };
 
-    let explanation = explain(&model, take, time, What::Bone(bone))?;
+    let explanation = explain(&model, take, time, ExplainTarget::Bone(bone))?;
     println!("{explanation}");
 
-    // The same as data: nothing has to be read out of the text.
+    // The same as data: the text need not be parsed.
     for step in &explanation.bones {
         let keys = step.rotation.keys.as_ref();
         let mix = keys.map_or_else(|| "no keys".to_owned(), |keys| format!("mix {}", keys.mix));

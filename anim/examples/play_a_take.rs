@@ -9,7 +9,7 @@ use std::error::Error;
 
 const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
 
-/// A file that needs no others: the door stays shut.
+/// For a model in a single file: references to other files are refused.
 struct NoOtherFiles;
 
 impl AssetFs for NoOtherFiles {
@@ -19,7 +19,7 @@ impl AssetFs for NoOtherFiles {
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    // The library opens no file: it is given bytes.
+    // The library opens no file: the caller passes the bytes.
     let file = std::env::args().skip(1).find(|argument| argument.ends_with(".glb"));
     let bytes = std::fs::read(file.as_deref().unwrap_or(FOX))?;
     let model = read("model.glb", &bytes, &NoOtherFiles, &ReadOptions::default())?.model;
@@ -30,11 +30,11 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     println!("{:?}: {:.3} s, {} bones", take.name, take.length, model.animation.skeleton.len());
 
     for frame in 0..30 {
-        // The clock runs on; the take begins anew.
+        // The clock runs on; the take is repeated.
         let time = PlayMode::Loop.map(&take, frame as f32 / 20.0);
         animation.to_root_bone_poses(Some(number), time);
         for skin in &model.skins {
-            // One a joint, ready for a uniform buffer.
+            // One matrix per joint, ready for a uniform buffer.
             let finals = animation.skin_poses(skin);
             assert!(finals.iter().all(|matrix| matrix.is_finite()));
         }

@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 /// One level of detail of a model: other indices for the same vertices.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Level {
+#[doc(alias = "level of detail")]
+pub struct Lod {
     /// Indices that replace those of [`ModelData::meshes`]: one list per mesh, in it one per primitive.
     pub indices: Vec<Vec<Vec<u32>>>,
     /// Number of triangles of all meshes together, each mesh counted once.
@@ -42,12 +43,12 @@ impl Default for LevelSettings {
 /// Each primitive is reduced to the share by itself; vertices that have to stay (see the [module](super)) may keep it
 /// above. A level that would have no fewer triangles than the one before is left out. A share that is not between 0 and
 /// 1 counts as 1. O(n log n) for the collapses, and for the errors vertices × poses × log n.
-pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Level> {
+pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Lod> {
     let original =
         model.meshes.iter().map(|mesh| mesh.primitives.iter().map(|of| of.indices.clone()).collect());
     let mut levels = vec![level(original.collect(), 0.0)];
     let progressions = progressions(model, settings);
-    let mut room = Vec::new();
+    let mut scratch = Vec::new();
     for &ratio in &settings.ratios {
         let ratio = if (0.0..=1.0).contains(&ratio) { f64::from(ratio) } else { 1.0 };
         let mut indices: Vec<Vec<Vec<u32>>> = Vec::with_capacity(model.meshes.len());
@@ -55,7 +56,7 @@ pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Level> {
             let of_mesh = mesh.primitives.iter().zip(progressions).map(|(primitive, progression)| {
                 let triangles = (primitive.indices.len() as f64 / 3.0 * ratio).ceil() as usize;
                 let mut out = Vec::new();
-                progression.indices_after(primitive, progression.steps_to(triangles), &mut room, &mut out);
+                progression.indices_after(primitive, progression.steps_to(triangles), &mut scratch, &mut out);
                 out
             });
             indices.push(of_mesh.collect());
@@ -69,9 +70,9 @@ pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Level> {
     levels
 }
 
-fn level(indices: Vec<Vec<Vec<u32>>>, error: f32) -> Level {
+fn level(indices: Vec<Vec<Vec<u32>>>, error: f32) -> Lod {
     let triangles = indices.iter().flatten().map(|indices| indices.len() / 3).sum();
-    Level { indices, triangles, error }
+    Lod { indices, triangles, error }
 }
 
 /// Number of poses for the costs of collapses, in addition to the stored one: more cost time and gain little.

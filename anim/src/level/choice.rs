@@ -1,6 +1,6 @@
 //! Choice of a level of detail by its size on the screen.
 
-use super::Level;
+use super::Lod;
 use crate::bounds::Sphere;
 use glam::Vec3;
 
@@ -62,7 +62,7 @@ pub fn error_in_pixels(screen: &Screen, sphere: &Sphere, error: f32) -> f32 {
 /// is only chosen when its error is below `pixels * (1 - hysteresis)`; `hysteresis` is 0..1, 0 for none. A sphere
 /// smaller than a pixel gets the coarsest of all.
 pub fn choose_level(
-    levels: &[Level],
+    levels: &[Lod],
     screen: &Screen,
     sphere: &Sphere,
     pixels: f32,
@@ -73,7 +73,7 @@ pub fn choose_level(
         return levels.len().saturating_sub(1);
     }
     let coarsest = |limit: f32| {
-        let fits = |level: &Level| error_in_pixels(screen, sphere, level.error) <= limit;
+        let fits = |level: &Lod| error_in_pixels(screen, sphere, level.error) <= limit;
         levels.iter().rposition(fits).unwrap_or(0)
     };
     let (now, strict) = (coarsest(pixels), coarsest(pixels * (1.0 - hysteresis.clamp(0.0, 1.0))));

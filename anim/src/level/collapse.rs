@@ -40,6 +40,7 @@ impl Default for SimplifySettings {
 /// over. The rules are those of the [module](super). Total: triangles with two corners at one place, and those with
 /// missing vertices, are removed in the first step; positions that are not finite stay. A `skin` that is negative or
 /// not finite counts as 0. O(n log n); the same input gives the same order.
+#[doc(alias("decimate", "edge collapse"))]
 pub fn simplify(
     primitive: &Primitive,
     poses: &[Vec<Vec3>],
@@ -64,7 +65,7 @@ pub fn simplify(
 
 /// An edge with a direction, and the cost of collapsing it.
 #[derive(Clone, Copy, Debug)]
-struct Candidate {
+struct CollapseCandidate {
     cost: f64,
     from: u32,
     onto: u32,
@@ -72,7 +73,7 @@ struct Candidate {
     versions: [u32; 2],
 }
 
-impl Ord for Candidate {
+impl Ord for CollapseCandidate {
     /// The cheapest is the greatest; of two equal ones the one of the earlier vertex, so that the order is always the
     /// same.
     fn cmp(&self, other: &Self) -> Ordering {
@@ -81,19 +82,19 @@ impl Ord for Candidate {
     }
 }
 
-impl PartialOrd for Candidate {
+impl PartialOrd for CollapseCandidate {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Candidate {
+impl PartialEq for CollapseCandidate {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Candidate {}
+impl Eq for CollapseCandidate {}
 
 /// State of the simplification.
 struct Collapser<'a> {
@@ -103,21 +104,21 @@ struct Collapser<'a> {
     skin: f64,
     /// For each place, the number of changes around it.
     versions: Vec<u32>,
-    heap: BinaryHeap<Candidate>,
+    heap: BinaryHeap<CollapseCandidate>,
     /// Normals of the original triangles, of any length.
     normals: Vec<DVec3>,
     left: usize,
     progression: Progression,
-    room: Room,
+    scratch: CollapseScratch,
 }
 
 /// Lists reused by every collapse.
 #[derive(Default)]
-struct Room {
+struct CollapseScratch {
     /// Triangles around the place that is removed: index, corners, and whether the other place is a corner too.
     around: Vec<(u32, [u32; 3], bool)>,
     /// Places next to the one that is removed, and the number of triangles that each shares with it.
-    beside: Vec<(u32, u32)>,
+    adjacent: Vec<(u32, u32)>,
     /// Sides of the place that is removed, and the side that each becomes.
     sides: Vec<(u32, u32)>,
     /// Vertices that are removed, and the vertices they become.
@@ -141,7 +142,7 @@ impl<'a> Collapser<'a> {
             versions: vec![0; surface.place.len()],
             heap: BinaryHeap::new(),
             progression: Progression { moves: Vec::new(), gone_after, left: vec![all as u32] },
-            room: Room::default(),
+            scratch: CollapseScratch::default(),
             surface,
             skin,
             left,
@@ -171,7 +172,7 @@ impl<'a> Collapser<'a> {
         let cost = cost(&self.surface, &self.quadrics, self.skin, from, onto);
         if cost.is_finite() {
             let versions = [from, onto].map(|place| self.versions[place as usize]);
-            self.heap.push(Candidate { cost, from, onto, versions });
+            self.heap.push(CollapseCandidate { cost, from, onto, versions });
         }
     }
 
@@ -179,45 +180,45 @@ impl<'a> Collapser<'a> {
     fn run(&mut self, triangles: usize) {
         while self.left > triangles {
             let Some(candidate) = self.heap.pop() else { return };
-            let Candidate { from, onto, versions, .. } = candidate;
+            let CollapseCandidate { from, onto, versions, .. } = candidate;
             let fresh = versions == [from, onto].map(|place| self.versions[place as usize]);
-            if fresh && self.may(from, onto) {
+            if fresh && self.can_collapse(from, onto) {
                 self.collapse(from, onto);
             }
         }
     }
 
     /// Returns whether `from` may move onto `onto`. Leaves the lists for the collapse in the scratch memory.
-    fn may(&mut self, from: u32, onto: u32) -> bool {
-        let mut room = std::mem::take(&mut self.room);
-        let may = self.is_open(from, onto, &mut room)
-            && self.joins(from, onto, &mut room)
-            && self.keeps_facing(from, onto, &room);
-        self.room = room;
-        may
+    fn can_collapse(&mut self, from: u32, onto: u32) -> bool {
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let can_collapse = self.keeps_manifold(from, onto, &mut scratch)
+            && self.match_sides(from, onto, &mut scratch)
+            && self.keeps_facing(from, onto, &scratch);
+        self.scratch = scratch;
+        can_collapse
     }
 
     /// Returns whether the surface stays a manifold: the link condition (Dey and others 1999), and that borders stay
     /// borders.
-    fn is_open(&self, from: u32, onto: u32, room: &mut Room) -> bool {
+    fn keeps_manifold(&self, from: u32, onto: u32, scratch: &mut CollapseScratch) -> bool {
         let surface = &self.surface;
-        room.around.clear();
-        room.beside.clear();
-        room.next.clear();
+        scratch.around.clear();
+        scratch.adjacent.clear();
+        scratch.next.clear();
         for (triangle, corners) in surface.around(from) {
             let places = surface.places(corners);
-            room.around.push((triangle, corners, places.contains(&onto)));
+            scratch.around.push((triangle, corners, places.contains(&onto)));
             for place in places.into_iter().filter(|&place| place != from) {
-                match room.beside.iter_mut().find(|(other, _)| *other == place) {
+                match scratch.adjacent.iter_mut().find(|(other, _)| *other == place) {
                     Some((_, count)) => *count += 1,
-                    None => room.beside.push((place, 1)),
+                    None => scratch.adjacent.push((place, 1)),
                 }
             }
         }
-        let shared = room.around.iter().filter(|(.., shared)| *shared).count();
-        let borders = room.beside.iter().filter(|(_, count)| *count == 1).count();
+        let shared = scratch.around.iter().filter(|(.., shared)| *shared).count();
+        let borders = scratch.adjacent.iter().filter(|(_, count)| *count == 1).count();
         let along = if borders == 0 { shared == 2 } else { borders == 2 && shared == 1 };
-        if !along || shared == room.around.len() || room.beside.iter().any(|(_, count)| *count > 2) {
+        if !along || shared == scratch.around.len() || scratch.adjacent.iter().any(|(_, count)| *count > 2) {
             return false;
         }
         if surface.locked[onto as usize] && surface.around(onto).take(MOST_AROUND + 1).count() > MOST_AROUND {
@@ -226,18 +227,21 @@ impl<'a> Collapser<'a> {
         let mut around_onto = 0;
         for (_, corners) in surface.around(onto) {
             around_onto += 1;
-            room.next.extend(surface.places(corners));
+            scratch.next.extend(surface.places(corners));
         }
-        let common =
-            room.beside.iter().filter(|(place, _)| *place != onto && room.next.contains(place)).count();
-        if common != shared || around_onto + room.around.len() - 2 * shared > MOST_AROUND {
+        let common = scratch
+            .adjacent
+            .iter()
+            .filter(|(place, _)| *place != onto && scratch.next.contains(place))
+            .count();
+        if common != shared || around_onto + scratch.around.len() - 2 * shared > MOST_AROUND {
             return false;
         }
         // A triangle that would coincide with another.
-        let survivors = room.around.iter().filter(|(.., shared)| !shared);
+        let survivors = scratch.around.iter().filter(|(.., shared)| !shared);
         survivors.into_iter().all(|(_, corners, _)| {
             let places = surface.places(*corners);
-            room.next.chunks_exact(3).all(|other| {
+            scratch.next.chunks_exact(3).all(|other| {
                 !places.iter().filter(|&&place| place != from).all(|place| other.contains(place))
             })
         })
@@ -245,30 +249,30 @@ impl<'a> Collapser<'a> {
 
     /// Matches every side of a seam with its other side, and chooses for each vertex the vertex that it becomes: of
     /// those on that side the one with the most similar normal. Returns whether every side has a match.
-    fn joins(&self, from: u32, onto: u32, room: &mut Room) -> bool {
+    fn match_sides(&self, from: u32, onto: u32, scratch: &mut CollapseScratch) -> bool {
         let surface = &self.surface;
         let side = |vertex: u32| surface.side[vertex as usize];
-        room.sides.clear();
-        room.moves.clear();
+        scratch.sides.clear();
+        scratch.moves.clear();
         let at = |corners: &[u32; 3], place: u32| {
             corners.iter().copied().find(|&corner| surface.place[corner as usize] == place)
         };
-        for (_, corners, _) in room.around.iter().filter(|(.., shared)| *shared) {
+        for (_, corners, _) in scratch.around.iter().filter(|(.., shared)| *shared) {
             let (Some(own), Some(other)) = (at(corners, from), at(corners, onto)) else { return false };
-            match room.sides.iter().find(|(known, _)| *known == side(own)) {
+            match scratch.sides.iter().find(|(known, _)| *known == side(own)) {
                 Some((_, known)) if *known != side(other) => return false,
                 Some(_) => {}
-                None => room.sides.push((side(own), side(other))),
+                None => scratch.sides.push((side(own), side(other))),
             }
         }
-        for (_, corners, _) in room.around.iter().filter(|(.., shared)| !shared) {
+        for (_, corners, _) in scratch.around.iter().filter(|(.., shared)| !shared) {
             let Some(own) = at(corners, from) else { return false };
-            let Some(&(_, onto)) = room.sides.iter().find(|(known, _)| *known == side(own)) else {
+            let Some(&(_, onto)) = scratch.sides.iter().find(|(known, _)| *known == side(own)) else {
                 return false;
             };
-            if room.moves.iter().all(|(known, _)| *known != own) {
+            if scratch.moves.iter().all(|(known, _)| *known != own) {
                 let Some(vertex) = self.most_similar(own, onto) else { return false };
-                room.moves.push((own, vertex));
+                scratch.moves.push((own, vertex));
             }
         }
         true
@@ -290,8 +294,8 @@ impl<'a> Collapser<'a> {
     }
 
     /// Returns whether every triangle that stays keeps its orientation, in every pose.
-    fn keeps_facing(&self, from: u32, onto: u32, room: &Room) -> bool {
-        room.around.iter().filter(|(.., shared)| !shared).all(|(triangle, corners, _)| {
+    fn keeps_facing(&self, from: u32, onto: u32, scratch: &CollapseScratch) -> bool {
+        scratch.around.iter().filter(|(.., shared)| !shared).all(|(triangle, corners, _)| {
             let after = corners.map(|corner| {
                 let moves = self.surface.place[corner as usize] == from;
                 if moves { onto } else { corner }
@@ -311,28 +315,29 @@ impl<'a> Collapser<'a> {
     /// Moves `from` onto `onto`, with the lists of the scratch memory.
     fn collapse(&mut self, from: u32, onto: u32) {
         let step = self.progression.left.len() as u32 - 1;
-        for &(triangle, corners, shared) in &self.room.around {
+        for &(triangle, corners, shared) in &self.scratch.around {
             let place = &mut self.surface.triangles[triangle as usize];
             if shared {
                 *place = None;
                 self.left -= 1;
                 self.progression.gone_after[triangle as usize] = step + 1;
             } else {
-                let moved = |corner: u32| self.room.moves.iter().find(|one| one.0 == corner).map(|one| one.1);
+                let moved =
+                    |corner: u32| self.scratch.moves.iter().find(|one| one.0 == corner).map(|one| one.1);
                 *place = Some(corners.map(|corner| moved(corner).unwrap_or(corner)));
             }
         }
-        let moves = self.room.moves.iter().map(|&(vertex, onto)| Move { step, vertex, onto });
+        let moves = self.scratch.moves.iter().map(|&(vertex, onto)| Move { step, vertex, onto });
         self.progression.moves.extend(moves);
         self.progression.left.push(self.left as u32);
-        self.surface.hand_over(from, onto);
+        self.surface.move_triangles(from, onto);
         for quadrics in &mut self.quadrics {
             let gone = quadrics[from as usize];
             quadrics[onto as usize].add(&gone);
         }
         self.versions[from as usize] += 1;
         self.versions[onto as usize] += 1;
-        let mut next = std::mem::take(&mut self.room.next);
+        let mut next = std::mem::take(&mut self.scratch.next);
         next.clear();
         for (_, corners) in self.surface.around(onto) {
             next.extend(self.surface.places(corners));
@@ -343,7 +348,7 @@ impl<'a> Collapser<'a> {
             self.push(place, onto);
             self.push(onto, place);
         }
-        self.room.next = next;
+        self.scratch.next = next;
     }
 }
 

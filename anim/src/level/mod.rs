@@ -34,7 +34,7 @@ mod error;
 mod progression;
 mod surface;
 
-pub use chain::{Level, LevelSettings, levels};
+pub use chain::{LevelSettings, Lod, levels};
 pub use choice::{Screen, choose_level, error_in_pixels, radius_in_pixels};
 pub use collapse::{SimplifySettings, simplify};
 pub use error::skinned_error;

@@ -44,7 +44,7 @@ impl Progression {
         &self,
         primitive: &Primitive,
         steps: usize,
-        room: &mut Vec<u32>,
+        scratch: &mut Vec<u32>,
         out: &mut Vec<u32>,
     ) {
         out.clear();
@@ -52,21 +52,21 @@ impl Progression {
             out.extend_from_slice(&primitive.indices);
             return;
         }
-        room.clear();
-        room.extend(0..primitive.vertices.len() as u32);
+        scratch.clear();
+        scratch.extend(0..primitive.vertices.len() as u32);
         let done = self.moves.partition_point(|one| (one.step as usize) < steps);
         // A target moves later, if at all: from the last move to the first, each target is final when it is read.
         for one in self.moves[..done].iter().rev() {
-            let onto = room.get(one.onto as usize).copied();
-            if let (Some(onto), Some(place)) = (onto, room.get_mut(one.vertex as usize)) {
+            let onto = scratch.get(one.onto as usize).copied();
+            if let (Some(onto), Some(place)) = (onto, scratch.get_mut(one.vertex as usize)) {
                 *place = onto;
             }
         }
         for (triangle, corners) in primitive.indices.chunks_exact(3).enumerate() {
             let gone = self.gone_after.get(triangle).is_some_and(|&after| after as usize <= steps);
-            let there = corners.iter().all(|&corner| (corner as usize) < room.len());
+            let there = corners.iter().all(|&corner| (corner as usize) < scratch.len());
             if there && !gone {
-                out.extend(corners.iter().map(|&corner| room[corner as usize]));
+                out.extend(corners.iter().map(|&corner| scratch[corner as usize]));
             }
         }
     }

@@ -119,7 +119,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Moves the remaining triangles of `from` to `onto`.
-    pub(super) fn hand_over(&mut self, from: u32, onto: u32) {
+    pub(super) fn move_triangles(&mut self, from: u32, onto: u32) {
         let mut moved = std::mem::take(&mut self.around[from as usize]);
         moved.append(&mut self.around[onto as usize]);
         moved.retain(|&triangle| self.triangles[triangle as usize].is_some());

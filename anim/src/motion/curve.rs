@@ -7,6 +7,7 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 
 /// Movement of a figure through the scene, relative to its position at the start of the take.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[doc(alias = "root motion")]
 pub struct RootMotion {
     /// The bone that it was extracted from, and is restored to.
     pub bone: BoneIndex,

@@ -1,8 +1,8 @@
 //! Extraction of root motion from a take.
 
-use super::frame::{Frame, ancestors};
 use super::keys::{Refine, slopes, spins, union, with_values};
-use super::restore::{Way, apply};
+use super::parent_space::{ParentSpace, ancestors};
+use super::restore::{MotionDirection, apply};
 use super::{MotionError, RootMotion, RootMotionOptions};
 use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use crate::sample::{Value, rest_pose, sample_track};
@@ -16,7 +16,8 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 /// At the key times, everything that the options extract is removed; between them too, if only translations are
 /// extracted and the ancestors do not move. With yaw, position and direction between two keys differ from the take by
 /// the difference of an interpolated product from a product of interpolated values: of second order in the angle
-/// between the keys. Applying [`put_back`](super::put_back()) to both results gives the original take at all times.
+/// between the keys. Applying [`restore`](super::restore()) to both results gives the original take at all times.
+#[doc(alias = "root motion")]
 pub fn extract(
     take: &Take,
     skeleton: &Skeleton,
@@ -26,7 +27,7 @@ pub fn extract(
     let rest = rest_pose(skeleton.bones.get(bone as usize).ok_or(MotionError::NoSuchBone { bone })?);
     let track = refined(take, skeleton, bone, rest, options);
     let motion = measure(take, skeleton, &track, rest, options)?;
-    let track = apply(take, skeleton, &track, &motion, Way::Out)?;
+    let track = apply(take, skeleton, &track, &motion, MotionDirection::Extract)?;
     Ok((motion, with_track(take, track)))
 }
 
@@ -103,13 +104,13 @@ fn measure(
     options: RootMotionOptions,
 ) -> Result<RootMotion, MotionError> {
     let (bone, up) = (track.bone, options.up.to_vec3().as_dvec3());
-    let frame = Frame::at(take, skeleton, bone, take.start)?;
+    let space = ParentSpace::at(take, skeleton, bone, take.start)?;
     let start = sample_track(track, &skeleton.bones[bone as usize], take.start);
-    let place = frame.place(start.translation.as_dvec3());
+    let origin = space.point_to_root(start.translation.as_dvec3());
     let mut motion = RootMotion {
         bone,
         up: options.up,
-        pivot: (place - up * place.dot(up)).as_vec3(),
+        pivot: (origin - up * origin.dot(up)).as_vec3(),
         start: take.start,
         length: take.length,
         ..RootMotion::default()
@@ -117,17 +118,21 @@ fn measure(
     if options.translation.contains(&true) {
         let chosen = DVec3::from_array(options.translation.map(|axis| f64::from(u8::from(axis))));
         motion.translation = map(&track.translation, rest.translation, |time, value, rates| {
-            let frame = Frame::at(take, skeleton, bone, time)?;
-            let moved = chosen * (frame.place(value.as_dvec3()) - place);
-            Ok((moved.as_vec3(), rates.map(|rate| (chosen * frame.direct(rate.as_dvec3())).as_vec3())))
+            let space = ParentSpace::at(take, skeleton, bone, time)?;
+            let moved = chosen * (space.point_to_root(value.as_dvec3()) - origin);
+            Ok((
+                moved.as_vec3(),
+                rates.map(|rate| (chosen * space.vector_to_root(rate.as_dvec3())).as_vec3()),
+            ))
         })?;
     }
     if options.yaw {
-        let back = frame.turn(start.rotation.as_dquat()).conjugate();
+        let inverse_start = space.rotation_to_root(start.rotation.as_dquat()).conjugate();
         let mut last = DQuat::IDENTITY;
         motion.rotation = map_turns(&track.rotation, rest.rotation, |time, value, rates| {
-            let frame = Frame::at(take, skeleton, bone, time)?;
-            let about = |rotation: Quat| along(frame.turn(rotation.as_dquat()) * back, up);
+            let space = ParentSpace::at(take, skeleton, bone, time)?;
+            let about =
+                |rotation: Quat| along(space.rotation_to_root(rotation.as_dquat()) * inverse_start, up);
             let raw = about(value);
             let length = raw.length();
             // Half a turn about a horizontal axis: the yaw is undefined; it keeps its last value.

@@ -17,19 +17,19 @@
 //! M(t)`; from frame to frame `W` is multiplied by [`RootMotion::delta`]. The twist of a rotation about an axis is its
 //! part about that axis: `(q·axis, w)` normalized (Dobrowolski, "Swing-twist decomposition in Clifford algebra", 2015).
 //!
-//! The formulas are applied key by key, so [`put_back`] restores the take exactly, at keys and between them. The
+//! The formulas are applied key by key, so [`restore`] restores the take exactly, at keys and between them. The
 //! motion's channels have their keys where the bone has its own, and its interpolation; they are plain [`Channel`]s and
 //! may be edited before they are restored.
 
 mod curve;
 mod extract;
-mod frame;
 mod keys;
+mod parent_space;
 mod restore;
 
 pub use curve::RootMotion;
 pub use extract::{extract, in_place};
-pub use restore::put_back;
+pub use restore::restore;
 
 use crate::data::BoneIndex;
 #[cfg(doc)]
@@ -55,7 +55,7 @@ impl Axis {
     }
 }
 
-/// Which parts of the movement are extracted.
+/// The parts of the movement to extract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RootMotionOptions {
     /// The axis that points up.
@@ -83,7 +83,9 @@ pub enum MotionError {
         bone: BoneIndex,
     },
     /// Above the bone, at some key, a scale is zero: to-root space cannot be transformed to that of the parent.
-    #[error("the space of the parent of bone {bone} is flat at {milliseconds} ms: a scale above it is zero")]
+    #[error(
+        "the motion of bone {bone} cannot be computed at {milliseconds} ms: a scale of one of its ancestors is zero"
+    )]
     Flat {
         /// The bone of the motion.
         bone: BoneIndex,

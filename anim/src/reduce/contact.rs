@@ -12,7 +12,7 @@ pub(super) fn find_contacts(
     times: &[f32],
     matrices: &[Mat4],
     bones: usize,
-    millimetres_per_unit: f64,
+    millimeters_per_unit: f64,
     search: &ContactSearch,
 ) -> Vec<Contact> {
     let mut contacts = Vec::new();
@@ -29,7 +29,7 @@ pub(super) fn find_contacts(
                 break;
             }
             let seconds = f64::from(times[later]) - f64::from(times[frame]);
-            let speed = origin(later).distance(origin(frame)) * millimetres_per_unit / seconds;
+            let speed = origin(later).distance(origin(frame)) * millimeters_per_unit / seconds;
             if speed < f64::from(search.speed) {
                 start = Some((start.map_or(frame, |(from, _)| from), later));
             } else if let Some(run) = start.take() {

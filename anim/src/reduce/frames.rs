@@ -12,7 +12,7 @@ use glam::Mat4;
 pub const SAMPLES: usize = 8 << 20;
 
 /// Poses and matrices of every bone of the original on every frame.
-pub(super) struct Source {
+pub(super) struct SampledTake {
     /// Seconds, ascending.
     pub(super) times: Vec<f32>,
     /// Relative to the parents; at position `frame * bones + bone`.
@@ -25,7 +25,7 @@ pub(super) struct Source {
     pub(super) contacts: Vec<Contact>,
 }
 
-impl Source {
+impl SampledTake {
     pub(super) fn new(
         take: &Take,
         skeleton: &Skeleton,
@@ -44,7 +44,7 @@ impl Source {
         let mut contacts = settings.contacts.given.clone();
         contacts.retain(|contact| (contact.bone as usize) < bones);
         if let Some(search) = &settings.contacts.search {
-            let unit = Lengths::of(settings).millimetres_per_unit;
+            let unit = Lengths::of(settings).millimeters_per_unit;
             contacts.extend(find_contacts(&times, &matrices, bones, unit, search));
         }
         let mut in_contact = vec![false; samples];

@@ -33,19 +33,19 @@ pub struct Measurement {
 impl Measurement {
     /// Returns whether every bone is within its tolerance on every frame.
     pub fn holds(&self) -> bool {
-        self.tightest.is_none_or(|tightest| tightest.millimetres <= tightest.tolerance)
+        self.tightest.is_none_or(|tightest| tightest.millimeters <= tightest.tolerance)
     }
 
     pub(super) fn note(&mut self, found: Deviation) {
-        if self.largest.is_none_or(|largest| found.millimetres > largest.millimetres) {
+        if self.largest.is_none_or(|largest| found.millimeters > largest.millimeters) {
             self.largest = Some(found);
         }
         // Shares are compared without a division, because a tolerance may be zero.
         let tighter = |than: Deviation| match (found.holds(), than.holds()) {
-            (true, true) => found.millimetres * than.tolerance > than.millimetres * found.tolerance,
+            (true, true) => found.millimeters * than.tolerance > than.millimeters * found.tolerance,
             (true, false) => false,
             (false, true) => true,
-            (false, false) => found.millimetres - found.tolerance > than.millimetres - than.tolerance,
+            (false, false) => found.millimeters - found.tolerance > than.millimeters - than.tolerance,
         };
         if self.tightest.is_none_or(tighter) {
             self.tightest = Some(found);
@@ -63,12 +63,12 @@ pub fn measure(
     skeleton: &Skeleton,
     settings: &ReduceSettings,
 ) -> Result<Measurement, ReduceError> {
-    let source = frames::Source::new(original, skeleton, settings)?;
+    let source = frames::SampledTake::new(original, skeleton, settings)?;
     Ok(measure_against(&source, reduced, skeleton, settings))
 }
 
 pub(super) fn measure_against(
-    source: &frames::Source,
+    source: &frames::SampledTake,
     reduced: &Take,
     skeleton: &Skeleton,
     settings: &ReduceSettings,
@@ -87,8 +87,8 @@ pub(super) fn measure_against(
             found.note(Deviation {
                 bone: bone as u32,
                 time,
-                millimetres: error * lengths.millimetres_per_unit,
-                tolerance: source.tolerance(at, lengths) * lengths.millimetres_per_unit,
+                millimeters: error * lengths.millimeters_per_unit,
+                tolerance: source.tolerance(at, lengths) * lengths.millimeters_per_unit,
             });
         }
     }
@@ -128,13 +128,13 @@ pub(super) fn deviation_above(a: Mat4, b: Mat4, shell: f64, known: f64) -> f64 {
 /// its cubic (O. K. Smith, "Eigenvalues of a symmetric 3 × 3 matrix", Communications of the ACM 4, 1961).
 fn largest_eigenvalue(matrix: DMat3) -> f64 {
     let mean = (matrix.x_axis.x + matrix.y_axis.y + matrix.z_axis.z) / 3.0;
-    let centred = matrix - DMat3::from_diagonal(DVec3::splat(mean));
-    let squares = centred.to_cols_array().into_iter().map(|number| number * number).sum::<f64>();
+    let centered = matrix - DMat3::from_diagonal(DVec3::splat(mean));
+    let squares = centered.to_cols_array().into_iter().map(|number| number * number).sum::<f64>();
     let spread = (squares / 6.0).sqrt();
     if spread <= 0.0 {
         return mean.max(0.0);
     }
-    let third = ((centred * (1.0 / spread)).determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0;
+    let third = ((centered * (1.0 / spread)).determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0;
     mean + 2.0 * spread * third.cos()
 }
 

@@ -55,11 +55,11 @@
 //! `Run` was thinned out before it was saved. For one channel by itself the result is the minimum number of keys: over
 //! 60 random curves of 60 keys, 2230 keys in all, the same number as an exhaustive search finds.
 
-mod column;
+mod channel_keys;
 mod contact;
 mod frames;
-mod layout;
 mod measure;
+mod minimize;
 mod rebuild;
 mod search;
 mod settings;
@@ -94,14 +94,14 @@ pub struct Deviation {
     /// Time in seconds.
     pub time: f32,
     /// Distance in millimeters of the worst point of the bone's shell from its position in the original.
-    pub millimetres: f64,
+    pub millimeters: f64,
     /// Allowed distance there in millimeters: less in a contact.
     pub tolerance: f64,
 }
 
 impl Deviation {
     fn holds(&self) -> bool {
-        self.millimetres <= self.tolerance
+        self.millimeters <= self.tolerance
     }
 }
 
@@ -110,7 +110,7 @@ impl Deviation {
 pub enum ReduceError {
     /// The take is too large to process in memory at once.
     #[error(
-        "{frames} frames of {bones} bones are more than {limit} poses; reduce a part of the take, or fewer frames a second"
+        "{frames} frames of {bones} bones are more than {limit} poses; reduce a part of the take, or use fewer frames per second"
     )]
     TooLarge {
         /// Number of key times, and frames between them.
@@ -152,11 +152,12 @@ pub enum ReduceError {
 /// assert!(reduced.measurement.holds());
 /// # Ok::<(), dragonfly_anim::reduce::ReduceError>(())
 /// ```
+#[doc(alias = "key reduction")]
 pub fn reduce(take: &Take, skeleton: &Skeleton, settings: &ReduceSettings) -> Result<Reduced, ReduceError> {
-    let source = frames::Source::new(take, skeleton, settings)?;
-    let mut search = search::Search::new(take, skeleton, &source, Lengths::of(settings));
+    let source = frames::SampledTake::new(take, skeleton, settings)?;
+    let mut search = search::KeySearch::new(take, skeleton, &source, Lengths::of(settings));
     search.run();
-    layout::lay_out(&mut search);
+    minimize::minimize_keys(&mut search);
     let mut reduced = rebuild::rebuild(take, &search.columns);
     let measurement = restore_until_it_holds(take, &mut reduced, skeleton, |reduced| {
         measure::measure_against(&source, reduced, skeleton, settings)
@@ -233,12 +234,12 @@ mod tests {
             contacts: Contacts { search: None, ..Contacts::default() },
             ..ReduceSettings::default()
         };
-        let mut mended = bad.clone();
+        let mut restored = bad.clone();
         let look = |reduced: &Take| measure(&take, reduced, &skeleton, &settings).unwrap();
         assert!(!look(&bad).holds());
-        let found = restore_until_it_holds(&take, &mut mended, &skeleton, look);
+        let found = restore_until_it_holds(&take, &mut restored, &skeleton, look);
         assert!(found.holds());
-        assert_eq!(mended.tracks[..2], take.tracks[..2]);
-        assert_eq!(mended.tracks[2], bad.tracks[2], "half a millimetre was allowed");
+        assert_eq!(restored.tracks[..2], take.tracks[..2]);
+        assert_eq!(restored.tracks[2], bad.tracks[2], "half a millimeter was allowed");
     }
 }

@@ -1,19 +1,19 @@
 //! Building an ordinary take from the remaining keys.
 
-use super::column::{Column, Property};
+use super::channel_keys::{ChannelKeys, ChannelKind};
 use crate::data::{Channel, Interpolation, Take};
 use crate::sample::Value;
 use glam::Quat;
 
 /// Returns `take` with the keys that remain in `columns`; everything else is unchanged.
-pub(super) fn rebuild(take: &Take, columns: &[Column]) -> Take {
+pub(super) fn rebuild(take: &Take, columns: &[ChannelKeys]) -> Take {
     let mut reduced = take.clone();
     for column in columns {
         let track = &mut reduced.tracks[column.bone as usize];
         match column.property {
-            Property::Translation => track.translation = shorter(&track.translation, column),
-            Property::Scale => track.scale = shorter(&track.scale, column),
-            Property::Rotation => {
+            ChannelKind::Translation => track.translation = shorter(&track.translation, column),
+            ChannelKind::Scale => track.scale = shorter(&track.scale, column),
+            ChannelKind::Rotation => {
                 let rotation = shorter(&track.rotation, column);
                 track.rotation =
                     if rotation.len() < track.rotation.len() { one_hemisphere(rotation) } else { rotation };
@@ -23,7 +23,7 @@ pub(super) fn rebuild(take: &Take, columns: &[Column]) -> Take {
     reduced
 }
 
-fn shorter<T: Value>(channel: &Channel<T>, column: &Column) -> Channel<T> {
+fn shorter<T: Value>(channel: &Channel<T>, column: &ChannelKeys) -> Channel<T> {
     if column.count == channel.len() {
         return channel.clone();
     }

@@ -13,7 +13,7 @@ pub struct ReduceSettings {
     /// of a bone does not move its own origin, but the points of its shell.
     pub shell: f32,
     /// Millimeters in one unit of length of the model: 1000 for meters, which glTF requires, 10 for centimeters.
-    pub millimetres_per_unit: f32,
+    pub millimeters_per_unit: f32,
     /// Number of frames per second that are measured in addition to all key times. 0: only the key times.
     pub frames_per_second: f32,
     /// Bones that are in contact with the ground or with an object.
@@ -26,7 +26,7 @@ impl Default for ReduceSettings {
         Self {
             tolerance: 1.0,
             shell: 30.0,
-            millimetres_per_unit: 1000.0,
+            millimeters_per_unit: 1000.0,
             frames_per_second: 60.0,
             contacts: Contacts::default(),
         }
@@ -87,13 +87,13 @@ pub(super) struct Lengths {
     pub(super) tolerance: f64,
     pub(super) contact: f64,
     pub(super) shell: f64,
-    pub(super) millimetres_per_unit: f64,
+    pub(super) millimeters_per_unit: f64,
 }
 
 impl Lengths {
     pub(super) fn of(settings: &ReduceSettings) -> Self {
         let usable = |number: f32| if number.is_finite() { f64::from(number.max(0.0)) } else { 0.0 };
-        let unit = usable(settings.millimetres_per_unit);
+        let unit = usable(settings.millimeters_per_unit);
         // Without a unit no length is known, so no error is allowed.
         let length = |number: f32| if unit > 0.0 { usable(number) / unit } else { 0.0 };
         let tolerance = length(settings.tolerance);
@@ -101,7 +101,7 @@ impl Lengths {
             tolerance,
             contact: length(settings.contacts.tolerance).min(tolerance),
             shell: length(settings.shell),
-            millimetres_per_unit: unit,
+            millimeters_per_unit: unit,
         }
     }
 }

@@ -29,7 +29,7 @@ pub enum BindError {
 
 /// Pairs of bones of two skeletons, and the unbound rest.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Binding {
+pub struct SkeletonBinding {
     /// For each bone of the target, in bone order: the bone of the source that moves it.
     pub source_of: Vec<Option<BoneIndex>>,
     /// Bones of the source that move nothing, ascending.
@@ -38,7 +38,7 @@ pub struct Binding {
     pub unbound_target: Vec<BoneIndex>,
 }
 
-impl Binding {
+impl SkeletonBinding {
     /// Binds bones of the same name; then, of those left, bones whose [`normalized_name`] is the same.
     ///
     /// If several bones of a skeleton have the same name, the first is bound to the first of that name, the second to
@@ -119,7 +119,7 @@ fn by_normalized(skeleton: &Skeleton, choose: impl Fn(usize) -> bool) -> HashMap
 ///
 /// Bones that are not bound get empty tracks. Morph weights belong to the source's meshes and are not copied. Start and
 /// length stay. Columns are shared, not copied.
-pub fn rebind(take: &Take, binding: &Binding) -> Take {
+pub fn rebind(take: &Take, binding: &SkeletonBinding) -> Take {
     let track = |(index, source): (usize, &Option<BoneIndex>)| {
         let track = source.and_then(|source| take.tracks.get(source as usize)).cloned().unwrap_or_default();
         Track { bone: index as BoneIndex, ..track }

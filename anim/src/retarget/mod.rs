@@ -60,15 +60,15 @@
 //! sampled at the key times of all contributing channels, and between where bones turn or channels are curved.
 
 mod binding;
-mod moments;
 mod names;
-mod place;
+mod relative_position;
 mod rest;
 mod rotation;
+mod sample_times;
 mod transfer;
 mod translation;
 
-pub use binding::{BindError, Binding, rebind};
+pub use binding::{BindError, SkeletonBinding, rebind};
 pub use names::normalized_name;
 pub use rest::{SAME_SHAPE, height_ratio, leg_ratio};
 pub use transfer::{RetargetOptions, retarget};

@@ -34,33 +34,33 @@ pub fn normalized_name(name: &str) -> String {
 
 /// Class of a character for splitting.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum CharClass {
     Capital,
     Small,
     Digit,
     Separator,
 }
 
-fn kind(letter: char) -> Kind {
+fn char_class(letter: char) -> CharClass {
     if letter.is_numeric() {
-        Kind::Digit
+        CharClass::Digit
     } else if letter.is_uppercase() {
-        Kind::Capital
+        CharClass::Capital
     } else if letter.is_alphabetic() {
-        Kind::Small
+        CharClass::Small
     } else {
-        Kind::Separator
+        CharClass::Separator
     }
 }
 
 /// Returns the lower-case words and numbers.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
-    let mut last = Kind::Separator;
+    let mut last = CharClass::Separator;
     for letter in name.chars() {
-        let now = kind(letter);
-        if now != Kind::Separator {
-            let goes_on = last == now || (last == Kind::Capital && now == Kind::Small);
+        let now = char_class(letter);
+        if now != CharClass::Separator {
+            let goes_on = last == now || (last == CharClass::Capital && now == CharClass::Small);
             if !goes_on {
                 words.push(String::new());
             }

@@ -1,13 +1,13 @@
 //! Rotations of one bone: `q_t = L · (G_sa⁻¹ G_s) · E`.
 
-use super::moments::Moments;
 use super::rest::parent_of;
+use super::sample_times::SampleTimes;
 use crate::data::{Channel, Interpolation, Skeleton, Take};
 use crate::sample::{Value, rest_pose, sample_channel};
 use glam::{DQuat, Quat};
 
 /// The bones that move a bone of the target, and the two factors that do not depend on time.
-pub(super) struct Turn {
+pub(super) struct BoneRotation {
     /// `a` in the source: the bone that moves the nearest bound ancestor; `None` for a topmost bone.
     pub(super) above: Option<usize>,
     /// The source's bone.
@@ -16,7 +16,7 @@ pub(super) struct Turn {
     pub(super) right: DQuat,
 }
 
-impl Turn {
+impl BoneRotation {
     /// Returns the channel of the target's bone, whose rest rotation is `rest`.
     pub(super) fn channel(&self, take: &Take, source: &Skeleton, rest: DQuat) -> Channel<Quat> {
         let down = path(source, self.bone, self.above);
@@ -71,10 +71,10 @@ impl Turn {
     /// Returns the channel when several channels move: their product at the key times of all of them, and between,
     /// because the product of two rotations at constant speed has no constant speed.
     fn sampled(&self, take: &Take, source: &Skeleton, down: &[usize], up: &[usize]) -> Channel<Quat> {
-        let mut moments = Moments::default();
+        let mut sample_times = SampleTimes::default();
         let tracks = down.iter().chain(up).filter_map(|&bone| take.tracks.get(bone));
-        tracks.for_each(|track| moments.add(&track.rotation));
-        let (times, interpolation) = moments.all(true);
+        tracks.for_each(|track| sample_times.add(&track.rotation));
+        let (times, interpolation) = sample_times.all(true);
         let mut last = DQuat::IDENTITY;
         let values: Vec<Quat> = times
             .iter()

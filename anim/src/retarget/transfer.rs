@@ -1,10 +1,10 @@
 //! Transfer of a take to another skeleton.
 
-use super::Binding;
+use super::SkeletonBinding;
 use super::names::normalized_name;
-use super::place::Place;
-use super::rest::{Rest, alignments, bound_above, height_ratio, parent_of, source_of};
-use super::rotation::Turn;
+use super::relative_position::RelativePosition;
+use super::rest::{RestPose, alignments, bound_above, height_ratio, parent_of, source_of};
+use super::rotation::BoneRotation;
 use super::translation::{carried, scaled};
 use crate::data::{BoneIndex, Skeleton, Take, Track};
 use crate::sample::rest_pose;
@@ -46,16 +46,16 @@ pub fn retarget(
     take: &Take,
     source: &Skeleton,
     target: &Skeleton,
-    binding: &Binding,
+    binding: &SkeletonBinding,
     options: &RetargetOptions,
 ) -> Take {
-    let (source_rest, target_rest) = (Rest::of(source), Rest::of(target));
+    let (source_rest, target_rest) = (RestPose::of(source), RestPose::of(target));
     let aligned = alignments(binding, (source, &source_rest), (target, &target_rest));
     let trunk = options.trunk.clone().unwrap_or_else(|| trunk(binding, source, target));
     let hips = trunk.iter().copied().max().unwrap_or(0);
     let given = options.ratio.filter(|ratio| ratio.is_finite() && *ratio > 0.0);
     let ratio = given.unwrap_or_else(|| height_ratio(source, target, binding, hips, options.up));
-    let pair = Pair { take, source, target, binding, source_rest, target_rest, aligned };
+    let pair = SkeletonPair { take, source, target, binding, source_rest, target_rest, aligned };
     let track = |bone: usize| {
         let mut track = Track { bone: bone as BoneIndex, ..Track::default() };
         if let Some(from) = source_of(binding, source, bone) {
@@ -64,7 +64,7 @@ pub fn retarget(
             let is_trunk = trunk.contains(&(bone as BoneIndex)) || (options.trunk.is_none() && is_topmost());
             if is_trunk || options.stretch {
                 let size = if is_trunk { ratio } else { pair.length_ratio(bone, from).unwrap_or(ratio) };
-                pair.place(bone, from, size, &mut track);
+                pair.set_translation(bone, from, size, &mut track);
             }
             if options.stretch {
                 pair.stretch(bone, from, &mut track);
@@ -82,19 +82,19 @@ pub fn retarget(
 }
 
 /// Source and target, and the differences of their rest poses.
-struct Pair<'a> {
+struct SkeletonPair<'a> {
     take: &'a Take,
     source: &'a Skeleton,
     target: &'a Skeleton,
-    binding: &'a Binding,
-    source_rest: Rest,
-    target_rest: Rest,
+    binding: &'a SkeletonBinding,
+    source_rest: RestPose,
+    target_rest: RestPose,
     aligned: Vec<DQuat>,
 }
 
-impl Pair<'_> {
+impl SkeletonPair<'_> {
     /// Returns the factors of the formula for `bone`, which `from` moves.
-    fn turn(&self, bone: usize, from: usize) -> Turn {
+    fn turn(&self, bone: usize, from: usize) -> BoneRotation {
         let above = bound_above(self.binding, self.source, self.target, bone);
         let from_above = above.and_then(|above| source_of(self.binding, self.source, above));
         // K: the rest rotations between, top first.
@@ -112,7 +112,7 @@ impl Pair<'_> {
             _ => DQuat::IDENTITY,
         };
         let right = self.source_rest.turned[from].conjugate() * self.aligned[bone];
-        Turn {
+        BoneRotation {
             above: from_above,
             bone: from,
             left: between.conjugate() * base,
@@ -121,8 +121,8 @@ impl Pair<'_> {
     }
 
     /// Fills in the track's translation.
-    fn place(&self, bone: usize, from: usize, size: f32, track: &mut Track) {
-        let linear = |rest: &Rest, bone: Option<usize>| {
+    fn set_translation(&self, bone: usize, from: usize, size: f32, track: &mut Track) {
+        let linear = |rest: &RestPose, bone: Option<usize>| {
             bone.map_or(DMat3::IDENTITY, |bone| DMat3::from_mat4(rest.to_root[bone].as_dmat4()))
         };
         let parent = parent_of(self.target, bone);
@@ -132,8 +132,8 @@ impl Pair<'_> {
         let new = rest_pose(&self.target.bones[bone]).translation;
         let above = bound_above(self.binding, self.source, self.target, bone);
         let above = above.and_then(|above| source_of(self.binding, self.source, above));
-        if let Some(place) = Place::of(self.take, self.source, from, above) {
-            track.translation = place.carried(new, map(linear(&self.source_rest, above)));
+        if let Some(position) = RelativePosition::of(self.take, self.source, from, above) {
+            track.translation = position.carried(new, map(linear(&self.source_rest, above)));
         } else if let Some(source_track) = self.take.tracks.get(from) {
             let own = rest_pose(&self.source.bones[from]).translation;
             let outer = linear(&self.source_rest, parent_of(self.source, from));
@@ -151,9 +151,9 @@ impl Pair<'_> {
 
     /// Returns the length of the target's bone over that of the source's, to-root space; `None` where one has none.
     fn length_ratio(&self, bone: usize, from: usize) -> Option<f32> {
-        let length = |skeleton: &Skeleton, rest: &Rest, bone: usize| {
+        let length = |skeleton: &Skeleton, rest: &RestPose, bone: usize| {
             let parent = parent_of(skeleton, bone)?;
-            Some(rest.place(bone).distance(rest.place(parent)))
+            Some(rest.origin(bone).distance(rest.origin(parent)))
         };
         let ratio =
             length(self.target, &self.target_rest, bone)? / length(self.source, &self.source_rest, from)?;
@@ -162,7 +162,7 @@ impl Pair<'_> {
 }
 
 /// Returns the bones of the target whose translations move the figure.
-fn trunk(binding: &Binding, source: &Skeleton, target: &Skeleton) -> Vec<BoneIndex> {
+fn trunk(binding: &SkeletonBinding, source: &Skeleton, target: &Skeleton) -> Vec<BoneIndex> {
     let is_bound = |bone: usize| source_of(binding, source, bone).is_some();
     let is_hips = |bone: &usize| {
         let name = normalized_name(&target.bones[*bone].name);

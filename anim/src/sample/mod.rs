@@ -60,8 +60,9 @@ pub fn keyframe_at(track: &Track, bone: &Bone, time: f32) -> Keyframe {
 
 /// Samples the poses of all bones at `time` seconds, each relative to its parent, in bone order.
 ///
-/// Without `take`, or for a bone whose track is missing: the rest pose. Writes as many poses as the shorter of `out`
-/// and the skeleton has; allocates nothing.
+/// Without `take`, or for a bone whose track is missing: the rest pose. Writes up to the length of the shorter of `out`
+/// and the skeleton; allocates nothing.
+#[doc(alias("evaluate", "pose"))]
 pub fn sample_take(take: Option<&Take>, skeleton: &Skeleton, time: f32, out: &mut [Transform]) {
     for (index, (bone, pose)) in skeleton.bones.iter().zip(out).enumerate() {
         *pose = match take.and_then(|take| take.tracks.get(index)) {

@@ -18,7 +18,7 @@ pub trait Value: Copy {
     /// Returns whether every component is finite.
     fn is_finite(self) -> bool;
 
-    /// Returns the value bit for bit where it is usable, else the nearest usable one, else `fallback`.
+    /// Returns the value bit for bit where it is usable; otherwise the nearest usable one, or `fallback`.
     fn healed(self, fallback: Self) -> Self;
 }
 

@@ -8,6 +8,7 @@ use glam::{Mat4, Vec3};
 ///
 /// `morph_weights`: one per morph target; missing ones count as 0. Returns the number of positions written. Allocates
 /// nothing.
+#[doc(alias = "linear blend skinning")]
 pub fn skin_positions(
     primitive: &Primitive,
     movement: Movement<'_>,

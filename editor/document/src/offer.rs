@@ -71,7 +71,9 @@ impl Offer {
             ),
             DocumentFileState::Missing => warnings
                 .push("The file is missing. If it was moved or renamed, choose its present path.".to_owned()),
-            DocumentFileState::Unknown(reason) => warnings.push(format!("The file cannot be checked: {reason}.")),
+            DocumentFileState::Unknown(reason) => {
+                warnings.push(format!("The file cannot be checked: {reason}."))
+            }
             DocumentFileState::Same | DocumentFileState::Unsaved => {}
         }
         if let Readability::Cut(bytes) = self.found.reading {

@@ -114,7 +114,7 @@ impl Report {
             let row = Row {
                 severity: "",
                 rule: finding.rule,
-                place: finding.place.to_string(),
+                place: finding.path.to_string(),
                 text: finding.text,
             };
             report.add(deny, finding.severity, row);

@@ -13,6 +13,7 @@
 
 use super::stamp::FileStamp;
 use super::vfs::{VfsFile, retry};
+use crc::{CRC_32_ISCSI, Crc, Table};
 use serde::{Deserialize, Serialize};
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -154,9 +155,14 @@ fn record_checksum(journal: u64, number: u64, length: [u8; 4], tag: u8, bytes: &
     checksum_of(&[&journal.to_le_bytes(), &number.to_le_bytes(), &length, &[tag], bytes])
 }
 
+/// CRC-32C (Castagnoli), 16 bytes at a time.
+static CRC_32C: Crc<u32, Table<16>> = Crc::<u32, Table<16>>::new(&CRC_32_ISCSI);
+
 /// Returns the CRC-32C of all `parts`, in order.
 fn checksum_of(parts: &[&[u8]]) -> u32 {
-    parts.iter().fold(0, |sum, part| crc32c::crc32c_append(sum, part))
+    let mut digest = CRC_32C.digest();
+    parts.iter().for_each(|part| digest.update(part));
+    digest.finalize()
 }
 
 /// Result of reading a journal.

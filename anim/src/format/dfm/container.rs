@@ -5,7 +5,7 @@ use super::part::{PARTS, Part};
 use super::record::{Fields, Record};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, invalid};
-use crate::checksum::Checksum;
+use crate::checksum::CRC_32;
 use crate::format::guard::Guard;
 use crate::format::{ImportError, Place};
 use crate::limits::CANCEL_EVERY;
@@ -105,7 +105,7 @@ fn ending(bytes: &[u8]) -> Result<(usize, bool), ImportError> {
         let reason = format!("no directory begins at byte {directory_at}, as is written here");
         return Err(invalid(at, DFM_ENDING, reason));
     }
-    let computed = Checksum::START.with(&bytes[directory_at..at + 8]).value();
+    let computed = CRC_32.checksum(&bytes[directory_at..at + 8]);
     if computed != checksum {
         return Err(altered(directory_at, "checksums", computed, checksum));
     }
@@ -149,14 +149,15 @@ fn extent<'a>(
         return Err(invalid(entry_at, DFM_PARTS, reason));
     }
     let part = &bytes[at..at + size];
-    let mut computed = Checksum::START;
+    let mut hasher = CRC_32.digest();
     for piece in part.chunks(CANCEL_EVERY) {
         guard.work(piece.len())?;
-        computed = computed.with(piece);
+        hasher.update(piece);
     }
     let name = PARTS.iter().find(|layout| layout.tag == tag).map_or("unknown elements", |layout| layout.name);
-    if computed.value() != checksum {
-        return Err(altered(at, name, computed.value(), checksum));
+    let computed = hasher.finalize();
+    if computed != checksum {
+        return Err(altered(at, name, computed, checksum));
     }
     Ok(part)
 }

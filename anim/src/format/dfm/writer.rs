@@ -4,7 +4,7 @@ use super::part::{PARTS, Part};
 use super::record::{Put, Record};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, WriteError};
-use crate::checksum::Checksum;
+use crate::checksum::CRC_32;
 
 /// A file under way.
 pub(super) struct Writer {
@@ -68,7 +68,7 @@ impl Writer {
             directory.extend_from_slice(&layout.tag);
             directory.u32(at as u32);
             directory.u32((file.len() - at) as u32);
-            directory.u32(Checksum::START.with(&file[at..]).value());
+            directory.u32(CRC_32.checksum(&file[at..]));
         }
         ending(&mut file, &directory);
         debug_assert_eq!(file.len() as u64, bytes);
@@ -104,7 +104,7 @@ fn ending(file: &mut Vec<u8>, entries: &[u8]) {
     file.u32(at as u32);
     file.extend_from_slice(&VERSION.0.to_le_bytes());
     file.extend_from_slice(&VERSION.1.to_le_bytes());
-    let checksum = Checksum::START.with(&file[at..]).value();
+    let checksum = CRC_32.checksum(&file[at..]);
     file.u32(checksum);
     file.extend_from_slice(&ENDING_MAGIC);
 }

@@ -8,13 +8,13 @@ use glam::{DMat3, DMat4, DQuat, DVec3};
 
 /// `P`, its inverse, and its rotation `R`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(super) struct ParentSpace {
     to_root: DMat4,
     from_root: DMat4,
     rotation: DQuat,
 }
 
-impl Frame {
+impl ParentSpace {
     /// Computes the space of the parent of `bone` at `time` seconds of `take`.
     pub(super) fn at(
         take: &Take,
@@ -37,33 +37,33 @@ impl Frame {
     }
 
     /// Converts a position relative to the parent to to-root space.
-    pub(super) fn place(&self, translation: DVec3) -> DVec3 {
+    pub(super) fn point_to_root(&self, translation: DVec3) -> DVec3 {
         self.to_root.transform_point3(translation)
     }
 
     /// Converts a position in to-root space to one relative to the parent.
-    pub(super) fn unplace(&self, place: DVec3) -> DVec3 {
+    pub(super) fn point_from_root(&self, place: DVec3) -> DVec3 {
         self.from_root.transform_point3(place)
     }
 
     /// Converts a velocity, or a difference of two positions, to to-root space.
-    pub(super) fn direct(&self, vector: DVec3) -> DVec3 {
+    pub(super) fn vector_to_root(&self, vector: DVec3) -> DVec3 {
         self.to_root.transform_vector3(vector)
     }
 
     /// Converts a velocity, or a difference of two positions, to the parent's space.
-    pub(super) fn undirect(&self, vector: DVec3) -> DVec3 {
+    pub(super) fn vector_from_root(&self, vector: DVec3) -> DVec3 {
         self.from_root.transform_vector3(vector)
     }
 
     /// Returns `R⁻¹ Y R`: a rotation of to-root space as one of the parent's space. Any quaternion, the length is kept.
-    pub(super) fn inward(&self, rotation: DQuat) -> DQuat {
+    pub(super) fn rotation_from_root(&self, rotation: DQuat) -> DQuat {
         let turned = self.rotation.conjugate() * rotation.xyz();
         DQuat::from_xyzw(turned.x, turned.y, turned.z, rotation.w)
     }
 
     /// Returns `R q`: a rotation relative to the parent in to-root space.
-    pub(super) fn turn(&self, rotation: DQuat) -> DQuat {
+    pub(super) fn rotation_to_root(&self, rotation: DQuat) -> DQuat {
         self.rotation * rotation
     }
 }

@@ -1,73 +1,73 @@
-//! Which tracks are decoded side by side: eight lanes a group.
+//! The arrangement of tracks in groups of eight lanes that are decoded together.
 //!
-//! Mostly a group is a block of the pose: eight neighbouring bones, of which those that move have a track. Where only
-//! few bones of several blocks move, their tracks share a group, and what it results in is put in place one by one.
-//! Writing and reading arrange alike, so nothing of it is stored: what is decided here is part of the format.
+//! Usually a group is a block of the pose: eight neighboring bones, of which those that move have a track. Where only
+//! few bones of several blocks move, their tracks share a group, and its results are scattered one by one. Writing and
+//! reading use the same arrangement, so none of it is stored: this function is part of the format.
 
 use super::stored::{PACKED, PARTS};
 use crate::fast::simd::LANES;
 
-/// What decoding a group costs, and what putting one of its lanes in its place costs on top: of rotations, and of
-/// vectors. In instructions, roughly.
+/// Cost of decoding a group, and additional cost of scattering one of its lanes: of rotations, and of vectors. In
+/// instructions, roughly.
 const COSTS: [(usize, usize); 2] = [(138, 15), (85, 12)];
 
-/// Tracks that are decoded side by side.
+/// Tracks that are decoded together.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Group {
-    /// The bone of each lane; [`NONE`] where a lane has no track.
+pub(super) struct LaneGroup {
+    /// Bone of each lane; [`NONE`] where a lane has no track.
     pub(super) bones: [u32; LANES],
-    /// The block of the pose whose lanes these are; `None` where they are from several.
+    /// Block of the pose whose lanes these are; `None` where they are from several.
     pub(super) block: Option<u32>,
 }
 
-/// Stands for no bone.
+/// Marks a lane without a bone.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A track's place.
+/// Position of a track.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct TrackSlot {
     pub(super) part: usize,
     pub(super) group: usize,
     pub(super) lane: usize,
     pub(super) bone: usize,
 }
 
-/// The groups of rotations, translations and scales, for the kinds of parts of each bone. Those that are blocks of the
-/// pose come first.
-pub(super) fn groups(kinds: &[[u32; PARTS]]) -> [Vec<Group>; PARTS] {
+/// Returns the groups of rotations, translations and scales, from the storage of each bone's channels. Those that are
+/// blocks of the pose come first.
+pub(super) fn groups(kinds: &[[u32; PARTS]]) -> [Vec<LaneGroup>; PARTS] {
     [0, 1, 2].map(|part| {
         let moves = |bone: &usize| kinds[*bone][part] == PACKED;
         arranged((0..kinds.len()).filter(moves), COSTS[part.min(1)])
     })
 }
 
-/// Every track in the order in which tracks are stored: group after group, lane after lane.
-pub(super) fn places(groups: &[Vec<Group>; PARTS]) -> Vec<Place> {
-    let mut places = Vec::new();
+/// Returns every track in the order in which tracks are stored: group after group, lane after lane.
+pub(super) fn slots(groups: &[Vec<LaneGroup>; PARTS]) -> Vec<TrackSlot> {
+    let mut slots = Vec::new();
     for (part, groups) in groups.iter().enumerate() {
-        for (group, Group { bones, .. }) in groups.iter().enumerate() {
+        for (group, LaneGroup { bones, .. }) in groups.iter().enumerate() {
             let lanes = bones.iter().enumerate().filter(|&(_, &bone)| bone != NONE);
-            places.extend(lanes.map(|(lane, &bone)| Place { part, group, lane, bone: bone as usize }));
+            slots.extend(lanes.map(|(lane, &bone)| TrackSlot { part, group, lane, bone: bone as usize }));
         }
     }
-    places
+    slots
 }
 
-fn arranged(bones: impl Iterator<Item = usize>, (group, lane): (usize, usize)) -> Vec<Group> {
-    let mut blocks: Vec<Group> = Vec::new();
+fn arranged(bones: impl Iterator<Item = usize>, (group, lane): (usize, usize)) -> Vec<LaneGroup> {
+    let mut blocks: Vec<LaneGroup> = Vec::new();
     for bone in bones {
         let block = Some((bone / LANES) as u32);
         if blocks.last().is_none_or(|last| last.block != block) {
-            blocks.push(Group { bones: [NONE; LANES], block });
+            blocks.push(LaneGroup { bones: [NONE; LANES], block });
         }
         if let Some(last) = blocks.last_mut() {
             last.bones[bone % LANES] = bone as u32;
         }
     }
-    let count = |block: &Group| block.bones.iter().filter(|&&bone| bone != NONE).count();
+    let count = |block: &LaneGroup| block.bones.iter().filter(|&&bone| bone != NONE).count();
     let mut order: Vec<usize> = (0..blocks.len()).collect();
     order.sort_by_key(|&at| count(&blocks[at]));
-    // Of how many blocks, beginning with the emptiest, do the tracks share groups?
+    // Searches the number of blocks, beginning with the emptiest, whose tracks share groups.
     let (mut lanes, mut best, mut least) = (0, 0, blocks.len() * group);
     for (index, &at) in order.iter().enumerate() {
         lanes += count(&blocks[at]);
@@ -82,9 +82,9 @@ fn arranged(bones: impl Iterator<Item = usize>, (group, lane): (usize, usize)) -
         .filter(|&at| shares[at])
         .flat_map(|at| blocks[at].bones.into_iter().filter(|&bone| bone != NONE))
         .collect();
-    let mut groups: Vec<Group> =
+    let mut groups: Vec<LaneGroup> =
         blocks.into_iter().zip(shares).filter(|(_, shared)| !shared).map(|(block, _)| block).collect();
-    groups.extend(shared.chunks(LANES).map(|bones| Group {
+    groups.extend(shared.chunks(LANES).map(|bones| LaneGroup {
         bones: std::array::from_fn(|lane| bones.get(lane).copied().unwrap_or(NONE)),
         block: None,
     }));
@@ -118,7 +118,7 @@ mod tests {
             let share = random.unit();
             let moving: Vec<usize> = (0..70).filter(|_| random.unit() < share).collect();
             let mut bones: Vec<usize> =
-                places(&groups(&kinds(70, &moving))).iter().map(|place| place.bone).collect();
+                slots(&groups(&kinds(70, &moving))).iter().map(|place| place.bone).collect();
             bones.sort_unstable();
             assert_eq!(bones, moving);
         }

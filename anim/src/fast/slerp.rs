@@ -1,7 +1,7 @@
-//! Between two rotations, eight at once, without a sine: slerp as a straight line walked at a corrected pace.
+//! Slerp of eight rotations at once, without a sine: linear interpolation with a corrected fraction.
 //!
-//! The straight line from `a` to `b`, normalised, lies on the same arc as slerp; only its pace differs. With θ the angle
-//! between `a` and `b` as vectors, `s = 2 mix - 1` and
+//! The straight line from `a` to `b`, normalized, follows the same arc as slerp; only its speed differs. With θ the
+//! angle between `a` and `b` as vectors, `s = 2 mix - 1` and
 //!
 //! ```text
 //! s' = tan(s θ/2) / tan(θ/2)
@@ -13,19 +13,19 @@
 //! s' = s (1 + (s² - 1) (x/3 + 2/15 (1 + s²) x² + …))
 //! ```
 //!
-//! The two terms written are exact to 1e-7 up to θ = 17.8° ([`WIDEST`]), which are 35.6° of turning between two keys;
+//! The two terms written are exact to 1e-7 up to θ = 17.8° ([`WIDEST`]), which are 35.6° of rotation between two keys;
 //! wider steps get keys in between when the data is built ([`steps`]). The formula follows from the series of the
 //! tangent and of the arc sine.
 
 use super::simd::{Float8, Simd};
 use glam::Quat;
 
-/// The largest x that the series is used for.
+/// The largest x for which the series is used.
 const WIDEST: f32 = 0.024;
 
-/// How far between two keys, prepared for any number of rotations.
+/// The fraction between two keys, prepared for any number of rotations.
 #[derive(Clone, Copy)]
-pub(super) struct Way<S: Simd> {
+pub(super) struct FastSlerp<S: Simd> {
     mix: S::F8,
     rest: S::F8,
     /// s (s² - 1) / 2
@@ -34,8 +34,8 @@ pub(super) struct Way<S: Simd> {
     second: S::F8,
 }
 
-impl<S: Simd> Way<S> {
-    /// `mix` from the first key to the second, 0..=1.
+impl<S: Simd> FastSlerp<S> {
+    /// Prepares the fraction `mix` from the first key to the second, 0..=1.
     #[inline(always)]
     pub(super) fn new(mix: f32) -> Self {
         let s = 2.0 * mix - 1.0;
@@ -47,13 +47,13 @@ impl<S: Simd> Way<S> {
         }
     }
 
-    /// The straight line: `(1 - mix) a + mix b`.
+    /// Interpolates linearly: `(1 - mix) a + mix b`.
     #[inline(always)]
     pub(super) fn straight(&self, a: S::F8, b: S::F8) -> S::F8 {
         b.mul_add(self.mix, a * self.rest)
     }
 
-    /// slerp of unit quaternions in one hemisphere, not further apart than [`steps`] has made them; unit length.
+    /// Interpolates unit quaternions in one hemisphere by slerp, at most as far apart as [`steps`] allows; unit length.
     #[inline(always)]
     pub(super) fn turn(&self, a: [S::F8; 4], b: [S::F8; 4]) -> [S::F8; 4] {
         let cosine = dot::<S>(a, b);
@@ -67,7 +67,7 @@ impl<S: Simd> Way<S> {
     }
 }
 
-/// The dot product of eight pairs.
+/// Returns the dot products of eight pairs.
 #[inline(always)]
 pub(super) fn dot<S: Simd>(a: [S::F8; 4], b: [S::F8; 4]) -> S::F8 {
     let sum = a[0] * b[0];
@@ -76,15 +76,15 @@ pub(super) fn dot<S: Simd>(a: [S::F8; 4], b: [S::F8; 4]) -> S::F8 {
     a[3].mul_add(b[3], sum)
 }
 
-/// Divided by their length, which is not zero.
+/// Normalizes rotations whose length is not zero.
 #[inline(always)]
 pub(super) fn unit<S: Simd>(rotation: [S::F8; 4]) -> [S::F8; 4] {
     let shrink = S::F8::splat(1.0) / dot::<S>(rotation, rotation).sqrt();
     [rotation[0] * shrink, rotation[1] * shrink, rotation[2] * shrink, rotation[3] * shrink]
 }
 
-/// Into how many equal steps the way from `a` to `b` has to be cut for [`Way::turn`]; 1 for nearly all data, at
-/// most 6.
+/// Returns the number of equal steps into which the rotation from `a` to `b` has to be cut for [`FastSlerp::turn`]; 1
+/// for nearly all data, at most 6.
 pub(super) fn steps(a: Quat, b: Quat) -> usize {
     let x = |cosine: f32| 0.5 - 0.5 * cosine;
     let cosine = a.dot(b).abs();
@@ -98,7 +98,7 @@ pub(super) fn steps(a: Quat, b: Quat) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fast::simd::{Kernel, Level};
+    use crate::fast::simd::{Kernel, SimdLevel};
     use crate::sample::mix::slerp;
 
     struct Turn(Quat, Quat, f32);
@@ -110,7 +110,7 @@ mod tests {
         fn run<S: Simd>(self) -> Quat {
             let eight = |rotation: Quat| S::F8::load_four(&rotation.to_array().map(|part| [part; 8]));
             let mut lanes = [[0.0; 8]; 4];
-            S::F8::store_four(Way::<S>::new(self.2).turn(eight(self.0), eight(self.1)), &mut lanes);
+            S::F8::store_four(FastSlerp::<S>::new(self.2).turn(eight(self.0), eight(self.1)), &mut lanes);
             Quat::from_array(lanes.map(|part| part[3]))
         }
     }
@@ -124,7 +124,7 @@ mod tests {
             assert_eq!(steps(a, b), 1, "{degrees}");
             for mix in 0..=20 {
                 let mix = mix as f32 / 20.0;
-                for level in Level::all() {
+                for level in SimdLevel::all() {
                     let off = (level.run(Turn(a, b, mix)) - slerp(a, b, mix)).length();
                     assert!(off < 4e-7, "{} {degrees}° {mix}: {off}", level.name());
                 }

@@ -4,8 +4,8 @@
 //! between them. So the keys are nodes, the allowed gaps are edges of length one, and the fewest keys are the shortest
 //! path from the start to the end of the channel.
 
-use super::column::Gap;
-use super::search::Search;
+use super::channel_keys::Gap;
+use super::search::KeySearch;
 
 /// Number of consecutive gaps that are not allowed after which longer ones are not tried: a longer gap is nearly always
 /// worse.
@@ -16,20 +16,20 @@ const PATIENCE: usize = 4;
 const WORK: u64 = 20_000_000;
 
 /// Optimizes every channel once, those with most keys first.
-pub(super) fn lay_out(search: &mut Search<'_>) {
+pub(super) fn minimize_keys(search: &mut KeySearch<'_>) {
     search.work = 0;
     let mut order: Vec<usize> = (0..search.columns.len()).collect();
     order.sort_by_key(|&column| std::cmp::Reverse(search.columns[column].count));
     for column in order {
         // Two keys or fewer cannot be improved: a first and a last that differ are needed.
-        if search.columns[column].count > 2 && !search.takes_closest(column) {
+        if search.columns[column].count > 2 && !search.is_closest(column) {
             shortest(search, column);
         }
     }
 }
 
 /// Computes the shortest path for one channel, and uses it when it has fewer keys than the channel.
-fn shortest(search: &mut Search<'_>, column: usize) {
+fn shortest(search: &mut KeySearch<'_>, column: usize) {
     let first = search.columns[column].keys().next().unwrap_or(0);
     let last = search.columns[column].keys().last().unwrap_or(0);
     let keys: Vec<usize> = (first..=last).collect();
@@ -40,7 +40,7 @@ fn shortest(search: &mut Search<'_>, column: usize) {
         if search.work > WORK {
             return;
         }
-        if best[from].0 == usize::MAX || !search.can_stand(column, keys[from]) {
+        if best[from].0 == usize::MAX || !search.can_have_key(column, keys[from]) {
             continue;
         }
         let mut refused = 0;
@@ -63,12 +63,12 @@ fn shortest(search: &mut Search<'_>, column: usize) {
     if count >= search.columns[column].count {
         return;
     }
-    let mut way = vec![keys.len() - 1];
-    while let Some(&at) = way.last()
+    let mut path = vec![keys.len() - 1];
+    while let Some(&at) = path.last()
         && at > 0
     {
-        way.push(best[at].1);
+        path.push(best[at].1);
     }
-    let kept: Vec<usize> = way.into_iter().rev().map(|at| keys[at]).collect();
-    search.relay(column, &kept);
+    let keys_kept: Vec<usize> = path.into_iter().rev().map(|at| keys[at]).collect();
+    search.set_keys(column, &keys_kept);
 }

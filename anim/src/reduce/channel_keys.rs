@@ -5,16 +5,16 @@ use crate::sample::{Keys, Value, mix_factor, sample_between};
 
 /// The property of a bone that a channel animates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Property {
+pub(super) enum ChannelKind {
     Translation,
     Rotation,
     Scale,
 }
 
 /// The keys of one channel: the remaining ones, and the neighbors of each among those.
-pub(super) struct Column {
+pub(super) struct ChannelKeys {
     pub(super) bone: BoneIndex,
-    pub(super) property: Property,
+    pub(super) property: ChannelKind,
     /// The frame of each key.
     pub(super) frames: Vec<u32>,
     /// Whether each key remains.
@@ -25,12 +25,12 @@ pub(super) struct Column {
     pub(super) count: usize,
 }
 
-impl Column {
+impl ChannelKeys {
     /// Creates the list of all keys of `channel`, whose times are among `times`; `None` when the channel has no keys,
     /// or is not valid enough to be changed.
     pub(super) fn new<T: Value>(
         bone: BoneIndex,
-        property: Property,
+        property: ChannelKind,
         channel: &Channel<T>,
         times: &[f32],
     ) -> Option<Self> {

@@ -6,22 +6,22 @@
 //! p(t) = B(t) x(t)
 //! ```
 
-use super::moments::Moments;
 use super::rotation::path;
+use super::sample_times::SampleTimes;
 use crate::animation::to_parent;
 use crate::data::{Channel, Interpolation, Skeleton, Take, Track};
 use crate::sample::{Value, rest_pose, sample_track};
 use glam::{DMat3, DMat4, DVec3, Vec3};
 
 /// A bone of the source and its ancestors, up to the nearest that is bound.
-pub(super) struct Place<'a> {
+pub(super) struct RelativePosition<'a> {
     take: &'a Take,
     source: &'a Skeleton,
     /// Top first; the bone itself is the last.
     path: Vec<usize>,
 }
 
-impl<'a> Place<'a> {
+impl<'a> RelativePosition<'a> {
     /// Returns `None` where no bone between moves, so that the bone's own translation suffices. Also where `above` is
     /// not an ancestor of `bone`.
     pub(super) fn of(
@@ -31,9 +31,9 @@ impl<'a> Place<'a> {
         above: Option<usize>,
     ) -> Option<Self> {
         let path = path(source, bone, above)?;
-        let place = Self { take, source, path };
-        let moves = place.between().any(|track| !track.is_empty());
-        moves.then_some(place)
+        let position = Self { take, source, path };
+        let moves = position.between().any(|track| !track.is_empty());
+        moves.then_some(position)
     }
 
     /// Returns `p(t) - p(0)` transformed by `map`, added to `rest`, key by key.
@@ -76,17 +76,17 @@ impl<'a> Place<'a> {
 
     /// Returns the sample times, and the interpolation of the samples.
     fn times(&self) -> (Vec<f32>, Interpolation) {
-        let mut moments = Moments::default();
+        let mut sample_times = SampleTimes::default();
         if let Some(own) = self.path.last().and_then(|&bone| self.take.tracks.get(bone)) {
-            moments.add(&own.translation);
+            sample_times.add(&own.translation);
         }
         let mut turns = false;
         for track in self.between() {
-            moments.add(&track.translation);
-            moments.add(&track.rotation);
-            moments.add(&track.scale);
+            sample_times.add(&track.translation);
+            sample_times.add(&track.rotation);
+            sample_times.add(&track.scale);
             turns |= track.rotation.len() > 1 || track.scale.len() > 1;
         }
-        moments.all(turns)
+        sample_times.all(turns)
     }
 }

@@ -1,11 +1,11 @@
-//! Where in a model something is.
+//! Paths of elements in a model.
 
 use crate::format::one_line;
 use std::fmt;
 
-/// What a step of a place names.
+/// The list that a step of a path indexes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum PathKind {
     /// A position in [`ModelData::meshes`](crate::data::ModelData::meshes).
     Mesh,
     /// A position in the mesh's primitives.
@@ -32,14 +32,14 @@ pub enum Kind {
     Track,
     /// A position in the take's morph tracks.
     MorphTrack,
-    /// 0 translation, 1 rotation, 2 scale; named so.
+    /// 0 translation, 1 rotation, 2 scale; displayed by these names.
     Channel,
     /// The number of a key in its channel.
     Key,
 }
 
-impl Kind {
-    /// For people.
+impl PathKind {
+    /// Returns the name in messages.
     fn name(self) -> &'static str {
         match self {
             Self::Mesh => "mesh",
@@ -61,51 +61,51 @@ impl Kind {
     }
 }
 
-/// One step of a place.
+/// One step of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Step {
-    /// What is named.
-    pub kind: Kind,
-    /// Its position, from 0.
+pub struct PathStep {
+    /// The list that is indexed.
+    pub kind: PathKind,
+    /// Position in the list, from 0.
     pub number: usize,
-    /// Its name; empty where it has none.
+    /// Name of the element; empty where it has none.
     pub name: String,
 }
 
-/// Steps from the model down: `mesh 0 "body", primitive 1, vertex 12`. Without steps: the model.
+/// Path of an element: steps from the model down, `mesh 0 "body", primitive 1, vertex 12`. Without steps: the model.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Place {
+pub struct ModelPath {
     /// The outermost first.
-    pub steps: Vec<Step>,
+    pub steps: Vec<PathStep>,
 }
 
-impl Place {
-    /// A place of one step.
-    pub(crate) fn of(kind: Kind, number: usize, name: &str) -> Self {
+impl ModelPath {
+    /// Creates a path of one step.
+    pub(crate) fn of(kind: PathKind, number: usize, name: &str) -> Self {
         Self::default().then(kind, number, name)
     }
 
-    /// A place within this one.
-    pub(crate) fn then(mut self, kind: Kind, number: usize, name: &str) -> Self {
-        self.steps.push(Step { kind, number, name: name.to_owned() });
+    /// Returns the path with another step appended.
+    pub(crate) fn then(mut self, kind: PathKind, number: usize, name: &str) -> Self {
+        self.steps.push(PathStep { kind, number, name: name.to_owned() });
         self
     }
 
-    /// The number of the step of `kind`.
-    pub fn number(&self, kind: Kind) -> Option<usize> {
+    /// Returns the number of the step of `kind`.
+    pub fn number(&self, kind: PathKind) -> Option<usize> {
         self.steps.iter().find(|step| step.kind == kind).map(|step| step.number)
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for ModelPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.steps.is_empty() {
             return f.write_str("model");
         }
-        for (index, Step { kind, number, name }) in self.steps.iter().enumerate() {
+        for (index, PathStep { kind, number, name }) in self.steps.iter().enumerate() {
             let separator = if index == 0 { "" } else { ", " };
             match kind {
-                Kind::Channel => write!(f, "{separator}{name}")?,
+                PathKind::Channel => write!(f, "{separator}{name}")?,
                 _ if name.is_empty() => write!(f, "{separator}{} {number}", kind.name())?,
                 _ => write!(f, "{separator}{} {number} \"{}\"", kind.name(), one_line(name))?,
             }

@@ -1,36 +1,36 @@
-//! From a triangle and shares of its corners to everything a hit says; and which of two hits is the better.
+//! Candidates of a query, their order, and the complete hit of the best one.
 
-use super::triangle::{Line, meet, nearest_on_flat, nearest_on_triangle, normal_of};
+use super::triangle::{UnitRay, meet, nearest_on_flat, nearest_on_triangle, normal_of};
 use super::{Hit, HitSettings};
 use crate::data::{BoneIndex, MAX_INFLUENCES, ModelData, Primitive};
 use crate::evaluator::Evaluator;
 use crate::skin::Movement;
 use glam::{DVec3, Mat3, Vec3};
 
-/// Which triangle of the scene; ordered as in the file.
+/// Address of a triangle in the scene; ordered as in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Which {
+pub(super) struct TriangleAddress {
     pub(super) instance: u32,
     pub(super) primitive: u32,
     pub(super) triangle: u32,
 }
 
-/// The best so far, before everything is said about it.
+/// The best candidate so far, before the complete hit is computed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
+pub(super) struct Candidate {
     pub(super) distance: f64,
-    which: Which,
+    address: TriangleAddress,
     barycentric: DVec3,
     corners: [Vec3; 3],
     front: bool,
 }
 
-impl Found {
-    /// Takes the place of `best` where it is nearer, or as near and earlier in the file: so the answer does not depend on
-    /// the order of looking.
+impl Candidate {
+    /// Replaces `best` by this candidate if that is nearer, or equally near and earlier in the file: so the result does
+    /// not depend on the order of the tests.
     fn outdo(self, best: &mut Option<Self>) {
         let better = |best: Self| {
-            self.distance < best.distance || (self.distance == best.distance && self.which < best.which)
+            self.distance < best.distance || (self.distance == best.distance && self.address < best.address)
         };
         if best.is_none_or(better) {
             *best = Some(self);
@@ -38,51 +38,51 @@ impl Found {
     }
 }
 
-/// What a ray looks for.
+/// State of a ray query.
 pub(super) struct RaySearch {
-    pub(super) line: Line,
+    pub(super) line: UnitRay,
     pub(super) settings: HitSettings,
-    pub(super) best: Option<Found>,
+    pub(super) best: Option<Candidate>,
 }
 
 impl RaySearch {
-    /// Nothing further away is of interest.
+    /// Returns the distance beyond which nothing can improve the result.
     pub(super) fn limit(&self) -> f64 {
         self.best.map_or(f64::from(self.settings.max_distance), |best| best.distance)
     }
 
-    /// Takes the triangle where it is hit and better than the best; tells whether it was hit at all.
+    /// Tests a triangle and keeps it if it is hit and better than the best. Returns whether it was hit.
     pub(super) fn test(
         &mut self,
         primitive: &Primitive,
         movement: Movement<'_>,
-        which: Which,
+        address: TriangleAddress,
         corners: [Vec3; 3],
     ) -> bool {
         let Some(crossing) = meet(&self.line, corners) else { return false };
         let within = crossing.distance <= f64::from(self.settings.max_distance);
-        let front = crossing.counter_clockwise != mirrored(primitive, movement, which.triangle);
+        let front = crossing.counter_clockwise != mirrored(primitive, movement, address.triangle);
         if !within || !(front || self.settings.back_faces) {
             return false;
         }
         let (distance, barycentric) = (crossing.distance, crossing.barycentric);
-        Found { distance, which, barycentric, corners, front }.outdo(&mut self.best);
+        Candidate { distance, address, barycentric, corners, front }.outdo(&mut self.best);
         true
     }
 }
 
-/// What a sphere looks for: the nearest place within.
+/// State of a sphere query: the nearest point within the sphere.
 pub(super) struct SphereSearch {
     pub(super) center: DVec3,
     pub(super) radius: f64,
-    /// Do triangles without area count?
+    /// Whether triangles without area count.
     pub(super) flat: bool,
-    pub(super) best: Option<Found>,
+    pub(super) best: Option<Candidate>,
 }
 
 impl SphereSearch {
-    /// `None` for a sphere that holds nothing: a radius that is negative, or a number that is not finite. An infinite
-    /// radius holds everything.
+    /// Creates a query. `None` for an empty sphere: a radius that is negative, or a number that is not finite. An
+    /// infinite radius contains everything.
     pub(super) fn of(center: Vec3, radius: f32) -> Option<Self> {
         (center.is_finite() && radius >= 0.0).then(|| Self {
             center: center.as_dvec3(),
@@ -92,17 +92,17 @@ impl SphereSearch {
         })
     }
 
-    /// Nothing further away is of interest.
+    /// Returns the distance beyond which nothing can improve the result.
     pub(super) fn limit(&self) -> f64 {
         self.best.map_or(self.radius, |best| best.distance)
     }
 
-    /// Takes the triangle where it is within and better than the best.
+    /// Tests a triangle and keeps it if it is within and better than the best.
     pub(super) fn test(
         &mut self,
         primitive: &Primitive,
         movement: Movement<'_>,
-        which: Which,
+        address: TriangleAddress,
         corners: [Vec3; 3],
     ) {
         let mut nearest = nearest_on_triangle(self.center, corners);
@@ -115,12 +115,12 @@ impl SphereSearch {
         }
         let normal = normal_of(corners).unwrap_or(DVec3::Y);
         let counter_clockwise = normal.dot(self.center - corners[0].as_dvec3()) >= 0.0;
-        let front = counter_clockwise != mirrored(primitive, movement, which.triangle);
-        Found { distance, which, barycentric, corners, front }.outdo(&mut self.best);
+        let front = counter_clockwise != mirrored(primitive, movement, address.triangle);
+        Candidate { distance, address, barycentric, corners, front }.outdo(&mut self.best);
     }
 }
 
-/// Does the matrix of the triangle's first corner mirror, so that front and back change places?
+/// Returns whether the matrix of the triangle's first corner mirrors, so that front and back are exchanged.
 fn mirrored(primitive: &Primitive, movement: Movement<'_>, triangle: u32) -> bool {
     let corner = primitive.indices.get(triangle as usize * 3).copied().unwrap_or(0);
     let linear = Mat3::from_mat4(movement.matrix(primitive, corner as usize));
@@ -128,9 +128,9 @@ fn mirrored(primitive: &Primitive, movement: Movement<'_>, triangle: u32) -> boo
     x.cross(y).dot(z) < 0.0
 }
 
-/// Everything about `found`.
-pub(super) fn complete(evaluator: &Evaluator, found: &Found) -> Hit {
-    let Which { instance, primitive, triangle } = found.which;
+/// Computes the complete hit of a candidate.
+pub(super) fn complete(evaluator: &Evaluator, found: &Candidate) -> Hit {
+    let TriangleAddress { instance, primitive, triangle } = found.address;
     let [a, b, c] = found.corners.map(|corner| corner.as_dvec3());
     let shares = found.barycentric;
     let normal = normal_of(found.corners).unwrap_or(DVec3::Y);
@@ -153,7 +153,7 @@ pub(super) fn complete(evaluator: &Evaluator, found: &Found) -> Hit {
     }
 }
 
-/// The bone with the greatest weight at a place of a triangle; of two as great the one met first.
+/// Returns the bone with the greatest weight at a point of a triangle; of two equal ones the first found.
 fn bone_at(
     model: &ModelData,
     instance: u32,

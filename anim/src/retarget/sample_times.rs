@@ -10,7 +10,7 @@ const MOST_BETWEEN: f32 = 16.0;
 
 /// The key times of the channels that are combined.
 #[derive(Default)]
-pub(super) struct Moments {
+pub(super) struct SampleTimes {
     times: Vec<f32>,
     /// The last time before each key of a step channel.
     before_steps: Vec<f32>,
@@ -18,7 +18,7 @@ pub(super) struct Moments {
     kinds: Vec<Interpolation>,
 }
 
-impl Moments {
+impl SampleTimes {
     /// Adds one channel.
     pub(super) fn add<T: Copy>(&mut self, channel: &Channel<T>) {
         self.times.extend_from_slice(&channel.times);
@@ -34,7 +34,7 @@ impl Moments {
     /// each step, where other channels do not step; and between, where the path from key to key is `bent` or a channel
     /// is curved.
     pub(super) fn all(mut self, bent: bool) -> (Vec<f32>, Interpolation) {
-        let only_steps = self.kinds.iter().all(|&kind| kind == Interpolation::Step);
+        let only_steps = self.kinds.iter().all(|&char_class| char_class == Interpolation::Step);
         if !only_steps {
             self.times.append(&mut self.before_steps);
         }
@@ -44,7 +44,8 @@ impl Moments {
         if only_steps {
             return (self.times, Interpolation::Step);
         }
-        let straight = |&kind: &Interpolation| matches!(kind, Interpolation::Linear | Interpolation::Step);
+        let straight =
+            |&char_class: &Interpolation| matches!(char_class, Interpolation::Linear | Interpolation::Step);
         let bent = bent || !self.kinds.iter().all(straight);
         (if bent { with_times_between(&self.times) } else { self.times }, Interpolation::Linear)
     }
