@@ -9,6 +9,7 @@ use dragonfly::graphics::{DeviceParameters, Graphics, GraphicsHandle, GraphicsRe
 use dragonfly::playback::Playback;
 use dragonfly_anim::data::{ModelData, Take};
 use dragonfly_kit::eventually;
+use dragonfly_kit::skip::{Need, skip};
 use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
 use glam::Vec3;
 use image::RgbaImage;
@@ -54,13 +55,13 @@ impl Bench {
         Self { main, thread, graphics, replies, _watch: watch }
     }
 
-    /// `None` without an adapter.
+    /// Skips the test where there is no adapter.
     fn new() -> Option<Self> {
         let mut bench = Self::begin(DeviceParameters::default());
         bench.settle();
         match &bench.take()[..] {
             [GraphicsReply::Fatal(reason), ..] => {
-                eprintln!("skipped: {reason}");
+                skip(Need::Adapter, reason);
                 None
             }
             [GraphicsReply::Ready { .. }, ..] => Some(bench),

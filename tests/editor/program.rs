@@ -1,11 +1,13 @@
 //! The real program, run and watched with a deadline.
 
 use crate::complaints;
+use dragonfly_kit::skip::{Need, skip};
 use rustix::process::Signal;
 use std::ffi::OsStr;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
@@ -122,7 +124,7 @@ pub(crate) fn ignores(signal: Signal) -> bool {
     let mask = line.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or_default();
     let ignores = mask >> (signal.as_raw() - 1) & 1 == 1;
     if ignores {
-        println!("skipped: {signal:?}, which whoever started this ignores");
+        skip(Need::Signal, format!("the caller of the tests ignores {signal:?}"));
     }
     ignores
 }
@@ -143,9 +145,12 @@ fn drain(mut from: impl Read + Send + 'static) -> Receiver<Vec<u8>> {
 pub(crate) struct Folder(PathBuf);
 
 impl Folder {
-    /// An empty folder; `name` tells to whom it belongs.
+    /// Creates an empty folder of its own for each call, also if tests of one process use the same `name`.
     pub(crate) fn new(name: &str) -> Self {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", std::process::id()));
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let unique = format!("{name}-{}-{count}", std::process::id());
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(unique);
         let _ = std::fs::remove_dir_all(&path);
         std::fs::create_dir_all(&path).expect("a folder");
         Self(path)

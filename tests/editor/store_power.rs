@@ -4,6 +4,7 @@ use crate::journal_writer::{Found, Said, Writer, check_at, document_at, nanoseco
 use crate::mounted::{Mounted, may_mount, said};
 use crate::program::{Folder, takes_long};
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_kit::skip::{Need, skip};
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -71,8 +72,7 @@ pub(crate) struct Cuts {
     late: usize,
 }
 
-/// Cuts the power `cuts` times while a program works on the disk; `None`, and a printed reason, where that cannot be
-/// had.
+/// Cuts the power `cuts` times while a program works on the disk; skips the test where that is not possible.
 pub(crate) fn cut(
     name: &str,
     cuts: usize,
@@ -89,18 +89,17 @@ pub(crate) fn cut(
     let image = folder.join("disk.img");
     fs::File::create(&image).unwrap().set_len(64 << 20).unwrap();
     if !said(Command::new("mkfs.ext4").args(["-q", "-F"]).arg(&image)) {
-        println!("skipped: no ext4 can be made");
+        skip(Need::FileSystem, "no ext4 can be made");
         return None;
     }
     let Some(mut cutter) = Cutter::start() else {
-        println!("skipped: no python3");
+        skip(Need::Program, "there is no python3");
         return None;
     };
     let mut all = Cuts { cuts, ..Cuts::default() };
     for cut in 0..cuts {
         let Some(disk) = Mounted::image(&folder.join("disk"), &image) else {
             assert_eq!(cut, 0, "the file system cannot be mounted any more");
-            println!("skipped: no image can be mounted");
             return None;
         };
         let mut writer = work(disk.path());
@@ -113,7 +112,7 @@ pub(crate) fn cut(
         let said = writer.kill_and_believe(began);
         drop(disk);
         if !is_cut {
-            println!("skipped: the power of this file system cannot be cut");
+            skip(Need::FileSystem, "the power of this file system cannot be cut");
             return None;
         }
         let disk = Mounted::image(&folder.join("disk"), &image).expect("it can be mounted after a cut");

@@ -1,7 +1,8 @@
-//! A device for tests; without any Vulkan adapter they say so and pass.
+//! A device for tests; they are skipped where there is no Vulkan adapter.
 
 use crate::complaints::NoComplaints;
 use dragonfly::graphics::{DeviceParameters, GraphicsError, Studio};
+use dragonfly_kit::skip::{Need, skip};
 use std::ops::{Deref, DerefMut};
 
 /// A studio in which nothing may be done wrong.
@@ -25,13 +26,13 @@ impl DerefMut for Watched {
     }
 }
 
-/// A studio on the machine's adapter.
+/// Returns a studio on the adapter of the machine; skips the test where there is none.
 pub(crate) fn studio() -> Option<Watched> {
     let watch = NoComplaints::expect();
     match Studio::with(DeviceParameters::default()) {
         Ok(studio) => Some(Watched { studio, _watch: watch }),
         Err(GraphicsError::NoAdapter(reason)) => {
-            eprintln!("skipped: no graphics adapter ({reason})");
+            skip(Need::Adapter, reason);
             None
         }
         Err(error) => panic!("{error}"),

@@ -6,5 +6,6 @@
 mod direction;
 mod layout;
 mod licences;
+mod skips;
 mod tree;
 mod words;

@@ -3,8 +3,10 @@
 pub mod bench;
 pub mod counting;
 mod eventually;
+pub mod load;
 pub mod mutate;
 pub mod process;
 pub mod random;
+pub mod skip;
 
 pub use eventually::eventually;
