@@ -100,7 +100,7 @@ impl BenchCase {
     }
 }
 
-/// The variants that others are compared with: the sketch where it has the task, else the open path.
+/// Variants that others are compared with, the preferred one first: the open path only where the sketch lacks the task.
 pub(crate) const BASELINES: [&str; 2] = ["sketch", "open"];
 
 /// Returns the name of the baseline of `case` among `all`; `None` if the case is the baseline or has none.

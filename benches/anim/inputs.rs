@@ -35,7 +35,7 @@ pub(crate) const BLENDS: [(usize, bool); 4] = [(2, false), (4, false), (2, true)
 /// Weights of the layers.
 pub(crate) const WEIGHTS: [f32; 4] = [0.4, 0.3, 0.2, 0.1];
 
-/// Returns the part of the name of a case that tells blends with masks from those without.
+/// Returns the part of a case's name for blends with masks, or for those without.
 pub(crate) fn how(is_masked: bool) -> &'static str {
     if is_masked { "masked" } else { "whole" }
 }

@@ -3,7 +3,7 @@
 #[path = "../../benches/anim/report/mod.rs"]
 pub(crate) mod report;
 
-use report::Recorded;
+use report::RecordedResults;
 use report::results::{Figure, Results};
 use std::fs;
 
@@ -14,7 +14,7 @@ fn page() -> String {
 #[test]
 fn every_table_of_the_readme_is_made_from_the_recorded_results() {
     let page = page();
-    let made = report::render(&Recorded::read().unwrap(), &page).unwrap();
+    let made = report::render(&RecordedResults::read().unwrap(), &page).unwrap();
     assert!(made == page, "run `cargo bench -p dragonfly-anim -- --report`");
 }
 
@@ -24,7 +24,7 @@ fn a_figure_that_was_not_measured_is_noticed() {
     let marker = "<!-- table: sampling -->\n";
     let invented = page.replace(marker, &format!("{marker}| invented | 0.01 · 0.02 |\n"));
     assert_ne!(invented, page);
-    assert_eq!(report::render(&Recorded::read().unwrap(), &invented).unwrap(), page);
+    assert_eq!(report::render(&RecordedResults::read().unwrap(), &invented).unwrap(), page);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use dragonfly::graphics::{DeviceParameters, Graphics, GraphicsHandle, GraphicsRe
 use dragonfly::playback::Playback;
 use dragonfly_anim::data::{ModelData, Take};
 use dragonfly_kit::eventually;
-use dragonfly_kit::skip::{Need, skip};
+use dragonfly_kit::skip::{TestNeed, skip};
 use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
 use glam::Vec3;
 use image::RgbaImage;
@@ -61,7 +61,7 @@ impl Bench {
         bench.settle();
         match &bench.take()[..] {
             [GraphicsReply::Fatal(reason), ..] => {
-                skip(Need::Adapter, reason);
+                skip(TestNeed::Adapter, reason);
                 None
             }
             [GraphicsReply::Ready { .. }, ..] => Some(bench),

@@ -1,5 +1,5 @@
-//! A program of its own that edits and saves as fast as it can and says what is done: to be killed, or to have its power
-//! cut. It is this file of tests, started again.
+//! A process of its own that edits and saves as fast as it can and prints what is done: to be killed, or to have its power
+//! cut. It runs the same test of this program again, which finds out by [`is_writer`] that it is to write.
 
 use crate::program::Folder;
 use dragonfly::store::{
@@ -67,10 +67,10 @@ fn count(entries: &[Entry]) -> u32 {
     edits
 }
 
-/// Not a promise of its own: what the program does that is started.
-#[test]
-fn edits_and_saves_until_it_is_killed() {
-    let Some(folder) = std::env::var_os(CHILD) else { return };
+/// Returns whether this process is the one that is to be killed; if so, it has edited and saved until now, and the test
+/// that calls this has nothing else to do.
+pub(crate) fn is_writer() -> bool {
+    let Some(folder) = std::env::var_os(CHILD) else { return false };
     let mut out = std::io::stdout();
     // With the time when it was done: when it is read says less.
     let mut say = |what: &str| {
@@ -82,6 +82,7 @@ fn edits_and_saves_until_it_is_killed() {
     if let Err(error) = work(Path::new(&folder), &mut say) {
         say(&format!("x {error}"));
     }
+    true
 }
 
 type Worked = Result<(), Box<dyn std::error::Error>>;
@@ -185,22 +186,18 @@ fn program() -> std::path::PathBuf {
 }
 
 impl Writer {
-    /// Starts it, to work in `folder`.
-    pub(crate) fn start(folder: &Path) -> Self {
-        Self::run(Command::new(program()).env(CHILD, folder))
+    /// Starts `test`, which calls [`is_writer`] first, to work in `folder`.
+    pub(crate) fn start(test: &str, folder: &Path) -> Self {
+        Self::of(test, &[(CHILD, folder.as_os_str())])
     }
 
-    /// Starts it, to do nothing but save.
-    pub(crate) fn start_saving(folder: &Path) -> Self {
-        Self::run(Command::new(program()).env(CHILD, folder).env(ONLY_SAVES, "1"))
+    /// Starts `test`, which calls [`is_writer`] first, to do nothing but save.
+    pub(crate) fn start_saving(test: &str, folder: &Path) -> Self {
+        Self::of(test, &[(CHILD, folder.as_os_str()), (ONLY_SAVES, OsStr::new("1"))])
     }
 
-    fn run(command: &mut Command) -> Self {
-        let module = module_path!().split_once("::").expect("a module of the tests").1;
-        Self::run_test(command, &format!("{module}::edits_and_saves_until_it_is_killed"))
-    }
-
-    /// Starts another test of this file, told by its environment what to do, which says what it does as this one does.
+    /// Starts a test of this program in another process, with variables that tell it what to do. `test` is its name with
+    /// the module.
     pub(crate) fn of(test: &str, environment: &[(&str, &OsStr)]) -> Self {
         Self::run_test(Command::new(program()).envs(environment.iter().copied()), test)
     }

@@ -1,6 +1,6 @@
 //! File systems of a test's own: small ones, full ones, and ones whose power is cut.
 
-use dragonfly_kit::skip::{Need, skip};
+use dragonfly_kit::skip::{TestNeed, skip};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -8,7 +8,7 @@ use std::process::Command;
 pub(crate) fn may_mount(test: &str) -> bool {
     let root = rustix::process::geteuid().is_root();
     if !root {
-        skip(Need::Root, format!("{test}: only root may mount"));
+        skip(TestNeed::Root, format!("{test}: only root may mount"));
     }
     root
 }
@@ -32,7 +32,7 @@ impl Mounted {
         std::fs::create_dir_all(at).expect("a folder");
         let is_mounted = said(Command::new("mount").args(arguments).arg(at));
         if !is_mounted {
-            skip(Need::FileSystem, format!("mount {arguments:?} is refused"));
+            skip(TestNeed::FileSystem, format!("mount {arguments:?} is refused"));
         }
         is_mounted.then(|| Self(at.to_path_buf()))
     }

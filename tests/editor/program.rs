@@ -1,7 +1,7 @@
 //! The real program, run and watched with a deadline.
 
 use crate::complaints;
-use dragonfly_kit::skip::{Need, skip};
+use dragonfly_kit::skip::{TestNeed, skip};
 use rustix::process::Signal;
 use std::ffi::OsStr;
 use std::io::Read;
@@ -124,7 +124,7 @@ pub(crate) fn ignores(signal: Signal) -> bool {
     let mask = line.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or_default();
     let ignores = mask >> (signal.as_raw() - 1) & 1 == 1;
     if ignores {
-        skip(Need::Signal, format!("the caller of the tests ignores {signal:?}"));
+        skip(TestNeed::Signal, format!("the caller of the tests ignores {signal:?}"));
     }
     ignores
 }

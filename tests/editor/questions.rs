@@ -2,7 +2,7 @@
 
 use crate::fixture;
 use crate::panels::{Bench, harness_of};
-use crate::shots;
+use crate::shots::{self, PictureFolder};
 use dragonfly::document::{Decision, Offer, SaveOrder, SaveTo, Source, Then};
 use dragonfly::panels::saving::{Deed, Question};
 use dragonfly::panels::{Effect, Request};
@@ -90,8 +90,8 @@ fn bench(question: Question) -> Bench {
 }
 
 #[test]
-fn pictures_of_the_questions() {
-    let Some(folder) = shots::folder() else { return };
+fn every_question_is_drawn() {
+    let Some(shots) = PictureFolder::new() else { return };
     for (name, question) in questions() {
         for theme in [egui::Theme::Dark, egui::Theme::Light] {
             let light = theme == egui::Theme::Light;
@@ -102,7 +102,7 @@ fn pictures_of_the_questions() {
             let mut harness = shots::drawn(bench(question.clone()), [800.0, 520.0], 1.0, theme, frame);
             harness.run_steps(6);
             let name = if light { format!("{name}_light") } else { name.to_owned() };
-            shots::save(&mut harness, &folder, &format!("question_{name}"));
+            shots.save(&mut harness, &format!("question_{name}"));
         }
     }
 }

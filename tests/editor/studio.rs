@@ -2,7 +2,7 @@
 
 use crate::complaints::NoComplaints;
 use dragonfly::graphics::{DeviceParameters, GraphicsError, Studio};
-use dragonfly_kit::skip::{Need, skip};
+use dragonfly_kit::skip::{TestNeed, skip};
 use std::ops::{Deref, DerefMut};
 
 /// A studio in which nothing may be done wrong.
@@ -32,7 +32,7 @@ pub(crate) fn studio() -> Option<Watched> {
     match Studio::with(DeviceParameters::default()) {
         Ok(studio) => Some(Watched { studio, _watch: watch }),
         Err(GraphicsError::NoAdapter(reason)) => {
-            skip(Need::Adapter, reason);
+            skip(TestNeed::Adapter, reason);
             None
         }
         Err(error) => panic!("{error}"),

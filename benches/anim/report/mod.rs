@@ -9,7 +9,7 @@ use results::Results;
 use std::path::{Path, PathBuf};
 
 /// The files of results.
-pub(crate) struct Recorded {
+pub(crate) struct RecordedResults {
     /// Times, from `cargo bench -p dragonfly-anim -- --record`.
     pub(crate) times: Results,
     /// Sizes and errors of compressed takes, from the same run.
@@ -33,7 +33,7 @@ pub(crate) fn page() -> PathBuf {
     root().join("anim/README.md")
 }
 
-impl Recorded {
+impl RecordedResults {
     /// Reads the three files.
     pub(crate) fn read() -> Result<Self, String> {
         let read = |name| Results::read(&file(name));
@@ -44,7 +44,7 @@ impl Recorded {
 /// Returns `page` with the text between each `<!-- table: NAME -->` and `<!-- end -->` made from the results.
 ///
 /// Fails if the page has a marker without a table, or lacks one of the tables.
-pub(crate) fn render(recorded: &Recorded, page: &str) -> Result<String, String> {
+pub(crate) fn render(recorded: &RecordedResults, page: &str) -> Result<String, String> {
     let mut tables = tables::all(recorded)?;
     let (mut text, mut rest) = (String::new(), page);
     while let Some((before, after)) = rest.split_once("<!-- table: ") {
@@ -66,6 +66,6 @@ pub(crate) fn render(recorded: &Recorded, page: &str) -> Result<String, String> 
 #[allow(dead_code, reason = "the test that shares this file only compares")]
 pub(crate) fn update() -> Result<(), String> {
     let text = std::fs::read_to_string(page()).map_err(|error| format!("anim/README.md: {error}"))?;
-    let made = render(&Recorded::read()?, &text)?;
+    let made = render(&RecordedResults::read()?, &text)?;
     std::fs::write(page(), made).map_err(|error| format!("anim/README.md: {error}"))
 }

@@ -1,4 +1,4 @@
-//! Files of results: what was measured, on which machine and how, as text that a person and a program can read.
+//! Files of results: the measured numbers, the machine and the command, as CSV.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -11,16 +11,16 @@ const HEADER: &str = "task,variant,metric,unit,value,others";
 /// One measured number.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Figure {
-    /// What was done: `sample/pab/walk/forward`.
+    /// Task: `sample/pab/walk/forward`.
     pub(crate) task: String,
-    /// The code that did it: `avx2/compressed`, `sketch`, `ozz`.
+    /// Code that does the task: `avx2/compressed`, `sketch`, `ozz`.
     pub(crate) variant: String,
-    /// What was measured: `median`, `p99`, `bytes`.
+    /// Measured quantity: `median`, `p99`, `bytes`.
     pub(crate) metric: String,
-    /// `ns/bone`, `bytes`, `mm`.
+    /// Unit of the value: `ns/bone`, `bytes`, `mm`.
     pub(crate) unit: String,
     pub(crate) value: f64,
-    /// Number of cores that other programs kept busy meanwhile, on average.
+    /// Number of cores that other programs kept busy during the measurement, on average.
     pub(crate) others: f64,
 }
 
@@ -87,7 +87,7 @@ impl Results {
         self.rows.iter().find(wanted).map(|row| row.value)
     }
 
-    /// Returns what the run says about `name`: `machine`, `commit`.
+    /// Returns the value of `name` in the description of the run: `machine`, `commit`.
     pub(crate) fn about(&self, name: &str) -> &str {
         self.run.iter().find(|(other, _)| other == name).map_or("unknown", |(_, value)| value)
     }

@@ -1,6 +1,6 @@
 //! The tables, one for each subject.
 
-use super::Recorded;
+use super::RecordedResults;
 use super::results::{GOAL, Results};
 
 /// Tasks on the bench rig, in words, in the order of the tables; the unit is that of one row of the results.
@@ -38,8 +38,8 @@ fn in_words(task: &str) -> &str {
 }
 
 /// Returns all tables with their names, in no order.
-pub(super) fn all(recorded: &Recorded) -> Result<Vec<(&'static str, String)>, String> {
-    let Recorded { times, sizes, instructions } = recorded;
+pub(super) fn all(recorded: &RecordedResults) -> Result<Vec<(&'static str, String)>, String> {
+    let RecordedResults { times, sizes, instructions } = recorded;
     Ok(vec![
         ("run", run(recorded)),
         ("sampling", compared(times, "/compressed", ["ozz", "ACL"], "sample/")?),
@@ -89,8 +89,8 @@ fn filled(name: &str, table: String) -> Result<String, String> {
 }
 
 /// Returns what the results depend on, as a list.
-fn run(recorded: &Recorded) -> String {
-    let Recorded { times, sizes, instructions } = recorded;
+fn run(recorded: &RecordedResults) -> String {
+    let RecordedResults { times, sizes, instructions } = recorded;
     let mut text = String::new();
     for (what, results) in [("Times", times), ("Sizes", sizes), ("Instructions", instructions)] {
         text += &format!("- {what}: `{}`, commit {}.\n", results.about("command"), results.about("commit"));

@@ -12,7 +12,7 @@ use std::process::Command;
 
 /// What a test lacks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Need {
+pub enum TestNeed {
     /// The rights of root: to mount, and to give files away.
     Root,
     /// A Vulkan adapter.
@@ -27,7 +27,7 @@ pub enum Need {
     Signal,
 }
 
-impl Need {
+impl TestNeed {
     /// Returns the word for the need in `.ci/may-skip`.
     fn word(self) -> &'static str {
         match self {
@@ -43,7 +43,7 @@ impl Need {
 
 /// Counts a test, or a part of one, that does not run, with the reason: prints a line, and appends it to the file that
 /// `DRAGONFLY_SKIPS` names.
-pub fn skip(need: Need, reason: impl Display) {
+pub fn skip(need: TestNeed, reason: impl Display) {
     let thread = std::thread::current();
     let test = thread.name().unwrap_or("a test");
     let reason = reason.to_string().replace(['\n', '\t'], " ");
@@ -63,11 +63,11 @@ pub fn evaluators() -> Option<PathBuf> {
     let near = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/evaluators");
     let folder = named.unwrap_or(near);
     if !folder.join("node_modules").is_dir() {
-        skip(Need::Evaluators, "DRAGONFLY_EVALUATORS names no folder with the packages of node");
+        skip(TestNeed::Evaluators, "DRAGONFLY_EVALUATORS names no folder with the packages of node");
         return None;
     }
     if Command::new("node").arg("--version").output().is_err() {
-        skip(Need::Evaluators, "there is no node");
+        skip(TestNeed::Evaluators, "there is no node");
         return None;
     }
     Some(folder)
