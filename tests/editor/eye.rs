@@ -9,7 +9,7 @@ use dragonfly::document::edit::{Edit, TakeRef};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::{self, Id};
 use egui::Modifiers;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 fn click(animator: &mut Animator, label: &str) {
     let at = animator.harness.get_by_label(label).rect().center();
