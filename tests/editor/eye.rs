@@ -82,9 +82,8 @@ fn hidden_bones_long_names_and_the_menu_of_ghosts_are_drawn() {
         harness.get_by_label("View").click();
         harness.run_steps(4);
         // The submenu; the button in the viewport has the same label, and is switched on or off.
-        let menus = harness.query_all_by_label("Ghosts");
-        let mut menus = menus.filter(|node| node.accesskit_node().toggled().is_none());
-        menus.next().expect("a submenu").click();
+        let is_menu = |node: &egui_kittest::Node<'_>| node.accesskit_node().toggled().is_none();
+        harness.query_all_by_label("Ghosts").find(is_menu).expect("a submenu").click();
         harness.run_steps(6);
         shots.save(&mut harness, &format!("ghosts_menu_{name}"));
     }
