@@ -1,72 +1,91 @@
-//! What the command line asks for.
+//! The command line of the bench.
 
-use crate::case::Case;
+use crate::case::BenchCase;
 
-/// What is done with the cases.
+/// Mode of the bench.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Mode {
-    /// Times, ratios and goals.
+pub(crate) enum BenchMode {
+    /// Prints times, ratios and goals.
     Measure,
-    /// Each case once, to see that it works.
+    /// As [`Measure`](Self::Measure), and writes all results and the tables of `anim/README.md`.
+    Record,
+    /// Runs each case once, to test that it works.
     Check,
-    /// Each case for the counter of instructions.
+    /// Runs each case for the counter of instructions.
     Count,
-    /// Their names.
+    /// Prints the names of the cases.
     List,
-    /// The goals that are instructions.
+    /// Prints the goals that are numbers of instructions.
     Goals,
+    /// Writes the tables of `anim/README.md` from the results that are there.
+    Report,
+    /// Writes the instructions that the script `instructions` counted.
+    Instructions,
 }
 
-/// What the command line asks for.
-pub(crate) struct Arguments {
-    pub(crate) mode: Mode,
-    /// Parts of names; none: everything.
+/// Arguments of the bench.
+pub(crate) struct BenchArguments {
+    pub(crate) mode: BenchMode,
+    /// Folder with the counts of the script `instructions`.
+    pub(crate) counts: Option<String>,
+    /// Parts of names of cases; empty for all cases.
     parts: Vec<String>,
 }
 
-impl Arguments {
-    /// Cargo says `--bench` when it is asked to measure; `cargo test --benches` does not, and there works are only tried.
+impl BenchArguments {
+    /// Reads the arguments. Cargo passes `--bench` for `cargo bench`; without it, as for `cargo test --benches`, each
+    /// case is only run once.
     pub(crate) fn read() -> Self {
         let (options, parts): (Vec<String>, Vec<String>) =
             std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
         let has = |option: &str| options.iter().any(|given| given == option);
+        let counts =
+            options.iter().find_map(|option| option.strip_prefix("--instructions=")).map(str::to_owned);
         let mode = match () {
-            () if has("--list") => Mode::List,
-            () if has("--goals") => Mode::Goals,
-            () if has("--count") => Mode::Count,
-            () if has("--test") || !has("--bench") => Mode::Check,
-            () => Mode::Measure,
+            () if counts.is_some() => BenchMode::Instructions,
+            () if has("--list") => BenchMode::List,
+            () if has("--goals") => BenchMode::Goals,
+            () if has("--count") => BenchMode::Count,
+            () if has("--report") => BenchMode::Report,
+            () if has("--test") || !has("--bench") => BenchMode::Check,
+            () if has("--record") => BenchMode::Record,
+            () => BenchMode::Measure,
         };
-        Self { mode, parts }
+        Self { mode, counts, parts }
     }
 
-    /// Is a case of this name asked for?
+    /// Returns whether all cases are wanted.
+    pub(crate) fn want_all(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// Returns whether the case with this name is wanted.
     pub(crate) fn want(&self, name: &str) -> bool {
         self.parts.is_empty() || self.parts.iter().any(|part| name.contains(part))
     }
 
-    /// The parts that belong to no case and no name of `others`.
+    /// Returns the parts that occur in the name of no case and in none of `others`.
     pub(crate) fn unknown<'a>(
         &'a self,
-        cases: impl Iterator<Item = &'a Case>,
+        cases: impl Iterator<Item = &'a BenchCase>,
         others: &[&str],
     ) -> Vec<&'a str> {
-        let names: Vec<String> = cases.map(Case::name).collect();
+        let names: Vec<String> = cases.map(BenchCase::name).collect();
         let known = |part: &&&String| {
             !names.iter().any(|name| name.contains(**part)) && !others.iter().any(|other| within(other, part))
         };
         self.parts.iter().filter(|part| known(&part)).map(String::as_str).collect()
     }
 
-    /// Is something asked for whose names begin with `beginning`?
-    pub(crate) fn want_beginning(&self, beginning: &str) -> bool {
-        self.parts.is_empty() || self.parts.iter().any(|part| within(beginning, part))
+    /// Returns whether a name that starts with `prefix` is wanted.
+    pub(crate) fn want_prefix(&self, prefix: &str) -> bool {
+        self.parts.is_empty() || self.parts.iter().any(|part| within(prefix, part))
     }
 }
 
-/// Could `part` be part of a name that begins with `beginning`, from one of its slashes on?
-fn within(beginning: &str, part: &str) -> bool {
-    let starts = beginning.match_indices('/').map(|(slash, _)| slash + 1).chain([0]);
-    beginning.contains(part)
-        || starts.map(|start| &beginning[start..]).any(|rest| rest.contains('/') && part.starts_with(rest))
+/// Returns whether `part` can be a part of a name that starts with `prefix`, from one of its slashes on.
+fn within(prefix: &str, part: &str) -> bool {
+    let starts = prefix.match_indices('/').map(|(slash, _)| slash + 1).chain([0]);
+    prefix.contains(part)
+        || starts.map(|start| &prefix[start..]).any(|rest| rest.contains('/') && part.starts_with(rest))
 }

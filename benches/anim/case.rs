@@ -1,93 +1,132 @@
-//! One work that is measured, and the rules by which works stand beside each other.
+//! One case of the bench: a task, and the variant of the code that does it.
 
 use std::hint::black_box;
+use std::time::Instant;
 
-/// What is called to do a work once.
-pub(crate) type Work = Box<dyn FnMut()>;
+/// A case that is ready to run.
+pub(crate) trait RunCase {
+    /// Runs the case once.
+    fn call(&mut self);
 
-/// A work done in one way, and how many units of it one call does.
-pub(crate) struct Case {
-    /// Who does it: the open path, the fast path at a level, a rival.
-    pub(crate) way: String,
-    /// What is done: work, model, case, with slashes between. The same for everyone who does it.
-    pub(crate) row: String,
+    /// Runs the case `calls` times. Returns the nanoseconds that all calls took.
+    fn run(&mut self, calls: usize) -> f64;
+}
+
+/// Runs a closure of this program.
+struct LocalCase<W>(W);
+
+impl<W: FnMut()> RunCase for LocalCase<W> {
+    fn call(&mut self) {
+        (self.0)();
+    }
+
+    fn run(&mut self, calls: usize) -> f64 {
+        let start = Instant::now();
+        for _ in 0..calls {
+            (self.0)();
+        }
+        start.elapsed().as_nanos() as f64
+    }
+}
+
+/// A task done by one variant, and the number of units that one call handles.
+pub(crate) struct BenchCase {
+    /// The code that does the task: the open path, the fast path at a SIMD level, the sketch, a rival.
+    pub(crate) variant: String,
+    /// Task, model and case, separated by slashes; the same for all variants of the task.
+    pub(crate) task: String,
     /// Cases of one group take turns while they are measured.
     pub(crate) group: String,
     pub(crate) units: usize,
     pub(crate) unit: &'static str,
-    /// Calls that the counter of instructions needs, so that getting in and out of the work does not count.
+    /// Number of calls when instructions are counted; large enough that entering and leaving the call does not matter.
     pub(crate) counted_calls: usize,
-    setup: Box<dyn FnOnce() -> Work>,
+    setup: Box<dyn FnOnce() -> Box<dyn RunCase>>,
 }
 
-impl Case {
-    /// `setup` makes what does `units` of `unit` in each call; it wraps what it computes in [`black_box`]. Nothing is set up
-    /// before it is needed.
+impl BenchCase {
+    /// `setup` returns the closure that handles `units` of `unit` in each call and wraps its results in [`black_box`].
+    /// It is called just before the case is measured.
     pub(crate) fn new<W: FnMut() + 'static>(
-        way: impl Into<String>,
-        row: impl Into<String>,
+        variant: impl Into<String>,
+        task: impl Into<String>,
         units: usize,
         unit: &'static str,
         setup: impl FnOnce() -> W + 'static,
     ) -> Self {
-        let row = row.into();
+        Self::with(variant, task, units, unit, || Box::new(LocalCase(setup())))
+    }
+
+    /// As [`new`](Self::new), for a case that is not a closure of this program.
+    pub(crate) fn with(
+        variant: impl Into<String>,
+        task: impl Into<String>,
+        units: usize,
+        unit: &'static str,
+        setup: impl FnOnce() -> Box<dyn RunCase> + 'static,
+    ) -> Self {
+        let task = task.into();
         Self {
-            way: way.into(),
-            group: row.clone(),
-            row,
+            variant: variant.into(),
+            group: task.clone(),
+            task,
             units,
             unit,
             counted_calls: 3,
-            setup: Box::new(|| Box::new(setup())),
+            setup: Box::new(setup),
         }
     }
 
-    /// Measured together with all other cases of `group`, whatever they do.
+    /// Measures the case in turns with all other cases of `group`, whatever their task.
     pub(crate) fn among(self, group: impl Into<String>) -> Self {
         Self { group: group.into(), ..self }
     }
 
-    /// Counted in one call: there is so much in it that getting in and out does not matter.
+    /// Counts the instructions of one call only; for long calls, where entering and leaving does not matter.
     pub(crate) fn counted_once(self) -> Self {
         Self { counted_calls: 1, ..self }
     }
 
-    /// Way and row, with a slash between.
+    /// Returns variant and task, separated by a slash.
     pub(crate) fn name(&self) -> String {
-        format!("{}/{}", self.way, self.row)
+        format!("{}/{}", self.variant, self.task)
     }
 
-    /// Gets it ready, and does it once.
-    pub(crate) fn start(self) -> Work {
-        let mut work = (self.setup)();
-        work();
-        work
+    /// Sets the case up and runs it once.
+    pub(crate) fn start(self) -> Box<dyn RunCase> {
+        let mut case = (self.setup)();
+        case.call();
+        case
     }
 }
 
-/// Whom the others of a row stand beside: the sketch where it does the same, else the open path.
-pub(crate) const RIVALS: [&str; 2] = ["sketch", "open"];
+/// Variants that others are compared with, the preferred one first: the open path only where the sketch lacks the task.
+pub(crate) const BASELINES: [&str; 2] = ["sketch", "open"];
 
-/// The name of the rival of the case `name` among `names`; none where it is the rival itself, or alone.
-pub(crate) fn rival_of<'a>(case: &Case, all: impl Iterator<Item = &'a Case> + Clone) -> Option<String> {
-    let beside = |way: &&str| all.clone().any(|other| other.way == **way && other.row == case.row);
-    let way = RIVALS.into_iter().find(|way| beside(way))?;
-    (case.way != way).then(|| format!("{way}/{}", case.row))
+/// Returns the name of the baseline of `case` among `all`; `None` if the case is the baseline or has none.
+pub(crate) fn baseline_of<'a>(
+    case: &BenchCase,
+    all: impl Iterator<Item = &'a BenchCase> + Clone,
+) -> Option<String> {
+    let has_task =
+        |variant: &&str| all.clone().any(|other| other.variant == **variant && other.task == case.task);
+    let variant = BASELINES.into_iter().find(has_task)?;
+    (case.variant != variant).then(|| format!("{variant}/{}", case.task))
 }
 
-/// What the counter of instructions looks for by its name: nothing outside of it is counted.
+/// The function that the counter of instructions finds by its name: only instructions inside it are counted.
 #[inline(never)]
-fn counted_region(work: &mut dyn FnMut(), calls: usize) {
+fn counted_region(case: &mut dyn RunCase, calls: usize) {
     for _ in 0..calls {
-        black_box(&mut *work)();
+        black_box(&mut *case).call();
     }
 }
 
-/// Does each case under the counter's eyes, one after the other, and says how many units that were: a line a case.
-pub(crate) fn count(cases: Vec<Case>) {
+/// Runs each case inside the counted region, and prints a line for each with the number of its units.
+pub(crate) fn count(cases: Vec<BenchCase>) {
     for case in cases {
         let (name, units, unit, calls) = (case.name(), case.units, case.unit, case.counted_calls);
-        counted_region(&mut case.start(), calls);
+        counted_region(&mut *case.start(), calls);
         println!("{name} {} {unit}", units * calls);
     }
 }

@@ -1,63 +1,64 @@
-//! What a compressed take costs: bytes, error, time to make, time to sample.
+//! Bytes, error, and time to make of compressed takes, next to those of the rivals.
 
+use crate::model::BenchModel;
+use crate::report::results::Figure;
+use crate::rivals::RivalSize;
 use dragonfly_anim::compressed::{CompressionSettings, Exactness, compress};
-use dragonfly_anim::data::ModelData;
-use dragonfly_anim::fast::Pose;
-use dragonfly_anim::format::{NoFiles, ReadOptions, read};
-use dragonfly_kit::bench::measure;
-use std::hint::black_box;
-use std::path::Path;
 use std::time::Instant;
 
-/// Poses of one measured call.
-const POSES: usize = 100;
+/// CompressionSettings that all codecs are given, in meters.
+const SETTINGS: [(&str, Exactness); 2] =
+    [("0.1 mm at 3 cm", Exactness::FINE), ("1 mm at 10 cm", Exactness::COARSE)];
 
-/// The rig of the bench where it is there, and the fox.
-pub(crate) fn run() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let millimetre = [("0.1mm", Exactness::FINE), ("1mm", Exactness::COARSE)];
-    let hundredth = [("fine", Exactness { tolerance: 0.01, shell: 3.0 })];
-    model("pab", &root.join("../shared/assets/bench/pab.glb"), &millimetre);
-    model("fox", &root.join("tests/data/gltf/Fox.glb"), &hundredth);
-}
+/// Millimeters per unit of the bench rig.
+const MILLIMETERS: f64 = 1e3;
 
-fn model(name: &str, path: &Path, settings: &[(&str, Exactness)]) {
-    let Ok(bytes) = std::fs::read(path) else { return };
-    let Ok(imported) = read("model.glb", &bytes, &NoFiles, &ReadOptions::default()) else { return };
-    for (setting, exactness) in settings {
-        takes(&format!("anim/compressed/{name}_{setting}"), &imported.model, *exactness);
+/// Returns bytes and errors of the takes of the bench rig, of this library and of the rivals.
+///
+/// Where ACL's error is smaller than the setting asks for, this library is asked for ACL's error.
+pub(crate) fn sizes(rig: &BenchModel, rivals: &[RivalSize]) -> Vec<Figure> {
+    let mut rows = Vec::new();
+    for take in &rig.model.animation.takes {
+        for (setting, exactness) in SETTINGS {
+            let task = format!("size/{}/{setting}", take.name);
+            let of_task = || rivals.iter().filter(|size| size.take == take.name && size.setting == setting);
+            let acl = of_task().find(|size| size.codec == "ACL").map_or(f64::INFINITY, |size| size.error);
+            let tolerance = exactness.tolerance.min((acl / MILLIMETERS) as f32);
+            let settings = CompressionSettings {
+                everywhere: Exactness { tolerance, ..exactness },
+                ..CompressionSettings::default()
+            };
+            let start = Instant::now();
+            let Ok((compressed, report)) = compress(take, &rig.model.animation.skeleton, &settings) else {
+                continue;
+            };
+            let seconds = start.elapsed().as_secs_f64();
+            let ours = RivalSize {
+                take: take.name.clone(),
+                setting: setting.to_owned(),
+                codec: "ours".to_owned(),
+                bytes: report.bytes.total() as f64,
+                error: f64::from(report.largest_error.distance) * MILLIMETERS,
+                seconds,
+            };
+            let mut row =
+                |codec: &str, metric, unit, value| rows.push(Figure::new(&task, codec, metric, unit, value));
+            row("raw", "bytes", "bytes", report.raw_bytes as f64);
+            row("ours", "in memory", "bytes", compressed.bytes_in_memory() as f64);
+            for size in std::iter::once(&ours).chain(of_task()) {
+                row(&size.codec, "bytes", "bytes", size.bytes);
+                row(&size.codec, "error", "mm", size.error);
+                row(&size.codec, "compress", "s", size.seconds);
+            }
+        }
     }
+    rows
 }
 
-fn takes(name: &str, model: &ModelData, everywhere: Exactness) {
-    let skeleton = &model.animation.skeleton;
-    let settings = CompressionSettings { everywhere, ..CompressionSettings::default() };
-    for take in &model.animation.takes {
-        let name = format!("{name}_{}", take.name);
-        let begin = Instant::now();
-        let Ok((compressed, report)) = compress(take, skeleton, &settings) else { continue };
-        println!(
-            "{name:<48} {} bytes of {} ({:.1} to 1), {} in memory, error {:.3e}, made in {:.1} ms",
-            report.bytes.total(),
-            report.raw_bytes,
-            report.raw_bytes as f64 / report.bytes.total() as f64,
-            compressed.bytes_in_memory(),
-            report.largest_error.distance,
-            begin.elapsed().as_secs_f64() * 1e3,
-        );
-        let mut pose = Pose::new(compressed.bones());
-        let length = compressed.length();
-        let forward: Vec<f32> = (0..POSES).map(|step| step as f32 / 60.0 % length).collect();
-        let mut random = forward.clone();
-        let mut state = 1_u32;
-        for time in &mut random {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            *time = state as f32 / u32::MAX as f32 * length;
-        }
-        for (order, times) in [("forward", &forward), ("random", &random)] {
-            measure(&format!("{name}/{order}_{POSES}_poses"), 1, || {
-                times.iter().for_each(|&time| compressed.sample(time, black_box(&mut pose)));
-            });
-        }
+/// Prints the rows of [`sizes`].
+pub(crate) fn print(rows: &[Figure]) {
+    println!("\nSizes of compressed takes");
+    for Figure { task, variant, metric, unit, value, .. } in rows {
+        println!("{task:<34} {variant:<6} {metric:<12} {value:>12.4} {unit}");
     }
 }

@@ -1,7 +1,7 @@
-//! What a hit test and bounds cost: the tree beside every triangle, boxes of bones beside every vertex.
+//! Hit tests and bounds: the tree compared with testing every triangle, boxes of bones with every vertex.
 
 use crate::Section;
-use crate::case::Case;
+use crate::case::BenchCase;
 use dragonfly_anim::bounds::BoneBoxes;
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::evaluator::Evaluator;
@@ -14,70 +14,62 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-/// Models: the small one of the repository, and larger ones beside it where they are there.
-const MODELS: [(&str, &str); 4] = [
-    ("fox", "../tests/data/gltf/Fox.glb"),
-    ("pab", "../../shared/assets/bench/pab.glb"),
-    ("robot", "../../shared/assets/gltf/robot.glb"),
-    ("cesium_man", "../../shared/assets/gltf/CesiumMan/CesiumMan.gltf"),
-];
+/// Models: a small and a larger one.
+const MODELS: [(&str, &str); 2] =
+    [("fox", "../tests/data/gltf/Fox.glb"), ("pab", "../tests/data/bench/pab.glb")];
 
-/// Rays of one call, and places: they differ much in what they cost.
+/// Number of rays, or of spheres, in one call; their costs differ much.
 const RAYS: usize = 64;
 
-/// A model in some pose, and what is asked of it.
-struct Scene {
+/// A model in a pose, with the rays and spheres that are tested against it.
+struct HitScene {
     tree: Arc<HitTree>,
     built: String,
     evaluator: Evaluator,
     positions: Vec<Vec3>,
     rays: Vec<Ray>,
-    /// Near the surface, for spheres that touch it.
-    places: Vec<Vec3>,
+    /// Centers of spheres that touch the surface.
+    centers: Vec<Vec3>,
     radius: f32,
 }
 
-/// A section a model.
+/// Returns a section for each model.
 pub(crate) fn sections() -> Vec<Section> {
     MODELS.map(|(name, path)| section(name, Path::new(env!("CARGO_MANIFEST_DIR")).join(path))).into()
 }
 
 fn section(name: &'static str, path: PathBuf) -> Section {
-    if !path.is_file() {
-        let about = format!("hit/{name}: left out, {} is not there", path.display());
-        return Section { about: Box::new(|| about), cases: Vec::new() };
-    }
-    let later: &'static OnceLock<Scene> = Box::leak(Box::default());
-    let scene = move || later.get_or_init(|| Scene::of(&path).expect("a model that can be read"));
-    let scene: &'static dyn Fn() -> &'static Scene = Box::leak(Box::new(scene));
+    let later: &'static OnceLock<HitScene> = Box::leak(Box::default());
+    let scene = move || later.get_or_init(|| HitScene::of(&path).expect("a model that can be read"));
+    let scene: &'static dyn Fn() -> &'static HitScene = Box::leak(Box::new(scene));
     Section { about: Box::new(move || format!("hit/{name}: {}", scene().about())), cases: cases(name, scene) }
 }
 
-/// Gets the scene ready when it is first asked for.
-type Later = &'static dyn Fn() -> &'static Scene;
+/// Returns the scene, and builds it at the first call.
+type LazyScene = &'static dyn Fn() -> &'static HitScene;
 
-fn cases(name: &str, scene: Later) -> Vec<Case> {
-    let row = |work: &str| format!("hit/{name}/{work}");
-    let both = |work: &str, unit, open: fn(&Scene), tree: fn(&Scene, &mut HitPose)| {
+fn cases(name: &str, scene: LazyScene) -> Vec<BenchCase> {
+    let task = |work: &str| format!("hit/{name}/{work}");
+    let both = |work: &str, unit, open: fn(&HitScene), tree: fn(&HitScene, &mut HitPose)| {
         let units = if unit == "pose" { 1 } else { RAYS };
         [
-            Case::new("open", row(work), units, unit, move || {
+            BenchCase::new("open", task(work), units, unit, move || {
                 let scene = scene();
                 move || open(scene)
             }),
-            Case::new("tree", row(work), units, unit, move || {
+            BenchCase::new("tree", task(work), units, unit, move || {
                 let (scene, mut pose) = (scene(), scene().pose());
                 move || tree(scene, &mut pose)
             }),
         ]
     };
     let mut cases = Vec::new();
-    cases.extend(both("ray", "ray", Scene::rays_open, |scene, pose| {
+    cases.extend(both("ray", "ray", HitScene::rays_open, |scene, pose| {
         for ray in &scene.rays {
             black_box(pose.ray(&scene.evaluator, ray, &HitSettings::default()));
         }
     }));
-    cases.extend(both("any", "ray", Scene::rays_open, |scene, pose| {
+    cases.extend(both("any", "ray", HitScene::rays_open, |scene, pose| {
         for ray in &scene.rays {
             black_box(pose.any(&scene.evaluator, ray, &HitSettings::default()));
         }
@@ -95,39 +87,39 @@ fn cases(name: &str, scene: Later) -> Vec<Case> {
     cases.extend(both(
         "sphere",
         "sphere",
-        |scene| scene.places.iter().for_each(|&place| scene.sphere_open(place, scene.radius)),
+        |scene| scene.centers.iter().for_each(|&center| scene.sphere_open(center, scene.radius)),
         |scene, pose| {
-            for &place in &scene.places {
-                black_box(pose.sphere(&scene.evaluator, place, scene.radius));
+            for &center in &scene.centers {
+                black_box(pose.sphere(&scene.evaluator, center, scene.radius));
             }
         },
     ));
     cases.extend(new_poses(name, scene));
-    cases.into_iter().map(Case::counted_once).collect()
+    cases.into_iter().map(BenchCase::counted_once).collect()
 }
 
-/// Works that begin with another pose.
-fn new_poses(name: &str, scene: Later) -> [Case; 6] {
-    let row = |work: &str| format!("hit/{name}/{work}");
+/// Returns the cases that start with a new pose.
+fn new_poses(name: &str, scene: LazyScene) -> [BenchCase; 6] {
+    let task = |work: &str| format!("hit/{name}/{work}");
     [
-        Case::new("open", row("new_pose"), 1, "pose", move || {
-            let (scene, mut room) = (scene(), scene().positions.clone());
-            move || skin(&scene.evaluator, &mut room)
+        BenchCase::new("open", task("new_pose"), 1, "pose", move || {
+            let (scene, mut positions) = (scene(), scene().positions.clone());
+            move || skin(&scene.evaluator, &mut positions)
         }),
-        Case::new("tree", row("new_pose"), 1, "pose", move || {
+        BenchCase::new("tree", task("new_pose"), 1, "pose", move || {
             let (scene, mut pose) = (scene(), scene().pose());
             move || pose.refit(&scene.evaluator)
         }),
-        Case::new("open", row("new_pose_and_ray"), RAYS, "pose", move || {
-            let (scene, mut room) = (scene(), scene().positions.clone());
+        BenchCase::new("open", task("new_pose_and_ray"), RAYS, "pose", move || {
+            let (scene, mut positions) = (scene(), scene().positions.clone());
             move || {
                 for ray in &scene.rays {
-                    skin(&scene.evaluator, &mut room);
-                    black_box(ray_open(&scene.evaluator, &room, ray, &HitSettings::default()));
+                    skin(&scene.evaluator, &mut positions);
+                    black_box(ray_open(&scene.evaluator, &positions, ray, &HitSettings::default()));
                 }
             }
         }),
-        Case::new("tree", row("new_pose_and_ray"), RAYS, "pose", move || {
+        BenchCase::new("tree", task("new_pose_and_ray"), RAYS, "pose", move || {
             let (scene, mut pose) = (scene(), scene().pose());
             move || {
                 for ray in &scene.rays {
@@ -136,13 +128,13 @@ fn new_poses(name: &str, scene: Later) -> [Case; 6] {
                 }
             }
         }),
-        Case::new("open", row("bounds"), 1, "pose", move || {
+        BenchCase::new("open", task("bounds"), 1, "pose", move || {
             let scene = scene();
             move || {
                 black_box(scene.evaluator.bounds());
             }
         }),
-        Case::new("boxes", row("bounds"), 1, "pose", move || {
+        BenchCase::new("boxes", task("bounds"), 1, "pose", move || {
             let scene = scene();
             let boxes = BoneBoxes::of(scene.evaluator.model());
             move || {
@@ -152,7 +144,7 @@ fn new_poses(name: &str, scene: Later) -> [Case; 6] {
     ]
 }
 
-impl Scene {
+impl HitScene {
     fn of(path: &Path) -> Option<Self> {
         let model = Arc::new(load(path)?);
         let begin = Instant::now();
@@ -163,8 +155,8 @@ impl Scene {
         let positions = evaluator.all_positions();
         let radius = evaluator.bounds().sphere.radius * 0.1;
         let near = |at: usize| positions[at * 37 % positions.len()] + Vec3::splat(radius * 0.3);
-        let places = (0..RAYS).map(near).collect();
-        Some(Self { rays: rays(&evaluator), tree, built, evaluator, positions, places, radius })
+        let centers = (0..RAYS).map(near).collect();
+        Some(Self { rays: rays(&evaluator), tree, built, evaluator, positions, centers, radius })
     }
 
     fn about(&self) -> String {
@@ -180,7 +172,7 @@ impl Scene {
         )
     }
 
-    /// The tree's side of the pose.
+    /// Returns the tree, fitted to the pose.
     fn pose(&self) -> HitPose {
         let mut pose = HitPose::new(Arc::clone(&self.tree));
         pose.refit(&self.evaluator);
@@ -198,7 +190,7 @@ impl Scene {
     }
 }
 
-/// All positions, without asking for memory.
+/// Writes all positions to `out`, without allocating.
 fn skin(evaluator: &Evaluator, out: &mut [Vec3]) {
     let mut rest = &mut *out;
     for instance in 0..evaluator.model().instances.len() {
@@ -210,7 +202,7 @@ fn skin(evaluator: &Evaluator, out: &mut [Vec3]) {
     black_box(out);
 }
 
-/// Rays from around the model to places in it.
+/// Returns rays from points around the model to points in it.
 fn rays(evaluator: &Evaluator) -> Vec<Ray> {
     let sphere = evaluator.bounds().sphere;
     let mut random = Random::new(7);
@@ -224,15 +216,15 @@ fn rays(evaluator: &Evaluator) -> Vec<Ray> {
 
 fn load(path: &Path) -> Option<ModelData> {
     let bytes = std::fs::read(path).ok()?;
-    let door = Folder(path.parent()?.to_owned());
+    let door = ModelFolder(path.parent()?.to_owned());
     let name = path.file_name()?.to_str()?;
     Some(read(name, &bytes, &door, &ReadOptions::default()).ok()?.model)
 }
 
 /// The folder of a model.
-struct Folder(PathBuf);
+struct ModelFolder(PathBuf);
 
-impl AssetFs for Folder {
+impl AssetFs for ModelFolder {
     fn read(&self, path: &str, _: u64) -> Result<Vec<u8>, AssetError> {
         std::fs::read(self.0.join(path)).map_err(|_| AssetError::Missing)
     }

@@ -1,11 +1,11 @@
 //! The open path, one bone at a time.
 
-use crate::case::Case;
+use crate::case::BenchCase;
 use crate::inputs::{
     ADDED, BLENDS, INFLUENCES, WEIGHTS, finals, how, limb, mask_weights, posed, primitive, roots,
 };
-use crate::model::Subject;
-use crate::play::{CROWDS, FRAMES, crowd, forward, ways};
+use crate::model::BenchModel;
+use crate::play::{CROWDS, FRAMES, crowd, forward, orders};
 use dragonfly_anim::animation::{final_poses, to_root};
 use dragonfly_anim::blend::{Layer, Mask, add, blend, difference};
 use dragonfly_anim::data::{AnimationData, Transform};
@@ -15,7 +15,7 @@ use dragonfly_anim::skin::{Movement, skin_normals, skin_positions};
 use glam::{Mat4, Vec3};
 use std::hint::black_box;
 
-pub(crate) fn cases(subject: &'static Subject) -> Vec<Case> {
+pub(crate) fn cases(subject: &'static BenchModel) -> Vec<BenchCase> {
     let mut cases = sampling(subject);
     cases.extend(matrices(subject));
     cases.extend(blending(subject));
@@ -27,13 +27,13 @@ pub(crate) fn cases(subject: &'static Subject) -> Vec<Case> {
     cases
 }
 
-fn sampling(subject: &'static Subject) -> Vec<Case> {
+fn sampling(subject: &'static BenchModel) -> Vec<BenchCase> {
     let mut cases = Vec::new();
     for (_, take) in subject.short_and_long() {
         let group = format!("sample/{}/{}", subject.name, take.name);
-        for (way, times) in ways(take) {
+        for (order, times) in orders(take) {
             let units = subject.bones() * times.len();
-            let case = Case::new("open", format!("{group}/{way}"), units, "bone", move || {
+            let case = BenchCase::new("open", format!("{group}/{order}"), units, "bone", move || {
                 let mut poses = vec![Transform::IDENTITY; subject.bones()];
                 move || {
                     for &time in &times {
@@ -48,17 +48,17 @@ fn sampling(subject: &'static Subject) -> Vec<Case> {
     cases
 }
 
-fn matrices(subject: &'static Subject) -> [Case; 2] {
+fn matrices(subject: &'static BenchModel) -> [BenchCase; 2] {
     let (name, joints) = (subject.name, subject.skin().bones.len());
     [
-        Case::new("open", format!("to_root/{name}"), subject.bones(), "bone", move || {
+        BenchCase::new("open", format!("to_root/{name}"), subject.bones(), "bone", move || {
             let (poses, mut to) = (posed(subject, 0, 0.4), roots(subject));
             move || {
                 to_root(&subject.model.animation.skeleton, &poses, &mut to);
                 black_box(&to);
             }
         }),
-        Case::new("open", format!("final/{name}"), joints, "joint", move || {
+        BenchCase::new("open", format!("final/{name}"), joints, "joint", move || {
             let (roots, mut to) = (roots(subject), finals(subject));
             move || {
                 final_poses(subject.skin(), &roots, &mut to);
@@ -68,10 +68,10 @@ fn matrices(subject: &'static Subject) -> [Case; 2] {
     ]
 }
 
-fn blending(subject: &'static Subject) -> [Case; 4] {
+fn blending(subject: &'static BenchModel) -> [BenchCase; 4] {
     BLENDS.map(|(count, is_masked)| {
-        let row = format!("blend/{}/{count}/{}", subject.name, how(is_masked));
-        Case::new("open", row, subject.bones(), "bone", move || {
+        let task = format!("blend/{}/{count}/{}", subject.name, how(is_masked));
+        BenchCase::new("open", task, subject.bones(), "bone", move || {
             let poses = [0, 1, 2, 3].map(|take| posed(subject, take, 0.3));
             let mask = Mask::from_weights(mask_weights(subject));
             let (base, mut out) = (posed(subject, 0, 0.0), poses[0].clone());
@@ -88,11 +88,11 @@ fn blending(subject: &'static Subject) -> [Case; 4] {
     })
 }
 
-/// A difference between two takes added to a third: wholly, and in part.
-fn additive(subject: &'static Subject) -> [Case; 2] {
+/// Returns the cases that add the difference between two takes to a third, with weight 1 and less.
+fn additive(subject: &'static BenchModel) -> [BenchCase; 2] {
     ADDED.map(|(how, weight)| {
-        let row = format!("additive/{}/{how}", subject.name);
-        Case::new("open", row, subject.bones(), "bone", move || {
+        let task = format!("additive/{}/{how}", subject.name);
+        BenchCase::new("open", task, subject.bones(), "bone", move || {
             let [one, two, three] = [0, 1, 2].map(|take| posed(subject, take, 0.3));
             let mut more = three.clone();
             difference(&two, &one, &mut more);
@@ -105,8 +105,8 @@ fn additive(subject: &'static Subject) -> [Case; 2] {
     })
 }
 
-fn reaching(subject: &'static Subject) -> Case {
-    Case::new("open", format!("two_bone/{}", subject.name), 1, "solve", move || {
+fn reaching(subject: &'static BenchModel) -> BenchCase {
+    BenchCase::new("open", format!("two_bone/{}", subject.name), 1, "solve", move || {
         let (given, roots, mut poses) = (limb(subject), roots(subject), posed(subject, 0, 0.4));
         let limb = TwoBone {
             pole: Pole::Direction(given.pole),
@@ -114,7 +114,7 @@ fn reaching(subject: &'static Subject) -> Case {
         };
         let unsolved = [limb.root, limb.middle].map(|bone| (bone as usize, poses[bone as usize]));
         move || {
-            // It starts from the poses, so those have to be the same each time.
+            // The solver starts from the poses, so they have to be the same each time.
             for (bone, pose) in unsolved {
                 poses[bone] = pose;
             }
@@ -124,10 +124,10 @@ fn reaching(subject: &'static Subject) -> Case {
     })
 }
 
-fn skinning(subject: &'static Subject) -> [Case; 3] {
+fn skinning(subject: &'static BenchModel) -> [BenchCase; 3] {
     let count = subject.primitive().vertices.len();
     INFLUENCES.map(|most| {
-        Case::new("open", format!("skin/{}/{most}", subject.name), count, "vertex", move || {
+        BenchCase::new("open", format!("skin/{}/{most}", subject.name), count, "vertex", move || {
             let (primitive, finals) = (primitive(subject, most), finals(subject));
             let (mut positions, mut normals) = (vec![Vec3::ZERO; count], vec![Vec3::ZERO; count]);
             move || {
@@ -139,28 +139,28 @@ fn skinning(subject: &'static Subject) -> [Case; 3] {
     })
 }
 
-/// Room for one character on its way from takes to final matrices.
-struct Room {
+/// Buffers for one character between takes and final matrices.
+struct OpenBuffers {
     poses: Vec<Transform>,
     others: Vec<Transform>,
     blended: Vec<Transform>,
     roots: Vec<Mat4>,
 }
 
-impl Room {
-    fn new(subject: &Subject) -> Self {
+impl OpenBuffers {
+    fn new(subject: &BenchModel) -> Self {
         let poses = posed(subject, 0, 0.0);
         Self { others: poses.clone(), blended: poses.clone(), poses, roots: roots(subject) }
     }
 
-    fn character(&mut self, subject: &Subject, take: usize, time: f32, out: &mut [Mat4]) {
+    fn character(&mut self, subject: &BenchModel, take: usize, time: f32, out: &mut [Mat4]) {
         let AnimationData { skeleton, takes } = &subject.model.animation;
         sample_take(Some(&takes[take]), skeleton, time, &mut self.poses);
         to_root(skeleton, &self.poses, &mut self.roots);
         final_poses(subject.skin(), &self.roots, out);
     }
 
-    fn character_of_two(&mut self, subject: &Subject, takes: [usize; 2], time: f32, out: &mut [Mat4]) {
+    fn character_of_two(&mut self, subject: &BenchModel, takes: [usize; 2], time: f32, out: &mut [Mat4]) {
         let AnimationData { skeleton, takes: all } = &subject.model.animation;
         sample_take(Some(&all[takes[0]]), skeleton, time, &mut self.poses);
         sample_take(Some(&all[takes[1]]), skeleton, time, &mut self.others);
@@ -171,43 +171,49 @@ impl Room {
     }
 }
 
-fn one_character(subject: &'static Subject) -> Case {
-    Case::new("open", format!("pipeline/{}/1", subject.name), FRAMES, "character", move || {
+fn one_character(subject: &'static BenchModel) -> BenchCase {
+    BenchCase::new("open", format!("pipeline/{}/1", subject.name), FRAMES, "character", move || {
         let times = forward(&subject.model.animation.takes[0]);
-        let (mut room, mut out) = (Room::new(subject), finals(subject));
+        let (mut buffers, mut out) = (OpenBuffers::new(subject), finals(subject));
         move || {
             for &time in &times {
-                room.character(subject, 0, time, &mut out);
+                buffers.character(subject, 0, time, &mut out);
                 black_box(&out);
             }
         }
     })
 }
 
-fn one_blended_character(subject: &'static Subject) -> Case {
-    Case::new("open", format!("pipeline/{}/1_of_2_takes", subject.name), FRAMES, "character", move || {
-        let takes = &subject.model.animation.takes;
-        let (times, both) = (forward(&takes[0]), [0, 1 % takes.len()]);
-        let (mut room, mut out) = (Room::new(subject), finals(subject));
+fn one_blended_character(subject: &'static BenchModel) -> BenchCase {
+    BenchCase::new(
+        "open",
+        format!("pipeline/{}/1_of_2_takes", subject.name),
+        FRAMES,
+        "character",
         move || {
-            for &time in &times {
-                room.character_of_two(subject, both, time, &mut out);
-                black_box(&out);
+            let takes = &subject.model.animation.takes;
+            let (times, both) = (forward(&takes[0]), [0, 1 % takes.len()]);
+            let (mut buffers, mut out) = (OpenBuffers::new(subject), finals(subject));
+            move || {
+                for &time in &times {
+                    buffers.character_of_two(subject, both, time, &mut out);
+                    black_box(&out);
+                }
             }
-        }
-    })
+        },
+    )
 }
 
-fn of_many(subject: &'static Subject, count: usize) -> Case {
-    let row = format!("pipeline/{}/{count}", subject.name);
-    let case = Case::new("open", row, count, "character", move || {
+fn of_many(subject: &'static BenchModel, count: usize) -> BenchCase {
+    let task = format!("pipeline/{}/{count}", subject.name);
+    let case = BenchCase::new("open", task, count, "character", move || {
         let joints = subject.skin().bones.len();
-        let (mut room, mut out) = (Room::new(subject), vec![Mat4::IDENTITY; joints * count]);
+        let (mut buffers, mut out) = (OpenBuffers::new(subject), vec![Mat4::IDENTITY; joints * count]);
         let mut crowd = crowd(subject, count);
         move || {
             for (member, out) in crowd.iter_mut().zip(out.chunks_mut(joints)) {
                 member.step();
-                room.character(subject, member.take, member.time, out);
+                buffers.character(subject, member.take, member.time, out);
             }
             black_box(&out);
         }

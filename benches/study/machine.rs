@@ -5,47 +5,6 @@ use std::fs;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Processor time since the machine started, in ticks of the kernel: all programs together, and this one.
-#[derive(Clone, Copy)]
-pub struct Load {
-    when: Instant,
-    all: u64,
-    own: u64,
-}
-
-/// Ticks a second, as Linux reports them to programs whatever the kernel's own rate is.
-const TICKS: f64 = 100.0;
-
-impl Load {
-    /// Now. Zero where there is no `/proc`.
-    pub fn now() -> Self {
-        let number = |word: &str| word.parse::<u64>().unwrap_or(0);
-        let stat = fs::read_to_string("/proc/stat").unwrap_or_default();
-        // user nice system idle iowait irq softirq steal; the rest repeats user time.
-        let first: Vec<u64> =
-            stat.lines().next().unwrap_or("").split_whitespace().skip(1).map(number).collect();
-        let all = first.iter().take(8).sum::<u64>() - first.get(3).unwrap_or(&0) - first.get(4).unwrap_or(&0);
-        let own = fs::read_to_string("/proc/self/stat").unwrap_or_default();
-        // The name in brackets may hold spaces; what follows it does not.
-        let rest = own.rsplit_once(')').map_or("", |(_, rest)| rest);
-        let words: Vec<u64> = rest.split_whitespace().map(number).collect();
-        let own = words.get(11).unwrap_or(&0) + words.get(12).unwrap_or(&0);
-        Self { when: Instant::now(), all, own }
-    }
-
-    /// How many cores other programs kept busy since `self`, on average.
-    pub fn others_since(self) -> f64 {
-        let now = Self::now();
-        let others = (now.all - self.all).saturating_sub(now.own - self.own) as f64;
-        others / TICKS / (now.when - self.when).as_secs_f64().max(1e-9)
-    }
-
-    /// Processor time of this program since `self`, all its threads together.
-    pub fn own_since(self) -> Duration {
-        Duration::from_secs_f64((Self::now().own - self.own) as f64 / TICKS)
-    }
-}
-
 /// What the machine is, and what its clock and wake-ups cost.
 pub struct Machine {
     /// The processor's name.
@@ -144,10 +103,11 @@ fn overshoot() -> Distribution {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use dragonfly_kit::load::CpuLoad;
 
     #[test]
     fn work_of_this_program_is_not_laid_to_others() {
-        let load = Load::now();
+        let load = CpuLoad::now();
         let begin = Instant::now();
         while begin.elapsed() < Duration::from_millis(200) {}
         let own = load.own_since();

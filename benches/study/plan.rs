@@ -1,9 +1,10 @@
 //! In which order things are measured, and how often.
 
-use crate::machine::{Load, Machine};
+use crate::machine::Machine;
 use crate::record::{self, Measured, Row};
 use crate::report;
 use crate::summary::{Summary, summarise};
+use dragonfly_kit::load::CpuLoad;
 use dragonfly_kit::random::Random;
 use std::time::Instant;
 
@@ -81,7 +82,7 @@ impl Study {
             rows: Vec::new(),
             begin: Instant::now(),
         };
-        let load = Load::now();
+        let load = CpuLoad::now();
         let machine = Machine::measure();
         let others = load.others_since();
         println!("# {name}, {mode:?}, order by seed {seed}");
@@ -136,7 +137,7 @@ impl Study {
                 variants.swap(place, self.order.below(place + 1));
             }
             // Over all variants of the repeat: the kernel counts in steps of 10 ms, too coarse for one that is short.
-            let load = Load::now();
+            let load = CpuLoad::now();
             let begin = self.rows.len();
             for variant in &mut variants {
                 let mut measured = Measured::default();

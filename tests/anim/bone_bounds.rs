@@ -1,6 +1,7 @@
 //! Bounds made from one box a bone never miss a vertex.
 
-use crate::made::{Weights, files, fox, load, model, times};
+use crate::doors::model_files;
+use crate::made::{Weights, fox, load, model, times};
 use dragonfly_anim::bounds::{AxisBox, BoneBoxes};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::evaluator::Evaluator;
@@ -37,7 +38,7 @@ fn no_vertex_of_any_file_lies_outside_at_any_time() {
     let seed = seed(11);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
-    for path in files() {
+    for path in model_files() {
         let name = path.file_name().unwrap().to_str().unwrap();
         let [by_box, by_sphere] = never_misses(&mut random, &load(&path), 9, name);
         println!("{name:<40} box {by_box:.3} sphere {by_sphere:.3} times the exact one");

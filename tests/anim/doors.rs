@@ -53,12 +53,25 @@ pub(crate) fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data")
 }
 
-/// The folder of test data beside the repository, where there is one; says so where there is none.
-pub(crate) fn shared(folder: &str) -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared").join(folder);
-    if path.is_dir() {
-        return Some(path);
+/// Returns the folders of `tests/data` with models that can be read, some with folders in them.
+pub(crate) fn model_folders() -> [PathBuf; 3] {
+    ["gltf", "bench", "collection"].map(|folder| data().join(folder))
+}
+
+/// Returns every glTF file in the folders with models, sorted.
+pub(crate) fn model_files() -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = Vec::from(model_folders());
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder of test data") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "glb" || ending == "gltf") {
+                found.push(path);
+            }
+        }
     }
-    println!("skipped: {} is not there", path.display());
-    None
+    found.sort();
+    found
 }

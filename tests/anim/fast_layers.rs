@@ -1,6 +1,6 @@
 //! Blends, additive layers, limbs, crowds and vertices of the fast path are what the formulas say.
 
-use crate::doors::{data, shared};
+use crate::doors::data;
 use crate::fast_path::{Worst, compare_poses, load, made};
 use dragonfly_anim::data::{ModelData, Transform};
 use dragonfly_anim::evaluator::Evaluator;
@@ -246,8 +246,7 @@ fn vertices_of_a_fox_are_where_the_open_path_has_them() {
 
 #[test]
 fn vertices_of_a_real_rig_are_where_the_open_path_has_them() {
-    let Some(folder) = shared("assets/bench") else { return };
-    compare_pipeline(load(&folder.join("pab.glb")), 3);
+    compare_pipeline(load(&data().join("bench/pab.glb")), 3);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The fast path gives what the open path gives, at every level of the machine.
 
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{FolderFs, data, model_files};
 use crate::support::{animation_data, bone, take};
 use dragonfly_anim::animation::{final_poses as open_finals, to_root as open_to_root};
 use dragonfly_anim::data::{
@@ -159,28 +159,20 @@ fn a_real_fox_moves_the_same_on_both_paths() {
 
 #[test]
 fn a_real_rig_of_67_bones_moves_the_same_on_both_paths() {
-    let Some(folder) = shared("assets/bench") else { return };
-    let model = load(&folder.join("pab.glb"));
+    let model = load(&data().join("bench/pab.glb"));
     compare_model(&model.animation, &model.skins).assert("pab");
 }
 
 #[test]
-fn every_model_there_is_moves_the_same_on_both_paths() {
-    let Some(folder) = shared("assets/gltf") else { return };
+fn every_model_of_the_test_data_moves_the_same_on_both_paths() {
     let mut seen = 0;
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let Ok(bytes) = std::fs::read(&path) else { continue };
-        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-        let Ok(imported) =
-            read(&name, &bytes, &FolderFs(path.parent().unwrap().to_owned()), &ReadOptions::default())
-        else {
-            continue;
-        };
-        compare_model(&imported.model.animation, &imported.model.skins).assert(&name);
+    for path in model_files() {
+        let name = path.display().to_string();
+        let model = load(&path);
+        compare_model(&model.animation, &model.skins).assert(&name);
         seen += 1;
     }
-    assert!(seen >= 20, "{seen}");
+    assert!(seen >= 40, "{seen}");
 }
 
 /// A skeleton of `bones` bones that all move, each with its own keys of its own kind.
@@ -274,9 +266,8 @@ fn skeletons_of_any_size_move_the_same_on_both_paths() {
 
 #[test]
 fn a_rig_of_67_joints_agrees_with_exact_poses_on_the_fast_path() {
-    let (Some(assets), Some(expected)) = (shared("assets/bench"), shared("expected")) else { return };
-    let model = load(&assets.join("pab.glb"));
-    let golden = std::fs::read(expected.join("bench__pab.golden.json")).unwrap();
+    let model = load(&data().join("bench/pab.glb"));
+    let golden = std::fs::read(data().join("bench/pab.golden.json")).unwrap();
     let golden: serde_json::Value = serde_json::from_slice(&golden).unwrap();
     let skeleton = &model.animation.skeleton;
     let node = |value: &serde_json::Value| value.as_u64().unwrap() as u32;

@@ -1,6 +1,6 @@
 //! A file's format is told by what it holds, then by its name; every message is one line that begins with a place.
 
-use crate::doors::{MemoryFs, shared};
+use crate::doors::{MemoryFs, model_files};
 use crate::fixture::Fixture;
 use dragonfly_anim::format::{FORMATS, ImportError, NoFiles, ReadOptions, format_of, read};
 use serde_json::json;
@@ -40,16 +40,14 @@ fn words_of_a_file_never_break_a_message() {
 
 #[test]
 fn files_of_the_collection_are_read_without_a_warning_that_matters() {
-    let Some(folder) = shared("assets/gltf") else { return };
-    // Pictures are left out of the collection on purpose; a few files hold what is worth saying.
+    // Images are left out of the collection on purpose; a few files contain what is worth a warning.
     let usual = [
         "IMAGE_DATA_INVALID",
         "UNSUPPORTED_EXTENSION",
         "CAMERA_NOT_SHOWN",
         "ACCESSOR_WEIGHTS_NON_NORMALIZED",
     ];
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
+    for path in model_files() {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         if !name.ends_with(".glb") {
             continue;

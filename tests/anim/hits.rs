@@ -1,6 +1,7 @@
 //! Rays and spheres meet the animated mesh where every triangle, tested one by one, says they do.
 
-use crate::made::{Weights, direction, files, fox, load, model, times, vector};
+use crate::doors::model_files;
+use crate::made::{Weights, direction, fox, load, model, times, vector};
 use dragonfly_anim::data::{ModelData, Primitive, Vertices};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::hit::{
@@ -83,7 +84,7 @@ fn the_tree_and_every_triangle_agree_on_made_models() {
 #[test]
 fn the_tree_and_every_triangle_agree_on_all_files() {
     let mut random = Random::new(seed(23));
-    for path in files() {
+    for path in model_files() {
         agrees(&mut random, &load(&path), 1, 10, path.file_name().unwrap().to_str().unwrap());
     }
 }

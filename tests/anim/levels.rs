@@ -1,6 +1,7 @@
 //! Levels of detail keep what they say they keep, and are as far from the original as they say they are.
 
-use crate::made::{Weights, files, fox, load, model, vector};
+use crate::doors::model_files;
+use crate::made::{Weights, fox, load, model, vector};
 use dragonfly_anim::bounds::Sphere;
 use dragonfly_anim::data::{Influence, Mesh, MeshInstance, ModelData, Primitive, Vertices};
 use dragonfly_anim::evaluator::Evaluator;
@@ -297,7 +298,7 @@ fn levels_of_the_fox_have_the_error_they_say() {
 
 #[test]
 fn every_file_gets_levels_and_no_level_is_worse_than_it_looks() {
-    for path in files() {
+    for path in model_files() {
         let name = path.file_name().unwrap().to_str().unwrap();
         let model = load(&path);
         let begin = Instant::now();

@@ -1,6 +1,6 @@
 //! Models made by chance: skeletons that bend, meshes that several bones share, and weights no file should have.
 
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{FolderFs, data};
 use crate::support::{animation_data, bone};
 use dragonfly_anim::data::{
     Channel, Influence, Interpolation, Mesh, MeshInstance, ModelData, MorphTarget, Primitive, Skin, Take,
@@ -9,7 +9,7 @@ use dragonfly_anim::data::{
 use dragonfly_anim::format::{ReadOptions, read};
 use dragonfly_kit::random::Random;
 use glam::{Mat4, Quat, Vec2, Vec3};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// How the weights of a vertex are.
@@ -171,23 +171,4 @@ pub(crate) fn load(path: &Path) -> Arc<ModelData> {
 /// The fox: 24 bones, three takes.
 pub(crate) fn fox() -> Arc<ModelData> {
     load(&data().join("gltf/Fox.glb"))
-}
-
-/// Every model file that can be read and is there, sorted.
-pub(crate) fn files() -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    let mut folders: Vec<PathBuf> = vec![data().join("gltf")];
-    folders.extend(["assets/gltf", "assets/bench"].into_iter().filter_map(shared));
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "glb" || ending == "gltf") {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
 }

@@ -31,6 +31,7 @@ mod fast_layers;
 mod fast_limbs;
 mod fast_path;
 mod fast_vertices;
+mod figures;
 mod fixture;
 mod formats;
 mod front_door;

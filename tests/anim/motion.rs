@@ -1,6 +1,6 @@
 //! Root motion taken out and put back is the take again.
 
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{FolderFs, data};
 use crate::ik::{direction, started, turn, vector};
 use crate::support::{angle_between, bone, take};
 use dragonfly_anim::animation::to_root;
@@ -379,9 +379,7 @@ pub(crate) fn load(path: &Path) -> ModelData {
 
 /// The models with skeletons that are there.
 pub(crate) fn models() -> Vec<ModelData> {
-    let mut paths = vec![data().join("gltf/Fox.glb")];
-    paths.extend(shared("assets/bench").map(|folder| folder.join("pab.glb")));
-    paths.iter().map(|path| load(path)).collect()
+    ["gltf/Fox.glb", "bench/pab.glb"].iter().map(|path| load(&data().join(path))).collect()
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Key reduction keeps to its tolerance, measured here once more from nothing but the takes.
 
-use crate::doors::{data, shared};
+use crate::doors::data;
 use crate::support::{about_z, along_x, bone, take};
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform};
@@ -481,8 +481,7 @@ fn the_takes_of_the_fox_lose_most_of_their_keys() {
 
 #[test]
 fn the_takes_of_a_person_lose_most_of_their_keys() {
-    let Some(folder) = shared("assets/bench") else { return };
-    report("pab", &model(&folder.join("pab.glb")), 1000.0, &[0.1, 1.0, 5.0]);
+    report("pab", &model(&data().join("bench/pab.glb")), 1000.0, &[0.1, 1.0, 5.0]);
 }
 
 #[test]

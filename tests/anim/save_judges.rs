@@ -1,9 +1,9 @@
 //! Others judge what was written: the `gltf` crate everywhere; the Khronos validator and three.js where they are.
 //!
 //! The two need node, and a folder with `validate.mjs`, `ref_gltf.mjs` and their packages: that named by
-//! `DRAGONFLY_EVALUATORS`, or `shared/evaluators` beside the repository.
+//! `DRAGONFLY_EVALUATORS`.
 
-use crate::doors::{MemoryFs, data, shared};
+use crate::doors::{MemoryFs, data};
 use crate::fixture::Fixture;
 use crate::made::rotation;
 use crate::save_edits::{moving_track, shift};
@@ -13,6 +13,7 @@ use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::NoFiles;
 use dragonfly_anim::format::gltf::save::{OutputFile, TakeNow, compact};
 use dragonfly_kit::random::Random;
+use dragonfly_kit::skip;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::panic::catch_unwind;
@@ -33,21 +34,6 @@ pub(crate) fn crate_says_the_same(before: &[u8], after: &[u8], name: &str) {
     }
 }
 
-/// The folder of the evaluators, if they can run; says why not.
-fn evaluators() -> Option<PathBuf> {
-    let named = std::env::var_os("DRAGONFLY_EVALUATORS").map(PathBuf::from);
-    let folder = named.or_else(|| shared("evaluators"))?;
-    if !folder.join("node_modules").is_dir() {
-        println!("skipped: no packages in {}", folder.display());
-        return None;
-    }
-    if Command::new("node").arg("--version").output().is_err() {
-        println!("skipped: there is no node");
-        return None;
-    }
-    Some(folder)
-}
-
 /// Edited files, each beside what it was made from.
 fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
     let fixture = Fixture::new();
@@ -66,8 +52,9 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
     ] {
         sources.push((name.to_owned(), read(name)));
     }
-    for path in
-        crate::made::files().iter().filter(|path| path.extension().is_some_and(|ending| ending == "glb"))
+    for path in crate::doors::model_files()
+        .iter()
+        .filter(|path| path.extension().is_some_and(|ending| ending == "glb"))
     {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         if sources.iter().all(|(known, _)| *known != name) {
@@ -166,7 +153,7 @@ fn issues(evaluators: &Path, files: &[PathBuf]) -> Vec<BTreeMap<String, usize>> 
 
 #[test]
 fn the_validator_finds_no_more_than_before() {
-    let Some(evaluators) = evaluators() else { return };
+    let Some(evaluators) = skip::evaluators() else { return };
     let folder = std::env::temp_dir().join(format!("dragonfly-judges-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let mut files = edited();
@@ -205,7 +192,7 @@ fn the_validator_finds_no_more_than_before() {
 
 #[test]
 fn three_js_plays_an_edited_clip_as_we_do() {
-    let Some(evaluators) = evaluators() else { return };
+    let Some(evaluators) = skip::evaluators() else { return };
     let fox = Opened::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap());
     let mut random = Random::new(5);
     let mut takes = fox.takes();

@@ -1,11 +1,9 @@
 //! Open and save without an edit is the same file, byte for byte, however it is written.
 
-use crate::doors::{MemoryFs, shared};
+use crate::doors::{MemoryFs, model_files};
 use crate::fixture::{Fixture, chunk, container, glb};
-use crate::made::files;
 use crate::save_support::Opened;
 use dragonfly_anim::format::{AssetFs, NoFiles};
-use std::path::PathBuf;
 
 #[track_caller]
 fn stays(name: &str, bytes: &[u8], door: &dyn AssetFs) -> Opened {
@@ -31,27 +29,15 @@ fn stays_and_can_be_edited(name: &str, bytes: &[u8], door: &dyn AssetFs) {
 }
 
 #[test]
-fn every_file_there_is_stays_the_same() {
-    let mut all = files();
-    let mut folders: Vec<PathBuf> = shared("assets").into_iter().collect();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-            if entry.is_dir() {
-                folders.push(entry);
-            } else if entry.extension().is_some_and(|ending| ending == "glb" || ending == "gltf") {
-                all.push(entry);
-            }
-        }
-    }
-    all.sort();
-    all.dedup();
+fn every_file_of_the_test_data_stays_the_same() {
+    let all = model_files();
     for path in &all {
         let (opened, door) = Opened::file(path);
         let saved = opened.saved(&opened.takes(), &door);
         assert!(saved.bytes() == &**opened.source.bytes(), "{}", path.display());
     }
     println!("{} files stay the same", all.len());
-    assert!(all.len() >= 8);
+    assert!(all.len() >= 40);
 }
 
 /// The fixture with its one buffer as a data URI, as text.

@@ -1,7 +1,7 @@
 //! A document whose program is killed, in whatever way and at any moment, or whose power is cut, loses nothing that was
 //! said to be done; after a power cut, nothing that is older than a second.
 
-use crate::document_writer::{Deed, come_back, deed, done_to, start, start_counting};
+use crate::document_writer::{Deed, come_back, deed, done_to, is_writer, start, start_counting};
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::history::{Edited, MAX_STEPS};
 use dragonfly_document::{Cancel, Change, HistoryView, Source, View, load_model};
@@ -39,6 +39,10 @@ fn told(number: u32) -> String {
 
 #[test]
 fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
+    if is_writer() {
+        return;
+    }
+    let test = "document_ended::a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was";
     let kills = if takes_long() { 5000 } else { 200 };
     let seed = seed(0x646f_6373);
     println!("DRAGONFLY_SEED={seed}");
@@ -54,7 +58,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
     let signals: Vec<Signal> = signals.into_iter().filter(|signal| !ignores(*signal)).collect();
     let mut in_a_drag = 0;
     for kill in 0..kills {
-        let mut writer = start(folder.path(), number);
+        let mut writer = start(test, folder.path(), number);
         // Some while it starts, most while it works.
         let patience = if random.below(6) == 0 {
             Duration::from_millis(random.below(150) as u64)
@@ -101,6 +105,12 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
 
 #[test]
 fn a_power_cut_costs_a_document_at_most_a_second_of_edits() {
+    if is_writer() {
+        return;
+    }
+    let start = |folder: &Path| {
+        start_counting("document_ended::a_power_cut_costs_a_document_at_most_a_second_of_edits", folder)
+    };
     let look = |folder: &Path, said: &Said, cut: usize| {
         let (mut desk, number) = come_back(folder);
         let view = desk.view();
@@ -109,7 +119,7 @@ fn a_power_cut_costs_a_document_at_most_a_second_of_edits() {
         assert_eq!(view.history.done, steps, "cut {cut}, said {} edits", said.edits);
         Found { edits: number, saved: 0 }
     };
-    let cuts = || cut("power-document", times(12), start_counting, look);
+    let cuts = || cut("power-document", times(12), start, look);
     once_in_three(cuts, "edits of more than a second were lost, or there were hardly any", |all| {
         all.edits as usize > all.cuts && all.oldest <= 1_000_000_000
     });

@@ -1,5 +1,5 @@
 //! A document in a program of its own, edited by a script that everybody knows, one deed after the other, and each said
-//! when it is done: to be killed, or to have its power cut. It is this file of tests, started again.
+//! when it is done: to be killed, or to have its power cut. It runs the same test of this program again.
 
 use dragonfly_document::edit::{AddKeys, BonePose, BoneRef, Edit, NewKey, ReverseTake, SetPending, TakeRef};
 use dragonfly_document::history::{Edited, Gesture};
@@ -85,12 +85,13 @@ pub(crate) fn done_to(edited: &mut Edited, deed: &Deed) {
     }
 }
 
-/// Not a promise of its own: what the program does that is started.
-#[test]
-fn a_document_is_edited_until_it_is_killed() {
-    let Some(folder) = std::env::var_os(CHILD) else { return };
+/// Returns whether this process is the one that is to be killed; if so, it has edited until now, and the test that calls
+/// this has nothing else to do.
+pub(crate) fn is_writer() -> bool {
+    let Some(folder) = std::env::var_os(CHILD) else { return false };
     let number = std::env::var(FIRST).ok().and_then(|first| first.parse().ok());
     edit_on(Path::new(&folder), number);
+    true
 }
 
 fn edit_on(folder: &Path, first: Option<u32>) {
@@ -144,17 +145,12 @@ pub(crate) fn come_back(folder: &Path) -> (Desk, u32) {
     (desk, number)
 }
 
-/// Starts it with the script from deed `first` on.
-pub(crate) fn start(folder: &Path, first: u32) -> Writer {
-    Writer::of(&test(), &[(CHILD, folder.as_os_str()), (FIRST, first.to_string().as_ref())])
+/// Starts `test`, which calls [`is_writer`] first, with the script from deed `first` on.
+pub(crate) fn start(test: &str, folder: &Path, first: u32) -> Writer {
+    Writer::of(test, &[(CHILD, folder.as_os_str()), (FIRST, first.to_string().as_ref())])
 }
 
-/// Starts it with deeds that can be counted.
-pub(crate) fn start_counting(folder: &Path) -> Writer {
-    Writer::of(&test(), &[(CHILD, folder.as_os_str())])
-}
-
-fn test() -> String {
-    let module = module_path!().split_once("::").expect("a module of the tests").1;
-    format!("{module}::a_document_is_edited_until_it_is_killed")
+/// Starts `test`, which calls [`is_writer`] first, with deeds that can be counted.
+pub(crate) fn start_counting(test: &str, folder: &Path) -> Writer {
+    Writer::of(test, &[(CHILD, folder.as_os_str())])
 }

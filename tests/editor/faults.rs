@@ -21,7 +21,7 @@ const SURFACE_LOST: i32 = -1_000_000_000;
 const OUT_OF_DATE: i32 = -1_000_001_004;
 const SUBOPTIMAL: i32 = 1_000_001_003;
 
-/// Set in a child process of this test file: what it must draw to, and how many pictures.
+/// Set in a child process, which runs the same test: the file of the picture that it must draw.
 const CHILD: &str = "DRAGONFLY_FAULT_CHILD";
 
 fn fox() -> Arc<LoadedModel> {
@@ -33,11 +33,9 @@ fn settings() -> PictureSettings {
     PictureSettings { size: [160, 120], time: 1.0, ..PictureSettings::default() }
 }
 
-/// Not a promise of its own: the part of the tests below that runs in another process, behind the layer.
-#[test]
-fn pictures_drawn_behind_the_layer() {
-    let Ok(reference) = std::env::var(CHILD) else { return };
-    let reference: RgbaImage = image::open(&reference).expect("the picture without faults").into_rgba8();
+/// The part of the tests below that runs in another process, behind the layer.
+fn draw_behind_the_layer(reference: &str) {
+    let reference: RgbaImage = image::open(reference).expect("the picture without faults").into_rgba8();
     let loaded = fox();
     let mut studio = Studio::new().expect("a device, also behind the layer");
     let deadline = Instant::now() + 4 * SOON;
@@ -74,15 +72,19 @@ fn slowness() -> u32 {
     5
 }
 
-/// Draws in a child process while the layer makes `call` return `result`.
+/// Draws in a child process while the layer makes `call` return `result`. The child runs `test`, the caller, which gets
+/// here and draws.
 #[track_caller]
-fn draw_through(name: &str, call: &str, result: i32, times: usize, more: &[(&str, &str)]) {
-    let layer = Layer::new(name);
+fn draw_through(test: &str, call: &str, result: i32, times: usize, more: &[(&str, &str)]) {
+    if let Ok(reference) = std::env::var(CHILD) {
+        return draw_behind_the_layer(&reference);
+    }
+    let layer = Layer::new(call);
     let reference = layer.folder.join("reference.png");
     let mut studio = studio::studio().expect("a device");
     studio.render(&fox(), &settings()).expect("a picture").save(&reference).expect("a file");
     let output = Command::new(std::env::current_exe().expect("a running test has a file"))
-        .args(["faults::pictures_drawn_behind_the_layer", "--exact", "--nocapture", "--test-threads=1"])
+        .args([&format!("faults::{test}"), "--exact", "--nocapture", "--test-threads=1"])
         .env(CHILD, &reference)
         .envs(layer.environment(call, result, times))
         .envs(more.iter().copied())
@@ -102,13 +104,15 @@ fn draw_through(name: &str, call: &str, result: i32, times: usize, more: &[(&str
 #[test]
 fn a_device_lost_at_any_submit_gives_the_same_picture_again() {
     let _one = alone();
-    draw_through("submit", "submit", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
+    let test = "a_device_lost_at_any_submit_gives_the_same_picture_again";
+    draw_through(test, "submit", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
 }
 
 #[test]
 fn a_device_lost_at_any_wait_gives_the_same_picture_again() {
     let _one = alone();
-    draw_through("wait", "wait", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
+    let test = "a_device_lost_at_any_wait_gives_the_same_picture_again";
+    draw_through(test, "wait", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
 }
 
 #[test]

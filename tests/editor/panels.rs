@@ -1,6 +1,6 @@
 //! Every panel draws every document, and what a person does in it asks for the right thing.
 
-use crate::shots;
+use crate::shots::{self, PictureFolder};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
@@ -69,13 +69,13 @@ pub(crate) fn harness_of(
 }
 
 #[test]
-fn pictures_of_the_panels() {
-    let Some(folder) = shots::folder() else { return };
+fn the_panels_are_drawn_empty_full_and_loading() {
+    let Some(shots) = PictureFolder::new() else { return };
     let shoot = |name: &str, bench: Bench, theme: egui::Theme, zoom: f32| {
         let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
         let mut harness = shots::drawn(bench, [1280.0, 720.0], zoom, theme, frame);
         harness.run_steps(6);
-        shots::save(&mut harness, &folder, name);
+        shots.save(&mut harness, name);
     };
     let full = || Bench::new(Some(fixture::full()));
     shoot("empty", Bench::new(None), egui::Theme::Dark, 1.0);

@@ -1,7 +1,7 @@
 //! With auto-key off a changed pose is seen, undone, kept, and in no key.
 
 use crate::panels::{Bench, harness_of};
-use crate::shots;
+use crate::shots::{self, PictureFolder};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::state::Overlay;
 use dragonfly::panels::{Effect, Request, State};
@@ -280,8 +280,8 @@ fn how_many_poses_wait_is_said_and_a_click_goes_there() {
 }
 
 #[test]
-fn pictures_of_what_waits() {
-    let Some(folder) = shots::folder() else { return };
+fn a_pending_pose_is_drawn() {
+    let Some(shots) = PictureFolder::new() else { return };
     for (name, theme) in [("dark", egui::Theme::Dark), ("light", egui::Theme::Light)] {
         for overlay in [None, Some(Overlay::MirrorPairs)] {
             let (view, _) = pending_view([0.0, 1.0, 0.0]);
@@ -293,7 +293,7 @@ fn pictures_of_what_waits() {
             let mut harness = shots::drawn(bench, [1280.0, 720.0], 1.0, theme, frame);
             harness.run_steps(6);
             let what = if overlay.is_some() { "mirror_pairs" } else { "pending" };
-            shots::save(&mut harness, &folder, &format!("{what}_{name}"));
+            shots.save(&mut harness, &format!("{what}_{name}"));
         }
     }
 }

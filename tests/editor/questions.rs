@@ -1,7 +1,7 @@
 //! What a person is asked: each question is drawn whole in every window, answered by keyboard, and left by Escape.
 
 use crate::panels::{Bench, harness_of};
-use crate::shots;
+use crate::shots::{self, PictureFolder};
 use dragonfly::panels::saving::{Deed, Question};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::{Decision, Offer, SaveOrder, SaveTo, Source, Then};
@@ -109,8 +109,8 @@ fn bench(question: Question) -> Bench {
 }
 
 #[test]
-fn pictures_of_the_questions() {
-    let Some(folder) = shots::folder() else { return };
+fn every_question_is_drawn() {
+    let Some(shots) = PictureFolder::new() else { return };
     for (name, question) in questions() {
         for theme in [egui::Theme::Dark, egui::Theme::Light] {
             let light = theme == egui::Theme::Light;
@@ -121,7 +121,7 @@ fn pictures_of_the_questions() {
             let mut harness = shots::drawn(bench(question.clone()), [800.0, 520.0], 1.0, theme, frame);
             harness.run_steps(6);
             let name = if light { format!("{name}_light") } else { name.to_owned() };
-            shots::save(&mut harness, &folder, &format!("question_{name}"));
+            shots.save(&mut harness, &format!("question_{name}"));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Pictures of the panels, to be looked at: how they are made, and those of the panels that edit.
+//! Pictures of the panels: each is drawn, and none is empty. `DRAGONFLY_SHOTS` names a folder where they are kept to look at.
 
 use crate::workbench;
 use crate::workbench::Workbench;
@@ -6,15 +6,45 @@ use dragonfly::panels::{Request, style};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, ReverseTake, SetPose, TakeRef};
 use dragonfly_kit::document::fixture;
+use dragonfly_kit::folder::Folder;
+use dragonfly_kit::picture::studio::studio;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use std::path::{Path, PathBuf};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
 
-/// Where pictures go: `$DRAGONFLY_SHOTS`. Without it none are made.
-pub(crate) fn folder() -> Option<PathBuf> {
-    let folder = PathBuf::from(std::env::var_os("DRAGONFLY_SHOTS")?);
-    std::fs::create_dir_all(&folder).unwrap();
-    Some(folder)
+/// A folder for pictures.
+pub(crate) enum PictureFolder {
+    /// Named by the user, and kept.
+    Kept(PathBuf),
+    /// Of a test, and deleted at its end.
+    Temporary(Folder),
+}
+
+impl PictureFolder {
+    /// Returns the folder that `DRAGONFLY_SHOTS` names, or a temporary one; skips the test where nothing can be drawn.
+    pub(crate) fn new() -> Option<Self> {
+        drop(studio()?);
+        let Some(folder) = std::env::var_os("DRAGONFLY_SHOTS") else {
+            return Some(Self::Temporary(Folder::new("shots")));
+        };
+        let folder = PathBuf::from(folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        Some(Self::Kept(folder))
+    }
+
+    /// Draws a window and saves the picture, which must not be empty.
+    #[track_caller]
+    pub(crate) fn save<T>(&self, window: &mut Harness<'_, T>, name: &str) {
+        let picture = window.render().unwrap();
+        let colors: BTreeSet<[u8; 4]> = picture.pixels().map(|pixel| pixel.0).collect();
+        assert!(colors.len() > 20, "{name}: a window and its text have more than {} colors", colors.len());
+        let folder = match self {
+            Self::Kept(folder) => folder,
+            Self::Temporary(folder) => folder.path(),
+        };
+        picture.save(folder.join(format!("{name}.png"))).unwrap();
+    }
 }
 
 /// A window whose pixels are drawn.
@@ -33,10 +63,6 @@ pub(crate) fn drawn<T>(
         .with_context_setup(style::install)
         .wgpu()
         .build_ui_state(frame, state)
-}
-
-pub(crate) fn save<T>(window: &mut Harness<'_, T>, folder: &Path, name: &str) {
-    window.render().unwrap().save(folder.join(format!("{name}.png"))).unwrap();
 }
 
 fn bench() -> Workbench {
@@ -89,8 +115,8 @@ fn long_names() -> Workbench {
 }
 
 #[test]
-fn pictures_of_the_panels_that_edit() {
-    let Some(folder) = folder() else { return };
+fn the_panels_that_edit_are_drawn_in_every_state() {
+    let Some(shots) = PictureFolder::new() else { return };
     let shoot =
         |name: &str, bench: Workbench, dark: bool, size: [f32; 2], act: &dyn Fn(&mut workbench::Window)| {
             let theme = if dark { egui::Theme::Dark } else { egui::Theme::Light };
@@ -99,7 +125,7 @@ fn pictures_of_the_panels_that_edit() {
             window.run_steps(4);
             act(&mut window);
             window.run_steps(4);
-            save(&mut window, &folder, name);
+            shots.save(&mut window, name);
         };
     let laptop = [1280.0, 720.0];
     let click =

@@ -6,31 +6,15 @@ use crate::screen::key;
 use crate::window::alone;
 use crate::window_visit::Visit;
 use dragonfly_kit::folder::data;
+use dragonfly_kit::skip;
 use dragonfly_picture::gizmo::{Axis, Handle, Space};
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// What is asked for, degrees.
 const ASKED: f64 = 30.0;
-
-/// The folder of the program of others that plays a file (three.js), if it can run; says why not. It is that named by
-/// `DRAGONFLY_EVALUATORS`, or `shared/evaluators` beside the repository.
-fn evaluators() -> Option<PathBuf> {
-    let named = std::env::var_os("DRAGONFLY_EVALUATORS").map(PathBuf::from);
-    let folder =
-        named.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/evaluators"));
-    if !folder.join("node_modules").is_dir() {
-        println!("three.js is not asked: no packages in {}", folder.display());
-        return None;
-    }
-    if Command::new("node").arg("--version").output().is_err() {
-        println!("three.js is not asked: there is no node");
-        return None;
-    }
-    Some(folder)
-}
 
 /// How the head is turned in its parent in the first take, as three.js plays it.
 fn head_by_three(evaluators: &Path, file: &Path, time: f32) -> DQuat {
@@ -106,7 +90,7 @@ fn a_head_that_is_turned_by_hand_is_the_same_to_the_reader_to_stdio_and_to_three
     run(["edit", &data("gltf/Fox.glb").display().to_string(), "--edits", &lines, "-o", &done]).expect(0);
     same_bytes(&saved, &std::fs::read(done).unwrap(), "another file by `dragonfly edit`");
 
-    if let Some(evaluators) = evaluators() {
+    if let Some(evaluators) = skip::evaluators() {
         let before = head_by_three(&evaluators, &data("gltf/Fox.glb"), time);
         let after = head_by_three(&evaluators, &visit.file, time);
         let wanted = DQuat::from_axis_angle(DVec3::X, ASKED.to_radians()) * before;
@@ -190,7 +174,7 @@ fn with_auto_key_off_a_pose_is_pending_until_it_is_keyed() {
     same_bytes(&saved, &visit.by_stdio(), "another file by --stdio");
     let turned =
         DQuat::from_array(crate::window_hands::numbers::<4>(&visit.shown("rotation")).map(f64::from));
-    if let Some(evaluators) = evaluators() {
+    if let Some(evaluators) = skip::evaluators() {
         let before = head_by_three(&evaluators, &data("gltf/Fox.glb"), time);
         let after = head_by_three(&evaluators, &visit.file, time);
         assert!(apart(before, after) > 0.01, "it was turned");

@@ -5,6 +5,7 @@ use dragonfly_document::{Document, DocumentReply, FaultInjection, FaultPlan, Sou
 use dragonfly_kit::document::arm;
 use dragonfly_kit::eventually;
 use dragonfly_kit::picture::complaints::NoComplaints;
+use dragonfly_kit::skip::{TestNeed, skip};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::Playback;
 use dragonfly_picture::scene::Scene;
@@ -69,13 +70,13 @@ impl Bench {
         Self { main, thread, graphics, replies, losses, _watch: watch }
     }
 
-    /// `None` without an adapter.
+    /// Skips the test where there is no adapter.
     fn new() -> Option<Self> {
         let mut bench = Self::begin(DeviceParameters::default());
         bench.settle();
         match &bench.take()[..] {
             [GraphicsReply::Fatal(reason), ..] => {
-                eprintln!("skipped: {reason}");
+                skip(TestNeed::Adapter, reason);
                 None
             }
             [GraphicsReply::Ready { .. }, ..] => Some(bench),

@@ -7,5 +7,6 @@ mod crates;
 mod direction;
 mod layout;
 mod licences;
+mod skips;
 mod tree;
 mod words;

@@ -1,7 +1,7 @@
 //! Killed at any instant, a program loses nothing that it said was done.
 
 use crate::journal::autosave;
-use crate::journal_writer::{check, start};
+use crate::journal_writer::{check, is_writer, start};
 use dragonfly_kit::folder::takes_long;
 use dragonfly_kit::mounted::quick_folder;
 use dragonfly_kit::random::{Random, seed};
@@ -11,6 +11,10 @@ use std::time::Duration;
 
 #[test]
 fn a_program_killed_at_any_instant_loses_no_edit_and_no_save() {
+    if is_writer() {
+        return;
+    }
+    let test = "journal_kill::a_program_killed_at_any_instant_loses_no_edit_and_no_save";
     let kills = if takes_long() { 5000 } else { 200 };
     let seed = seed(0x6b69_6c6c);
     println!("DRAGONFLY_SEED={seed}");
@@ -19,7 +23,7 @@ fn a_program_killed_at_any_instant_loses_no_edit_and_no_save() {
     let sound = autosave(&folder, RealFiles);
     let (mut recovered, mut met) = (0, 0);
     for kill in 0..kills {
-        let mut writer = start(folder.path());
+        let mut writer = start(test, folder.path());
         // Some while it starts, most while it works.
         let patience = if random.below(4) == 0 {
             Duration::from_millis(random.below(40) as u64)

@@ -1,5 +1,5 @@
-//! A program of its own that edits and saves as fast as it can and says what is done: to be killed, or to have its power
-//! cut. It is this file of tests, started again.
+//! A process of its own that edits and saves as fast as it can and prints what is done: to be killed, or to have its power
+//! cut. It runs the same test of this program again, which finds out by [`is_writer`] that it is to write.
 
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::Random;
@@ -65,10 +65,10 @@ fn count(entries: &[JournalEntry]) -> u32 {
     edits
 }
 
-/// Not a promise of its own: what the program does that is started.
-#[test]
-fn edits_and_saves_until_it_is_killed() {
-    let Some(folder) = std::env::var_os(CHILD) else { return };
+/// Returns whether this process is the one that is to be killed; if so, it has edited and saved until now, and the test
+/// that calls this has nothing else to do.
+pub(crate) fn is_writer() -> bool {
+    let Some(folder) = std::env::var_os(CHILD) else { return false };
     let mut out = std::io::stdout();
     // With the time when it was done: when it is read says less.
     let mut say = |what: &str| {
@@ -80,6 +80,7 @@ fn edits_and_saves_until_it_is_killed() {
     if let Err(error) = work(Path::new(&folder), &mut say) {
         say(&format!("x {error}"));
     }
+    true
 }
 
 type Worked = Result<(), Box<dyn std::error::Error>>;
@@ -171,17 +172,12 @@ pub(crate) fn check_at(folder: &Path, said: &Said, stop: usize) -> Found {
     Found { edits, saved }
 }
 
-/// Starts a writer that edits and saves in `folder`.
-pub(crate) fn start(folder: &Path) -> Writer {
-    start_with(&[(CHILD, folder.as_os_str())])
+/// Starts `test`, which calls [`is_writer`] first, to edit and save in `folder`.
+pub(crate) fn start(test: &str, folder: &Path) -> Writer {
+    Writer::of(test, &[(CHILD, folder.as_os_str())])
 }
 
-/// Starts a writer that only saves in `folder`.
-pub(crate) fn start_saving(folder: &Path) -> Writer {
-    start_with(&[(CHILD, folder.as_os_str()), (ONLY_SAVES, OsStr::new("1"))])
-}
-
-fn start_with(environment: &[(&str, &OsStr)]) -> Writer {
-    let module = module_path!().split_once("::").expect("a module of the tests").1;
-    Writer::of(&format!("{module}::edits_and_saves_until_it_is_killed"), environment)
+/// Starts `test`, which calls [`is_writer`] first, to do nothing but save in `folder`.
+pub(crate) fn start_saving(test: &str, folder: &Path) -> Writer {
+    Writer::of(test, &[(CHILD, folder.as_os_str()), (ONLY_SAVES, OsStr::new("1"))])
 }

@@ -2,6 +2,7 @@
 
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mounted::{Mounted, may_mount, quick_folder, said};
+use dragonfly_kit::skip::{TestNeed, skip};
 use dragonfly_store::{
     ExpectedFile, FileSaveError, FileStamp, FileState, RealFiles, SaveOptions, SaveOutcome, SaveStep,
     VersionLimits, Versions, Vfs, discard_old_content, interrupted_save, replace, save,
@@ -106,7 +107,7 @@ fn owner_and_group_are_kept_where_the_system_allows() {
     let path = folder.join("model.glb");
     fs::write(&path, "old").unwrap();
     if chown(&path, Some(4242), Some(4343)).is_err() {
-        return println!("skipped: only root may give files away");
+        return skip(TestNeed::Root, "only root may give files away");
     }
     fs::set_permissions(&path, fs::Permissions::from_mode(0o660)).unwrap();
     let saved = replace(&path, b"new").unwrap();
@@ -124,7 +125,7 @@ fn extended_attributes_and_access_lists_are_kept() {
     fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
     let file = fs::File::open(&path).unwrap();
     if let Err(error) = fsetxattr(&file, "user.origin", b"camera 3", XattrFlags::empty()) {
-        return println!("skipped: no attributes here: {error}");
+        return skip(TestNeed::FileSystem, format!("no extended attributes: {error}"));
     }
     fsetxattr(&file, "user.empty", b"", XattrFlags::empty()).unwrap();
     // Version 2: owner rw-, user 4242 r--, group r--, mask r--, others ---.
@@ -307,7 +308,7 @@ fn a_read_only_disk_and_a_file_that_must_not_change_stay_as_they_are() {
     let path = folder.join("model.glb");
     replace(&path, b"first").unwrap();
     if !said(Command::new("chattr").arg("+i").arg(&path)) {
-        return println!("skipped: files cannot be made immutable here");
+        return skip(TestNeed::FileSystem, "files cannot be made immutable");
     }
     let error = replace(&path, b"second");
     assert!(said(Command::new("chattr").arg("-i").arg(&path)));

@@ -1,21 +1,21 @@
-//! From takes to final matrices: one character, one that plays two takes, and crowds.
+//! Tasks from takes to final matrices: one character, one that plays two takes, and crowds.
 
-use super::{Form, Ready};
-use crate::case::Case;
+use super::{FastInputs, TakeForm};
+use crate::case::BenchCase;
 use crate::play::{CROWDS, FRAMES, crowd, forward};
 use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{Playing, Scratch, matrix, pose_character, pose_crowd};
 use std::hint::black_box;
 
-pub(super) fn cases<F: Form>(ready: &'static Ready, level: SimdLevel) -> Vec<Case> {
+pub(super) fn cases<F: TakeForm>(ready: &'static FastInputs, level: SimdLevel) -> Vec<BenchCase> {
     let mut cases = vec![one::<F>(ready, level), one_of_two::<F>(ready, level)];
     cases.extend(CROWDS.map(|count| many::<F>(ready, level, count)));
     cases
 }
 
-fn one<F: Form>(ready: &'static Ready, level: SimdLevel) -> Case {
-    let row = format!("pipeline/{}/1", ready.subject.name);
-    Case::new(F::way(level), row, FRAMES, "character", move || {
+fn one<F: TakeForm>(ready: &'static FastInputs, level: SimdLevel) -> BenchCase {
+    let task = format!("pipeline/{}/1", ready.subject.name);
+    BenchCase::new(F::variant(level), task, FRAMES, "character", move || {
         let (take, times) = (&F::takes(ready)[0], forward(&ready.subject.model.animation.takes[0]));
         let (mut scratch, mut finals) = (Scratch::new(&ready.rig), ready.finals());
         move || {
@@ -28,9 +28,9 @@ fn one<F: Form>(ready: &'static Ready, level: SimdLevel) -> Case {
     })
 }
 
-fn one_of_two<F: Form>(ready: &'static Ready, level: SimdLevel) -> Case {
-    let row = format!("pipeline/{}/1_of_2_takes", ready.subject.name);
-    Case::new(F::way(level), row, FRAMES, "character", move || {
+fn one_of_two<F: TakeForm>(ready: &'static FastInputs, level: SimdLevel) -> BenchCase {
+    let task = format!("pipeline/{}/1_of_2_takes", ready.subject.name);
+    BenchCase::new(F::variant(level), task, FRAMES, "character", move || {
         let takes = F::takes(ready);
         let times = forward(&ready.subject.model.animation.takes[0]);
         let second = 1 % takes.len();
@@ -46,12 +46,12 @@ fn one_of_two<F: Form>(ready: &'static Ready, level: SimdLevel) -> Case {
     })
 }
 
-fn many<F: Form>(ready: &'static Ready, level: SimdLevel, count: usize) -> Case {
-    let row = format!("pipeline/{}/{count}", ready.subject.name);
-    Case::new(F::way(level), row, count, "character", move || {
+fn many<F: TakeForm>(ready: &'static FastInputs, level: SimdLevel, count: usize) -> BenchCase {
+    let task = format!("pipeline/{}/{count}", ready.subject.name);
+    BenchCase::new(F::variant(level), task, count, "character", move || {
         let takes = F::takes(ready);
         let mut crowd = crowd(ready.subject, count);
-        let play = |member: &crate::play::Member| [Playing::new(&takes[member.take], member.time)];
+        let play = |member: &crate::play::CrowdMember| [Playing::new(&takes[member.take], member.time)];
         let mut playing: Vec<[Playing<F>; 1]> = crowd.iter().map(play).collect();
         let mut scratch = Scratch::new(&ready.rig);
         let mut finals = vec![matrix::IDENTITY; ready.binding.joints() * count];

@@ -1,11 +1,11 @@
-//! The fast path, at every level of the machine; takes with their keys as they are, and compressed.
+//! The fast path at every SIMD level of the machine, with every key of the takes, and with compressed takes.
 
 mod bones;
 mod characters;
 mod vertices;
 
-use crate::case::Case;
-use crate::model::Subject;
+use crate::case::BenchCase;
+use crate::model::BenchModel;
 use dragonfly_anim::compressed::{CompressedTake, CompressionSettings, compress};
 use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{
@@ -13,9 +13,9 @@ use dragonfly_anim::fast::{
 };
 use std::sync::OnceLock;
 
-/// A subject brought to the layout of the fast path.
-struct Ready {
-    subject: &'static Subject,
+/// A model in the layout of the fast path.
+struct FastInputs {
+    subject: &'static BenchModel,
     rig: Rig,
     binding: SkinBinding,
     keyed: OnceLock<Vec<KeyedTake>>,
@@ -23,21 +23,21 @@ struct Ready {
 }
 
 /// A form of takes that can be played.
-trait Form: Playable + Sized + 'static {
-    /// Who plays it at a level, as a part of a name.
-    fn way(level: SimdLevel) -> String;
+trait TakeForm: Playable + Sized + 'static {
+    /// Returns the name of the variant that plays this form at a level.
+    fn variant(level: SimdLevel) -> String;
 
-    /// The takes of `ready` in this form.
-    fn takes(ready: &'static Ready) -> &'static [Self];
+    /// Returns the takes of the model in this form.
+    fn takes(ready: &'static FastInputs) -> &'static [Self];
 }
 
-/// Keys as they are, 32 bits a number.
-impl Form for KeyedTake {
-    fn way(level: SimdLevel) -> String {
+/// Every key, 32 bits per number.
+impl TakeForm for KeyedTake {
+    fn variant(level: SimdLevel) -> String {
         level.name().to_owned()
     }
 
-    fn takes(ready: &'static Ready) -> &'static [Self] {
+    fn takes(ready: &'static FastInputs) -> &'static [Self] {
         let animation = &ready.subject.model.animation;
         let keyed = |take| KeyedTake::new(&animation.skeleton, take);
         ready.keyed.get_or_init(|| animation.takes.iter().map(|take| keyed(take)).collect())
@@ -45,12 +45,12 @@ impl Form for KeyedTake {
 }
 
 /// Compressed to 0.1 mm at 3 cm.
-impl Form for CompressedTake {
-    fn way(level: SimdLevel) -> String {
+impl TakeForm for CompressedTake {
+    fn variant(level: SimdLevel) -> String {
         format!("{}/compressed", level.name())
     }
 
-    fn takes(ready: &'static Ready) -> &'static [Self] {
+    fn takes(ready: &'static FastInputs) -> &'static [Self] {
         let animation = &ready.subject.model.animation;
         let settings =
             CompressionSettings { everywhere: ready.subject.exactness, ..CompressionSettings::default() };
@@ -59,8 +59,8 @@ impl Form for CompressedTake {
     }
 }
 
-impl Ready {
-    fn new(subject: &'static Subject) -> &'static Self {
+impl FastInputs {
+    fn new(subject: &'static BenchModel) -> &'static Self {
         let rig = Rig::new(&subject.model.animation.skeleton);
         let binding = SkinBinding::new(&rig, subject.skin());
         Box::leak(Box::new(Self {
@@ -72,7 +72,7 @@ impl Ready {
         }))
     }
 
-    /// The pose of take `take`, counted round, a part `part` of its length in.
+    /// Returns the pose of take `take`, modulo the number of takes, at the fraction `part` of its length.
     fn pose(&'static self, take: usize, part: f32) -> Pose {
         let takes = KeyedTake::takes(self);
         let take = &takes[take % takes.len()];
@@ -81,14 +81,14 @@ impl Ready {
         pose
     }
 
-    /// The to-root matrices of some pose.
+    /// Returns the to-root matrices of one pose.
     fn roots(&'static self) -> RootPoses {
         let mut roots = RootPoses::new(&self.rig);
         to_root(SimdLevel::best(), &self.rig, self.pose(0, 0.4).blocks(), &mut roots);
         roots
     }
 
-    /// The final matrices of the same pose.
+    /// Returns the final matrices of the same pose.
     fn finals(&'static self) -> Vec<Matrix34> {
         let mut finals = vec![matrix::IDENTITY; self.binding.joints()];
         final_poses(SimdLevel::best(), &self.binding, &self.roots(), &mut finals);
@@ -96,12 +96,12 @@ impl Ready {
     }
 }
 
-pub(crate) fn cases(subject: &'static Subject) -> Vec<Case> {
-    let ready = Ready::new(subject);
+pub(crate) fn cases(subject: &'static BenchModel) -> Vec<BenchCase> {
+    let ready = FastInputs::new(subject);
     SimdLevel::all().into_iter().flat_map(|level| at_level(ready, level)).collect()
 }
 
-fn at_level(ready: &'static Ready, level: SimdLevel) -> Vec<Case> {
+fn at_level(ready: &'static FastInputs, level: SimdLevel) -> Vec<BenchCase> {
     let mut cases = bones::sampling::<KeyedTake>(ready, level);
     cases.extend(bones::sampling::<CompressedTake>(ready, level));
     cases.extend(bones::matrices(ready, level));

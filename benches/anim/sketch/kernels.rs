@@ -4,10 +4,10 @@ use dragonfly_anim::fast::PoseBlock;
 use dragonfly_anim::fast::matrix::{IDENTITY, Matrix34};
 use dragonfly_anim::fast::simd::{Float4, Float8, Simd};
 
-/// Why the first eight and the last four numbers of one can be had.
+/// Reason why a matrix has first eight and last four numbers.
 pub(super) const TWELVE: &str = "a matrix has twelve numbers";
 
-/// `a * b`, two rows in a register.
+/// Returns `a * b`, computed with two rows in a register.
 #[inline(always)]
 fn product<S: Simd>(a: &Matrix34, b: &Matrix34) -> Matrix34 {
     let (two, one) =
@@ -24,7 +24,7 @@ fn product<S: Simd>(a: &Matrix34, b: &Matrix34) -> Matrix34 {
     out
 }
 
-/// The three rows of eight matrices `T · R · S`, four columns each.
+/// Returns the three rows of eight matrices `T · R · S`, four columns each.
 #[inline(always)]
 pub(super) fn to_parent<S: Simd>(pose: &PoseBlock) -> [[S::F8; 4]; 3] {
     let [x, y, z, w] = S::F8::load_four(&pose.rotation);

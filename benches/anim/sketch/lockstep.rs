@@ -1,16 +1,16 @@
-//! The sketch's other way for crowds: eight characters of one rig in lockstep, one a lane.
+//! The other method of the sketch for crowds: eight characters of one rig in lockstep, one per lane.
 //!
-//! A step of one bone is then the same step for eight characters, without anything to be turned from rows to columns;
-//! in return their keys come from eight places, the matrices of eight characters have to stay near at hand, and the
-//! final ones have to be turned in the end.
+//! A step of one bone is then the same step for eight characters, and nothing is transposed on the way. In return, their
+//! keys are read from eight places in memory, the matrices of eight characters have to stay in the cache, and the final
+//! matrices are transposed at the end.
 //!
-//! Keys: four numbers of 16 bits a rotation, as whole numbers of 2/65,535 from -1 on; translations as they are. All bones
-//! move. Between keys a straight line, the short way, normalised. It leaves out what the sketch leaves out, and plays whole
-//! eights only: a crowd of 100 is one of 104 here, and told per character.
+//! Keys: four numbers of 16 bits per rotation, in steps of 2/65,535 from -1 on; translations are not packed. All bones
+//! move. Interpolation is linear on the shorter arc, normalized. The method leaves out what the sketch leaves out, and
+//! only plays multiples of eight: a crowd of 100 is one of 104 here; times are per character.
 
 use super::kernels::{scatter, to_parent};
 use super::{Sketch, flushed};
-use crate::case::Case;
+use crate::case::BenchCase;
 use crate::play::{CROWDS, crowd};
 use dragonfly_anim::data::{Skeleton, Take, Transform};
 use dragonfly_anim::fast::PoseBlock;
@@ -19,10 +19,10 @@ use dragonfly_anim::fast::simd::{Float8, Kernel, Simd, SimdLevel};
 use dragonfly_anim::sample::sample_take;
 use std::hint::black_box;
 
-/// Eight matrices of three rows, one a lane.
+/// Eight matrices of three rows, one per lane.
 type Matrices = [[f32; 8]; 12];
 
-/// A take, key after key, all bones in each.
+/// A take, key by key, with all bones in each key.
 struct LaneTake {
     start: f32,
     rate: f32,
@@ -31,9 +31,9 @@ struct LaneTake {
     translations: Vec<[f32; 4]>,
 }
 
-/// What one character has at a time: the bones' keys before and after, and how far between.
+/// The keys of all bones before and after a time of one character, and the fraction between them.
 #[derive(Clone, Copy)]
-struct Between<'a> {
+struct KeyPair<'a> {
     rotations: [&'a [[u16; 4]]; 2],
     translations: [&'a [[f32; 4]]; 2],
     mix: f32,
@@ -56,11 +56,11 @@ impl LaneTake {
         Self { start: take.start, rate, frames, rotations, translations }
     }
 
-    fn between(&self, time: f32, bones: usize) -> Between<'_> {
+    fn between(&self, time: f32, bones: usize) -> KeyPair<'_> {
         let at = ((time - self.start) * self.rate).clamp(0.0, (self.frames - 1) as f32);
         let frame = (at as usize).min(self.frames - 2);
         let [before, after] = [frame * bones..(frame + 1) * bones, (frame + 1) * bones..(frame + 2) * bones];
-        Between {
+        KeyPair {
             rotations: [&self.rotations[before.clone()], &self.rotations[after.clone()]],
             translations: [&self.translations[before], &self.translations[after]],
             mix: at - frame as f32,
@@ -68,9 +68,9 @@ impl LaneTake {
     }
 }
 
-/// The poses of eight characters: a block a bone.
+/// Writes the poses of eight characters: a block per bone.
 #[inline(always)]
-fn sample<S: Simd>(eight: &[Between; 8], pose: &mut [PoseBlock]) {
+fn sample<S: Simd>(eight: &[KeyPair; 8], pose: &mut [PoseBlock]) {
     let mix = S::F8::load(&eight.map(|one| one.mix));
     for (bone, out) in pose.iter_mut().enumerate() {
         let (mut turns, mut places) = ([[[0_u16; 8]; 4]; 2], [[[0_f32; 8]; 3]; 2]);
@@ -112,7 +112,7 @@ fn unpack<S: Simd>(key: &[[u16; 8]; 4]) -> [S::F8; 4] {
     ]
 }
 
-/// Row `row` of eight products.
+/// Returns row `row` of eight products.
 #[inline(always)]
 fn row<S: Simd>(left: &Matrices, row: usize, [x, y, z]: &[[S::F8; 4]; 3]) -> [S::F8; 4] {
     let [a, b, c, d] = [left[row * 4], left[row * 4 + 1], left[row * 4 + 2], left[row * 4 + 3]];
@@ -125,7 +125,7 @@ fn row<S: Simd>(left: &Matrices, row: usize, [x, y, z]: &[[S::F8; 4]; 3]) -> [S:
     ]
 }
 
-/// `to_root` of each bone of eight characters; `out` begins with the identity.
+/// Computes the to-root matrices of eight characters; `out` starts with the identity.
 #[inline(always)]
 fn to_root<S: Simd>(parents: &[u32], pose: &[PoseBlock], out: &mut [Matrices]) {
     for (bone, (pose, &parent)) in pose.iter().zip(parents).enumerate() {
@@ -140,7 +140,7 @@ fn to_root<S: Simd>(parents: &[u32], pose: &[PoseBlock], out: &mut [Matrices]) {
     }
 }
 
-/// The final matrices of eight characters, one character after the other.
+/// Writes the final matrices of eight characters, one character after the other.
 #[inline(always)]
 fn finals<S: Simd>(sketch: &Sketch, roots: &[Matrices], out: &mut [Matrix34]) {
     let mut turned = [IDENTITY; 8];
@@ -156,7 +156,7 @@ fn finals<S: Simd>(sketch: &Sketch, roots: &[Matrices], out: &mut [Matrix34]) {
     }
 }
 
-/// Four numbers from `first` on, each for all eight.
+/// Returns four numbers from `first` on, each in all eight lanes.
 #[inline(always)]
 fn spread<S: Simd>(matrix: &Matrix34, first: usize) -> [S::F8; 4] {
     [
@@ -167,13 +167,13 @@ fn spread<S: Simd>(matrix: &Matrix34, first: usize) -> [S::F8; 4] {
     ]
 }
 
-struct ToRoot<'a> {
+struct LockstepToRoot<'a> {
     parents: &'a [u32],
     pose: &'a [PoseBlock],
     out: &'a mut [Matrices],
 }
 
-impl Kernel for ToRoot<'_> {
+impl Kernel for LockstepToRoot<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -182,18 +182,18 @@ impl Kernel for ToRoot<'_> {
     }
 }
 
-/// From takes to final matrices, eight characters after eight.
-struct Crowd<'a, I> {
+/// From takes to final matrices, eight characters at a time.
+struct LockstepCrowd<'a, I> {
     sketch: &'a Sketch,
     takes: &'a [LaneTake],
     pose: &'a mut [PoseBlock],
     roots: &'a mut [Matrices],
-    /// What each of eight plays, and when.
+    /// Index of the take, and time, of each of eight characters.
     eights: I,
     out: &'a mut [Matrix34],
 }
 
-impl<I: Iterator<Item = [(usize, f32); 8]>> Kernel for Crowd<'_, I> {
+impl<I: Iterator<Item = [(usize, f32); 8]>> Kernel for LockstepCrowd<'_, I> {
     type Output = ();
 
     #[inline(always)]
@@ -208,12 +208,12 @@ impl<I: Iterator<Item = [(usize, f32); 8]>> Kernel for Crowd<'_, I> {
     }
 }
 
-/// The identity first, then room for each bone.
+/// Returns a buffer with the identity, then a matrix for each bone.
 fn roots(bones: usize) -> Vec<Matrices> {
     vec![IDENTITY.map(|number| [number; 8]); 1 + bones]
 }
 
-pub(super) fn cases(sketch: &'static Sketch) -> Vec<Case> {
+pub(super) fn cases(sketch: &'static Sketch) -> Vec<BenchCase> {
     let mut cases = vec![chain(sketch)];
     cases.extend(CROWDS.map(|count| many(sketch, count)));
     cases
@@ -224,9 +224,9 @@ fn takes(sketch: &Sketch) -> Vec<LaneTake> {
     animation.takes.iter().take(3).map(|take| LaneTake::new(&animation.skeleton, take)).collect()
 }
 
-fn chain(sketch: &'static Sketch) -> Case {
+fn chain(sketch: &'static Sketch) -> BenchCase {
     let bones = sketch.subject.bones();
-    Case::new("lockstep", format!("to_root/{}", sketch.subject.name), bones * 8, "bone", move || {
+    BenchCase::new("lockstep", format!("to_root/{}", sketch.subject.name), bones * 8, "bone", move || {
         let pose: Vec<PoseBlock> = crate::inputs::posed(sketch.subject, 0, 0.4)
             .into_iter()
             .map(|transform| {
@@ -237,16 +237,16 @@ fn chain(sketch: &'static Sketch) -> Case {
             .collect();
         let (mut out, level) = (roots(bones), SimdLevel::best());
         move || {
-            level.run(ToRoot { parents: &sketch.parents, pose: &pose, out: &mut out });
+            level.run(LockstepToRoot { parents: &sketch.parents, pose: &pose, out: &mut out });
             black_box(&out);
         }
     })
 }
 
-fn many(sketch: &'static Sketch, count: usize) -> Case {
-    let row = format!("pipeline/{}/{count}", sketch.subject.name);
+fn many(sketch: &'static Sketch, count: usize) -> BenchCase {
+    let task = format!("pipeline/{}/{count}", sketch.subject.name);
     let count = count.next_multiple_of(8);
-    Case::new("lockstep", row, count, "character", move || {
+    BenchCase::new("lockstep", task, count, "character", move || {
         let (takes, bones) = (takes(sketch), sketch.subject.bones());
         let (mut pose, mut roots) = (vec![PoseBlock::IDENTITY; bones], roots(bones));
         let (mut out, level) = (sketch.finals(count), SimdLevel::best());
@@ -259,7 +259,7 @@ fn many(sketch: &'static Sketch, count: usize) -> Case {
                 })
             });
             let (takes, pose, roots, out) = (&takes, &mut pose, &mut roots, &mut out);
-            level.run(Crowd { sketch, takes, pose, roots, eights, out });
+            level.run(LockstepCrowd { sketch, takes, pose, roots, eights, out });
             black_box(out);
         }
     })

@@ -1,28 +1,28 @@
-//! A rival: the shortest ways to matrices and vertices that were found in a prototype, for takes that suit it.
+//! The sketch: the fastest methods of a prototype, from takes to matrices and vertices, for takes that suit them.
 //!
-//! Its methods, written anew with the vectors of this library:
+//! The methods, written again with the vectors of this library:
 //!
 //! * keys at a uniform rate, all bones at each, so that two keys are two stretches of memory;
-//! * rotations as three numbers of 16 bits within the range that each has in the whole take, the fourth from the length;
-//!   which one is left out is chosen once for a bone and take, the one whose smallest magnitude is the largest;
-//! * between keys a straight line, normalised; blocks of eight bones that do not move are copied;
-//! * eight bones at once to matrices of three rows, then each times its parent, two rows in a register;
-//! * for crowds another way, eight characters at once: [`lockstep`];
+//! * rotations as three numbers of 16 bits within the range of each in the whole take, and the fourth from the length of 1;
+//!   the component left out is chosen once per bone and take: the one whose smallest magnitude is the largest;
+//! * linear interpolation between keys, normalized; blocks of eight bones that do not move are copied;
+//! * eight bones at once to matrices of three rows, then each multiplied by its parent, two rows in a register;
+//! * for crowds another method, eight characters at once: [`lockstep`];
 //! * vertices by the weighted sum of matrices: [`skinning`].
 //!
-//! It does less than the library: scale does not move, ranges are those of the whole take (8 mm of error on a finger of
-//! a long one), nothing is checked, one interpolation. The prototype's approximate reciprocal root is an exact one
-//! here. Tiny numbers are made zero when takes and offsets are brought to its layout, as the library does it, because
-//! numbers too small for the usual form cost time in any sum.
+//! It does less than the library: scale is constant, ranges are those of the whole take (8 mm of error on a finger of a
+//! long one), nothing is checked, and there is one interpolation. The prototype's approximate reciprocal square root is
+//! exact here. Tiny numbers become zero when takes and offsets are converted, as in the library, because subnormal numbers
+//! slow down every operation.
 
 mod kernels;
 mod lockstep;
 mod skinning;
 mod take;
 
-use crate::case::Case;
-use crate::model::Subject;
-use crate::play::{CROWDS, FRAMES, Member, crowd, forward, ways};
+use crate::case::BenchCase;
+use crate::model::BenchModel;
+use crate::play::{CROWDS, CrowdMember, FRAMES, crowd, forward, orders};
 use dragonfly_anim::fast::Pose;
 use dragonfly_anim::fast::matrix::{IDENTITY, Matrix34, matrix34};
 use dragonfly_anim::fast::simd::{Kernel, Simd, SimdLevel};
@@ -30,25 +30,25 @@ use std::hint::black_box;
 use std::sync::OnceLock;
 use take::SketchTake;
 
-/// A subject in the sketch's layout.
+/// A model in the layout of the sketch.
 struct Sketch {
-    subject: &'static Subject,
-    /// One a lane: 0 for a root, else 1 + the parent.
+    subject: &'static BenchModel,
+    /// One per lane: 0 for a root, else 1 + the parent.
     parents: Vec<u32>,
     joints: Vec<u32>,
     offsets: Vec<Matrix34>,
     takes: OnceLock<Vec<SketchTake>>,
 }
 
-/// Memory that characters use one after the other.
-struct Room {
+/// Buffers that characters use one after the other.
+struct SketchBuffers {
     pose: Pose,
-    /// The identity first.
+    /// To-root matrices; the identity is the first.
     roots: Vec<Matrix34>,
 }
 
 impl Sketch {
-    fn new(subject: &'static Subject) -> &'static Self {
+    fn new(subject: &'static BenchModel) -> &'static Self {
         let skeleton = &subject.model.animation.skeleton;
         let mut parents = vec![0; skeleton.len().div_ceil(8) * 8];
         for (slot, bone) in parents.iter_mut().zip(&skeleton.bones) {
@@ -70,22 +70,22 @@ impl Sketch {
         self.takes.get_or_init(|| animation.takes.iter().map(|take| made(take)).collect())
     }
 
-    fn room(&self) -> Room {
-        Room { pose: Pose::new(self.subject.bones()), roots: vec![IDENTITY; 1 + self.parents.len()] }
+    fn buffers(&self) -> SketchBuffers {
+        SketchBuffers { pose: Pose::new(self.subject.bones()), roots: vec![IDENTITY; 1 + self.parents.len()] }
     }
 
-    /// Room for the final matrices of `count` characters.
+    /// Returns a buffer for the final matrices of `count` characters.
     fn finals(&self, count: usize) -> Vec<Matrix34> {
         vec![IDENTITY; self.joints.len() * count]
     }
 }
 
-/// Without the numbers that are too small for the usual form.
+/// Returns `number`, or zero where it is nearly subnormal.
 fn flushed(number: f32) -> f32 {
     if number.abs() < 1e-12 { 0.0 } else { number }
 }
 
-/// Steps on the way from takes to final matrices.
+/// Steps from takes to final matrices.
 #[derive(Clone, Copy, PartialEq)]
 enum Steps {
     Sample,
@@ -94,45 +94,45 @@ enum Steps {
     All,
 }
 
-/// Takes `steps` for one character after the other.
-struct Take<'a, I> {
+/// Runs `steps` for one character after the other.
+struct SketchRun<'a, I> {
     sketch: &'a Sketch,
     takes: &'a [SketchTake],
-    room: &'a mut Room,
+    buffers: &'a mut SketchBuffers,
     steps: Steps,
-    /// What each plays, and when.
+    /// Index of the take, and time, of each character.
     playing: I,
     out: &'a mut [Matrix34],
 }
 
-impl<I: Iterator<Item = (usize, f32)>> Kernel for Take<'_, I> {
+impl<I: Iterator<Item = (usize, f32)>> Kernel for SketchRun<'_, I> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self) {
-        let Self { sketch, takes, room, steps, playing, out } = self;
+        let Self { sketch, takes, buffers, steps, playing, out } = self;
         for ((take, time), out) in playing.zip(out.chunks_exact_mut(sketch.joints.len())) {
             if matches!(steps, Steps::Sample | Steps::All) {
-                takes[take].sample::<S>(time, room.pose.blocks_mut());
+                takes[take].sample::<S>(time, buffers.pose.blocks_mut());
             }
             if matches!(steps, Steps::ToRoot | Steps::All) {
-                kernels::to_root::<S>(&sketch.parents, room.pose.blocks(), &mut room.roots);
+                kernels::to_root::<S>(&sketch.parents, buffers.pose.blocks(), &mut buffers.roots);
             }
             if matches!(steps, Steps::Final | Steps::All) {
-                kernels::finals::<S>(&room.roots, &sketch.joints, &sketch.offsets, out);
+                kernels::finals::<S>(&buffers.roots, &sketch.joints, &sketch.offsets, out);
             }
         }
     }
 }
 
-pub(crate) fn cases(subject: &'static Subject) -> Vec<Case> {
+pub(crate) fn cases(subject: &'static BenchModel) -> Vec<BenchCase> {
     let (sketch, name) = (Sketch::new(subject), subject.name);
     let mut cases = Vec::new();
     for (index, take) in subject.short_and_long() {
         let group = format!("sample/{name}/{}", take.name);
-        for (way, times) in ways(take) {
+        for (order, times) in orders(take) {
             let units = subject.bones() * times.len();
-            let case = one(sketch, format!("{group}/{way}"), units, "bone", Steps::Sample, (index, times));
+            let case = one(sketch, format!("{group}/{order}"), units, "bone", Steps::Sample, (index, times));
             cases.push(case.among(&group));
         }
     }
@@ -147,41 +147,41 @@ pub(crate) fn cases(subject: &'static Subject) -> Vec<Case> {
     cases
 }
 
-/// One character that plays one take at several times.
+/// Returns the case of one character that plays one take at several times.
 fn one(
     sketch: &'static Sketch,
-    row: String,
+    task: String,
     units: usize,
     unit: &'static str,
     steps: Steps,
     (take, times): (usize, Vec<f32>),
-) -> Case {
-    Case::new("sketch", row, units, unit, move || {
-        let (takes, mut room, mut out) = (sketch.takes(), sketch.room(), sketch.finals(1));
+) -> BenchCase {
+    BenchCase::new("sketch", task, units, unit, move || {
+        let (takes, mut buffers, mut out) = (sketch.takes(), sketch.buffers(), sketch.finals(1));
         let mut go = move |time: f32, steps: Steps| {
-            let (room, out) = (&mut room, &mut out);
+            let (buffers, out) = (&mut buffers, &mut out);
             let playing = std::iter::once((take, time));
-            SimdLevel::best().run(Take { sketch, takes, room, steps, playing, out });
-            black_box((&room.pose, &room.roots, &out));
+            SimdLevel::best().run(SketchRun { sketch, takes, buffers, steps, playing, out });
+            black_box((&buffers.pose, &buffers.roots, &out));
         };
         go(times[0], Steps::All);
         move || times.iter().for_each(|&time| go(time, steps))
     })
 }
 
-fn many(sketch: &'static Sketch, count: usize) -> Case {
-    let row = format!("pipeline/{}/{count}", sketch.subject.name);
-    Case::new("sketch", row, count, "character", move || {
-        let (takes, mut room, mut out) = (sketch.takes(), sketch.room(), sketch.finals(count));
+fn many(sketch: &'static Sketch, count: usize) -> BenchCase {
+    let task = format!("pipeline/{}/{count}", sketch.subject.name);
+    BenchCase::new("sketch", task, count, "character", move || {
+        let (takes, mut buffers, mut out) = (sketch.takes(), sketch.buffers(), sketch.finals(count));
         let mut crowd = crowd(sketch.subject, count);
         let level = SimdLevel::best();
         move || {
-            let playing = crowd.iter_mut().map(|member: &mut Member| {
+            let playing = crowd.iter_mut().map(|member: &mut CrowdMember| {
                 member.step();
                 (member.take, member.time)
             });
-            let (room, out) = (&mut room, &mut out);
-            level.run(Take { sketch, takes, room, steps: Steps::All, playing, out });
+            let (buffers, out) = (&mut buffers, &mut out);
+            level.run(SketchRun { sketch, takes, buffers, steps: Steps::All, playing, out });
             black_box(&out);
         }
     })

@@ -1,35 +1,35 @@
-//! The sketch's vertices on the CPU.
+//! CPU skinning of the sketch.
 //!
 //! ```text
 //! M        = Σ weight_i * final[joint_i]         two rows in one register, the third in another
 //! position = M * (position, 1)     normal = M * (normal, 0)
 //! ```
 //!
-//! One vertex after the other. Less than the library does: normals are moved by the matrix itself, wrong under scales that
-//! differ by axis, and keep the length that comes out; nothing is looked at for not being finite; every vertex has the same
-//! number of influences. The prototype knew four of them; here it is told how many.
+//! One vertex after the other. It does less than the library: normals are transformed by the matrix itself, which is wrong
+//! for scales that differ by axis, and are not normalized; numbers that are not finite are not looked for; every vertex has
+//! the same number of influences, here a parameter, in the prototype four.
 
 use super::kernels::TWELVE;
-use crate::case::Case;
+use crate::case::BenchCase;
 use crate::inputs::{INFLUENCES, finals, primitive};
-use crate::model::Subject;
+use crate::model::BenchModel;
 use dragonfly_anim::data::{Influence, Primitive};
 use dragonfly_anim::fast::matrix::{IDENTITY, Matrix34, matrix34};
 use dragonfly_anim::fast::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
 use std::hint::black_box;
 
 /// A vertex with `N` influences.
-struct Vertex<const N: usize> {
+struct SketchVertex<const N: usize> {
     influences: [Influence; N],
     position: [f32; 3],
     normal: [f32; 3],
 }
 
-/// In the order of the file.
-fn vertices<const N: usize>(primitive: &Primitive) -> Vec<Vertex<N>> {
+/// Returns the vertices in the order of the file.
+fn vertices<const N: usize>(primitive: &Primitive) -> Vec<SketchVertex<N>> {
     let vertices = &primitive.vertices;
     let influence = |vertex, at| vertices.influences_of(vertex).get(at).copied().unwrap_or_default();
-    let vertex = |index: usize| Vertex {
+    let vertex = |index: usize| SketchVertex {
         influences: std::array::from_fn(|at| influence(index, at)),
         position: vertices.positions[index].to_array(),
         normal: vertices.normals[index].to_array(),
@@ -37,14 +37,14 @@ fn vertices<const N: usize>(primitive: &Primitive) -> Vec<Vertex<N>> {
     (0..vertices.len()).map(vertex).collect()
 }
 
-struct Skin<'a, const N: usize> {
-    vertices: &'a [Vertex<N>],
+struct SketchSkin<'a, const N: usize> {
+    vertices: &'a [SketchVertex<N>],
     finals: &'a [Matrix34],
     positions: &'a mut [[f32; 3]],
     normals: &'a mut [[f32; 3]],
 }
 
-impl<const N: usize> Kernel for Skin<'_, N> {
+impl<const N: usize> Kernel for SketchSkin<'_, N> {
     type Output = ();
 
     #[inline(always)]
@@ -64,7 +64,7 @@ impl<const N: usize> Kernel for Skin<'_, N> {
     }
 }
 
-/// The weighted sum of the matrices of one vertex.
+/// Computes the weighted sum of the matrices of one vertex.
 #[inline(always)]
 fn weigh<S: Simd, const N: usize>(influences: &[Influence; N], finals: &[Matrix34], sum: &mut Matrix34) {
     let matrix = &finals[usize::from(influences[0].joint)];
@@ -80,7 +80,7 @@ fn weigh<S: Simd, const N: usize>(influences: &[Influence; N], finals: &[Matrix3
     one.store(sum.last_chunk_mut().expect(TWELVE));
 }
 
-/// The columns of a matrix, in both halves alike; the fourth number of each says nothing.
+/// Returns the columns of a matrix, the same in both halves; the fourth number of each is meaningless.
 #[inline(always)]
 fn columns<S: Simd>(matrix: &Matrix34) -> [S::F8; 4] {
     let rows = matrix.as_chunks::<4>().0;
@@ -88,7 +88,7 @@ fn columns<S: Simd>(matrix: &Matrix34) -> [S::F8; 4] {
     S::F8::transpose([S::F8::twice(&rows[0]), S::F8::twice(&rows[1]), last, last])
 }
 
-/// The first three numbers.
+/// Stores the first three numbers.
 #[inline(always)]
 fn store<S: Simd>(vector: S::F8, to: &mut [f32; 3]) {
     let mut four = [0.0; 4];
@@ -96,21 +96,21 @@ fn store<S: Simd>(vector: S::F8, to: &mut [f32; 3]) {
     *to = [four[0], four[1], four[2]];
 }
 
-pub(super) fn cases(subject: &'static Subject) -> [Case; 3] {
+pub(super) fn cases(subject: &'static BenchModel) -> [BenchCase; 3] {
     let [one, two, four] = INFLUENCES;
     [case::<1>(subject, one), case::<2>(subject, two), case::<4>(subject, four)]
 }
 
-fn case<const N: usize>(subject: &'static Subject, most: usize) -> Case {
+fn case<const N: usize>(subject: &'static BenchModel, most: usize) -> BenchCase {
     let count = subject.primitive().vertices.len();
-    Case::new("sketch", format!("skin/{}/{most}", subject.name), count, "vertex", move || {
+    BenchCase::new("sketch", format!("skin/{}/{most}", subject.name), count, "vertex", move || {
         let vertices = vertices::<N>(&primitive(subject, most));
         let finals: Vec<Matrix34> = finals(subject).into_iter().map(matrix34).collect();
         let (mut positions, mut normals) = (vec![[0.0; 3]; count], vec![[0.0; 3]; count]);
         let level = SimdLevel::best();
         move || {
             let (positions, normals) = (&mut positions, &mut normals);
-            level.run(Skin { vertices: &vertices, finals: &finals, positions, normals });
+            level.run(SketchSkin { vertices: &vertices, finals: &finals, positions, normals });
             black_box((positions, normals));
         }
     })

@@ -1,4 +1,4 @@
-//! The sketch's form of a take: uniform keys, three numbers of 16 bits a rotation and a translation.
+//! Takes of the sketch: keys at a uniform rate, three numbers of 16 bits per rotation and per translation.
 
 use super::flushed;
 use dragonfly_anim::data::{Skeleton, Take, Transform};
@@ -7,37 +7,37 @@ use dragonfly_anim::fast::{Pose, PoseBlock};
 use dragonfly_anim::sample::sample_take;
 use glam::Quat;
 
-/// Makes tiny numbers zero.
+/// Sets tiny numbers to zero.
 fn flush(pose: &mut Transform) {
     pose.translation = pose.translation.to_array().map(flushed).into();
     pose.rotation = Quat::from_array(pose.rotation.to_array().map(flushed));
 }
 
-type Packed = [[u16; 8]; 3];
+type PackedKey = [[u16; 8]; 3];
 
-/// Of a block of eight bones: where its numbers begin, the size of a step, and which component is left out.
+/// Range of the numbers of eight bones: the smallest, the size of a step, and the component that is left out.
 #[derive(Clone, Default)]
-struct Range {
+struct BlockRange {
     least: [[f32; 8]; 3],
     step: [[f32; 8]; 3],
-    /// Masks: the component left out is 0; is 0 or 1; is 0, 1 or 2.
+    /// Masks of the lanes whose component left out is 0; is 0 or 1; is 0, 1 or 2.
     left_out: [[f32; 8]; 3],
 }
 
-/// Blocks that move, their ranges, and their keys, frame by frame.
+/// The blocks that move, with their ranges and their keys, frame by frame.
 #[derive(Default)]
-struct Moving {
+struct MovingBlocks {
     blocks: Vec<usize>,
-    ranges: Vec<Range>,
-    keys: Vec<Packed>,
+    ranges: Vec<BlockRange>,
+    keys: Vec<PackedKey>,
 }
 
 pub(super) struct SketchTake {
     start: f32,
     rate: f32,
     frames: usize,
-    rotations: Moving,
-    translations: Moving,
+    rotations: MovingBlocks,
+    translations: MovingBlocks,
     base: Pose,
 }
 
@@ -55,8 +55,8 @@ impl SketchTake {
             start: take.start,
             rate,
             frames,
-            rotations: Moving::default(),
-            translations: Moving::default(),
+            rotations: MovingBlocks::default(),
+            translations: MovingBlocks::default(),
             base,
         };
         new.pack(&poses);
@@ -119,9 +119,9 @@ impl SketchTake {
     }
 }
 
-/// The three numbers, and the fourth from the length of 1.
+/// Returns the three stored numbers, and the fourth from the length of 1.
 #[inline(always)]
-fn unpack<S: Simd>(key: &Packed, range: &Range) -> [S::F8; 4] {
+fn unpack<S: Simd>(key: &PackedKey, range: &BlockRange) -> [S::F8; 4] {
     let (step, least) = (S::F8::load_three(&range.step), S::F8::load_three(&range.least));
     let a = S::F8::from_u16(&key[0]).mul_add(step[0], least[0]);
     let b = S::F8::from_u16(&key[1]).mul_add(step[1], least[1]);
@@ -130,10 +130,10 @@ fn unpack<S: Simd>(key: &Packed, range: &Range) -> [S::F8; 4] {
     [a, b, c, rest.max(S::F8::splat(0.0)).sqrt()]
 }
 
-impl Moving {
-    /// Adds a block, if anything in it moves.
+impl MovingBlocks {
+    /// Adds a block if anything in it moves.
     fn add(&mut self, block: usize, bones: &[Vec<[f32; 3]>], left_out: &[usize]) {
-        let mut range = Range::default();
+        let mut range = BlockRange::default();
         let mut moves = false;
         for (lane, keys) in bones.iter().enumerate() {
             for at in 0..3 {
@@ -164,7 +164,7 @@ impl Moving {
         self.ranges.push(range);
     }
 
-    /// From block by block to frame by frame.
+    /// Reorders the keys from block by block to frame by frame.
     fn by_frame(&mut self, frames: usize) {
         let blocks = self.blocks.len();
         self.keys = (0..frames)
@@ -174,7 +174,7 @@ impl Moving {
     }
 
     #[inline(always)]
-    fn around(&self, frame: usize) -> impl Iterator<Item = (usize, &Range, &Packed, &Packed)> {
+    fn around(&self, frame: usize) -> impl Iterator<Item = (usize, &BlockRange, &PackedKey, &PackedKey)> {
         let count = self.blocks.len();
         let (before, after) = self.keys[frame * count..(frame + 2) * count].split_at(count);
         let keys = self.blocks.iter().zip(&self.ranges).zip(before).zip(after);
@@ -182,7 +182,7 @@ impl Moving {
     }
 }
 
-/// Which component to leave out, and the others at every key, with signs that make the one left out positive.
+/// Returns the component to leave out, and the others at every key, with the sign that makes the one left out positive.
 fn three_of_four(keys: &[[f32; 4]]) -> (usize, Vec<[f32; 3]>) {
     let least = |component: usize| keys.iter().map(|key| key[component].abs()).fold(f32::MAX, f32::min);
     let left_out = (0..4).max_by(|&a, &b| least(a).total_cmp(&least(b))).unwrap_or(3);

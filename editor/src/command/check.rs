@@ -111,12 +111,8 @@ impl Report {
             );
         }
         for finding in check(&loaded.model) {
-            let row = Row {
-                severity: "",
-                rule: finding.rule,
-                place: finding.path.to_string(),
-                text: finding.text,
-            };
+            let row =
+                Row { severity: "", rule: finding.rule, place: finding.path.to_string(), text: finding.text };
             report.add(deny, finding.severity, row);
         }
         Ok(report)

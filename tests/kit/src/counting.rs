@@ -4,8 +4,8 @@
 //!
 //! ```
 //! #[global_allocator]
-//! static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;
-//! let (count, _) = dragonfly_kit::counting::count(|| Box::new(1));
+//! static ALLOCATOR: crate::counting::CountingAllocator = crate::counting::CountingAllocator;
+//! let (count, _) = crate::counting::count(|| Box::new(1));
 //! assert_eq!(count.allocations, 1);
 //! ```
 

@@ -7,6 +7,7 @@ pub mod bench;
 pub mod counting;
 mod eventually;
 pub mod folder;
+pub mod load;
 #[cfg(unix)]
 pub mod mounted;
 pub mod mutate;
@@ -14,6 +15,7 @@ pub mod mutate;
 pub mod power;
 pub mod process;
 pub mod random;
+pub mod skip;
 pub mod writer;
 
 #[cfg(feature = "document")]

@@ -1,13 +1,14 @@
 //! File systems of a test's own: small ones, full ones, and ones whose power is cut.
 
+use crate::skip::{TestNeed, skip};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// May this process mount? Says why not, once for each test that asks.
+/// Returns whether this process may mount; skips the test otherwise.
 pub fn may_mount(test: &str) -> bool {
     let root = rustix::process::geteuid().is_root();
     if !root {
-        println!("{test}: skipped, only root may mount");
+        skip(TestNeed::Root, format!("{test}: only root may mount"));
     }
     root
 }
@@ -17,19 +18,23 @@ pub fn may_mount(test: &str) -> bool {
 pub struct Mounted(PathBuf);
 
 impl Mounted {
-    /// A file system in memory of so many bytes; `None`, and a printed reason, when the system refuses.
+    /// Mounts a file system in memory of `bytes` bytes; skips the test if the system refuses.
     pub fn in_memory(at: &Path, bytes: usize) -> Option<Self> {
         Self::mount(at, &["-t", "tmpfs", "-o", &format!("size={bytes}"), "tmpfs"])
     }
 
-    /// The file system in the file `image`.
+    /// Mounts the file system in the file `image`; skips the test if the system refuses.
     pub fn image(at: &Path, image: &Path) -> Option<Self> {
         Self::mount(at, &["-o", "loop", &image.to_string_lossy()])
     }
 
     fn mount(at: &Path, arguments: &[&str]) -> Option<Self> {
         std::fs::create_dir_all(at).expect("a folder");
-        said(Command::new("mount").args(arguments).arg(at)).then(|| Self(at.to_path_buf()))
+        let is_mounted = said(Command::new("mount").args(arguments).arg(at));
+        if !is_mounted {
+            skip(TestNeed::FileSystem, format!("mount {arguments:?} is refused"));
+        }
+        is_mounted.then(|| Self(at.to_path_buf()))
     }
 
     /// The folder at which the file system is mounted.

@@ -3,6 +3,7 @@
 use crate::folder::{Folder, takes_long};
 use crate::mounted::{Mounted, may_mount, said};
 use crate::random::{Random, seed};
+use crate::skip::{TestNeed, skip};
 use crate::writer::{Found, Said, Writer, nanoseconds};
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -76,8 +77,7 @@ pub struct Cuts {
     pub late: usize,
 }
 
-/// Cuts the power `cuts` times while a program works on the disk; `None`, and a printed reason, where that cannot be
-/// had.
+/// Cuts the power `cuts` times while a program works on the disk; skips the test where that is not possible.
 pub fn cut(
     name: &str,
     cuts: usize,
@@ -94,18 +94,17 @@ pub fn cut(
     let image = folder.join("disk.img");
     fs::File::create(&image).unwrap().set_len(64 << 20).unwrap();
     if !said(Command::new("mkfs.ext4").args(["-q", "-F"]).arg(&image)) {
-        println!("skipped: no ext4 can be made");
+        skip(TestNeed::FileSystem, "no ext4 can be made");
         return None;
     }
     let Some(mut cutter) = Cutter::start() else {
-        println!("skipped: no python3");
+        skip(TestNeed::Program, "there is no python3");
         return None;
     };
     let mut all = Cuts { cuts, ..Cuts::default() };
     for cut in 0..cuts {
         let Some(disk) = Mounted::image(&folder.join("disk"), &image) else {
             assert_eq!(cut, 0, "the file system cannot be mounted any more");
-            println!("skipped: no image can be mounted");
             return None;
         };
         let mut writer = work(disk.path());
@@ -118,7 +117,7 @@ pub fn cut(
         let said = writer.kill_and_believe(began);
         drop(disk);
         if !is_cut {
-            println!("skipped: the power of this file system cannot be cut");
+            skip(TestNeed::FileSystem, "the power of this file system cannot be cut");
             return None;
         }
         let disk = Mounted::image(&folder.join("disk"), &image).expect("it can be mounted after a cut");

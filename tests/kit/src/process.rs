@@ -79,7 +79,10 @@ pub fn ignores(signal: rustix::process::Signal) -> bool {
     let mask = line.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or_default();
     let ignores = mask >> (signal.as_raw() - 1) & 1 == 1;
     if ignores {
-        println!("skipped: {signal:?}, which whoever started this ignores");
+        crate::skip::skip(
+            crate::skip::TestNeed::Signal,
+            format!("the caller of the tests ignores {signal:?}"),
+        );
     }
     ignores
 }

@@ -1,6 +1,7 @@
-//! A device for tests; without any Vulkan adapter they say so and pass.
+//! A device for tests; they are skipped where there is no Vulkan adapter.
 
 use super::complaints::NoComplaints;
+use crate::skip::{TestNeed, skip};
 use dragonfly_picture::{DeviceParameters, GraphicsError, Studio};
 use std::ops::{Deref, DerefMut};
 
@@ -25,13 +26,13 @@ impl DerefMut for Watched {
     }
 }
 
-/// A studio on the machine's adapter.
+/// Returns a studio on the adapter of the machine; skips the test where there is none.
 pub fn studio() -> Option<Watched> {
     let watch = NoComplaints::expect();
     match Studio::with(DeviceParameters::default()) {
         Ok(studio) => Some(Watched { studio, _watch: watch }),
         Err(GraphicsError::NoAdapter(reason)) => {
-            eprintln!("skipped: no graphics adapter ({reason})");
+            skip(TestNeed::Adapter, reason);
             None
         }
         Err(error) => panic!("{error}"),

@@ -1,0 +1,62 @@
+//! The figures of `anim/README.md` are those that were recorded.
+
+#[path = "../../benches/anim/report/mod.rs"]
+pub(crate) mod report;
+
+use report::RecordedResults;
+use report::results::{Figure, Results};
+use std::fs;
+
+fn page() -> String {
+    fs::read_to_string(report::page()).unwrap()
+}
+
+#[test]
+fn every_table_of_the_readme_is_made_from_the_recorded_results() {
+    let page = page();
+    let made = report::render(&RecordedResults::read().unwrap(), &page).unwrap();
+    assert!(made == page, "run `cargo bench -p dragonfly-anim -- --report`");
+}
+
+#[test]
+fn a_figure_that_was_not_measured_is_noticed() {
+    let page = page();
+    let marker = "<!-- table: sampling -->\n";
+    let invented = page.replace(marker, &format!("{marker}| invented | 0.01 · 0.02 |\n"));
+    assert_ne!(invented, page);
+    assert_eq!(report::render(&RecordedResults::read().unwrap(), &invented).unwrap(), page);
+}
+
+#[test]
+fn no_measured_figure_is_typed_outside_the_tables() {
+    let typed = |text: &str| {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let is_number = |word: &str| word.starts_with(|first: char| first.is_ascii_digit());
+        let is_unit = |word: &str| {
+            let word = word.trim_end_matches(|last: char| !last.is_alphanumeric() && last != '×');
+            ["ns", "µs", "ms", "s", "×", "bytes", "KB", "instructions", "%"].contains(&word)
+        };
+        let pair = |pair: &[&str]| (is_number(pair[0]) && is_unit(pair[1])).then(|| pair.join(" "));
+        words.windows(2).find_map(pair)
+    };
+    assert_eq!(typed("about 8.4 ns instead"), Some("8.4 ns".to_owned()));
+    let page = page();
+    for part in page.split("<!-- end -->") {
+        let outside = part.split("<!-- table: ").next().unwrap_or_default();
+        // The size of raw takes is a definition.
+        let outside = outside.replace("Raw is 40 bytes", "");
+        assert_eq!(typed(&outside), None);
+    }
+}
+
+#[test]
+fn results_that_are_written_read_back() {
+    let figure = Figure::new("sample/pab/walk/forward", "avx2/compressed", "median", "ns/bone", 1.25);
+    let results = Results {
+        run: vec![("machine".to_owned(), "a processor, 4 cores: quiet".to_owned())],
+        rows: vec![Figure { others: 0.5, ..figure }],
+    };
+    assert_eq!(Results::parse(&results.text()).unwrap(), results);
+    assert_eq!(results.value("sample/pab/walk/forward", "avx2/compressed", "median"), Some(1.25));
+    assert!(Results::parse("a,b,c,d,e,f\n").is_err());
+}

@@ -1,0 +1,65 @@
+//! No test passes without running: what cannot run calls `dragonfly_kit::skip`, which counts.
+
+use crate::tree::{File, files, none, one};
+
+/// The file with the function that skips, and this file, which plants faults.
+const EXEMPT: &[&str] = &["tests/kit/src/skip.rs", "tests/repo/skips.rs"];
+
+/// Words of a message that a test does not run.
+const WORDS: &[&str] = &["\"skip", "\"not run", ": skipped"];
+
+/// A folder outside the repository, which not every machine has.
+const OUTSIDE: &str = "../shared";
+
+/// Returns the code in one line, so that a rule sees what follows a statement.
+fn joined(file: &File) -> String {
+    file.code().split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Returns whether a message is printed just before an early return, in code of one line.
+fn prints_and_returns(code: &str) -> bool {
+    let prints = ["println!(", "eprintln!(", "print!("];
+    let ends = |rest: &str| {
+        let after = rest.split_once("); ").map_or("", |(_, after)| after);
+        after.starts_with("return;") || after.starts_with("return None;")
+    };
+    prints
+        .iter()
+        .any(|print| code.contains(&format!("return {print}")) || code.split(print).skip(1).any(ends))
+}
+
+fn skips_are_counted(files: &[File]) -> Vec<String> {
+    let mut complaints = Vec::new();
+    let is_test = |file: &&File| {
+        file.is_rust() && file.path.starts_with("tests/") && !EXEMPT.contains(&file.path.as_str())
+    };
+    for file in files.iter().filter(is_test) {
+        let code = joined(file);
+        let complaint = if prints_and_returns(&code) {
+            "prints and returns early"
+        } else if WORDS.iter().any(|word| code.contains(word)) {
+            "says that a test does not run"
+        } else if code.contains(OUTSIDE) {
+            "needs a folder outside the repository"
+        } else {
+            continue;
+        };
+        complaints.push(format!(
+            "{}: {complaint}: call dragonfly_kit::skip, or add the data to tests/data",
+            file.path
+        ));
+    }
+    complaints
+}
+
+#[test]
+fn every_test_that_does_not_run_is_counted() {
+    none(skips_are_counted(&files()));
+    let planted = |text: &str| skips_are_counted(&[File::planted("tests/anim/rules.rs", text)]);
+    one(planted("if !path.is_dir() {\n    println!(\"no folder\");\n    return;\n}"));
+    one(planted("let Some(x) = y else {\n    eprintln!(\"no {}\", x);\n    return None;\n};"));
+    one(planted("return println!(\"only root may do this\");"));
+    one(planted(&format!("eprint!({} this\");", WORDS[0])));
+    one(planted(&format!("let folder = root.join(\"{OUTSIDE}/assets\");")));
+    none(planted("println!(\"{count} files\");\nassert!(count > 3);\nreturn;"));
+}
