@@ -236,6 +236,7 @@ mod base64_of {
 #[test]
 fn the_fixture_is_valid_in_each_form() {
     use crate::doors::MemoryFs;
+    use dragonfly_anim::format::gltf::{GLB, GLTF};
     use dragonfly_anim::format::{ReadOptions, read};
     let fixture = Fixture::new();
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
@@ -248,7 +249,7 @@ fn the_fixture_is_valid_in_each_form() {
     assert_eq!(binary.warnings, []);
     assert_eq!(binary.model, embedded.model);
     assert_eq!(binary.model, beside.model);
-    assert_eq!((binary.format, embedded.format), ("glb", "gltf"));
+    assert_eq!((binary.format, embedded.format), (GLB, GLTF));
     assert_eq!(door.asked(), ["all.bin"]);
     assert_eq!(crate::soundness::faults(&binary.model), [""; 0]);
     let model = binary.model;

@@ -4,14 +4,14 @@ use crate::doors::{MemoryFs, data};
 use crate::fixture::{Fixture, accessor};
 use crate::save_support::{Opened, Over, bin_of, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Track};
-use dragonfly_anim::format::NoFiles;
-use dragonfly_anim::format::gltf::save::{ChannelChange, MARK, TakeChange, TakeNow};
+use dragonfly_anim::format::gltf::save::{ChannelChange, MARK, TakeChange};
+use dragonfly_anim::format::{EditedTake, NoFiles};
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
 /// Moves every key of the first translation in take `index`, or of the first morph weights, by a little.
-pub(crate) fn shift(takes: &mut [TakeNow], index: usize) {
+pub(crate) fn shift(takes: &mut [EditedTake], index: usize) {
     let take = take_mut(takes, index);
     let moving = take.tracks.iter_mut().find(|track| !track.translation.is_empty());
     match moving {
@@ -159,7 +159,7 @@ fn takes_are_renamed_added_deleted_and_reordered() {
     assert_eq!(renamed.changes.takes[0].1, TakeChange::Renamed);
 
     for order in [vec![1], vec![0, 2], vec![2, 1, 0], vec![2, 0], vec![1, 2], vec![0, 1]] {
-        let takes: Vec<TakeNow> = order.iter().map(|&index| fox.takes()[index].clone()).collect();
+        let takes: Vec<EditedTake> = order.iter().map(|&index| fox.takes()[index].clone()).collect();
         let saved = fox.saved(&takes, &NoFiles);
         assert_eq!(saved.changes.bytes_appended, 0);
         if order.windows(2).all(|pair| pair[0] < pair[1]) {
@@ -179,7 +179,7 @@ fn takes_are_renamed_added_deleted_and_reordered() {
     let mut fresh = crate::support::take(vec![moving_track()]);
     fresh.tracks =
         (0..fox.model.animation.skeleton.len() as u32).map(|bone| Track { bone, ..moving_track() }).collect();
-    takes.insert(0, TakeNow { origin: None, take: Arc::new(fresh) });
+    takes.insert(0, EditedTake { origin: None, take: Arc::new(fresh) });
     shift(&mut takes, 2);
     let saved = fox.saved(&takes, &NoFiles);
     println!(

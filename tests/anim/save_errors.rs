@@ -4,8 +4,8 @@ use crate::doors::data;
 use crate::fixture::Fixture;
 use crate::save_support::{Opened, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, Take};
-use dragonfly_anim::format::gltf::save::{SaveError, SourceFile, TakeNow, plan};
-use dragonfly_anim::format::{NoFiles, ReadOptions};
+use dragonfly_anim::format::gltf::save::{SaveError, SourceFile, plan};
+use dragonfly_anim::format::{EditedTake, NoFiles, ReadOptions};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
@@ -76,7 +76,7 @@ fn takes_of_another_model_are_refused() {
     let other = Opened::alone("other.glb", &Fixture::new().glb());
     let mismatch = plan(&fox.source, &other.model, &other.takes()).err().unwrap();
     assert!(matches!(mismatch, SaveError::Mismatch { .. }), "{mismatch}");
-    let nowhere = TakeNow { origin: Some(7), take: fox.takes()[0].take.clone() };
+    let nowhere = EditedTake { origin: Some(7), take: fox.takes()[0].take.clone() };
     let mismatch = plan(&fox.source, &fox.model, &[nowhere]).err().unwrap();
     assert_eq!(mismatch.to_string(), "take \"Survey\": the file has no animation 7");
 }

@@ -10,8 +10,8 @@ use crate::save_edits::{moving_track, shift};
 use crate::save_support::{Opened, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, Track};
 use dragonfly_anim::evaluator::Evaluator;
-use dragonfly_anim::format::NoFiles;
-use dragonfly_anim::format::gltf::save::{OutputFile, TakeNow, compact};
+use dragonfly_anim::format::gltf::save::compact;
+use dragonfly_anim::format::{EditedTake, NoFiles, OutputFile};
 use dragonfly_kit::random::Random;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -94,7 +94,7 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
                 false => Track { bone, ..moving_track() },
             };
             let tracks = (0..bones as u32).map(track).collect();
-            takes.push(TakeNow { origin: None, take: Arc::new(crate::support::take(tracks)) });
+            takes.push(EditedTake { origin: None, take: Arc::new(crate::support::take(tracks)) });
         }
         for take in &mut takes {
             let take = Arc::make_mut(&mut take.take);

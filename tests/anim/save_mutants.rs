@@ -52,10 +52,7 @@ fn attempt(bytes: &[u8], random: &mut Random) -> Result<bool, String> {
         .takes
         .iter()
         .enumerate()
-        .map(|(index, take)| dragonfly_anim::format::gltf::save::TakeNow {
-            origin: Some(index),
-            take: take.clone(),
-        })
+        .map(|(index, take)| dragonfly_anim::format::EditedTake { origin: Some(index), take: take.clone() })
         .collect();
     let same = plan(&source, &model, &takes).map_err(|error| format!("unedited: {error}"))?;
     if same.write()[0].bytes != bytes {
@@ -63,7 +60,7 @@ fn attempt(bytes: &[u8], random: &mut Random) -> Result<bool, String> {
     }
     if takes.is_empty() {
         let take = dragonfly_anim::data::Take { tracks: tracks(&model), ..Default::default() };
-        takes.push(dragonfly_anim::format::gltf::save::TakeNow { origin: None, take: Arc::new(take) });
+        takes.push(dragonfly_anim::format::EditedTake { origin: None, take: Arc::new(take) });
     }
     let bones = model.animation.skeleton.len();
     let index = random.below(takes.len());

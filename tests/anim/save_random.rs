@@ -5,8 +5,8 @@ use crate::fixture::Fixture;
 use crate::made::{rotation, vector};
 use crate::save_support::{Opened, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Track};
-use dragonfly_anim::format::NoFiles;
-use dragonfly_anim::format::gltf::save::{TakeNow, compact};
+use dragonfly_anim::format::gltf::save::compact;
+use dragonfly_anim::format::{EditedTake, NoFiles};
 use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
@@ -58,7 +58,7 @@ fn rotations(random: &mut Random, times: &Arc<[f32]>) -> Channel<Quat> {
 }
 
 /// Changes something somewhere in the takes.
-fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<TakeNow>) {
+fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<EditedTake>) {
     let index = random.below(takes.len());
     let bones = opened.model.animation.skeleton.len();
     let bone = random.below(bones);
@@ -75,7 +75,7 @@ fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<TakeNow>) {
         4 => {
             let mut take = (*takes[index].take).clone();
             take.name = "fresh".to_owned();
-            takes.push(TakeNow { origin: None, take: Arc::new(take) });
+            takes.push(EditedTake { origin: None, take: Arc::new(take) });
         }
         5 => take_mut(takes, index).tracks[bone] = Track { bone: bone as u32, ..Track::default() },
         6 | 7 => take_mut(takes, index).tracks[bone].translation = vectors(random, &fresh),

@@ -189,7 +189,7 @@ fn a_file_without_animations_gets_some() {
             let opened = stays(name, &bytes, &NoFiles);
             let mut take = crate::support::take(vec![crate::save_edits::moving_track()]);
             take.name = "new".to_owned();
-            let now = [dragonfly_anim::format::gltf::save::TakeNow { origin: None, take: take.into() }];
+            let now = [dragonfly_anim::format::EditedTake { origin: None, take: take.into() }];
             let saved = opened.saved(&now, &NoFiles);
             println!("{}", String::from_utf8_lossy(saved.bytes()));
             assert_eq!(saved.json()["animations"].as_array().unwrap().len(), 1);
@@ -205,7 +205,7 @@ fn what_is_new_looks_like_its_neighbours() {
     let bones = opened.model.animation.skeleton.len() as u32;
     let track = |bone| dragonfly_anim::data::Track { bone, ..crate::save_edits::moving_track() };
     let take = crate::support::take((0..bones).map(track).collect());
-    takes.push(dragonfly_anim::format::gltf::save::TakeNow { origin: None, take: take.into() });
+    takes.push(dragonfly_anim::format::EditedTake { origin: None, take: take.into() });
     takes.push(takes[0].clone());
     // The same lines, whoever writes them; only the order of members may differ, and so the commas.
     let lines = |text: &str| {

@@ -2,8 +2,10 @@
 
 use crate::doors::FolderFs;
 use dragonfly_anim::data::{Channel, ModelData, MorphTrack, Take, Track};
-use dragonfly_anim::format::gltf::save::{Changes, MARK, OutputFile, SaveError, SourceFile, TakeNow, plan};
-use dragonfly_anim::format::{AssetError, AssetFs, ImportError, NoFiles, ReadOptions, read};
+use dragonfly_anim::format::gltf::save::{Changes, MARK, SaveError, SourceFile, plan};
+use dragonfly_anim::format::{
+    AssetError, AssetFs, EditedTake, ImportError, NoFiles, OutputFile, ReadOptions, read,
+};
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -56,19 +58,19 @@ impl Opened {
     }
 
     /// The takes as they are, in their order.
-    pub(crate) fn takes(&self) -> Vec<TakeNow> {
+    pub(crate) fn takes(&self) -> Vec<EditedTake> {
         let takes = self.model.animation.takes.iter().enumerate();
-        takes.map(|(index, take)| TakeNow { origin: Some(index), take: take.clone() }).collect()
+        takes.map(|(index, take)| EditedTake { origin: Some(index), take: take.clone() }).collect()
     }
 
     /// Saves, checks that the rest stays, opens again and checks that everything is as asked.
     #[track_caller]
-    pub(crate) fn saved(&self, now: &[TakeNow], door: &dyn AssetFs) -> Saved {
+    pub(crate) fn saved(&self, now: &[EditedTake], door: &dyn AssetFs) -> Saved {
         self.try_saved(now, door).unwrap_or_else(|error| panic!("{}: {error}", self.source.name()))
     }
 
     #[track_caller]
-    pub(crate) fn try_saved(&self, now: &[TakeNow], door: &dyn AssetFs) -> Result<Saved, SaveError> {
+    pub(crate) fn try_saved(&self, now: &[EditedTake], door: &dyn AssetFs) -> Result<Saved, SaveError> {
         let plan = plan(&self.source, &self.model, now)?;
         let files = plan.write();
         let changes = plan.changes().clone();
@@ -232,7 +234,7 @@ pub(crate) fn same_scene(a: &ModelData, b: &ModelData) {
 
 /// The takes of `after` are those asked for, to the last bit.
 #[track_caller]
-pub(crate) fn same_takes(before: &ModelData, asked: &[TakeNow], after: &ModelData) {
+pub(crate) fn same_takes(before: &ModelData, asked: &[EditedTake], after: &ModelData) {
     assert_eq!(asked.len(), after.animation.takes.len());
     for (asked, got) in asked.iter().zip(&after.animation.takes) {
         let is_empty = asked.take.tracks.iter().all(Track::is_empty) && asked.take.morphs.is_empty();
@@ -275,6 +277,6 @@ fn same_channel<T: PartialEq + Copy>(a: &Channel<T>, b: &Channel<T>) -> bool {
 }
 
 /// The take `index` of `takes`, to be changed.
-pub(crate) fn take_mut(takes: &mut [TakeNow], index: usize) -> &mut Take {
+pub(crate) fn take_mut(takes: &mut [EditedTake], index: usize) -> &mut Take {
     Arc::make_mut(&mut takes[index].take)
 }

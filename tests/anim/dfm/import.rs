@@ -2,7 +2,7 @@
 
 use super::golden::{file, model};
 use dragonfly_anim::data::{Bone, Image, ModelData, Skeleton, Take};
-use dragonfly_anim::format::{ByteBudget, ImportError, NoFiles, ReadOptions, dfm, format_of, read};
+use dragonfly_anim::format::{ByteBudget, Formats, ImportError, NoFiles, ReadOptions, dfm, read};
 use std::sync::Arc;
 
 fn import(model: &ModelData) -> Result<ModelData, ImportError> {
@@ -12,7 +12,8 @@ fn import(model: &ModelData) -> Result<ModelData, ImportError> {
 
 #[test]
 fn such_files_are_known_by_content_and_by_name() {
-    let name = |name: &str, bytes: &[u8]| format_of(name, bytes).map(|format| format.name);
+    let formats = Formats::builtin();
+    let name = |name: &str, bytes: &[u8]| formats.detect(name, bytes).map(|format| format.name);
     let file = file();
     assert_eq!(name("model", &file), Some("dfm"));
     assert_eq!(name("model", &file[..100]), Some("dfm"));

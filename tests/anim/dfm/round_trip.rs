@@ -59,7 +59,9 @@ fn every_model_of_the_collection_comes_back_bit_for_bit() {
                 // The importer's way gives the same.
                 let again = read("a.dfm", &file, &NoFiles, &ReadOptions::default());
                 let again = again.unwrap_or_else(|error| panic!("{name}: {error}"));
-                assert!(again.model == imported.model && again.warnings.is_empty() && again.format == "dfm");
+                assert!(
+                    again.model == imported.model && again.warnings.is_empty() && again.format == dfm::DFM
+                );
                 read_in += 1;
             }
             Err(error) => println!("{name}: {error}"),

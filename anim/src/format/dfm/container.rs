@@ -6,7 +6,7 @@ use super::record::{Fields, Record};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, invalid};
 use crate::checksum::Checksum;
-use crate::format::guard::Guard;
+use crate::format::ImportContext;
 use crate::format::{ImportError, Place};
 use crate::limits::CANCEL_EVERY;
 
@@ -30,7 +30,7 @@ pub(super) struct Found<'a> {
 }
 
 /// Finds every part, in the order of [`PARTS`].
-pub(super) fn open<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Vec<Found<'a>>, ImportError> {
+pub(super) fn open<'a>(bytes: &'a [u8], context: &ImportContext<'_>) -> Result<Vec<Found<'a>>, ImportError> {
     length(bytes)?;
     let (directory_at, newer) = ending(bytes)?;
     let directory = &bytes[directory_at..bytes.len() - ENDING];
@@ -44,13 +44,13 @@ pub(super) fn open<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Vec<Found<'
     }
     let entries = entries.chunks_exact(ENTRY);
     check_count(entries.len(), newer, directory_at)?;
-    let mut found = guard.vec(&Place::Byte(directory_at as u64), PARTS.len())?;
+    let mut found = context.vec(&Place::Byte(directory_at as u64), PARTS.len())?;
     let mut at = 4;
     for (number, entry) in entries.enumerate() {
         let entry_at = directory_at + HEADER + number * ENTRY;
         let layout = PARTS.get(number);
         let part =
-            extent(bytes, entry, (entry_at, at, directory_at), layout.map(|layout| layout.tag), guard)?;
+            extent(bytes, entry, (entry_at, at, directory_at), layout.map(|layout| layout.tag), context)?;
         if let Some(layout) = layout {
             found.push(header_of(layout.part, at, part, newer)?);
         }
@@ -62,7 +62,7 @@ pub(super) fn open<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Vec<Found<'
     }
     if newer {
         let text = "written by a newer version; what this one does not know is left out";
-        guard.warn(Place::File, DFM_NEWER, text);
+        context.warn(Place::File, DFM_NEWER, text);
     }
     Ok(found)
 }
@@ -135,7 +135,7 @@ fn extent<'a>(
     entry: &[u8],
     (entry_at, at, directory_at): (usize, usize, usize),
     expected: Option<[u8; 4]>,
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Result<&'a [u8], ImportError> {
     let mut fields = Fields::new(entry);
     let tag: [u8; 4] = fields.take();
@@ -151,7 +151,7 @@ fn extent<'a>(
     let part = &bytes[at..at + size];
     let mut computed = Checksum::START;
     for piece in part.chunks(CANCEL_EVERY) {
-        guard.work(piece.len())?;
+        context.work(piece.len())?;
         computed = computed.with(piece);
     }
     let name = PARTS.iter().find(|layout| layout.tag == tag).map_or("unknown elements", |layout| layout.name);

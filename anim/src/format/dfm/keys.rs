@@ -165,9 +165,9 @@ fn read_channel<T: Floats>(
     let per_key = if is_spline { 3 } else { 1 };
     let place = reader.place();
     // Twice: each list is copied once more, to be shared.
-    reader.guard.charge(&place, (count * (4 + per_key * size_of::<T>())) as u64)?;
-    let mut times = reader.guard.vec(&place, count)?;
-    let mut values = reader.guard.vec(&place, count * per_key)?;
+    reader.context.charge(&place, (count * (4 + per_key * size_of::<T>())) as u64)?;
+    let mut times = reader.context.vec(&place, count)?;
+    let mut values = reader.context.vec(&place, count * per_key)?;
     for keyframe in keys() {
         times.push(keyframe.time);
         if is_spline {

@@ -248,7 +248,7 @@ fn read_vertices(reader: &mut Reader<'_, '_>, record: &PrimitiveRecord) -> Resul
             reader.vec(Part::Vertices, 0, room(columns & TEXTURE_COORDINATES[1] != 0))?,
         ],
         colors: Vec::new(),
-        influences: reader.guard.vec(&reader.place(), count * per_vertex)?,
+        influences: reader.context.vec(&reader.place(), count * per_vertex)?,
         influences_per_vertex: per_vertex,
     };
     for _ in 0..count {

@@ -16,7 +16,10 @@ mod take;
 mod vertex;
 mod writer;
 
-use super::{AssetFs, ByteBudget, Format, ImportError, Place, ReadOptions, guard::Guard};
+use super::{
+    ByteBudget, ExportError, Format, ImportContext, ImportError, NoFiles, Place, ReadOptions, WholeFile,
+    WriteSupport,
+};
 use crate::data::{AnimationData, ModelData};
 use reader::Reader;
 use std::sync::Arc;
@@ -34,7 +37,14 @@ const DIRECTORY_TAG: [u8; 4] = *b"SUMS";
 const ENDING_MAGIC: [u8; 4] = *b"dfm\x1a";
 
 /// The thesis's serialization, with what this library's models have beyond it.
-pub const DFM: Format = Format { name: "dfm", extensions: &["dfm"], detect: looks_like_dfm, read: import };
+pub const DFM: Format = Format {
+    name: "dfm",
+    title: "Dragonfly model",
+    extensions: &["dfm"],
+    sniff: looks_like_dfm,
+    read: import,
+    write: WriteSupport::Whole(export),
+};
 
 /// Why a model could not be written. Shown as `place: reason`, on one line.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -88,12 +98,23 @@ pub fn write(model: &ModelData) -> Result<Vec<u8>, WriteError> {
 pub fn read(bytes: &[u8]) -> Result<ModelData, ImportError> {
     let options = ReadOptions { budget: ByteBudget::at_most(u64::MAX), ..ReadOptions::default() };
     options.budget.input(bytes.len());
-    read_model(bytes, &Guard::new(&options), false)
+    read_model(bytes, &ImportContext::new(&NoFiles, &options), false)
 }
 
 /// As an importer: what is read keeps what every imported model promises.
-fn import(bytes: &[u8], _: &dyn AssetFs, guard: &Guard<'_>) -> Result<ModelData, ImportError> {
-    read_model(bytes, guard, true)
+fn import(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {
+    read_model(bytes, context, true)
+}
+
+/// Writes the whole file; the format represents everything that a model contains.
+fn export(model: &ModelData) -> Result<WholeFile, ExportError> {
+    Ok(WholeFile { bytes: write(model)?, lost: Vec::new() })
+}
+
+impl From<WriteError> for ExportError {
+    fn from(error: WriteError) -> Self {
+        Self::new(error)
+    }
 }
 
 /// By the size of a vertex, which stands at byte 8, or by the ending.
@@ -104,17 +125,17 @@ fn looks_like_dfm(bytes: &[u8]) -> bool {
     begins || (bytes.ends_with(&ENDING_MAGIC) && bytes.starts_with(&total[..4]))
 }
 
-fn read_model(bytes: &[u8], guard: &Guard<'_>, strict: bool) -> Result<ModelData, ImportError> {
-    let mut reader = Reader::new(bytes, guard, strict)?;
-    guard.progress(0.2)?;
+fn read_model(bytes: &[u8], context: &ImportContext<'_>, strict: bool) -> Result<ModelData, ImportError> {
+    let mut reader = Reader::new(bytes, context, strict)?;
+    context.progress(0.2)?;
     let name = reader.text()?;
     let images = image::read(&mut reader)?;
     let materials = material::read(&mut reader)?;
     let skeleton = bone::read(&mut reader)?;
     let skins = scene::read_skins(&mut reader)?;
-    guard.progress(0.4)?;
+    context.progress(0.4)?;
     let (meshes, largest_joints) = mesh::read(&mut reader)?;
-    guard.progress(0.7)?;
+    context.progress(0.7)?;
     let instances = scene::read_instances(&mut reader, &meshes, &skins, &largest_joints)?;
     let takes = take::read(&mut reader, &skeleton, &instances)?;
     reader.finish()?;

@@ -5,13 +5,13 @@ use super::container::{Found, open};
 use super::invalid;
 use super::part::{PARTS, Part};
 use super::record::{Fields, Record};
-use crate::format::guard::Guard;
+use crate::format::ImportContext;
 use crate::format::{ImportError, Place};
 
 /// A file whose parts were found.
 pub(super) struct Reader<'a, 'g> {
     parts: Vec<Stream<'a>>,
-    pub(super) guard: &'g Guard<'g>,
+    pub(super) context: &'g ImportContext<'g>,
     /// Is only what an importer promises let through: finite numbers, rising key times, what the limits grant?
     pub(super) strict: bool,
     /// Offset of the element read last.
@@ -29,8 +29,12 @@ struct Stream<'a> {
 
 impl<'a, 'g> Reader<'a, 'g> {
     /// Finds the parts; their checksums are right afterwards.
-    pub(super) fn new(bytes: &'a [u8], guard: &'g Guard<'g>, strict: bool) -> Result<Self, ImportError> {
-        let found = open(bytes, guard)?;
+    pub(super) fn new(
+        bytes: &'a [u8],
+        context: &'g ImportContext<'g>,
+        strict: bool,
+    ) -> Result<Self, ImportError> {
+        let found = open(bytes, context)?;
         let stream = |(found, layout): (Found<'a>, &super::part::Layout)| Stream {
             count: found.count,
             sizes: found.sizes,
@@ -38,7 +42,7 @@ impl<'a, 'g> Reader<'a, 'g> {
             rest: found.bytes,
         };
         let parts = found.into_iter().zip(&PARTS).map(stream).collect();
-        Ok(Self { parts, guard, strict, last: 0 })
+        Ok(Self { parts, context, strict, last: 0 })
     }
 
     /// The number of elements that the header of `part` gives.
@@ -59,7 +63,7 @@ impl<'a, 'g> Reader<'a, 'g> {
 
     /// The next element of `part`, of the size with number `kind`: takes, tracks and key-frames are one part.
     pub(super) fn get_sized<R: Record>(&mut self, part: Part, kind: usize) -> Result<R, ImportError> {
-        self.guard.work(1)?;
+        self.context.work(1)?;
         let stream = &mut self.parts[part as usize];
         let Some((element, rest)) = stream.rest.split_at_checked(stream.sizes[kind]) else {
             return Err(ends(part, stream.at));
@@ -91,7 +95,7 @@ impl<'a, 'g> Reader<'a, 'g> {
         if count > stream.rest.len() / stream.sizes[kind].max(1) {
             return Err(ends(part, stream.at));
         }
-        self.guard.vec(&self.place(), count)
+        self.context.vec(&self.place(), count)
     }
 
     /// The next `count` bytes of `part`, whose elements are bytes.
@@ -103,7 +107,7 @@ impl<'a, 'g> Reader<'a, 'g> {
         self.last = stream.at;
         stream.at += count;
         stream.rest = rest;
-        self.guard.charge(&self.place(), count as u64)?;
+        self.context.charge(&self.place(), count as u64)?;
         Ok(bytes)
     }
 

@@ -217,7 +217,7 @@ fn read_morph(reader: &mut Reader<'_, '_>, instances: &[MeshInstance]) -> Result
     times_rise(reader, &times)?;
     let weights: Vec<f32> = reader.list(Part::MorphKeys, weights)?;
     // Each list is copied once more, to be shared.
-    reader.guard.charge(&reader.place(), 4 * (times.len() + weights.len()) as u64)?;
+    reader.context.charge(&reader.place(), 4 * (times.len() + weights.len()) as u64)?;
     Ok(MorphTrack { instance, targets, times: times.into(), weights: weights.into(), interpolation })
 }
 

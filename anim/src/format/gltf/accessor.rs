@@ -2,7 +2,7 @@
 
 use super::buffer::Buffer;
 use super::check as code;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{CANCEL_EVERY, VERTICES, ZERO_ELEMENTS};
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::{Checked, USize64};
@@ -14,7 +14,7 @@ pub(super) struct Document<'a> {
     pub(super) buffers: Vec<Buffer<'a>>,
     /// Bytes read in all.
     pub(super) bytes: usize,
-    pub(super) guard: &'a Guard<'a>,
+    pub(super) context: &'a ImportContext<'a>,
 }
 
 /// What one element of an accessor is: number type, shape, and whether integers stand for -1..1 or 0..1.
@@ -49,7 +49,7 @@ pub(super) struct Source<'a> {
     pub(super) format: ElementFormat,
     base: Option<Strided<'a>>,
     sparse: Option<Sparse<'a>>,
-    guard: &'a Guard<'a>,
+    context: &'a ImportContext<'a>,
 }
 
 impl<'a> Document<'a> {
@@ -84,7 +84,7 @@ impl<'a> Document<'a> {
             && (!(4..=252).contains(&stride.0) || stride.0 % 4 != 0)
         {
             let text = format!("the byte stride {} should be a multiple of 4, 4..252", stride.0);
-            self.guard.warn(
+            self.context.warn(
                 Place::Pointer(place() + "/byteStride"),
                 code::BUFFER_VIEW_INVALID_BYTE_STRIDE,
                 text,
@@ -124,7 +124,7 @@ impl<'a> Document<'a> {
             Some(_) => Some(self.sparse_of(accessor, count, size, &path)?),
             None => None,
         };
-        Ok(Source { place: Place::Pointer(path), count, format, base, sparse, guard: self.guard })
+        Ok(Source { place: Place::Pointer(path), count, format, base, sparse, context: self.context })
     }
 
     fn format_of(&self, accessor: &Accessor, path: &str) -> Result<ElementFormat, ImportError> {
@@ -139,7 +139,7 @@ impl<'a> Document<'a> {
         let mut normalized = accessor.normalized;
         if normalized && matches!(component.0, ComponentType::F32 | ComponentType::U32) {
             let place = Place::Pointer(format!("{path}/normalized"));
-            self.guard.warn(
+            self.context.warn(
                 place,
                 code::ACCESSOR_NORMALIZED_INVALID,
                 "floats and 32-bit integers stay as they are",
@@ -167,7 +167,7 @@ impl<'a> Document<'a> {
         if !offset.0.is_multiple_of(component.size() as u64) {
             let text = format!("the offset {} is no multiple of {}", offset.0, component.size());
             let place = Place::Pointer(format!("{path}/byteOffset"));
-            self.guard.warn(place, code::ACCESSOR_OFFSET_ALIGNMENT, text);
+            self.context.warn(place, code::ACCESSOR_OFFSET_ALIGNMENT, text);
         }
     }
 
@@ -288,14 +288,14 @@ impl Source<'_> {
         let element =
             |bytes: &[u8]| std::array::from_fn::<T, N, _>(|i| number(&bytes[i * component..][..component]));
         let Some(base) = self.base else {
-            let mut values = self.guard.filled(&self.place, self.count, [T::default(); N])?;
+            let mut values = self.context.filled(&self.place, self.count, [T::default(); N])?;
             self.replace(&mut values, element)?;
             return Ok(values);
         };
-        let mut values = self.guard.vec(&self.place, self.count)?;
+        let mut values = self.context.vec(&self.place, self.count)?;
         while values.len() < self.count {
             let piece = CANCEL_EVERY.min(self.count - values.len());
-            self.guard.work(piece)?;
+            self.context.work(piece)?;
             values.extend((values.len()..values.len() + piece).map(|index| element(base.get(index))));
         }
         self.replace(&mut values, element)?;
@@ -308,7 +308,7 @@ impl Source<'_> {
         let mut last = None;
         let mut rises = true;
         for number in 0..sparse.count {
-            self.guard.work(1)?;
+            self.context.work(1)?;
             let index = little_endian(sparse.indices.get(number), sparse.index_type);
             rises &= last.is_none_or(|last| last < index);
             last = Some(index);
@@ -319,7 +319,7 @@ impl Source<'_> {
         }
         if !rises {
             let text = "the sparse indices do not rise; the last one counts";
-            self.guard.warn(self.place.clone(), code::ACCESSOR_SPARSE_INDICES_NON_INCREASING, text);
+            self.context.warn(self.place.clone(), code::ACCESSOR_SPARSE_INDICES_NON_INCREASING, text);
         }
         Ok(())
     }

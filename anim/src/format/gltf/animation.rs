@@ -36,7 +36,7 @@ const WRONG: &str = code::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT;
 pub(super) fn mark_animated(document: &Document<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
     for (index, animation) in document.root.animations.iter().enumerate() {
         for (number, channel) in animation.channels.iter().enumerate() {
-            document.guard.work(1)?;
+            document.context.work(1)?;
             let node = channel.target.node.value();
             if node == NO_NODE || channel.target.path == Checked::Invalid {
                 continue;
@@ -50,13 +50,13 @@ pub(super) fn mark_animated(document: &Document<'_>, is_bone: &mut [bool]) -> Re
 
 /// All animations, as takes with one track a bone of `stage`.
 pub(super) fn takes(document: &Document<'_>, stage: &Stage) -> Result<Vec<Take>, ImportError> {
-    let guard = document.guard;
+    let context = document.context;
     let count = document.root.animations.len();
-    let mut takes = guard.vec(&Place::Pointer("/animations".to_owned()), count)?;
+    let mut takes = context.vec(&Place::Pointer("/animations".to_owned()), count)?;
     let mut reader = TakeReader { document, stage, times: HashMap::new(), keys: 0 };
     for (index, animation) in document.root.animations.iter().enumerate() {
         takes.push(reader.take(animation, index)?);
-        guard.progress(0.7 + 0.3 * (index + 1) as f32 / count as f32)?;
+        context.progress(0.7 + 0.3 * (index + 1) as f32 / count as f32)?;
     }
     Ok(takes)
 }
@@ -74,12 +74,12 @@ impl TakeReader<'_> {
         let path = format!("/animations/{index}");
         let place = Place::Pointer(path.clone());
         let bones = self.stage.skeleton.len();
-        let mut tracks: Vec<Track> = self.document.guard.vec(&place, bones)?;
-        self.document.guard.work(bones)?;
+        let mut tracks: Vec<Track> = self.document.context.vec(&place, bones)?;
+        self.document.context.work(bones)?;
         tracks.extend((0..bones as u32).map(|bone| Track { bone, ..Track::default() }));
         let mut take = Take { name: animation.name.clone().unwrap_or_default(), tracks, ..Take::default() };
         if animation.channels.is_empty() {
-            self.document.guard.warn(place, code::EMPTY_ENTITY, "the animation has no channel");
+            self.document.context.warn(place, code::EMPTY_ENTITY, "the animation has no channel");
         }
         let mut moved = HashSet::new();
         for (number, channel) in animation.channels.iter().enumerate() {
@@ -100,7 +100,7 @@ impl TakeReader<'_> {
         moved: &mut HashSet<(usize, u8)>,
         take: &mut Take,
     ) -> Result<(), ImportError> {
-        let guard = self.document.guard;
+        let context = self.document.context;
         let number = channel.sampler.value();
         let sampler =
             animation.samplers.get(number).ok_or_else(|| unresolved(&format!("{path}/sampler"), number))?;
@@ -110,12 +110,12 @@ impl TakeReader<'_> {
             Checked::Valid(property) if node != NO_NODE => property,
             _ => {
                 let text = "the channel moves something that is not shown";
-                guard.warn(target(), code::ANIMATION_CHANNEL_TARGET_UNKNOWN, text);
+                context.warn(target(), code::ANIMATION_CHANNEL_TARGET_UNKNOWN, text);
                 return Ok(());
             }
         };
         if !moved.insert((node, property as u8)) {
-            guard.warn(
+            context.warn(
                 target(),
                 code::ANIMATION_DUPLICATE_TARGETS,
                 "moved by an earlier channel already; left out",
@@ -124,7 +124,7 @@ impl TakeReader<'_> {
         }
         if self.document.root.nodes[node].matrix.is_some() && property != Property::MorphTargetWeights {
             let text = "the node has a matrix, of which the animated part is replaced";
-            guard.warn(target(), code::ANIMATION_CHANNEL_TARGET_NODE_MATRIX, text);
+            context.warn(target(), code::ANIMATION_CHANNEL_TARGET_NODE_MATRIX, text);
         }
         let sampler_path = format!("/animations/{index}/samplers/{number}");
         let bone = self.stage.bones[node].expect("every animated node was marked as a bone") as usize;
@@ -139,7 +139,7 @@ impl TakeReader<'_> {
             }
             Property::Rotation => {
                 let (keys, mut column) = self.column::<4>(sampler, QUATERNION, 1, &sampler_path)?;
-                keys::make_unit(&mut column, &format!("{sampler_path}/output"), guard);
+                keys::make_unit(&mut column, &format!("{sampler_path}/output"), context);
                 take.tracks[bone].rotation = channel_of(keys, column, Quat::from_array);
             }
             Property::MorphTargetWeights => self.weights(sampler, node, path, &sampler_path, take)?,
@@ -155,12 +155,12 @@ impl TakeReader<'_> {
         sampler_path: &str,
         take: &mut Take,
     ) -> Result<(), ImportError> {
-        let guard = self.document.guard;
+        let context = self.document.context;
         let place = || Place::Pointer(format!("{path}/target"));
         let targets = self.stage.morph_targets_of(self.document, node);
         if targets == 0 {
             let text = "the node has no mesh with morph targets; the channel is left out";
-            guard.warn(place(), code::ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS, text);
+            context.warn(place(), code::ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS, text);
             return Ok(());
         }
         let (keys, column) = self.column::<1>(sampler, WEIGHT, targets, sampler_path)?;
@@ -202,7 +202,7 @@ impl TakeReader<'_> {
         }
         let output = format!("{path}/output");
         let source = self.document.source(sampler.output, &output, allowed, WRONG)?;
-        let interpolation = keys::interpolation(sampler, path, self.document.guard);
+        let interpolation = keys::interpolation(sampler, path, self.document.context);
         let per_key = width * if interpolation == crate::data::Interpolation::CubicSpline { 3 } else { 1 };
         if keys.count.checked_mul(per_key) != Some(source.count) {
             let reason = format!("{} values for {} keys of {per_key}", source.count, keys.count);
@@ -210,10 +210,12 @@ impl TakeReader<'_> {
             return Err(invalid(Place::Pointer(output), code, reason));
         }
         // Once as numbers, once as what the channel shares.
-        self.document.guard.charge(&source.place, (source.count as u64).saturating_mul(2 * 4 * N as u64))?;
+        self.document
+            .context
+            .charge(&source.place, (source.count as u64).saturating_mul(2 * 4 * N as u64))?;
         let mut column = Column { values: source.floats()?, interpolation, width };
-        column.check(&source.place, self.document.guard)?;
-        column.sort(&keys, self.document.guard)?;
+        column.check(&source.place, self.document.context)?;
+        column.sort(&keys, self.document.context)?;
         Ok((keys, column))
     }
 }

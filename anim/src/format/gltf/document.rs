@@ -3,7 +3,7 @@
 use super::check as code;
 use super::survey::{Survey, survey};
 use super::walk::pointer_before;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use gltf::json;
 use std::borrow::Cow;
 use std::io::{self, Read};
@@ -15,19 +15,19 @@ const PARSE_AT_ONCE: usize = 4 << 20;
 pub(super) const NO_NODE: usize = u32::MAX as usize;
 
 /// Parses the JSON text that begins at byte `at` of the file.
-pub(super) fn parse(bytes: &[u8], at: u64, guard: &Guard<'_>) -> Result<json::Root, ImportError> {
+pub(super) fn parse(bytes: &[u8], at: u64, context: &ImportContext<'_>) -> Result<json::Root, ImportError> {
     let text = text_of(bytes, at)?;
-    let survey = survey(text.as_bytes(), guard)?;
+    let survey = survey(text.as_bytes(), context)?;
     check_version(&survey)?;
-    guard.charge(&Place::Pointer(String::new()), survey.memory)?;
-    let text = completed(text, &survey, guard)?;
+    context.charge(&Place::Pointer(String::new()), survey.memory)?;
+    let text = completed(text, &survey, context)?;
     let parsed = if text.len() <= PARSE_AT_ONCE {
         json::deserialize::from_str(&text)
     } else {
-        let reader = Watched { text: text.as_bytes(), guard, cancelled: false };
+        let reader = Watched { text: text.as_bytes(), context, cancelled: false };
         json::deserialize::from_reader(io::BufReader::with_capacity(1 << 16, reader))
     };
-    guard.progress(0.2)?;
+    context.progress(0.2)?;
     parsed.map_err(|error| placed(&error, &text, at))
 }
 
@@ -61,12 +61,16 @@ fn check_version(survey: &Survey) -> Result<(), ImportError> {
 }
 
 /// The text with the members that the document model misses.
-fn completed<'a>(text: &'a str, survey: &Survey, guard: &Guard<'_>) -> Result<Cow<'a, str>, ImportError> {
+fn completed<'a>(
+    text: &'a str,
+    survey: &Survey,
+    context: &ImportContext<'_>,
+) -> Result<Cow<'a, str>, ImportError> {
     if survey.missing.is_empty() {
         return Ok(Cow::Borrowed(text));
     }
     let length = text.len() + survey.missing.iter().map(|(_, member)| member.len()).sum::<usize>();
-    guard.charge(&Place::Pointer(String::new()), length as u64)?;
+    context.charge(&Place::Pointer(String::new()), length as u64)?;
     let mut patched = String::with_capacity(length);
     let mut from = 0;
     for &(at, member) in &survey.missing {
@@ -115,13 +119,13 @@ fn offset(text: &str, line: usize, column: usize) -> usize {
 /// Hands the text out in pieces and looks at the cancel flag between them.
 struct Watched<'a> {
     text: &'a [u8],
-    guard: &'a Guard<'a>,
+    context: &'a ImportContext<'a>,
     cancelled: bool,
 }
 
 impl Read for Watched<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.cancelled |= self.guard.work(buffer.len()).is_err();
+        self.cancelled |= self.context.work(buffer.len()).is_err();
         if self.cancelled {
             return Err(io::Error::other("cancelled"));
         }

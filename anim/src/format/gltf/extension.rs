@@ -1,7 +1,7 @@
 //! Extensions: those that are read, and what becomes of the others.
 
 use super::check as code;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use gltf::json;
 
 /// Extensions that are read in full.
@@ -17,16 +17,16 @@ pub const SUPPORTED: &[&str] = &[
 const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// Refuses what the file needs and is not read; warns of what it uses.
-pub(super) fn check(root: &json::Root, guard: &Guard<'_>) -> Result<(), ImportError> {
+pub(super) fn check(root: &json::Root, context: &ImportContext<'_>) -> Result<(), ImportError> {
     for (index, name) in root.extensions_required.iter().enumerate() {
-        guard.work(1)?;
+        context.work(1)?;
         if !SUPPORTED.contains(&name.as_str()) {
             let place = Place::Pointer(format!("/extensionsRequired/{index}"));
             return Err(ImportError::Unsupported { place, feature: format!("the extension {name}") });
         }
     }
     for (index, name) in root.extensions_used.iter().enumerate() {
-        guard.work(1)?;
+        context.work(1)?;
         if name == DRACO && root.accessors.iter().any(|a| a.buffer_view.is_none() && a.sparse.is_none()) {
             let place = Place::Pointer(format!("/extensionsUsed/{index}"));
             return Err(ImportError::Unsupported { place, feature: format!("the extension {name}") });
@@ -34,7 +34,7 @@ pub(super) fn check(root: &json::Root, guard: &Guard<'_>) -> Result<(), ImportEr
         if !SUPPORTED.contains(&name.as_str()) {
             let place = Place::Pointer(format!("/extensionsUsed/{index}"));
             let what = if name == "KHR_lights_punctual" { "the file's lights" } else { name };
-            guard.warn(place, code::UNSUPPORTED_EXTENSION, format!("{what} is not shown"));
+            context.warn(place, code::UNSUPPORTED_EXTENSION, format!("{what} is not shown"));
         }
     }
     Ok(())

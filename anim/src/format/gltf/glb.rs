@@ -1,7 +1,7 @@
 //! The binary container: a header of 12 bytes, then chunks (glTF 2.0 §4.4).
 
 use super::check as code;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 
 /// The parts of a container that mean something to us.
 pub(super) struct Glb<'a> {
@@ -17,19 +17,19 @@ const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
 
 /// Takes a container apart. Bytes after the announced end, and chunks of other kinds, are left out with a warning.
-pub(super) fn parse<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Glb<'a>, ImportError> {
-    let bytes = &bytes[..announced_length(bytes, guard)?];
+pub(super) fn parse<'a>(bytes: &'a [u8], context: &ImportContext<'_>) -> Result<Glb<'a>, ImportError> {
+    let bytes = &bytes[..announced_length(bytes, context)?];
     let (mut json, mut bin) = (None, None);
     let mut at = HEADER;
     for number in 0.. {
         if at >= bytes.len() {
             break;
         }
-        guard.work(1)?;
+        context.work(1)?;
         let (kind, body) = chunk(bytes, at)?;
         if body.len() % 4 != 0 {
             let text = format!("the chunk's length {} is no multiple of 4", body.len());
-            guard.warn(Place::Byte(at as u64), code::GLB_CHUNK_LENGTH_UNALIGNED, text);
+            context.warn(Place::Byte(at as u64), code::GLB_CHUNK_LENGTH_UNALIGNED, text);
         }
         match (number, kind) {
             (0, JSON) => json = Some(body),
@@ -38,7 +38,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Glb<'a>, I
                 return Err(invalid(at, code::GLB_UNEXPECTED_FIRST_CHUNK, reason));
             }
             (1, BIN) => bin = Some(body),
-            _ => warn_left_out(kind, at, guard),
+            _ => warn_left_out(kind, at, context),
         }
         at += CHUNK_HEADER + body.len();
     }
@@ -56,7 +56,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Glb<'a>, I
 }
 
 /// Checks the header; the length of the container, never more than is there.
-fn announced_length(bytes: &[u8], guard: &Guard<'_>) -> Result<usize, ImportError> {
+fn announced_length(bytes: &[u8], context: &ImportContext<'_>) -> Result<usize, ImportError> {
     if bytes.len() < HEADER {
         let reason = format!("the file ends inside its header: {} bytes of {HEADER}", bytes.len());
         return Err(invalid(bytes.len(), code::GLB_UNEXPECTED_END_OF_HEADER, reason));
@@ -80,7 +80,7 @@ fn announced_length(bytes: &[u8], guard: &Guard<'_>) -> Result<usize, ImportErro
     }
     if length < bytes.len() {
         let text = format!("{} bytes after the announced end are left out", bytes.len() - length);
-        guard.warn(Place::Byte(8), code::GLB_LENGTH_MISMATCH, text);
+        context.warn(Place::Byte(8), code::GLB_LENGTH_MISMATCH, text);
     }
     Ok(length)
 }
@@ -103,13 +103,13 @@ fn chunk(bytes: &[u8], at: usize) -> Result<(u32, &[u8]), ImportError> {
     }
 }
 
-fn warn_left_out(kind: u32, at: usize, guard: &Guard<'_>) {
+fn warn_left_out(kind: u32, at: usize, context: &ImportContext<'_>) {
     let (code, what) = match kind {
         JSON => (code::GLB_DUPLICATE_CHUNK, "a second JSON chunk"),
         BIN => (code::GLB_UNEXPECTED_BIN_CHUNK, "a binary chunk that is not the second chunk"),
         _ => (code::GLB_UNKNOWN_CHUNK_TYPE, "a chunk of unknown kind"),
     };
-    guard.warn(Place::Byte(at as u64), code, format!("{what} is left out"));
+    context.warn(Place::Byte(at as u64), code, format!("{what} is left out"));
 }
 
 /// What a file that should be a container may be instead.

@@ -1,10 +1,10 @@
 //! Images: found, measured, and handed on as they are. Nothing is decoded here.
 
 use super::accessor::{Document, invalid};
-use super::buffer::{Fetched, Store};
+use super::buffer::{Fetched, fetch};
 use super::check as code;
 use crate::data::Image;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{IMAGE_PIXELS, IMAGE_SIDE, IMAGES_PIXELS};
 use gltf::json;
 use std::collections::HashMap;
@@ -24,12 +24,12 @@ enum Key<'a> {
 }
 
 /// All images. One that cannot be read is left empty with a warning: a model without its picture is worth seeing.
-pub(super) fn images(document: &Document<'_>, store: &Store<'_>) -> Result<Images, ImportError> {
+pub(super) fn images(document: &Document<'_>) -> Result<Images, ImportError> {
     let mut read = Images::default();
     let mut known: HashMap<Key<'_>, u32> = HashMap::new();
     let mut pixels = 0;
     for (index, image) in document.root.images.iter().enumerate() {
-        document.guard.work(1)?;
+        document.context.work(1)?;
         let path = format!("/images/{index}");
         let key = match (&image.buffer_view, &image.uri) {
             (Some(view), None) => Key::View(view.value()),
@@ -42,9 +42,9 @@ pub(super) fn images(document: &Document<'_>, store: &Store<'_>) -> Result<Image
         let next = read.images.len() as u32;
         let number = *known.entry(key).or_insert(next);
         if number == next {
-            let mut image = read_image(document, store, image, &path)?;
-            judge(&mut image, &mut pixels, &path, document.guard);
-            document.guard.charge(&Place::Pointer(path), 4 * size_of::<Image>() as u64)?;
+            let mut image = read_image(document, image, &path)?;
+            judge(&mut image, &mut pixels, &path, document.context);
+            document.context.charge(&Place::Pointer(path), 4 * size_of::<Image>() as u64)?;
             read.images.push(image);
         }
         read.numbers.push(number);
@@ -52,23 +52,18 @@ pub(super) fn images(document: &Document<'_>, store: &Store<'_>) -> Result<Image
     Ok(read)
 }
 
-fn read_image(
-    document: &Document<'_>,
-    store: &Store<'_>,
-    image: &json::Image,
-    path: &str,
-) -> Result<Image, ImportError> {
+fn read_image(document: &Document<'_>, image: &json::Image, path: &str) -> Result<Image, ImportError> {
     let declared = image.mime_type.as_ref().map(|mime| mime.0.clone()).unwrap_or_default();
     let name = image.name.clone().unwrap_or_default();
     let mut read = Image { name, mime: declared, ..Image::default() };
     if let Some(view) = image.buffer_view {
         let from = format!("{path}/bufferView");
         let (bytes, _) = document.view(view, &from)?;
-        document.guard.charge(&Place::Pointer(from), bytes.len() as u64)?;
+        document.context.charge(&Place::Pointer(from), bytes.len() as u64)?;
         read.bytes = bytes.into();
     } else if let Some(uri) = &image.uri {
         let place = Place::Pointer(format!("{path}/uri"));
-        match store.fetch(uri, &place) {
+        match fetch(uri, &place, document.context) {
             Ok(Fetched { bytes, mime, path }) => {
                 (read.bytes, read.file_name) = (bytes, path);
                 if read.mime.is_empty() {
@@ -77,7 +72,7 @@ fn read_image(
             }
             Err(ImportError::External { uri, reason, .. }) => {
                 let text = format!("\"{uri}\": {reason}; the image is left empty");
-                document.guard.warn(place, code::IMAGE_DATA_INVALID, text);
+                document.context.warn(place, code::IMAGE_DATA_INVALID, text);
             }
             Err(other) => return Err(other),
         }
@@ -86,18 +81,18 @@ fn read_image(
 }
 
 /// Looks at the first bytes: what kind, how large. Too large an image is emptied before anyone decodes it.
-fn judge(image: &mut Image, pixels: &mut u64, path: &str, guard: &Guard<'_>) {
+fn judge(image: &mut Image, pixels: &mut u64, path: &str, context: &ImportContext<'_>) {
     if image.bytes.is_empty() {
         return;
     }
     let place = || Place::Pointer(path.to_owned());
     let Some((mime, width, height)) = measure(&image.bytes) else {
-        guard.warn(place(), code::IMAGE_DATA_INVALID, "neither PNG nor JPEG; the image is left empty");
+        context.warn(place(), code::IMAGE_DATA_INVALID, "neither PNG nor JPEG; the image is left empty");
         image.bytes = Vec::new().into();
         return;
     };
     if !image.mime.is_empty() && image.mime != mime {
-        guard.warn(
+        context.warn(
             place(),
             code::IMAGE_MIME_TYPE_INVALID,
             format!("\"{}\" is said, {mime} it is", image.mime),
@@ -109,7 +104,7 @@ fn judge(image: &mut Image, pixels: &mut u64, path: &str, guard: &Guard<'_>) {
     *pixels += size;
     if width > IMAGE_SIDE || height > IMAGE_SIDE || size > IMAGE_PIXELS || *pixels > IMAGES_PIXELS {
         let text = format!("{width}x{height} pixels are too many; the image is left empty");
-        guard.warn(place(), code::IMAGE_TOO_LARGE, text);
+        context.warn(place(), code::IMAGE_TOO_LARGE, text);
         image.bytes = Vec::new().into();
         *pixels -= size;
     }

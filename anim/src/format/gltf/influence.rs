@@ -57,14 +57,14 @@ pub(super) fn influences(
     if sets.is_empty() {
         return Ok(Influences::default());
     }
-    let guard = document.guard;
+    let context = document.context;
     let place = Place::Pointer(format!("{path}/attributes/WEIGHTS_0"));
-    let mut list = guard.filled(&place, vertices.saturating_mul(MAX_INFLUENCES), Influence::default())?;
+    let mut list = context.filled(&place, vertices.saturating_mul(MAX_INFLUENCES), Influence::default())?;
     let (mut mended, mut most, mut largest_joint) = (Mended::default(), 0, 0);
     let mut found = Vec::with_capacity(sets.len() * 4);
     let coarse = sets.iter().map(|set| set.step).fold(0.0, f32::max);
     for vertex in 0..vertices {
-        guard.work(4 * sets.len())?;
+        context.work(4 * sets.len())?;
         gather(&sets, vertex, &mut found, &mut mended, coarse);
         found.truncate(MAX_INFLUENCES);
         share_out(&mut found, &mut mended);
@@ -77,7 +77,7 @@ pub(super) fn influences(
     report(&mended, &place, document);
     let per_vertex = if most <= 4 { 4 } else { MAX_INFLUENCES };
     if per_vertex < MAX_INFLUENCES {
-        guard.work(vertices)?;
+        context.work(vertices)?;
         for vertex in 1..vertices {
             list.copy_within(
                 vertex * MAX_INFLUENCES..vertex * MAX_INFLUENCES + per_vertex,
@@ -127,7 +127,7 @@ fn sets(
                 let name = if is_joints { "JOINTS" } else { "WEIGHTS" };
                 let place = Place::Pointer(format!("{path}/attributes/{name}_{number}"));
                 let text = "stands without its other half and is left out";
-                document.guard.warn(place, code::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, text);
+                document.context.warn(place, code::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, text);
             }
         }
     }
@@ -183,7 +183,7 @@ fn share_out(found: &mut Vec<Influence>, mended: &mut Mended) {
 fn report(mended: &Mended, place: &Place, document: &Document<'_>) {
     let warn = |count: usize, code, what: &str| {
         if count > 0 {
-            document.guard.warn(place.clone(), code, format!("{count} vertices {what}"));
+            document.context.warn(place.clone(), code, format!("{count} vertices {what}"));
         }
     };
     warn(

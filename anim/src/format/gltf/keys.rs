@@ -4,7 +4,7 @@ use super::accessor::{Document, ElementFormat, invalid};
 use super::check as code;
 use super::node::{ROTATION_TOLERANCE, unit};
 use crate::data::Interpolation;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{CLIP_SECONDS, HUGE, KEYS_PER_CHANNEL};
 use glam::Quat;
 use gltf::json;
@@ -32,7 +32,7 @@ impl Keys {
         input: json::Index<Accessor>,
         path: &str,
     ) -> Result<Self, ImportError> {
-        let guard = document.guard;
+        let context = document.context;
         let from = format!("{path}/input");
         let wrong = code::ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT;
         let source = document.source(input, &from, TIME, wrong)?;
@@ -46,34 +46,38 @@ impl Keys {
             return Err(too_large("keys", source.count as u64, KEYS_PER_CHANNEL as u64));
         }
         if source.count == 0 {
-            guard.warn(source.place.clone(), code::EMPTY_ENTITY, "the channel has no key and moves nothing");
+            context.warn(
+                source.place.clone(),
+                code::EMPTY_ENTITY,
+                "the channel has no key and moves nothing",
+            );
         }
         // -0 would sort before 0 and yet be equal to it.
         let times: Vec<f32> = source.finite::<1>()?.into_iter().map(|[time]| time + 0.0).collect();
-        guard.work(times.len())?;
-        guard.charge(&source.place, times.len() as u64 * 8)?;
+        context.work(times.len())?;
+        context.charge(&source.place, times.len() as u64 * 8)?;
         if let Some(far) = times.iter().find(|time| time.abs() > CLIP_SECONDS) {
             return Err(too_large("seconds", far.abs() as u64, CLIP_SECONDS as u64));
         }
         if times.iter().any(|&time| time < 0.0) {
             let text = "key times below zero are kept";
-            guard.warn(source.place.clone(), code::ACCESSOR_ANIMATION_INPUT_NEGATIVE, text);
+            context.warn(source.place.clone(), code::ACCESSOR_ANIMATION_INPUT_NEGATIVE, text);
         }
         // Asked so that NaN would fail.
         let rises = times.windows(2).all(|pair| pair[1] > pair[0]);
         if !rises {
-            return Self::sorted(&times, &source.place, guard);
+            return Self::sorted(&times, &source.place, context);
         }
         Ok(Self { count: times.len(), times: times.into(), order: None })
     }
 
-    fn sorted(times: &[f32], place: &Place, guard: &Guard<'_>) -> Result<Self, ImportError> {
+    fn sorted(times: &[f32], place: &Place, context: &ImportContext<'_>) -> Result<Self, ImportError> {
         let text = "key times do not rise; they were sorted, and of equal ones the last was kept";
-        guard.warn(place.clone(), code::ACCESSOR_ANIMATION_INPUT_NON_INCREASING, text);
-        let mut order: Vec<u32> = guard.vec(place, times.len())?;
+        context.warn(place.clone(), code::ACCESSOR_ANIMATION_INPUT_NON_INCREASING, text);
+        let mut order: Vec<u32> = context.vec(place, times.len())?;
         order.extend(0..times.len() as u32);
         order.sort_by(|&a, &b| times[a as usize].total_cmp(&times[b as usize]));
-        guard.work(times.len())?;
+        context.work(times.len())?;
         let is_last = |&(position, &key): &(usize, &u32)| {
             order.get(position + 1).is_none_or(|&next| times[next as usize] != times[key as usize])
         };
@@ -103,9 +107,9 @@ impl<const N: usize> Column<N> {
     }
 
     /// Refuses values that are not finite, and mends tangents that are not.
-    pub(super) fn check(&mut self, place: &Place, guard: &Guard<'_>) -> Result<(), ImportError> {
+    pub(super) fn check(&mut self, place: &Place, context: &ImportContext<'_>) -> Result<(), ImportError> {
         let (mut mended, mut huge) = (0, false);
-        guard.work(self.values.len())?;
+        context.work(self.values.len())?;
         for index in 0..self.values.len() {
             if self.values[index].iter().all(|number| number.is_finite()) {
                 huge |= self.values[index].iter().any(|number| number.abs() > HUGE);
@@ -119,20 +123,20 @@ impl<const N: usize> Column<N> {
         }
         if mended > 0 {
             let text = format!("{mended} tangents are not finite; they were set to zero");
-            guard.warn(place.clone(), code::ANIMATION_TANGENT_NOT_FINITE, text);
+            context.warn(place.clone(), code::ANIMATION_TANGENT_NOT_FINITE, text);
         }
         if huge {
-            guard.warn(place.clone(), code::HUGE_TRANSLATION, "a key is too large for single precision");
+            context.warn(place.clone(), code::HUGE_TRANSLATION, "a key is too large for single precision");
         }
         Ok(())
     }
 
     /// Puts the values into the order of `keys`.
-    pub(super) fn sort(&mut self, keys: &Keys, guard: &Guard<'_>) -> Result<(), ImportError> {
+    pub(super) fn sort(&mut self, keys: &Keys, context: &ImportContext<'_>) -> Result<(), ImportError> {
         let Some(order) = &keys.order else { return Ok(()) };
         let per_key = self.per_key();
-        guard.work(self.values.len())?;
-        guard.charge(&Place::File, (self.values.len() * size_of::<[f32; N]>()) as u64)?;
+        context.work(self.values.len())?;
+        context.charge(&Place::File, (self.values.len() * size_of::<[f32; N]>()) as u64)?;
         let old = std::mem::take(&mut self.values);
         self.values =
             order.iter().flat_map(|&key| &old[key as usize * per_key..][..per_key]).copied().collect();
@@ -145,7 +149,7 @@ impl<const N: usize> Column<N> {
 /// Between keys that are mixed by distance, neighbours are brought into one hemisphere: q and -q are the same
 /// rotation, and the short way between them is meant. A spline is left as it is: with its tangents it says itself
 /// which way it goes.
-pub(super) fn make_unit(column: &mut Column<4>, place: &str, guard: &Guard<'_>) {
+pub(super) fn make_unit(column: &mut Column<4>, place: &str, context: &ImportContext<'_>) {
     let (mut zero, mut off) = (0, 0);
     let mut last: Option<Quat> = None;
     for index in 0..column.values.len() {
@@ -173,7 +177,7 @@ pub(super) fn make_unit(column: &mut Column<4>, place: &str, guard: &Guard<'_>) 
     let code = code::ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION;
     let warn = |count: usize, what: &str| {
         if count > 0 {
-            guard.warn(Place::Pointer(place.to_owned()), code, format!("{count} rotations {what}"));
+            context.warn(Place::Pointer(place.to_owned()), code, format!("{count} rotations {what}"));
         }
     };
     warn(zero, "have no length; none is taken instead");
@@ -184,7 +188,7 @@ pub(super) fn make_unit(column: &mut Column<4>, place: &str, guard: &Guard<'_>) 
 pub(super) fn interpolation(
     sampler: &json::animation::Sampler,
     path: &str,
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Interpolation {
     match sampler.interpolation {
         Checked::Valid(json::animation::Interpolation::Step) => Interpolation::Step,
@@ -192,7 +196,7 @@ pub(super) fn interpolation(
         Checked::Valid(json::animation::Interpolation::Linear) => Interpolation::Linear,
         Checked::Invalid => {
             let place = Place::Pointer(format!("{path}/interpolation"));
-            guard.warn(place, code::VALUE_NOT_IN_LIST, "unknown; linear is taken instead");
+            context.warn(place, code::VALUE_NOT_IN_LIST, "unknown; linear is taken instead");
             Interpolation::Linear
         }
     }

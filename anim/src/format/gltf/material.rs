@@ -3,7 +3,7 @@
 use super::accessor::{invalid, unresolved};
 use super::check as code;
 use crate::data::{AlphaMode, Filter, Material, Metallic, Phong, TextureRef, TextureTransform, Wrap};
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json;
 use gltf::json::extensions::texture::TextureTransform as JsonTransform;
@@ -14,12 +14,12 @@ use gltf::json::validation::Checked;
 pub(super) fn materials(
     root: &json::Root,
     images: &[u32],
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Result<Vec<Material>, ImportError> {
-    let mut materials = guard.vec(&Place::Pointer("/materials".to_owned()), root.materials.len())?;
+    let mut materials = context.vec(&Place::Pointer("/materials".to_owned()), root.materials.len())?;
     for (index, material) in root.materials.iter().enumerate() {
-        guard.work(1)?;
-        let reader = Reader { root, images, guard, path: format!("/materials/{index}") };
+        context.work(1)?;
+        let reader = Reader { root, images, context, path: format!("/materials/{index}") };
         materials.push(reader.material(material)?);
     }
     Ok(materials)
@@ -43,7 +43,7 @@ pub fn phong(base: Vec3, metallic: f32, roughness: f32) -> Phong {
 struct Reader<'a> {
     root: &'a json::Root,
     images: &'a [u32],
-    guard: &'a Guard<'a>,
+    context: &'a ImportContext<'a>,
     path: String,
 }
 
@@ -112,7 +112,7 @@ impl Reader<'_> {
             Checked::Valid(json::material::AlphaMode::Mask) => AlphaMode::Mask(cutoff.max(0.0)),
             Checked::Valid(json::material::AlphaMode::Blend) => AlphaMode::Blend,
             Checked::Invalid => {
-                self.guard.warn(
+                self.context.warn(
                     self.at("alphaMode"),
                     code::VALUE_NOT_IN_LIST,
                     "unknown; opaque is taken instead",
@@ -173,7 +173,7 @@ impl Reader<'_> {
         // The document model's way to say that there is none.
         if texture.source.value() == u32::MAX as usize {
             let text = "the texture has no PNG or JPEG image and is left out";
-            self.guard.warn(Place::Pointer(path), code::TEXTURE_NO_SOURCE, text);
+            self.context.warn(Place::Pointer(path), code::TEXTURE_NO_SOURCE, text);
             return Ok(None);
         }
         let source = texture.source.value();
@@ -181,7 +181,7 @@ impl Reader<'_> {
         let mut set = transform.and_then(|transform| transform.tex_coord).unwrap_or(set);
         if set > 1 {
             let text = format!("texture coordinates {set} are not read; set 0 is taken");
-            self.guard.warn(self.at(member), code::TEXTURE_COORDINATES, text);
+            self.context.warn(self.at(member), code::TEXTURE_COORDINATES, text);
             set = 0;
         }
         let (minify, mip) = minify(sampler);

@@ -58,13 +58,13 @@ const WRONG: &str = code::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT;
 
 /// All meshes.
 pub(super) fn meshes(document: &Document<'_>) -> Result<Vec<ReadMesh>, ImportError> {
-    let guard = document.guard;
+    let context = document.context;
     let count = document.root.meshes.len();
-    let mut meshes = guard.vec(&Place::Pointer("/meshes".to_owned()), count)?;
+    let mut meshes = context.vec(&Place::Pointer("/meshes".to_owned()), count)?;
     let mut vertices = 0;
     for (index, mesh) in document.root.meshes.iter().enumerate() {
         meshes.push(read_mesh(document, mesh, index, &mut vertices)?);
-        guard.progress(0.3 + 0.4 * (index + 1) as f32 / count as f32)?;
+        context.progress(0.3 + 0.4 * (index + 1) as f32 / count as f32)?;
     }
     Ok(meshes)
 }
@@ -78,10 +78,10 @@ fn read_mesh(
     let path = format!("/meshes/{index}");
     if mesh.primitives.is_empty() {
         let place = Place::Pointer(format!("{path}/primitives"));
-        document.guard.warn(place, code::EMPTY_ENTITY, "the mesh has no primitive");
+        document.context.warn(place, code::EMPTY_ENTITY, "the mesh has no primitive");
     }
     let mut largest_joint = None;
-    let mut primitives = document.guard.vec(&Place::Pointer(path.clone()), mesh.primitives.len())?;
+    let mut primitives = document.context.vec(&Place::Pointer(path.clone()), mesh.primitives.len())?;
     for (number, primitive) in mesh.primitives.iter().enumerate() {
         let path = format!("{path}/primitives/{number}");
         primitives.push(read_primitive(document, primitive, &path, total, &mut largest_joint)?);
@@ -104,7 +104,7 @@ fn read_primitive(
     }
     let Some(positions) = positions(document, primitive, path)? else {
         let text = "the primitive has no positions and stays empty";
-        document.guard.warn(Place::Pointer(path.to_owned()), code::MESH_PRIMITIVE_NO_POSITION, text);
+        document.context.warn(Place::Pointer(path.to_owned()), code::MESH_PRIMITIVE_NO_POSITION, text);
         return Ok(Primitive { material, ..Primitive::default() });
     };
     let mut vertices = Vertices { positions, ..Vertices::default() };
@@ -177,11 +177,11 @@ fn positions(
     let from = format!("{path}/attributes/POSITION");
     let Some(accessor) = attribute(primitive, Semantic::Positions) else { return Ok(None) };
     let positions = document.source(accessor, &from, ANY_VEC3, WRONG)?.finite::<3>()?;
-    document.guard.work(positions.len())?;
+    document.context.work(positions.len())?;
     let positions: Vec<Vec3> = positions.into_iter().map(Vec3::from).collect();
     if positions.iter().any(|&position| largest(position) > HUGE) {
         let text = "a vertex is too far away for single precision";
-        document.guard.warn(Place::Pointer(from), code::HUGE_TRANSLATION, text);
+        document.context.warn(Place::Pointer(from), code::HUGE_TRANSLATION, text);
     }
     Ok(Some(positions))
 }
@@ -195,26 +195,26 @@ fn all_normals(
     path: &str,
 ) -> Result<Vec<Vec3>, ImportError> {
     let place = Place::Pointer(format!("{path}/attributes/NORMAL"));
-    let guard = document.guard;
+    let context = document.context;
     let Some(read) = column::<3>(document, primitive, Semantic::Normals, UNIT_VEC3, positions.len(), path)?
     else {
-        return normals(positions, indices, &place, guard);
+        return normals(positions, indices, &place, context);
     };
-    guard.work(read.len())?;
+    context.work(read.len())?;
     let mut odd = 0;
-    let mut unit: Vec<Option<Vec3>> = guard.vec(&place, read.len())?;
+    let mut unit: Vec<Option<Vec3>> = context.vec(&place, read.len())?;
     unit.extend(read.into_iter().map(Vec3::from).map(|normal| {
         odd += usize::from((normal.length() - 1.0).abs() > UNIT_TOLERANCE);
         direction(normal)
     }));
     if odd > 0 {
-        guard.warn(
+        context.warn(
             place.clone(),
             code::ACCESSOR_VECTOR3_NON_UNIT,
             format!("{odd} normals are not of unit length"),
         );
     }
-    let made = if unit.contains(&None) { normals(positions, indices, &place, guard)? } else { Vec::new() };
+    let made = if unit.contains(&None) { normals(positions, indices, &place, context)? } else { Vec::new() };
     Ok(unit.into_iter().enumerate().map(|(vertex, normal)| normal.unwrap_or_else(|| made[vertex])).collect())
 }
 
@@ -224,7 +224,7 @@ const UNIT_TOLERANCE: f32 = 0.00674 + 1.0 / 127.0;
 fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -> Vec<Vec4> {
     let place = Place::Pointer(format!("{path}/attributes/TANGENT"));
     if tangents.iter().any(|tangent| tangent[3].abs() != 1.0) {
-        document.guard.warn(
+        document.context.warn(
             place.clone(),
             code::ACCESSOR_INVALID_SIGN,
             "w should be 1 or -1; its sign is taken",
@@ -232,7 +232,7 @@ fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -
     }
     if tangents.iter().any(|t| (Vec3::new(t[0], t[1], t[2]).length() - 1.0).abs() > UNIT_TOLERANCE) {
         let text = "tangents are not of unit length";
-        document.guard.warn(place, code::ACCESSOR_VECTOR3_NON_UNIT, text);
+        document.context.warn(place, code::ACCESSOR_VECTOR3_NON_UNIT, text);
     }
     let unit = |[x, y, z, w]: [f32; 4]| {
         let side = if w < 0.0 { -1.0 } else { 1.0 };
@@ -255,10 +255,10 @@ fn colors(
         Type::Vec3 => source.finite::<3>()?.into_iter().map(|color| Vec3::from(color).extend(1.0)).collect(),
         _ => source.finite::<4>()?.into_iter().map(Vec4::from).collect(),
     };
-    document.guard.charge(&source.place, colors.len() as u64 * size_of::<Vec4>() as u64)?;
+    document.context.charge(&source.place, colors.len() as u64 * size_of::<Vec4>() as u64)?;
     let clamped = |color: &Vec4| color.clamp(Vec4::ZERO, Vec4::ONE);
     if colors.iter().any(|color| clamped(color) != *color) {
-        document.guard.warn(
+        document.context.warn(
             Place::Pointer(from),
             code::ACCESSOR_NON_CLAMPED,
             "colours outside 0..1 were clamped",
@@ -278,6 +278,6 @@ fn warn_unknown(document: &Document<'_>, primitive: &json::mesh::Primitive, path
             Checked::Valid(_) => continue,
         };
         let place = Place::Pointer(format!("{path}/attributes"));
-        document.guard.warn(place, code::MESH_PRIMITIVE_INVALID_ATTRIBUTE, format!("{name} is not used"));
+        document.context.warn(place, code::MESH_PRIMITIVE_INVALID_ATTRIBUTE, format!("{name} is not used"));
     }
 }

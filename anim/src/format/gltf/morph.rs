@@ -19,7 +19,7 @@ pub(super) fn morph_targets(
     path: &str,
 ) -> Result<Vec<MorphTarget>, ImportError> {
     let targets = primitive.targets.as_deref().unwrap_or(&[]);
-    let mut read = document.guard.vec(&Place::Pointer(format!("{path}/targets")), targets.len())?;
+    let mut read = document.context.vec(&Place::Pointer(format!("{path}/targets")), targets.len())?;
     for (number, target) in targets.iter().enumerate() {
         let column = |accessor: Option<json::Index<Accessor>>, name: &str, allowed| {
             let from = format!("{path}/targets/{number}/{name}");
@@ -50,19 +50,19 @@ pub(super) fn morph_weights(
     primitives: &mut [Primitive],
     path: &str,
 ) -> Result<Vec<f32>, ImportError> {
-    let guard = document.guard;
+    let context = document.context;
     let targets = primitives.iter().map(|primitive| primitive.morph_targets.len()).max().unwrap_or(0);
     let names = target_names(mesh);
     for (number, primitive) in primitives.iter_mut().enumerate() {
         if primitive.morph_targets.len() != targets {
             let place = Place::Pointer(format!("{path}/primitives/{number}/targets"));
             let text = format!("{} morph targets, {targets} in the mesh", primitive.morph_targets.len());
-            guard.charge(&place, (targets * size_of::<MorphTarget>()) as u64)?;
-            guard.warn(place, code::MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT, text);
+            context.charge(&place, (targets * size_of::<MorphTarget>()) as u64)?;
+            context.warn(place, code::MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT, text);
             primitive.morph_targets.resize_with(targets, MorphTarget::default);
         }
         for (target, name) in primitive.morph_targets.iter_mut().zip(&names) {
-            guard.charge(&Place::Pointer(path.to_owned()), name.len() as u64)?;
+            context.charge(&Place::Pointer(path.to_owned()), name.len() as u64)?;
             target.name.clone_from(name);
         }
     }
@@ -83,10 +83,10 @@ pub(super) fn fitted(
     if given.iter().any(|weight| !weight.is_finite()) {
         return Err(invalid(place, code::VALUE_NOT_IN_RANGE, "a weight is not finite".to_owned()));
     }
-    let mut fitted = document.guard.vec(&place, targets)?;
+    let mut fitted = document.context.vec(&place, targets)?;
     fitted.extend(given.iter().copied().chain(std::iter::repeat(0.0)).take(targets));
     if weights.is_some_and(|weights| weights.len() != targets) {
-        document.guard.warn(place, code, format!("{} weights for {targets} morph targets", given.len()));
+        document.context.warn(place, code, format!("{} weights for {targets} morph targets", given.len()));
     }
     Ok(fitted)
 }

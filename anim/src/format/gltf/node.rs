@@ -4,7 +4,7 @@ use super::accessor::invalid;
 use super::check as code;
 use super::graph::Graph;
 use crate::data::Transform;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::HUGE;
 use glam::{DMat4, Mat4, Quat, Vec3, Vec4};
 use gltf::json;
@@ -27,16 +27,16 @@ impl Local {
 pub(super) const ROTATION_TOLERANCE: f32 = 0.00769;
 
 /// Transforms of all nodes relative to their parents.
-pub(super) fn locals(root: &json::Root, guard: &Guard<'_>) -> Result<Vec<Local>, ImportError> {
-    let mut locals = guard.vec(&Place::Pointer("/nodes".to_owned()), root.nodes.len())?;
+pub(super) fn locals(root: &json::Root, context: &ImportContext<'_>) -> Result<Vec<Local>, ImportError> {
+    let mut locals = context.vec(&Place::Pointer("/nodes".to_owned()), root.nodes.len())?;
     for (index, node) in root.nodes.iter().enumerate() {
-        guard.work(1)?;
-        locals.push(local(node, index, guard)?);
+        context.work(1)?;
+        locals.push(local(node, index, context)?);
     }
     Ok(locals)
 }
 
-fn local(node: &json::Node, index: usize, guard: &Guard<'_>) -> Result<Local, ImportError> {
+fn local(node: &json::Node, index: usize, context: &ImportContext<'_>) -> Result<Local, ImportError> {
     let at = |member: &str| Place::Pointer(format!("/nodes/{index}/{member}"));
     let finite = |numbers: &[f32], member: &str| match numbers.iter().all(|number| number.is_finite()) {
         true => Ok(()),
@@ -49,7 +49,7 @@ fn local(node: &json::Node, index: usize, guard: &Guard<'_>) -> Result<Local, Im
     }
     if let Some(rotation) = node.rotation {
         finite(&rotation.0, "rotation")?;
-        local.parts.rotation = unit_rotation(Quat::from_array(rotation.0), || at("rotation"), guard);
+        local.parts.rotation = unit_rotation(Quat::from_array(rotation.0), || at("rotation"), context);
     }
     if let Some(scale) = node.scale {
         finite(&scale, "scale")?;
@@ -59,12 +59,12 @@ fn local(node: &json::Node, index: usize, guard: &Guard<'_>) -> Result<Local, Im
         finite(&matrix, "matrix")?;
         if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
             let text = "the matrix counts, the node's translation, rotation and scale do not";
-            guard.warn(at("matrix"), code::NODE_MATRIX_TRS, text);
+            context.warn(at("matrix"), code::NODE_MATRIX_TRS, text);
         }
-        local = taken_apart(Mat4::from_cols_array(&matrix), &at("matrix"), guard)?;
+        local = taken_apart(Mat4::from_cols_array(&matrix), &at("matrix"), context)?;
     }
     if local.parts.translation.abs().max_element() > HUGE {
-        guard.warn(
+        context.warn(
             at("translation"),
             code::HUGE_TRANSLATION,
             "the node is too far away for single precision",
@@ -74,11 +74,11 @@ fn local(node: &json::Node, index: usize, guard: &Guard<'_>) -> Result<Local, Im
 }
 
 /// A matrix as translation, rotation and scale; as it is where it cannot be.
-fn taken_apart(mut matrix: Mat4, place: &Place, guard: &Guard<'_>) -> Result<Local, ImportError> {
+fn taken_apart(mut matrix: Mat4, place: &Place, context: &ImportContext<'_>) -> Result<Local, ImportError> {
     if matrix.row(3).abs_diff_eq(Vec4::W, 1e-5) {
         set_last_row(&mut matrix);
     } else {
-        guard.warn(
+        context.warn(
             place.clone(),
             code::NODE_MATRIX_NON_TRS,
             "the last row should be 0 0 0 1 and is taken to be so",
@@ -96,7 +96,7 @@ fn taken_apart(mut matrix: Mat4, place: &Place, guard: &Guard<'_>) -> Result<Loc
     if parts.to_matrix().abs_diff_eq(matrix, tolerance) {
         return Ok(Local { parts, sheared: None });
     }
-    guard.warn(
+    context.warn(
         place.clone(),
         code::NODE_MATRIX_NON_TRS,
         "the matrix is sheared; it is shown, but cannot be edited",
@@ -109,11 +109,11 @@ pub(super) fn set_last_row(matrix: &mut Mat4) {
 }
 
 /// `rotation` with length one; the identity when it has none.
-pub(super) fn unit_rotation(rotation: Quat, place: impl Fn() -> Place, guard: &Guard<'_>) -> Quat {
+pub(super) fn unit_rotation(rotation: Quat, place: impl Fn() -> Place, context: &ImportContext<'_>) -> Quat {
     match unit(rotation) {
         Some((unit, error)) => {
             if error > ROTATION_TOLERANCE {
-                guard.warn(
+                context.warn(
                     place(),
                     code::ROTATION_NON_UNIT,
                     "the rotation is not of unit length and was made so",
@@ -122,7 +122,11 @@ pub(super) fn unit_rotation(rotation: Quat, place: impl Fn() -> Place, guard: &G
             unit
         }
         None => {
-            guard.warn(place(), code::ROTATION_NON_UNIT, "the rotation has no length; none is taken instead");
+            context.warn(
+                place(),
+                code::ROTATION_NON_UNIT,
+                "the rotation has no length; none is taken instead",
+            );
             Quat::IDENTITY
         }
     }
@@ -144,10 +148,14 @@ pub(super) fn unit(rotation: Quat) -> Option<(Quat, f32)> {
 }
 
 /// Node space → scene space at rest, for all nodes; refused where it overflows.
-pub(super) fn globals(graph: &Graph, locals: &[Local], guard: &Guard<'_>) -> Result<Vec<Mat4>, ImportError> {
-    let mut globals = guard.filled(&Place::Pointer("/nodes".to_owned()), locals.len(), Mat4::IDENTITY)?;
+pub(super) fn globals(
+    graph: &Graph,
+    locals: &[Local],
+    context: &ImportContext<'_>,
+) -> Result<Vec<Mat4>, ImportError> {
+    let mut globals = context.filled(&Place::Pointer("/nodes".to_owned()), locals.len(), Mat4::IDENTITY)?;
     for &node in &graph.order {
-        guard.work(1)?;
+        context.work(1)?;
         let parent = graph.parents[node as usize].map_or(Mat4::IDENTITY, |parent| globals[parent as usize]);
         let global = parent * locals[node as usize].matrix();
         if !global.is_finite() {

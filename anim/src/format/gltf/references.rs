@@ -4,13 +4,13 @@
 //! index was made by something broken.
 
 use super::accessor::unresolved;
-use crate::format::{ImportError, guard::Guard};
+use crate::format::{ImportContext, ImportError};
 use gltf::json::{Index, Root};
 
 /// Refuses the document when an accessor, buffer view, texture or sampler names something that is not there.
-pub(super) fn check(root: &Root, guard: &Guard<'_>) -> Result<(), ImportError> {
+pub(super) fn check(root: &Root, context: &ImportContext<'_>) -> Result<(), ImportError> {
     for (index, accessor) in root.accessors.iter().enumerate() {
-        guard.work(1)?;
+        context.work(1)?;
         let at = |rest: &str| format!("/accessors/{index}/{rest}");
         named(accessor.buffer_view, &root.buffer_views, || at("bufferView"))?;
         if let Some(sparse) = &accessor.sparse {
@@ -19,11 +19,11 @@ pub(super) fn check(root: &Root, guard: &Guard<'_>) -> Result<(), ImportError> {
         }
     }
     for (index, view) in root.buffer_views.iter().enumerate() {
-        guard.work(1)?;
+        context.work(1)?;
         named(Some(view.buffer), &root.buffers, || format!("/bufferViews/{index}/buffer"))?;
     }
     for (index, texture) in root.textures.iter().enumerate() {
-        guard.work(1)?;
+        context.work(1)?;
         named(texture.sampler, &root.samplers, || format!("/textures/{index}/sampler"))?;
         // The document model's way to say that there is none.
         let source = Some(texture.source).filter(|source| source.value() != u32::MAX as usize);
@@ -31,7 +31,7 @@ pub(super) fn check(root: &Root, guard: &Guard<'_>) -> Result<(), ImportError> {
     }
     for (index, animation) in root.animations.iter().enumerate() {
         for (number, sampler) in animation.samplers.iter().enumerate() {
-            guard.work(1)?;
+            context.work(1)?;
             let at = |end: &str| format!("/animations/{index}/samplers/{number}/{end}");
             named(Some(sampler.input), &root.accessors, || at("input"))?;
             named(Some(sampler.output), &root.accessors, || at("output"))?;

@@ -46,7 +46,7 @@ pub(super) fn number_bones(
             is_bone[parent as usize] |= is_bone[node as usize];
         }
     }
-    let mut bones = document.guard.filled(&Place::Pointer("/nodes".to_owned()), is_bone.len(), None)?;
+    let mut bones = document.context.filled(&Place::Pointer("/nodes".to_owned()), is_bone.len(), None)?;
     let moving = graph.order.iter().filter(|&&node| is_bone[node as usize]);
     for (bone, &node) in moving.enumerate() {
         bones[node as usize] = Some(bone as BoneIndex);
@@ -65,9 +65,9 @@ pub(super) fn skeleton(
 ) -> Result<Skeleton, ImportError> {
     let place = Place::Pointer("/nodes".to_owned());
     let count = bones.iter().flatten().count();
-    let mut list = document.guard.vec(&place, count)?;
+    let mut list = document.context.vec(&place, count)?;
     for &node in graph.order.iter().filter(|&&node| bones[node as usize].is_some()) {
-        document.guard.work(1)?;
+        document.context.work(1)?;
         let local = &locals[node as usize];
         list.push(Bone {
             name: document.root.nodes[node as usize].name.clone().unwrap_or_default(),
@@ -79,7 +79,7 @@ pub(super) fn skeleton(
         });
     }
     for skin in skins.iter().rev() {
-        document.guard.work(skin.bones.len())?;
+        document.context.work(skin.bones.len())?;
         // Backwards, so that the first joint counts where one is named twice.
         for (&bone, &offset) in skin.bones.iter().zip(&skin.offsets).rev() {
             list[bone as usize].offset = offset;
@@ -101,7 +101,7 @@ pub(super) fn stage(
     let carriers = carriers(document, graph, locals, &bones)?;
     let mut instances = Vec::new();
     for (index, node) in document.root.nodes.iter().enumerate() {
-        document.guard.work(1)?;
+        document.context.work(1)?;
         check_references(document, index)?;
         let Some(mesh) = node.mesh else { continue };
         let path = format!("/nodes/{index}");
@@ -110,7 +110,7 @@ pub(super) fn stage(
         let skin = skin_of(document, index, read)?;
         if !is_shown[index] {
             let text = "the mesh stands outside the scene that is shown";
-            document.guard.warn(Place::Pointer(path), code::NODE_NOT_IN_SCENE, text);
+            document.context.warn(Place::Pointer(path), code::NODE_NOT_IN_SCENE, text);
             continue;
         }
         let place = Place::Pointer(format!("{path}/weights"));
@@ -119,7 +119,7 @@ pub(super) fn stage(
         let morph_weights =
             fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
         let (bone, to_bone) = carriers[index];
-        document.guard.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
+        document.context.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
         let (mesh, node) = (mesh.value() as u32, Some(index as u32));
         instances.push(MeshInstance { mesh, node, skin, bone, to_bone, morph_weights });
     }
@@ -136,7 +136,7 @@ fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Opt
     match read.largest_joint {
         None => {
             let text = "the mesh has no joints; the skin is left out";
-            document.guard.warn(Place::Pointer(path), code::NODE_SKIN_WITH_NON_SKINNED_MESH, text);
+            document.context.warn(Place::Pointer(path), code::NODE_SKIN_WITH_NON_SKINNED_MESH, text);
             Ok(None)
         }
         Some(largest) if usize::from(largest) >= joints => {
@@ -155,9 +155,9 @@ fn carriers(
     bones: &[Option<BoneIndex>],
 ) -> Result<Vec<(Option<BoneIndex>, Mat4)>, ImportError> {
     let place = Place::Pointer("/nodes".to_owned());
-    let mut carriers = document.guard.filled(&place, bones.len(), (None, Mat4::IDENTITY))?;
+    let mut carriers = document.context.filled(&place, bones.len(), (None, Mat4::IDENTITY))?;
     for &node in &graph.order {
-        document.guard.work(1)?;
+        document.context.work(1)?;
         let node = node as usize;
         carriers[node] = match (bones[node], graph.parents[node]) {
             (Some(bone), _) => (Some(bone), Mat4::IDENTITY),
@@ -179,29 +179,29 @@ fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportErro
         Some(scene) if scene.value() < root.scenes.len() => scene.value(),
         Some(scene) => {
             let text = format!("there is no number {}; the first scene is shown", scene.value());
-            document.guard.warn(Place::Pointer("/scene".to_owned()), code::UNRESOLVED_REFERENCE, text);
+            document.context.warn(Place::Pointer("/scene".to_owned()), code::UNRESOLVED_REFERENCE, text);
             0
         }
         None => 0,
     };
     for (number, scene) in root.scenes.iter().enumerate() {
         for (position, node) in scene.nodes.iter().enumerate() {
-            document.guard.work(1)?;
+            document.context.work(1)?;
             let from = || format!("/scenes/{number}/nodes/{position}");
             match graph.parents.get(node.value()) {
                 None => return Err(unresolved(&from(), node.value())),
                 Some(Some(parent)) => {
                     let text = format!("node {} is a child of node {parent}", node.value());
-                    document.guard.warn(Place::Pointer(from()), code::SCENE_NON_ROOT_NODE, text);
+                    document.context.warn(Place::Pointer(from()), code::SCENE_NON_ROOT_NODE, text);
                 }
                 Some(None) => {}
             }
         }
     }
     let Some(scene) = root.scenes.get(index) else {
-        return document.guard.filled(&place, root.nodes.len(), true);
+        return document.context.filled(&place, root.nodes.len(), true);
     };
-    let mut is_shown = document.guard.filled(&place, root.nodes.len(), false)?;
+    let mut is_shown = document.context.filled(&place, root.nodes.len(), false)?;
     for node in &scene.nodes {
         is_shown[node.value()] = true;
     }
@@ -221,7 +221,7 @@ fn check_references(document: &Document<'_>, index: usize) -> Result<(), ImportE
         if camera.value() >= document.root.cameras.len() {
             return Err(unresolved(&path, camera.value()));
         }
-        document.guard.warn(Place::Pointer(path), code::CAMERA_NOT_SHOWN, "the file's camera is not used");
+        document.context.warn(Place::Pointer(path), code::CAMERA_NOT_SHOWN, "the file's camera is not used");
     }
     match node.skin {
         Some(skin) if skin.value() >= document.root.skins.len() => {

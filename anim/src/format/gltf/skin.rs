@@ -21,8 +21,8 @@ pub(super) fn mark_joints(document: &Document<'_>, is_bone: &mut [bool]) -> Resu
             let (size, limit) = (skin.joints.len() as u64, JOINTS_PER_SKIN as u64);
             return Err(ImportError::TooLarge { place: Place::Pointer(path), what: "joints", size, limit });
         }
-        document.guard.work(skin.joints.len())?;
-        let mut seen = document.guard.vec(&Place::Pointer(path.clone()), skin.joints.len())?;
+        document.context.work(skin.joints.len())?;
+        let mut seen = document.context.vec(&Place::Pointer(path.clone()), skin.joints.len())?;
         for (number, joint) in skin.joints.iter().enumerate() {
             let marked = is_bone.get_mut(joint.value());
             *marked.ok_or_else(|| unresolved(&format!("{path}/{number}"), joint.value()))? = true;
@@ -30,7 +30,7 @@ pub(super) fn mark_joints(document: &Document<'_>, is_bone: &mut [bool]) -> Resu
         }
         seen.sort_unstable();
         if seen.windows(2).any(|pair| pair[0] == pair[1]) {
-            document.guard.warn(Place::Pointer(path), code::DUPLICATE_ELEMENTS, "a joint is named twice");
+            document.context.warn(Place::Pointer(path), code::DUPLICATE_ELEMENTS, "a joint is named twice");
         }
     }
     Ok(())
@@ -38,11 +38,11 @@ pub(super) fn mark_joints(document: &Document<'_>, is_bone: &mut [bool]) -> Resu
 
 /// All skins; `bones` names the bone of each node.
 pub(super) fn skins(document: &Document<'_>, bones: &[Option<BoneIndex>]) -> Result<Vec<Skin>, ImportError> {
-    let guard = document.guard;
-    let mut skins = guard.vec(&Place::Pointer("/skins".to_owned()), document.root.skins.len())?;
+    let context = document.context;
+    let mut skins = context.vec(&Place::Pointer("/skins".to_owned()), document.root.skins.len())?;
     for (index, skin) in document.root.skins.iter().enumerate() {
         let place = Place::Pointer(format!("/skins/{index}/joints"));
-        let mut joints = guard.vec(&place, skin.joints.len())?;
+        let mut joints = context.vec(&place, skin.joints.len())?;
         joints.extend(
             skin.joints.iter().map(|joint| bones[joint.value()].expect("every joint was marked as a bone")),
         );
@@ -56,9 +56,9 @@ pub(super) fn skins(document: &Document<'_>, bones: &[Option<BoneIndex>]) -> Res
 fn offsets(document: &Document<'_>, skin: &json::Skin, index: usize) -> Result<Vec<Mat4>, ImportError> {
     let path = format!("/skins/{index}/inverseBindMatrices");
     let place = Place::Pointer(path.clone());
-    let guard = document.guard;
+    let context = document.context;
     let Some(accessor) = skin.inverse_bind_matrices else {
-        return guard.filled(&place, skin.joints.len(), Mat4::IDENTITY);
+        return context.filled(&place, skin.joints.len(), Mat4::IDENTITY);
     };
     let allowed = [(ComponentType::F32, Type::Mat4, false)];
     let source = document.source(accessor, &path, &allowed, code::SKIN_IBM_INVALID_FORMAT)?;
@@ -67,7 +67,7 @@ fn offsets(document: &Document<'_>, skin: &json::Skin, index: usize) -> Result<V
         return Err(invalid(place, code::INVALID_IBM_ACCESSOR_COUNT, reason));
     }
     let values = source.finite::<16>()?;
-    let mut matrices = guard.vec(&place, skin.joints.len())?;
+    let mut matrices = context.vec(&place, skin.joints.len())?;
     let (mut singular, mut skewed) = (0, 0);
     for value in values.iter().take(skin.joints.len()) {
         let mut matrix = Mat4::from_cols_array(value);
@@ -81,11 +81,11 @@ fn offsets(document: &Document<'_>, skin: &json::Skin, index: usize) -> Result<V
     }
     if singular > 0 {
         let text = format!("{singular} matrices cannot be inverted; the identity is taken instead");
-        guard.warn(place.clone(), code::ACCESSOR_INVALID_IBM, text);
+        context.warn(place.clone(), code::ACCESSOR_INVALID_IBM, text);
     }
     if skewed > 0 {
         let text = format!("the last row of {skewed} matrices should be 0 0 0 1 and is taken to be so");
-        guard.warn(place, code::ACCESSOR_INVALID_IBM, text);
+        context.warn(place, code::ACCESSOR_INVALID_IBM, text);
     }
     Ok(matrices)
 }

@@ -5,7 +5,7 @@
 
 use super::check as code;
 use super::walk::{Step, Walk};
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{JSON_DEPTH, NODES};
 use gltf::json;
 
@@ -22,13 +22,13 @@ pub(super) struct Survey {
 }
 
 /// Looks over `text`.
-pub(super) fn survey(text: &[u8], guard: &Guard<'_>) -> Result<Survey, ImportError> {
+pub(super) fn survey(text: &[u8], context: &ImportContext<'_>) -> Result<Survey, ImportError> {
     let mut survey = Survey::default();
     let mut walk = Walk::new(text);
     // Depth of the member that holds data nobody reads, where we are in one.
     let mut skipping: Option<usize> = None;
     while let Some(step) = walk.step() {
-        guard.work(1)?;
+        context.work(1)?;
         let depth = walk.frames().len();
         if depth > JSON_DEPTH {
             let place = Place::Pointer(walk.pointer(1));

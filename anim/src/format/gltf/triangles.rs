@@ -2,7 +2,7 @@
 
 use super::accessor::{Document, invalid};
 use super::check as code;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use glam::Vec3;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::{Mode, Primitive};
@@ -21,30 +21,30 @@ pub(super) fn triangles(
     vertices: usize,
     path: &str,
 ) -> Result<Vec<u32>, ImportError> {
-    let guard = document.guard;
+    let context = document.context;
     let from = format!("{path}/indices");
     let place = Place::Pointer(from.clone());
     let indices = match primitive.indices {
         Some(accessor) => {
             let wrong = code::MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT;
             let values = document.source(accessor, &from, INDEX_FORMATS, wrong)?.integers::<1>()?;
-            check_indices(&values, vertices, &place, guard)?;
+            check_indices(&values, vertices, &place, context)?;
             values.into_iter().map(|[index]| index).collect()
         }
         None => {
-            let mut indices = guard.vec(&place, vertices)?;
-            guard.work(vertices)?;
+            let mut indices = context.vec(&place, vertices)?;
+            context.work(vertices)?;
             indices.extend(0..vertices as u32);
             indices
         }
     };
     match primitive.mode {
-        Checked::Valid(Mode::Triangles) => Ok(list(indices, &place, guard)),
-        Checked::Valid(Mode::TriangleStrip) => strip(&indices, &place, guard),
-        Checked::Valid(Mode::TriangleFan) => fan(&indices, &place, guard),
+        Checked::Valid(Mode::Triangles) => Ok(list(indices, &place, context)),
+        Checked::Valid(Mode::TriangleStrip) => strip(&indices, &place, context),
+        Checked::Valid(Mode::TriangleFan) => fan(&indices, &place, context),
         Checked::Valid(mode) => {
             let text = format!("{mode:?} are not shown");
-            guard.warn(Place::Pointer(format!("{path}/mode")), code::MESH_PRIMITIVE_MODE_NOT_SHOWN, text);
+            context.warn(Place::Pointer(format!("{path}/mode")), code::MESH_PRIMITIVE_MODE_NOT_SHOWN, text);
             Ok(Vec::new())
         }
         Checked::Invalid => {
@@ -58,9 +58,9 @@ fn check_indices(
     indices: &[[u32; 1]],
     vertices: usize,
     place: &Place,
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Result<(), ImportError> {
-    guard.work(indices.len())?;
+    context.work(indices.len())?;
     match indices.iter().position(|[index]| *index as usize >= vertices) {
         None => Ok(()),
         Some(number) => {
@@ -70,21 +70,21 @@ fn check_indices(
     }
 }
 
-fn list(mut indices: Vec<u32>, place: &Place, guard: &Guard<'_>) -> Vec<u32> {
+fn list(mut indices: Vec<u32>, place: &Place, context: &ImportContext<'_>) -> Vec<u32> {
     if !indices.len().is_multiple_of(3) {
         let text =
             format!("{} indices do not make whole triangles; the last ones are left out", indices.len());
-        guard.warn(place.clone(), code::MESH_PRIMITIVE_INCOMPATIBLE_MODE, text);
+        context.warn(place.clone(), code::MESH_PRIMITIVE_INCOMPATIBLE_MODE, text);
         indices.truncate(indices.len() / 3 * 3);
     }
     indices
 }
 
 /// glTF 2.0 §3.7.2.1: triangle i of a strip is i, i + 1 + i % 2, i + 2 - i % 2.
-fn strip(indices: &[u32], place: &Place, guard: &Guard<'_>) -> Result<Vec<u32>, ImportError> {
+fn strip(indices: &[u32], place: &Place, context: &ImportContext<'_>) -> Result<Vec<u32>, ImportError> {
     let count = indices.len().saturating_sub(2);
-    let mut list = guard.vec(place, count.saturating_mul(3))?;
-    guard.work(count)?;
+    let mut list = context.vec(place, count.saturating_mul(3))?;
+    context.work(count)?;
     for i in 0..count {
         list.extend([indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]]);
     }
@@ -92,10 +92,10 @@ fn strip(indices: &[u32], place: &Place, guard: &Guard<'_>) -> Result<Vec<u32>, 
 }
 
 /// glTF 2.0 §3.7.2.1: triangle i of a fan is i + 1, i + 2, 0.
-fn fan(indices: &[u32], place: &Place, guard: &Guard<'_>) -> Result<Vec<u32>, ImportError> {
+fn fan(indices: &[u32], place: &Place, context: &ImportContext<'_>) -> Result<Vec<u32>, ImportError> {
     let count = indices.len().saturating_sub(2);
-    let mut list = guard.vec(place, count.saturating_mul(3))?;
-    guard.work(count)?;
+    let mut list = context.vec(place, count.saturating_mul(3))?;
+    context.work(count)?;
     for i in 0..count {
         list.extend([indices[i + 1], indices[i + 2], indices[0]]);
     }
@@ -110,10 +110,10 @@ pub(super) fn normals(
     positions: &[Vec3],
     indices: &[u32],
     place: &Place,
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Result<Vec<Vec3>, ImportError> {
-    let mut normals = guard.filled(place, positions.len(), Vec3::ZERO)?;
-    guard.work(indices.len())?;
+    let mut normals = context.filled(place, positions.len(), Vec3::ZERO)?;
+    context.work(indices.len())?;
     for corners in indices.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| positions[corners[corner] as usize]);
         let across = (b - a).cross(c - a);
@@ -124,7 +124,7 @@ pub(super) fn normals(
             }
         }
     }
-    guard.work(normals.len())?;
+    context.work(normals.len())?;
     for normal in &mut normals {
         *normal = direction(*normal).unwrap_or(Vec3::Y);
     }

@@ -2,7 +2,7 @@
 
 use super::super::glb;
 use super::json::patch::{Patch, patched};
-use crate::format::{ImportError, guard::Guard};
+use crate::format::{ImportContext, ImportError};
 use std::ops::Range;
 
 const HEADER: usize = 12;
@@ -29,11 +29,11 @@ pub(super) struct Chunks {
 
 impl Container {
     /// Finds the parts; what is wrong with the frame is an error, as in reading.
-    pub(super) fn of(file: &[u8], guard: &Guard<'_>) -> Result<Self, ImportError> {
+    pub(super) fn of(file: &[u8], context: &ImportContext<'_>) -> Result<Self, ImportError> {
         if !file.starts_with(b"glTF") {
             return Ok(Self { text: text_in(file, 0..file.len()), glb: None });
         }
-        let glb = glb::parse(file, guard)?;
+        let glb = glb::parse(file, context)?;
         let from = glb.json_at as usize;
         let json = from..from + glb.json.len();
         let bin = glb.bin.map(|bin| json.end + CHUNK_HEADER..json.end + CHUNK_HEADER + bin.len());

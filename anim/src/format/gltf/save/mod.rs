@@ -37,8 +37,8 @@
 //! takes are deleted or reordered.
 //!
 //! ```
-//! use dragonfly_anim::format::gltf::save::{SourceFile, TakeNow, plan};
-//! use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+//! use dragonfly_anim::format::gltf::save::{SourceFile, plan};
+//! use dragonfly_anim::format::{EditedTake, NoFiles, ReadOptions, read};
 //! use std::sync::Arc;
 //!
 //! let bytes: &[u8] = br#"{
@@ -57,7 +57,7 @@
 //!
 //! let mut take = (*model.animation.takes[0]).clone();
 //! take.name = "wag slowly".to_owned();
-//! let now = [TakeNow { origin: Some(0), take: Arc::new(take) }];
+//! let now = [EditedTake { origin: Some(0), take: Arc::new(take) }];
 //! let plan = plan(&source, &model, &now)?;
 //! assert_eq!(plan.changes().tokens[0].pointer, "/animations/0/name");
 //! let files = plan.write();
@@ -70,7 +70,6 @@
 //! `changes`; `compact`.
 
 mod animation;
-mod beside;
 mod buffer;
 mod changes;
 mod channels;
@@ -87,10 +86,12 @@ mod order;
 mod plan;
 mod reuse;
 mod source;
+mod surgical;
 
 pub use changes::{ChangedChannel, ChangedToken, Changes, ChannelChange, TakeChange, WrittenAccessor};
 pub use compact::compact;
 pub use error::SaveError;
-pub use plan::{OutputFile, Plan, TakeNow, plan};
+pub use plan::{Plan, plan};
 pub use reuse::MARK;
 pub use source::SourceFile;
+pub(super) use surgical::open;

@@ -16,29 +16,9 @@ use super::nodes::without_matrix;
 use super::order::write_animations;
 use super::reuse::{Granted, MARK, Request, Slot, grant, slots};
 use super::source::SourceFile;
-use crate::data::{ModelData, Take};
+use crate::data::ModelData;
+use crate::format::{EditedTake, OutputFile};
 use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
-
-/// A take as it is to be in the file.
-#[derive(Clone, Debug)]
-pub struct TakeNow {
-    /// The animation of the file that it was made from, by number; `None` for one that is new. The first take with an
-    /// origin is that animation; further ones are copies of it, with what importing left out.
-    pub origin: Option<usize>,
-    /// Name and keys. Where a channel is the one that was opened (the same `Arc`, or the same bits), the file's own
-    /// numbers stay. Start and length are not written: in glTF they are what the keys say.
-    pub take: Arc<Take>,
-}
-
-/// A file to be written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OutputFile {
-    /// Relative to the folder of the file that was opened; its own name for the file itself.
-    pub name: String,
-    /// All of it.
-    pub bytes: Vec<u8>,
-}
 
 /// What a save will do: made by [`plan`], shown by [`Plan::changes`], done by [`Plan::write`].
 #[derive(Clone)]
@@ -86,7 +66,11 @@ pub(super) struct TakeDraft {
 ///
 /// `opened` is the model as it was read from the same bytes. Errors: it is not, or keys that glTF cannot hold; see
 /// [`SaveError`]. Takes time and memory in proportion to the file's JSON text and to the channels that changed.
-pub fn plan<'a>(source: &'a SourceFile, opened: &ModelData, now: &[TakeNow]) -> Result<Plan<'a>, SaveError> {
+pub fn plan<'a>(
+    source: &'a SourceFile,
+    opened: &ModelData,
+    now: &[EditedTake],
+) -> Result<Plan<'a>, SaveError> {
     let document = Document::of(source);
     check_same_file(&document, opened)?;
     let target = Target::choose(&document);
@@ -136,7 +120,7 @@ fn check_same_file(document: &Document<'_>, opened: &ModelData) -> Result<(), Sa
 fn take_draft(
     document: &Document<'_>,
     opened: &ModelData,
-    now: &TakeNow,
+    now: &EditedTake,
     is_copy: bool,
     ours: &HashSet<usize>,
     needs: &mut Needs,

@@ -4,8 +4,8 @@ use super::super::buffer;
 use super::container::Container;
 use super::json::tree::{Json, Tree};
 use super::reuse::is_ours;
-use crate::format::{AssetFs, ImportError, Place, ReadOptions, guard::Guard};
-use crate::limits::FILE_BYTES;
+use crate::format::definition::check_file_size;
+use crate::format::{AssetFs, ImportContext, ImportError, Place, ReadOptions};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -35,13 +35,18 @@ impl SourceFile {
         options: &ReadOptions<'_>,
     ) -> Result<Self, ImportError> {
         let bytes: Arc<[u8]> = bytes.into();
-        if bytes.len() as u64 > FILE_BYTES {
-            let size = bytes.len() as u64;
-            return Err(ImportError::TooLarge { place: Place::File, what: "bytes", size, limit: FILE_BYTES });
-        }
+        check_file_size(bytes.len())?;
         options.budget.input(bytes.len());
-        let guard = Guard::new(options);
-        let container = Container::of(&bytes, &guard)?;
+        Self::parse(name, bytes, &ImportContext::new(door, options))
+    }
+
+    /// Finds the values of the JSON text and fetches the buffers that matter.
+    pub(super) fn parse(
+        name: &str,
+        bytes: Arc<[u8]>,
+        context: &ImportContext<'_>,
+    ) -> Result<Self, ImportError> {
+        let container = Container::of(&bytes, context)?;
         let broken = |at: usize, reason: &str| ImportError::Invalid {
             place: Place::Byte(at as u64),
             code: super::super::check::INVALID_JSON,
@@ -53,7 +58,7 @@ impl SourceFile {
         let tree = Tree::read(&bytes, container.text.clone()).map_err(|e| broken(e.at, e.reason))?;
         let mut source =
             Self { name: name.to_owned(), bytes, container, tree: Arc::new(tree), beside: Arc::default() };
-        source.beside = Arc::new(source.fetched(door, &guard));
+        source.beside = Arc::new(source.fetched(context));
         Ok(source)
     }
 
@@ -77,9 +82,8 @@ impl SourceFile {
     }
 
     /// Buffers beside the file that matter here.
-    fn fetched(&self, door: &dyn AssetFs, guard: &Guard<'_>) -> HashMap<usize, Arc<[u8]>> {
+    fn fetched(&self, context: &ImportContext<'_>) -> HashMap<usize, Arc<[u8]>> {
         let json = self.json();
-        let store = buffer::Store::new(door, guard);
         let mut wanted = buffers_of_key_times(json);
         let mut fetched = HashMap::new();
         let buffers = json.list(0, "buffers");
@@ -90,7 +94,7 @@ impl SourceFile {
             let Some(&buffer) = buffers.get(index) else { continue };
             let uri = json.string_member(buffer, "uri").filter(|uri| !is_data(uri));
             let place = Place::Pointer(format!("/buffers/{index}/uri"));
-            if let Some(Ok(file)) = uri.map(|uri| store.fetch(&uri, &place)) {
+            if let Some(Ok(file)) = uri.map(|uri| buffer::fetch(&uri, &place, context)) {
                 fetched.insert(index, file.bytes);
             }
         }
