@@ -85,7 +85,7 @@ pub enum WriteSupport {
 pub struct WholeFile {
     /// Bytes of the file.
     pub bytes: Vec<u8>,
-    /// What the model contains and the format cannot represent; the places are JSON pointers into the model, such as
+    /// Content of the model that the format cannot represent; the places are JSON pointers into the model, such as
     /// `/meshes/0`.
     pub lost: Vec<Warning>,
 }

@@ -35,7 +35,7 @@ pub struct SavePlan {
     /// Files in the order in which to write them: referenced files first, the main file last, so that it never refers to
     /// a file that does not exist.
     pub files: Vec<OutputFile>,
-    /// What the model contains and the format cannot represent.
+    /// Content of the model that the format cannot represent.
     pub lost: Vec<Warning>,
     /// Changes of a surgical save; `None` where the whole file is written.
     pub changes: Option<ChangeReport>,

@@ -40,7 +40,7 @@ pub enum ImportError {
         place: Place,
         /// Name of the broken rule: the one of the Khronos glTF validator where that has one.
         code: &'static str,
-        /// What is wrong, with the numbers.
+        /// Description of the error, with the numbers.
         reason: String,
     },
     /// The file may be valid, but needs a feature that is not supported.
@@ -142,7 +142,7 @@ pub struct Warning {
     pub place: Place,
     /// Name of the rule, as in [`ImportError::Invalid`].
     pub code: &'static str,
-    /// What is wrong, and what was done about it.
+    /// Description of the problem, and how it was handled.
     pub text: String,
 }
 

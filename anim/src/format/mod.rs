@@ -69,7 +69,7 @@ pub struct Imported {
     pub model: ModelData,
     /// Format of the file.
     pub format: Format,
-    /// What was corrected or left out, in the order in which it was found.
+    /// Descriptions of corrected and omitted content, in the order in which it was found.
     pub warnings: Vec<Warning>,
 }
 

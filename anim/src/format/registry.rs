@@ -69,7 +69,7 @@ impl Formats {
         self.extensions().iter().map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", ")
     }
 
-    /// Returns whether a file name extension, in any case, stands for some model format: one of these, or one of those
+    /// Returns whether a file name extension, in any case, belongs to a model format: one of these, or one of those
     /// that other programs write (FBX, OBJ, Collada, BVH, …).
     pub fn is_model_extension(&self, extension: &str) -> bool {
         self.by_extension(extension).is_some()

@@ -51,14 +51,14 @@ impl Record for BoneRecord {
     }
 }
 
-/// Translation, scale, rotation: the thesis's order.
+/// Writes translation, scale and rotation, in the thesis's order.
 pub(super) fn put_pose(pose: &Transform, out: &mut Vec<u8>) {
     out.floats(&pose.translation.to_array());
     out.floats(&pose.scale.to_array());
     out.floats(&pose.rotation.to_array());
 }
 
-/// What [`put_pose`] wrote.
+/// Reads what [`put_pose`] wrote.
 pub(super) fn get_pose(fields: &mut Fields<'_>) -> Transform {
     let (translation, scale, rotation) = (fields.vec3(), fields.vec3(), fields.quat());
     Transform { translation, rotation, scale }
@@ -73,7 +73,7 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) {
     }
 }
 
-/// The skeleton: every parent before its children, so that there is no cycle.
+/// Reads the skeleton, in which every parent must come before its children, so that there is no cycle.
 pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Skeleton, ImportError> {
     let count = reader.count(Part::Bones);
     reader.limit("bones", count, NODES)?;
@@ -83,7 +83,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Skeleton, ImportError>
         let name = reader.text()?;
         let BoneRecord { index, bone } = reader.get(Part::Bones)?;
         if index as usize != position {
-            return Err(reader.wrong(DFM_INDEX, format!("bone {position} says that it is bone {index}")));
+            return Err(reader.wrong(DFM_INDEX, format!("bone {position} has the index {index}")));
         }
         let depth = match bone.parent {
             None => 1,
@@ -95,7 +95,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Skeleton, ImportError>
                 }
             },
         };
-        reader.limit("bones above each other", depth, NODE_DEPTH)?;
+        reader.limit("levels of bones", depth, NODE_DEPTH)?;
         depths.push(depth);
         bones.push(Bone { name, ..bone });
     }

@@ -1,4 +1,4 @@
-//! Images: the data and file names that the thesis's materials hold, kept once for all materials.
+//! Images: the data and file names of the thesis's materials, stored once for all materials.
 
 use super::part::Part;
 use super::reader::Reader;
@@ -50,7 +50,7 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteE
     Ok(())
 }
 
-/// Every image.
+/// Reads every image.
 pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Vec<Image>, ImportError> {
     let count = reader.count(Part::Images);
     let mut images = reader.vec(Part::Images, 0, count)?;

@@ -13,7 +13,7 @@ use crate::format::ImportError;
 const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge];
 const FILTERS: [Filter; 2] = [Filter::Nearest, Filter::Linear];
 
-/// The five uses of images.
+/// The five textures of a material.
 type Textures = [Option<TextureRef>; 5];
 
 /// A material without its name.
@@ -76,7 +76,7 @@ impl Record for MaterialRecord {
             emissive_texture,
         ] = textures;
         if image != base_color_texture.map_or(NONE, |texture| texture.image) {
-            return Err("the texture is not the base colour's".to_owned());
+            return Err("the texture is not that of the base color".to_owned());
         }
         Ok(Self(Material {
             name: String::new(),
@@ -136,7 +136,7 @@ fn get_texture(fields: &mut Fields<'_>) -> Result<Option<TextureRef>, String> {
         return Ok(None);
     }
     if set > 1 || mip > 1 {
-        return Err(format!("texture coordinates {set} or mip {mip} are not 0 or 1"));
+        return Err(format!("texture coordinates {set} and mip levels {mip} must be 0 or 1"));
     }
     Ok(Some(TextureRef {
         image,
@@ -157,7 +157,7 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) {
     }
 }
 
-/// Every material.
+/// Reads every material.
 pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Vec<Material>, ImportError> {
     let images = reader.count(Part::Images);
     let mut materials = reader.vec(Part::Materials, 0, reader.count(Part::Materials))?;

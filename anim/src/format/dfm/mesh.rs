@@ -1,4 +1,4 @@
-//! Meshes: how the vertices and indices of the thesis's part are cut, and their further columns.
+//! Meshes: how the thesis's lists of vertices and indices are split, and the additional columns.
 
 use super::code::{DFM_INDEX, DFM_VALUE};
 use super::part::Part;
@@ -11,13 +11,13 @@ use crate::data::{Influence, MAX_INFLUENCES, Mesh, ModelData, Primitive, Skin, V
 use crate::format::ImportError;
 use crate::limits::VERTICES;
 
-/// Which columns a primitive has.
+/// Bits of the columns that a primitive has.
 const NORMALS: u32 = 1;
 const TEXTURE_COORDINATES: [u32; 2] = [2, 4];
 const TANGENTS: u32 = 8;
 const COLORS: u32 = 16;
 
-/// Numbers of a mesh's primitives and morph targets.
+/// Number of primitives and morph targets of a mesh.
 pub(super) struct MeshRecord {
     primitives: u32,
     targets: u32,
@@ -36,7 +36,7 @@ impl Record for MeshRecord {
     }
 }
 
-/// What a primitive takes of the parts that hold columns.
+/// Number of elements of a primitive in the parts that store columns.
 pub(super) struct PrimitiveRecord {
     vertices: u32,
     indices: u32,
@@ -59,7 +59,7 @@ impl Record for PrimitiveRecord {
         let columns = only_bits(fields.u32(), 31)?;
         let influences = fields.u32();
         if influences as usize > MAX_INFLUENCES {
-            return Err(format!("{influences} influences a vertex, at most {MAX_INFLUENCES}"));
+            return Err(format!("{influences} influences per vertex, at most {MAX_INFLUENCES}"));
         }
         Ok(Self { vertices, indices, material, columns, influences })
     }
@@ -84,7 +84,7 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteE
     Ok(())
 }
 
-/// Is each column empty or as long as there are vertices?
+/// Checks that each column is empty or has one element per vertex.
 fn columns_fit(primitive: &Primitive, mesh: &Mesh) -> Result<(), String> {
     let vertices = &primitive.vertices;
     let count = vertices.len();
@@ -121,7 +121,7 @@ fn write_primitive(primitive: &Primitive, skin: Option<&Skin>, writer: &mut Writ
     let base = writer.count(Part::Vertices);
     for &index in &primitive.indices {
         let global = u32::try_from(base + index as usize).ok().filter(|_| (index as usize) < vertices.len());
-        let reason = || format!("index {index} names none of {} vertices", vertices.len());
+        let reason = || format!("index {index} is out of the range of {} vertices", vertices.len());
         writer.put(Part::Indices, &global.ok_or_else(reason)?);
     }
     for index in 0..vertices.len() {
@@ -148,7 +148,7 @@ fn write_primitive(primitive: &Primitive, skin: Option<&Skin>, writer: &mut Writ
     Ok(())
 }
 
-/// One vertex, its attribute, and its influences beyond the fourth.
+/// Writes one vertex, its attribute, and its influences after the fourth.
 fn write_vertex(primitive: &Primitive, index: usize, skin: Option<&Skin>, writer: &mut Writer) {
     let Some(vertex) = primitive.vertex(index) else { return };
     let (mut influences, mut bones) = ([Influence::default(); FIRST_INFLUENCES], [0; FIRST_INFLUENCES]);
@@ -175,7 +175,7 @@ fn write_vertex(primitive: &Primitive, index: usize, skin: Option<&Skin>, writer
     );
 }
 
-/// Every mesh, and the largest joint that its vertices name.
+/// Reads every mesh, and the largest joint that its vertices refer to.
 pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<(Vec<Mesh>, Vec<Option<u16>>), ImportError> {
     let count = reader.count(Part::Meshes);
     reader.limit("vertices", reader.count(Part::Vertices), VERTICES)?;
@@ -206,7 +206,7 @@ fn read_primitive(reader: &mut Reader<'_, '_>, targets: usize) -> Result<Primiti
         return Err(reader.wrong(DFM_INDEX, reason));
     }
     if !record.indices.is_multiple_of(3) {
-        let reason = format!("{} indices are no whole triangles", record.indices);
+        let reason = format!("{} indices are not a whole number of triangles", record.indices);
         return Err(reader.wrong(DFM_VALUE, reason));
     }
     let base = reader.count(Part::Vertices) - reader.left(Part::Vertices);
@@ -224,7 +224,8 @@ fn read_primitive(reader: &mut Reader<'_, '_>, targets: usize) -> Result<Primiti
         match (global as usize).checked_sub(base).filter(|&index| index < count) {
             Some(index) => indices.push(index as u32),
             None => {
-                let reason = format!("index {global} is not among vertices {base}..{}", base + count);
+                let reason =
+                    format!("index {global} is out of the range of vertices {base}..{}", base + count);
                 return Err(reader.wrong(DFM_INDEX, reason));
             }
         }
@@ -233,7 +234,7 @@ fn read_primitive(reader: &mut Reader<'_, '_>, targets: usize) -> Result<Primiti
     Ok(Primitive { vertices, indices, material, morph_targets })
 }
 
-/// The columns that the thesis's part holds.
+/// Reads the columns of the thesis's part.
 fn read_vertices(reader: &mut Reader<'_, '_>, record: &PrimitiveRecord) -> Result<Vertices, ImportError> {
     let count = record.vertices as usize;
     let (columns, per_vertex) = (record.columns, record.influences as usize);
@@ -276,12 +277,12 @@ fn read_vertices(reader: &mut Reader<'_, '_>, record: &PrimitiveRecord) -> Resul
     Ok(vertices)
 }
 
-/// The material that a vertex repeats for who reads no further is that of its primitive.
-fn repeats(reader: &Reader<'_, '_>, said: u32, material: u32) -> Result<(), ImportError> {
-    if said == material {
+/// Checks that the material stored with a vertex, for readers that do not read `PRIM`, is that of its primitive.
+fn repeats(reader: &Reader<'_, '_>, stored: u32, material: u32) -> Result<(), ImportError> {
+    if stored == material {
         return Ok(());
     }
     let name = |index| some(index).map_or("none".to_owned(), |index| index.to_string());
-    let reason = format!("a vertex has material {}, its primitive {}", name(said), name(material));
+    let reason = format!("a vertex has material {}, its primitive {}", name(stored), name(material));
     Err(reader.wrong(DFM_INDEX, reason))
 }

@@ -1,4 +1,4 @@
-//! Morph targets: differences of vertices.
+//! Morph targets: offsets of vertices.
 
 use super::code::DFM_VALUE;
 use super::part::Part;
@@ -9,7 +9,7 @@ use crate::data::MorphTarget;
 use crate::format::ImportError;
 use glam::Vec3;
 
-/// Which columns a target has: positions, normals, tangents.
+/// Bits of the columns that a target has: positions, normals, tangents.
 const COLUMNS: [u32; 3] = [1, 2, 4];
 
 /// Writes the targets of one primitive.
@@ -26,7 +26,7 @@ pub(super) fn write_targets(targets: &[MorphTarget], writer: &mut Writer) {
     }
 }
 
-/// The `count` targets of a primitive of so many `vertices`.
+/// Reads the `count` targets of a primitive with this number of `vertices`.
 pub(super) fn read_targets(
     reader: &mut Reader<'_, '_>,
     count: usize,

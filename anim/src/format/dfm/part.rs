@@ -1,4 +1,4 @@
-//! The parts of a file, in their order: the thesis's six, then those with a tag.
+//! The parts of a file, in their order: the six of the thesis, then those with a tag.
 
 use super::record::Record;
 use super::{bone, image, material, mesh, scene, take, vertex};
@@ -32,14 +32,14 @@ pub(super) enum Part {
     MorphKeys,
 }
 
-/// What a part is called and made of.
+/// Name and element size of a part.
 pub(super) struct Layout {
     pub(super) part: Part,
-    /// Written before the part where it is not the thesis's, and in the directory.
+    /// Tag before the part (except for those of the thesis) and in the directory.
     pub(super) tag: [u8; 4],
-    /// For messages.
+    /// Name in messages.
     pub(super) name: &'static str,
-    /// Bytes of one element; of takes: of the fixed part of one.
+    /// Size of one element in bytes; for takes: of the fixed part of one.
     pub(super) size: usize,
 }
 
@@ -76,17 +76,18 @@ pub(super) const PARTS: [Layout; 24] = [
 ];
 
 impl Part {
-    /// How it is written.
+    /// Returns the layout of the part.
     pub(super) fn layout(self) -> &'static Layout {
         &PARTS[self as usize]
     }
 
-    /// Is it one of the thesis's, which have no tag?
+    /// Returns whether the part is one of the thesis, which have no tag.
     pub(super) fn is_of_thesis(self) -> bool {
         self as usize <= Self::Takes as usize
     }
 
-    /// Bytes before the first element: the tag where there is one, the count, the size; takes have three sizes.
+    /// Returns the number of bytes before the first element: the tag if there is one, the count, the size; takes have
+    /// three sizes.
     pub(super) fn header_bytes(self) -> usize {
         match self {
             Self::Takes => 16,

@@ -1,4 +1,4 @@
-//! Takes elements out of the parts, one after the other, each with its place in the file.
+//! Reads elements from the parts, one after the other, each with its place in the file.
 
 use super::code::{DFM_COUNT, DFM_TEXT, DFM_VALUE};
 use super::container::{Found, open};
@@ -12,13 +12,14 @@ use crate::format::{ImportError, Place};
 pub(super) struct Reader<'a, 'g> {
     parts: Vec<Stream<'a>>,
     pub(super) context: &'g ImportContext<'g>,
-    /// Is only what an importer promises let through: finite numbers, rising key times, what the limits grant?
+    /// Whether to accept only what an importer guarantees: finite numbers, increasing key times, values within the
+    /// limits.
     pub(super) strict: bool,
-    /// Offset of the element read last.
+    /// Offset of the last element that was read.
     last: usize,
 }
 
-/// What is left of a part.
+/// The remaining elements of a part.
 struct Stream<'a> {
     count: u32,
     sizes: [usize; 3],
@@ -28,7 +29,7 @@ struct Stream<'a> {
 }
 
 impl<'a, 'g> Reader<'a, 'g> {
-    /// Finds the parts; their checksums are right afterwards.
+    /// Finds the parts and verifies their checksums.
     pub(super) fn new(
         bytes: &'a [u8],
         context: &'g ImportContext<'g>,
@@ -45,23 +46,23 @@ impl<'a, 'g> Reader<'a, 'g> {
         Ok(Self { parts, context, strict, last: 0 })
     }
 
-    /// The number of elements that the header of `part` gives.
+    /// Returns the number of elements in the header of `part`.
     pub(super) fn count(&self, part: Part) -> usize {
         self.parts[part as usize].count as usize
     }
 
-    /// How many elements of `part` are not yet read.
+    /// Returns the number of elements of `part` that were not read yet.
     pub(super) fn left(&self, part: Part) -> usize {
         let stream = &self.parts[part as usize];
         stream.rest.len() / stream.sizes[0].max(1)
     }
 
-    /// The next element of `part`.
+    /// Reads the next element of `part`.
     pub(super) fn get<R: Record>(&mut self, part: Part) -> Result<R, ImportError> {
         self.get_sized(part, 0)
     }
 
-    /// The next element of `part`, of the size with number `kind`: takes, tracks and key-frames are one part.
+    /// Reads the next element of `part`, of the size number `kind`: takes, tracks and key-frames are one part.
     pub(super) fn get_sized<R: Record>(&mut self, part: Part, kind: usize) -> Result<R, ImportError> {
         self.context.work(1)?;
         let stream = &mut self.parts[part as usize];
@@ -74,13 +75,13 @@ impl<'a, 'g> Reader<'a, 'g> {
         let mut fields = Fields::new(element);
         let record = R::get(&mut fields).map_err(|reason| self.wrong(DFM_VALUE, reason))?;
         if self.strict && !fields.finite {
-            let reason = format!("among the {}: a number is NaN or infinite", part.layout().name);
+            let reason = format!("{}: a number is NaN or infinite", part.layout().name);
             return Err(self.wrong(DFM_VALUE, reason));
         }
         Ok(record)
     }
 
-    /// The next `count` elements of `part`.
+    /// Reads the next `count` elements of `part`.
     pub(super) fn list<R: Record>(&mut self, part: Part, count: usize) -> Result<Vec<R>, ImportError> {
         let mut list = self.vec(part, 0, count)?;
         for _ in 0..count {
@@ -89,7 +90,8 @@ impl<'a, 'g> Reader<'a, 'g> {
         Ok(list)
     }
 
-    /// Room for `count` values, one an element of `part`; refused where the part has fewer left.
+    /// Returns a vector with capacity for `count` values, one per element of `part`; an error if fewer elements are
+    /// left.
     pub(super) fn vec<T>(&self, part: Part, kind: usize, count: usize) -> Result<Vec<T>, ImportError> {
         let stream = &self.parts[part as usize];
         if count > stream.rest.len() / stream.sizes[kind].max(1) {
@@ -98,10 +100,10 @@ impl<'a, 'g> Reader<'a, 'g> {
         self.context.vec(&self.place(), count)
     }
 
-    /// The next `count` bytes of `part`, whose elements are bytes.
+    /// Reads the next `count` bytes of `part`, whose elements are bytes.
     pub(super) fn bytes(&mut self, part: Part, count: usize) -> Result<&'a [u8], ImportError> {
         let stream = &mut self.parts[part as usize];
-        // Elements of a newer version may be larger than a byte; then nobody can tell what they are.
+        // In a newer version the elements could be larger than a byte; such a file cannot be read.
         let taken = stream.rest.split_at_checked(count).filter(|_| stream.sizes[0] == 1);
         let Some((bytes, rest)) = taken else { return Err(ends(part, stream.at)) };
         self.last = stream.at;
@@ -111,7 +113,7 @@ impl<'a, 'g> Reader<'a, 'g> {
         Ok(bytes)
     }
 
-    /// The next text.
+    /// Reads the next text.
     pub(super) fn text(&mut self) -> Result<String, ImportError> {
         let length = self.get::<u32>(Part::TextLengths)? as usize;
         let bytes = self.bytes(Part::Text, length)?;
@@ -124,17 +126,17 @@ impl<'a, 'g> Reader<'a, 'g> {
         }
     }
 
-    /// Where the element read last stands.
+    /// Returns the place of the last element that was read.
     pub(super) fn place(&self) -> Place {
         Place::Byte(self.last as u64)
     }
 
-    /// Something is wrong with the element read last.
+    /// Returns an error in the last element that was read.
     pub(super) fn wrong(&self, code: &'static str, reason: String) -> ImportError {
         invalid(self.last, code, reason)
     }
 
-    /// What is counted exceeds a limit, where an importer keeps limits.
+    /// Refuses a count above a limit, when reading as an importer.
     pub(super) fn limit(
         &self,
         what: &'static str,
@@ -148,11 +150,11 @@ impl<'a, 'g> Reader<'a, 'g> {
         Err(ImportError::TooLarge { place: self.place(), what, size, limit })
     }
 
-    /// Was every element of every part read?
+    /// Checks that every element of every part was read.
     pub(super) fn finish(self) -> Result<(), ImportError> {
         for (stream, layout) in self.parts.iter().zip(&PARTS) {
             if !stream.rest.is_empty() {
-                let reason = format!("{} from here on belong to nothing", layout.name);
+                let reason = format!("there are more {} than the file uses, from here on", layout.name);
                 return Err(invalid(stream.at, DFM_COUNT, reason));
             }
         }
@@ -161,5 +163,5 @@ impl<'a, 'g> Reader<'a, 'g> {
 }
 
 fn ends(part: Part, at: usize) -> ImportError {
-    invalid(at, DFM_COUNT, format!("the {} end here, more are needed", part.layout().name))
+    invalid(at, DFM_COUNT, format!("there are no more {}, but the file needs more", part.layout().name))
 }

@@ -1,4 +1,4 @@
-//! Skins, and where the meshes stand.
+//! Skins, and the instances of meshes.
 
 use super::code::DFM_INDEX;
 use super::part::Part;
@@ -30,7 +30,7 @@ impl Record for JointRecord {
     }
 }
 
-/// A mesh in the scene; its morph weights stand elsewhere.
+/// A mesh in the scene; its morph weights are stored elsewhere.
 pub(super) struct InstanceRecord(MeshInstance);
 
 impl Record for InstanceRecord {
@@ -71,7 +71,7 @@ pub(super) fn write_skins(model: &ModelData, writer: &mut Writer) -> Result<(), 
     Ok(())
 }
 
-/// Every skin.
+/// Reads every skin.
 pub(super) fn read_skins(reader: &mut Reader<'_, '_>) -> Result<Vec<Skin>, ImportError> {
     let (count, of_skeleton) = (reader.count(Part::Skins), reader.count(Part::Bones));
     let mut skins = reader.vec(Part::Skins, 0, count)?;
@@ -100,7 +100,8 @@ pub(super) fn write_instances(model: &ModelData, writer: &mut Writer) -> Result<
         let targets = model.meshes.get(instance.mesh as usize).map(|mesh| mesh.morph_weights.len());
         if targets != Some(instance.morph_weights.len()) {
             let (mesh, weights) = (instance.mesh, instance.morph_weights.len());
-            let reason = format!("{weights} morph weights for {targets:?} targets of mesh {mesh}");
+            let reason =
+                format!("there are {weights} morph weights for the {targets:?} targets of mesh {mesh}");
             return Err(refuse(format!("/instances/{number}"), reason));
         }
         writer.put(
@@ -112,7 +113,7 @@ pub(super) fn write_instances(model: &ModelData, writer: &mut Writer) -> Result<
     Ok(())
 }
 
-/// Every instance; `largest_joints` holds the largest joint that each mesh names.
+/// Reads every instance; `largest_joints` contains the largest joint that each mesh refers to.
 pub(super) fn read_instances(
     reader: &mut Reader<'_, '_>,
     meshes: &[Mesh],
@@ -134,7 +135,7 @@ pub(super) fn read_instances(
             let joints = joints.ok_or_else(|| reader.wrong(DFM_INDEX, format!("there is no skin {skin}")))?;
             let largest = largest_joints.get(instance.mesh as usize).copied().flatten();
             if let Some(largest) = largest.filter(|&largest| usize::from(largest) >= joints) {
-                let reason = format!("a vertex names joint {largest}, skin {skin} has {joints}");
+                let reason = format!("a vertex refers to joint {largest}, skin {skin} has {joints} joints");
                 return Err(reader.wrong(DFM_INDEX, reason));
             }
         }

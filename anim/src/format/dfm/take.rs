@@ -42,7 +42,7 @@ impl Record for TakeRecord {
 pub(super) struct TrackRecord {
     pub(super) bone: u32,
     pub(super) keyframes: u32,
-    /// Of translation, rotation, scale.
+    /// Interpolation of translation, rotation and scale.
     pub(super) interpolations: [Interpolation; 3],
 }
 
@@ -72,7 +72,8 @@ impl Record for TrackRecord {
 pub(super) struct KeyframeRecord {
     pub(super) time: f32,
     pub(super) pose: Transform,
-    /// 1 translation, 2 rotation, 4 scale; the others are what their channels give at this time.
+    /// Bits of the values that are keys: 1 translation, 2 rotation, 4 scale; the other values are those of their
+    /// channels at this time.
     pub(super) keys: u32,
 }
 
@@ -88,7 +89,7 @@ impl Record for KeyframeRecord {
     fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
         let (time, pose, keys) = (fields.f32(), get_pose(fields), fields.u32());
         if keys == 0 || keys > 7 {
-            return Err(format!("a key-frame with the keys {keys:#x}"));
+            return Err(format!("the key bits {keys:#x} of a key-frame are invalid"));
         }
         Ok(Self { time, pose, keys })
     }
@@ -136,7 +137,7 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteE
         for (index, (track, bone)) in take.tracks.iter().zip(&skeleton.bones).enumerate() {
             let place = || format!("/takes/{number}/tracks/{index}");
             if track.bone as usize != index {
-                return Err(refuse(place(), format!("the track of bone {}", track.bone)));
+                return Err(refuse(place(), format!("the track is for bone {}", track.bone)));
             }
             keys::write_track(track, bone, writer).map_err(|reason| refuse(place(), reason))?;
         }
@@ -148,7 +149,7 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteE
     Ok(())
 }
 
-/// Weights of a morph track with so many keys.
+/// Returns the number of weights of a morph track with this number of keys.
 fn weights(keys: usize, targets: u32, interpolation: Interpolation) -> Option<usize> {
     let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
     keys.checked_mul(targets as usize)?.checked_mul(per_key)
@@ -166,7 +167,7 @@ fn write_morph(morph: &MorphTrack, writer: &mut Writer) -> Result<(), String> {
     Ok(())
 }
 
-/// Every take.
+/// Reads every take.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
     skeleton: &Skeleton,
@@ -179,7 +180,7 @@ pub(super) fn read(
         let name = reader.text()?;
         let record: TakeRecord = reader.get(Part::Takes)?;
         if reader.strict && record.length < 0.0 {
-            return Err(reader.wrong(DFM_VALUE, format!("a take of {} seconds", record.length)));
+            return Err(reader.wrong(DFM_VALUE, format!("the length of a take is {} seconds", record.length)));
         }
         if record.tracks as usize != skeleton.len() {
             let reason = format!("{} tracks for {} bones", record.tracks, skeleton.len());
@@ -207,29 +208,27 @@ fn read_morph(reader: &mut Reader<'_, '_>, instances: &[MeshInstance]) -> Result
     let MorphTrackRecord { instance, targets, interpolation, keys } = reader.get(Part::MorphTracks)?;
     let expected = instances.get(instance as usize).map(|instance| instance.morph_weights.len());
     if expected != Some(targets as usize) {
-        let reason = format!("{targets} targets for instance {instance}, which has {expected:?}");
+        let reason = format!("there are {targets} targets for instance {instance}, which has {expected:?}");
         return Err(reader.wrong(DFM_INDEX, reason));
     }
     let weights = weights(keys as usize, targets, interpolation)
         .ok_or_else(|| reader.wrong(DFM_VALUE, format!("{keys} keys of {targets} targets")))?;
     reader.limit("keys of one channel", keys, KEYS_PER_CHANNEL)?;
     let times: Vec<f32> = reader.list(Part::MorphKeys, keys as usize)?;
-    times_rise(reader, &times)?;
+    times_increase(reader, &times)?;
     let weights: Vec<f32> = reader.list(Part::MorphKeys, weights)?;
-    // Each list is copied once more, to be shared.
+    // Charged once more, since each list is copied to be shared.
     reader.context.charge(&reader.place(), 4 * (times.len() + weights.len()) as u64)?;
     Ok(MorphTrack { instance, targets, times: times.into(), weights: weights.into(), interpolation })
 }
 
-/// What an importer promises of key times: they rise, and stay within a day of zero.
-pub(super) fn times_rise(reader: &Reader<'_, '_>, times: &[f32]) -> Result<(), ImportError> {
+/// Checks what an importer guarantees of key times: they increase, and are within a day of zero.
+pub(super) fn times_increase(reader: &Reader<'_, '_>, times: &[f32]) -> Result<(), ImportError> {
     if !reader.strict {
         return Ok(());
     }
     if let Some(pair) = times.windows(2).find(|pair| pair[0] >= pair[1]) {
-        return Err(
-            reader.wrong(DFM_VALUE, format!("a key at {} s comes after one at {} s", pair[1], pair[0]))
-        );
+        return Err(reader.wrong(DFM_VALUE, format!("a key at {} s follows one at {} s", pair[1], pair[0])));
     }
     match times.iter().find(|time| time.abs() > CLIP_SECONDS) {
         Some(time) => {

@@ -1,13 +1,13 @@
-//! Vertices as the thesis has them, and the influences beyond the fourth.
+//! Vertices as in the thesis, and the influences after the fourth.
 
 use super::record::{Fields, Put, Record};
 use crate::data::Influence;
 use glam::{Vec2, Vec3};
 
-/// Influences of a vertex in the thesis's part.
+/// Number of influences of a vertex in the thesis's part.
 pub(super) const FIRST_INFLUENCES: usize = 4;
 
-/// One vertex. The bones and the material repeat what other parts say, for who reads no further.
+/// One vertex. The bones and the material repeat what other parts contain, for readers that do not read those.
 #[derive(Clone, Debug)]
 pub(super) struct VertexRecord {
     pub(super) position: Vec3,
@@ -15,7 +15,7 @@ pub(super) struct VertexRecord {
     pub(super) texture_coordinates: [Vec2; 2],
     pub(super) bones: [u32; FIRST_INFLUENCES],
     pub(super) material: u32,
-    /// Joint and weight; the joint stands behind what the thesis has.
+    /// Joint and weight; the joint comes after the thesis's fields.
     pub(super) influences: [Influence; FIRST_INFLUENCES],
 }
 
@@ -49,7 +49,7 @@ impl Record for VertexRecord {
     }
 }
 
-/// An influence beyond the fourth.
+/// An influence after the fourth.
 pub(super) struct InfluenceRecord(pub(super) Influence);
 
 impl Record for InfluenceRecord {

@@ -1,4 +1,4 @@
-//! Animations become takes: a track a bone, a column a property.
+//! Animations become takes: one track per bone, one channel per property.
 
 use super::accessor::{Document, ElementFormat, invalid, unresolved};
 use super::check as code;
@@ -32,7 +32,7 @@ const WEIGHT: &[ElementFormat] = &[
 ];
 const WRONG: &str = code::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT;
 
-/// Marks every node that a channel moves in `is_bone`.
+/// Sets `is_bone` for every node that a channel animates.
 pub(super) fn mark_animated(document: &Document<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
     for (index, animation) in document.root.animations.iter().enumerate() {
         for (number, channel) in animation.channels.iter().enumerate() {
@@ -48,7 +48,7 @@ pub(super) fn mark_animated(document: &Document<'_>, is_bone: &mut [bool]) -> Re
     Ok(())
 }
 
-/// All animations, as takes with one track a bone of `stage`.
+/// Returns all animations as takes with one track for each bone of `stage`.
 pub(super) fn takes(document: &Document<'_>, stage: &Stage) -> Result<Vec<Take>, ImportError> {
     let context = document.context;
     let count = document.root.animations.len();
@@ -61,7 +61,7 @@ pub(super) fn takes(document: &Document<'_>, stage: &Stage) -> Result<Vec<Take>,
     Ok(takes)
 }
 
-/// What is remembered from take to take: key times are shared between channels.
+/// State shared between takes: key times that several channels use are stored once.
 struct TakeReader<'a> {
     document: &'a Document<'a>,
     stage: &'a Stage,
@@ -109,7 +109,7 @@ impl TakeReader<'_> {
         let property = match channel.target.path {
             Checked::Valid(property) if node != NO_NODE => property,
             _ => {
-                let text = "the channel moves something that is not shown";
+                let text = "the channel animates something that is not shown";
                 context.warn(target(), code::ANIMATION_CHANNEL_TARGET_UNKNOWN, text);
                 return Ok(());
             }
@@ -118,12 +118,12 @@ impl TakeReader<'_> {
             context.warn(
                 target(),
                 code::ANIMATION_DUPLICATE_TARGETS,
-                "moved by an earlier channel already; left out",
+                "an earlier channel animates the same property; this one is left out",
             );
             return Ok(());
         }
         if self.document.root.nodes[node].matrix.is_some() && property != Property::MorphTargetWeights {
-            let text = "the node has a matrix, of which the animated part is replaced";
+            let text = "the node has a matrix; the animated part of it is replaced";
             context.warn(target(), code::ANIMATION_CHANNEL_TARGET_NODE_MATRIX, text);
         }
         let sampler_path = format!("/animations/{index}/samplers/{number}");
@@ -177,7 +177,7 @@ impl TakeReader<'_> {
         Ok(())
     }
 
-    /// Key times and values of a sampler, `width` values a key, sorted and finite.
+    /// Returns the key times and values of a sampler, `width` values per key, sorted and finite.
     fn column<const N: usize>(
         &mut self,
         sampler: &json::animation::Sampler,
@@ -209,7 +209,7 @@ impl TakeReader<'_> {
             let code = code::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT;
             return Err(invalid(Place::Pointer(output), code, reason));
         }
-        // Once as numbers, once as what the channel shares.
+        // Charged twice: as numbers, and as what the channel shares.
         self.document
             .context
             .charge(&source.place, (source.count as u64).saturating_mul(2 * 4 * N as u64))?;

@@ -1,4 +1,4 @@
-//! From JSON text to the document model, with every error placed by a JSON pointer.
+//! Parses the JSON text into the document model; every error has a JSON pointer.
 
 use super::check as code;
 use super::survey::{Survey, survey};
@@ -8,13 +8,14 @@ use gltf::json;
 use std::borrow::Cow;
 use std::io::{self, Read};
 
-/// Texts longer than this are parsed through a reader that looks at the cancel flag; it is slower.
+/// Longest text that is parsed in one piece. Longer ones are parsed through a reader that polls the cancel flag, which
+/// is slower.
 const PARSE_AT_ONCE: usize = 4 << 20;
 
-/// Stands for "no node" in the target of an animation.
+/// Represents "no node" in the target of an animation.
 pub(super) const NO_NODE: usize = u32::MAX as usize;
 
-/// Parses the JSON text that begins at byte `at` of the file.
+/// Parses the JSON text that starts at byte `at` of the file.
 pub(super) fn parse(bytes: &[u8], at: u64, context: &ImportContext<'_>) -> Result<json::Root, ImportError> {
     let text = text_of(bytes, at)?;
     let survey = survey(text.as_bytes(), context)?;
@@ -31,7 +32,7 @@ pub(super) fn parse(bytes: &[u8], at: u64, context: &ImportContext<'_>) -> Resul
     parsed.map_err(|error| placed(&error, &text, at))
 }
 
-/// UTF-8 without a byte order mark and without padding.
+/// Returns the text as UTF-8, without byte order mark and padding.
 fn text_of(bytes: &[u8], at: u64) -> Result<&str, ImportError> {
     let (bytes, at) = match bytes.strip_prefix(b"\xef\xbb\xbf") {
         Some(rest) => (rest, at + 3),
@@ -47,7 +48,7 @@ fn text_of(bytes: &[u8], at: u64) -> Result<&str, ImportError> {
     }
 }
 
-/// Only 2.x is read, and only where 2.0 is enough.
+/// Accepts only version 2.x, and only where 2.0 is sufficient.
 fn check_version(survey: &Survey) -> Result<(), ImportError> {
     let unsupported = |member: &str, version: &str| {
         let place = Place::Pointer(format!("/asset/{member}"));
@@ -60,7 +61,7 @@ fn check_version(survey: &Survey) -> Result<(), ImportError> {
     }
 }
 
-/// The text with the members that the document model misses.
+/// Returns the text with the members added that the document model requires and the file lacks.
 fn completed<'a>(
     text: &'a str,
     survey: &Survey,
@@ -82,7 +83,7 @@ fn completed<'a>(
     Ok(Cow::Owned(patched))
 }
 
-/// The parser's error with a place instead of its line and column.
+/// Returns the parser's error with a place instead of its line and column.
 fn placed(error: &json::Error, text: &str, at: u64) -> ImportError {
     if error.is_io() {
         return ImportError::Cancelled;
@@ -110,13 +111,13 @@ fn placed(error: &json::Error, text: &str, at: u64) -> ImportError {
     ImportError::Invalid { place: Place::Pointer(pointer_before(text.as_bytes(), end)), code, reason }
 }
 
-/// Byte offset of a line and column, both from 1; never past the end.
+/// Returns the byte offset of a line and column, both counted from 1; at most the length of the text.
 fn offset(text: &str, line: usize, column: usize) -> usize {
     let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
     (before + column).min(text.len())
 }
 
-/// Hands the text out in pieces and looks at the cancel flag between them.
+/// Reads the text in pieces and polls the cancel flag between them.
 struct Watched<'a> {
     text: &'a [u8],
     context: &'a ImportContext<'a>,

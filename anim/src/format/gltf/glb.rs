@@ -3,7 +3,7 @@
 use super::check as code;
 use crate::format::{ImportContext, ImportError, Place};
 
-/// The parts of a container that mean something to us.
+/// The parts of a container that the importer uses.
 pub(super) struct Glb<'a> {
     pub(super) json: &'a [u8],
     /// Offset of `json` in the file.
@@ -16,7 +16,8 @@ const CHUNK_HEADER: usize = 8;
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
 
-/// Takes a container apart. Bytes after the announced end, and chunks of other kinds, are left out with a warning.
+/// Splits a container into its chunks. Bytes after the declared end, and chunks of other kinds, are left out with a
+/// warning.
 pub(super) fn parse<'a>(bytes: &'a [u8], context: &ImportContext<'_>) -> Result<Glb<'a>, ImportError> {
     let bytes = &bytes[..announced_length(bytes, context)?];
     let (mut json, mut bin) = (None, None);
@@ -28,7 +29,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], context: &ImportContext<'_>) -> Result<
         context.work(1)?;
         let (kind, body) = chunk(bytes, at)?;
         if body.len() % 4 != 0 {
-            let text = format!("the chunk's length {} is no multiple of 4", body.len());
+            let text = format!("the chunk's length {} is not a multiple of 4", body.len());
             context.warn(Place::Byte(at as u64), code::GLB_CHUNK_LENGTH_UNALIGNED, text);
         }
         match (number, kind) {
@@ -46,7 +47,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], context: &ImportContext<'_>) -> Result<
         return Err(invalid(
             HEADER,
             code::GLB_UNEXPECTED_END_OF_CHUNK_HEADER,
-            "there is no chunk".to_owned(),
+            "the container has no chunk".to_owned(),
         ));
     };
     if json.is_empty() {
@@ -55,7 +56,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], context: &ImportContext<'_>) -> Result<
     Ok(Glb { json, json_at: (HEADER + CHUNK_HEADER) as u64, bin })
 }
 
-/// Checks the header; the length of the container, never more than is there.
+/// Checks the header and returns the length of the container, at most the length of the file.
 fn announced_length(bytes: &[u8], context: &ImportContext<'_>) -> Result<usize, ImportError> {
     if bytes.len() < HEADER {
         let reason = format!("the file ends inside its header: {} bytes of {HEADER}", bytes.len());
@@ -75,17 +76,17 @@ fn announced_length(bytes: &[u8], context: &ImportContext<'_>) -> Result<usize, 
         return Err(invalid(8, code::GLB_LENGTH_TOO_SMALL, reason));
     }
     if length > bytes.len() {
-        let reason = format!("the header announces {length} bytes, the file has {}", bytes.len());
+        let reason = format!("the header declares {length} bytes, the file has {}", bytes.len());
         return Err(invalid(8, code::GLB_LENGTH_MISMATCH, reason));
     }
     if length < bytes.len() {
-        let text = format!("{} bytes after the announced end are left out", bytes.len() - length);
+        let text = format!("{} bytes after the declared end are left out", bytes.len() - length);
         context.warn(Place::Byte(8), code::GLB_LENGTH_MISMATCH, text);
     }
     Ok(length)
 }
 
-/// Kind and body of the chunk at `at`.
+/// Returns the kind and body of the chunk at `at`.
 fn chunk(bytes: &[u8], at: usize) -> Result<(u32, &[u8]), ImportError> {
     let rest = &bytes[at..];
     if rest.len() < CHUNK_HEADER {
@@ -96,8 +97,7 @@ fn chunk(bytes: &[u8], at: usize) -> Result<(u32, &[u8]), ImportError> {
     match rest[CHUNK_HEADER..].get(..length) {
         Some(body) => Ok((word(rest, 4), body)),
         None => {
-            let reason =
-                format!("the chunk announces {length} bytes, {} are left", rest.len() - CHUNK_HEADER);
+            let reason = format!("the chunk declares {length} bytes, {} are left", rest.len() - CHUNK_HEADER);
             Err(invalid(at, code::GLB_CHUNK_TOO_BIG, reason))
         }
     }
@@ -112,7 +112,7 @@ fn warn_left_out(kind: u32, at: usize, context: &ImportContext<'_>) {
     context.warn(Place::Byte(at as u64), code, format!("{what} is left out"));
 }
 
-/// What a file that should be a container may be instead.
+/// Describes what a file that should be a container probably is instead.
 fn not_a_glb(bytes: &[u8]) -> String {
     let instead = if bytes.starts_with(b"version https://git-lfs") {
         ": it is a git-lfs pointer, fetch the file itself with `git lfs pull`"

@@ -1,4 +1,4 @@
-//! The node tree: checked to be one, walked without recursion.
+//! The node tree: checked to be a tree, and walked without recursion.
 
 use super::accessor::{invalid, unresolved};
 use super::check as code;
@@ -6,16 +6,16 @@ use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{NODE_DEPTH, NODES};
 use gltf::json;
 
-/// Who stands above whom, and in which order to visit.
+/// The parent of each node, and the order in which to visit the nodes.
 #[derive(Debug, Default)]
 pub(super) struct Graph {
-    /// A node's parent; `None` for a root.
+    /// Parent of each node; `None` for a root.
     pub(super) parents: Vec<Option<u32>>,
-    /// Every node once, parents first: depth first from the roots, roots by number, children as the file lists them.
+    /// Every node once, parents first: depth first from the roots, roots by number, children in the order of the file.
     pub(super) order: Vec<u32>,
 }
 
-/// Checks that the nodes of `root` are trees: every child exists, has one parent, and no node is its own ancestor.
+/// Checks that the nodes of `root` form trees: every child exists and has one parent, and no node is its own ancestor.
 pub(super) fn graph(root: &json::Root, context: &ImportContext<'_>) -> Result<Graph, ImportError> {
     let count = root.nodes.len();
     let place = Place::Pointer("/nodes".to_owned());
@@ -34,7 +34,7 @@ pub(super) fn graph(root: &json::Root, context: &ImportContext<'_>) -> Result<Gr
         if depth as usize > NODE_DEPTH {
             let place = Place::Pointer(format!("/nodes/{node}"));
             let (size, limit) = (u64::from(depth), NODE_DEPTH as u64);
-            return Err(ImportError::TooLarge { place, what: "nodes above each other", size, limit });
+            return Err(ImportError::TooLarge { place, what: "levels of nodes", size, limit });
         }
         order.push(node);
         open.extend(
@@ -77,13 +77,13 @@ fn parents(
     Ok(parents)
 }
 
-/// Names a node of a loop: one that the walk from the roots did not reach.
+/// Returns the error of a node in a loop: one that the walk from the roots did not reach.
 fn loop_error(parents: &[Option<u32>], order: &[u32]) -> ImportError {
     let mut reached = vec![false; parents.len()];
     for &node in order {
         reached[node as usize] = true;
     }
     let node = reached.iter().position(|reached| !reached).unwrap_or(0);
-    let reason = format!("node {node} is its own ancestor, or below one that is");
+    let reason = format!("node {node} is its own ancestor, or a descendant of such a node");
     invalid(Place::Pointer(format!("/nodes/{node}")), code::NODE_LOOP, reason)
 }

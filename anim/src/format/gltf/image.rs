@@ -1,4 +1,4 @@
-//! Images: found, measured, and handed on as they are. Nothing is decoded here.
+//! Images: found, measured and copied as they are. Nothing is decoded here.
 
 use super::accessor::{Document, invalid};
 use super::buffer::{Fetched, fetch};
@@ -9,21 +9,22 @@ use crate::limits::{IMAGE_PIXELS, IMAGE_SIDE, IMAGES_PIXELS};
 use gltf::json;
 use std::collections::HashMap;
 
-/// The images of a model, each source once, and which of them each image of the file became.
+/// The images of a model, each source once, and the number in this list for each image of the file.
 #[derive(Default)]
 pub(super) struct Images {
     pub(super) images: Vec<Image>,
     pub(super) numbers: Vec<u32>,
 }
 
-/// What two images of a file must share to be one.
+/// Source of an image; images of a file with the same source become one.
 #[derive(PartialEq, Eq, Hash)]
 enum Key<'a> {
     View(usize),
     Uri(&'a str),
 }
 
-/// All images. One that cannot be read is left empty with a warning: a model without its picture is worth seeing.
+/// Returns all images. One that cannot be read is left empty with a warning, since a model without textures is still
+/// useful.
 pub(super) fn images(document: &Document<'_>) -> Result<Images, ImportError> {
     let mut read = Images::default();
     let mut known: HashMap<Key<'_>, u32> = HashMap::new();
@@ -80,7 +81,7 @@ fn read_image(document: &Document<'_>, image: &json::Image, path: &str) -> Resul
     Ok(read)
 }
 
-/// Looks at the first bytes: what kind, how large. Too large an image is emptied before anyone decodes it.
+/// Checks the kind and size in the first bytes. An image that is too large is emptied before it is decoded.
 fn judge(image: &mut Image, pixels: &mut u64, path: &str, context: &ImportContext<'_>) {
     if image.bytes.is_empty() {
         return;
@@ -95,7 +96,7 @@ fn judge(image: &mut Image, pixels: &mut u64, path: &str, context: &ImportContex
         context.warn(
             place(),
             code::IMAGE_MIME_TYPE_INVALID,
-            format!("\"{}\" is said, {mime} it is", image.mime),
+            format!("the declared type is \"{}\", the actual one {mime}", image.mime),
         );
     }
     image.mime = mime.to_owned();
@@ -110,7 +111,7 @@ fn judge(image: &mut Image, pixels: &mut u64, path: &str, context: &ImportContex
     }
 }
 
-/// Type, width and height as the header says; `None` when it is neither PNG nor JPEG.
+/// Returns the type, width and height in the header, or `None` for anything but PNG and JPEG.
 pub fn measure(bytes: &[u8]) -> Option<(&'static str, u32, u32)> {
     if let Some(rest) = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n") {
         let header = rest.get(4..16)?.strip_prefix(b"IHDR")?;
@@ -126,7 +127,7 @@ pub fn measure(bytes: &[u8]) -> Option<(&'static str, u32, u32)> {
         }
         let body = rest.get(1..)?;
         let length = usize::from(u16::from_be_bytes(*body.first_chunk()?));
-        // Start of frame, but not DHT, JPG and DAC, which lie in between.
+        // Start of frame, except DHT, JPG and DAC, which are in the same range.
         if (0xc0..=0xcf).contains(&marker) && !matches!(marker, 0xc4 | 0xc8 | 0xcc) {
             let height = u16::from_be_bytes(*body.get(3..)?.first_chunk()?);
             let width = u16::from_be_bytes(*body.get(5..)?.first_chunk()?);

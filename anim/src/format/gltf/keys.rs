@@ -1,4 +1,4 @@
-//! The columns of a sampler: times that rise, values that are finite and stand in the same order.
+//! Keys of a sampler: increasing times, and finite values in the same order.
 
 use super::accessor::{Document, ElementFormat, invalid};
 use super::check as code;
@@ -19,14 +19,14 @@ const TIME: &[ElementFormat] = &[(ComponentType::F32, Type::Scalar, false)];
 pub(super) struct Keys {
     /// Seconds, strictly ascending.
     pub(super) times: Arc<[f32]>,
-    /// How many the file has; more than `times` where some were left out.
+    /// Number of keys in the file; larger than the length of `times` if some were left out.
     pub(super) count: usize,
-    /// Which of the file's keys each time is, where that is not simply the same.
+    /// Number of the file's key for each time; `None` if they are the same.
     order: Option<Arc<[u32]>>,
 }
 
 impl Keys {
-    /// Reads and sorts; of keys at the same time the last one counts.
+    /// Reads and sorts the key times; of several keys at the same time the last one is used.
     pub(super) fn read(
         document: &Document<'_>,
         input: json::Index<Accessor>,
@@ -49,10 +49,10 @@ impl Keys {
             context.warn(
                 source.place.clone(),
                 code::EMPTY_ENTITY,
-                "the channel has no key and moves nothing",
+                "the channel has no key and animates nothing",
             );
         }
-        // -0 would sort before 0 and yet be equal to it.
+        // Adding 0 turns -0 into 0, since -0 would sort before 0 and yet be equal to it.
         let times: Vec<f32> = source.finite::<1>()?.into_iter().map(|[time]| time + 0.0).collect();
         context.work(times.len())?;
         context.charge(&source.place, times.len() as u64 * 8)?;
@@ -63,16 +63,16 @@ impl Keys {
             let text = "key times below zero are kept";
             context.warn(source.place.clone(), code::ACCESSOR_ANIMATION_INPUT_NEGATIVE, text);
         }
-        // Asked so that NaN would fail.
-        let rises = times.windows(2).all(|pair| pair[1] > pair[0]);
-        if !rises {
+        // Compared so that NaN counts as not increasing.
+        let increasing = times.windows(2).all(|pair| pair[1] > pair[0]);
+        if !increasing {
             return Self::sorted(&times, &source.place, context);
         }
         Ok(Self { count: times.len(), times: times.into(), order: None })
     }
 
     fn sorted(times: &[f32], place: &Place, context: &ImportContext<'_>) -> Result<Self, ImportError> {
-        let text = "key times do not rise; they were sorted, and of equal ones the last was kept";
+        let text = "key times do not increase; they were sorted, and of equal ones the last was kept";
         context.warn(place.clone(), code::ACCESSOR_ANIMATION_INPUT_NON_INCREASING, text);
         let mut order: Vec<u32> = context.vec(place, times.len())?;
         order.extend(0..times.len() as u32);
@@ -87,42 +87,42 @@ impl Keys {
     }
 }
 
-/// The values of a sampler as the file has them, `width` of them together.
+/// Values of a sampler as in the file.
 pub(super) struct Column<const N: usize> {
     pub(super) values: Vec<[f32; N]>,
     pub(super) interpolation: Interpolation,
-    /// Values that belong together: 1, or the number of morph targets.
+    /// Number of values that belong together: 1, or the number of morph targets.
     pub(super) width: usize,
 }
 
 impl<const N: usize> Column<N> {
-    /// Values: a key, tangents included.
+    /// Returns the number of values per key, tangents included.
     fn per_key(&self) -> usize {
         self.width * if self.interpolation == Interpolation::CubicSpline { 3 } else { 1 }
     }
 
-    /// Is the value at `index` a tangent?
+    /// Returns whether the value at `index` is a tangent.
     fn is_tangent(&self, index: usize) -> bool {
         self.interpolation == Interpolation::CubicSpline && index / self.width % 3 != 1
     }
 
-    /// Refuses values that are not finite, and mends tangents that are not.
+    /// Refuses values that are not finite, and sets tangents that are not finite to zero.
     pub(super) fn check(&mut self, place: &Place, context: &ImportContext<'_>) -> Result<(), ImportError> {
-        let (mut mended, mut huge) = (0, false);
+        let (mut fixed, mut huge) = (0, false);
         context.work(self.values.len())?;
         for index in 0..self.values.len() {
             if self.values[index].iter().all(|number| number.is_finite()) {
                 huge |= self.values[index].iter().any(|number| number.abs() > HUGE);
             } else if self.is_tangent(index) {
                 self.values[index] = [0.0; N];
-                mended += 1;
+                fixed += 1;
             } else {
                 let reason = format!("element {index} is not finite");
                 return Err(invalid(place.clone(), code::ACCESSOR_INVALID_FLOAT, reason));
             }
         }
-        if mended > 0 {
-            let text = format!("{mended} tangents are not finite; they were set to zero");
+        if fixed > 0 {
+            let text = format!("{fixed} tangents are not finite; they were set to zero");
             context.warn(place.clone(), code::ANIMATION_TANGENT_NOT_FINITE, text);
         }
         if huge {
@@ -131,7 +131,7 @@ impl<const N: usize> Column<N> {
         Ok(())
     }
 
-    /// Puts the values into the order of `keys`.
+    /// Sorts the values into the order of `keys`.
     pub(super) fn sort(&mut self, keys: &Keys, context: &ImportContext<'_>) -> Result<(), ImportError> {
         let Some(order) = &keys.order else { return Ok(()) };
         let per_key = self.per_key();
@@ -144,11 +144,10 @@ impl<const N: usize> Column<N> {
     }
 }
 
-/// Makes the rotations of all keys unit.
+/// Normalizes the rotations of all keys.
 ///
-/// Between keys that are mixed by distance, neighbours are brought into one hemisphere: q and -q are the same
-/// rotation, and the short way between them is meant. A spline is left as it is: with its tangents it says itself
-/// which way it goes.
+/// If keys are interpolated linearly, neighbors are brought into one hemisphere: q and -q are the same rotation, and
+/// the interpolation should take the shorter way. A spline keeps its signs, because its tangents determine the way.
 pub(super) fn make_unit(column: &mut Column<4>, place: &str, context: &ImportContext<'_>) {
     let (mut zero, mut off) = (0, 0);
     let mut last: Option<Quat> = None;
@@ -180,11 +179,11 @@ pub(super) fn make_unit(column: &mut Column<4>, place: &str, context: &ImportCon
             context.warn(Place::Pointer(place.to_owned()), code, format!("{count} rotations {what}"));
         }
     };
-    warn(zero, "have no length; none is taken instead");
-    warn(off, "are not of unit length and were made so");
+    warn(zero, "have no length; the identity is used instead");
+    warn(off, "are not of unit length; they were normalized");
 }
 
-/// How to mix; linear where the file says something unknown.
+/// Returns the interpolation; linear if the file has an unknown one.
 pub(super) fn interpolation(
     sampler: &json::animation::Sampler,
     path: &str,
@@ -196,7 +195,11 @@ pub(super) fn interpolation(
         Checked::Valid(json::animation::Interpolation::Linear) => Interpolation::Linear,
         Checked::Invalid => {
             let place = Place::Pointer(format!("{path}/interpolation"));
-            context.warn(place, code::VALUE_NOT_IN_LIST, "unknown; linear is taken instead");
+            context.warn(
+                place,
+                code::VALUE_NOT_IN_LIST,
+                "the interpolation is unknown; linear is used instead",
+            );
             Interpolation::Linear
         }
     }

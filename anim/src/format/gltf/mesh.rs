@@ -1,4 +1,4 @@
-//! Meshes: attributes become columns, each as long as the positions.
+//! Meshes: attributes become columns, each of the length of the positions.
 
 use super::accessor::{Document, ElementFormat, invalid};
 use super::check as code;
@@ -15,14 +15,14 @@ use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
 
-/// A mesh, and what must be known to place it.
+/// A mesh, and what placing it in the scene requires.
 pub(super) struct ReadMesh {
     pub(super) mesh: Mesh,
-    /// The largest joint number in use, per mesh; `None` when no primitive has joints.
+    /// Largest joint number in use in the mesh; `None` if no primitive has joints.
     pub(super) largest_joint: Option<u16>,
 }
 
-/// All shapes and number types that an attribute may have.
+/// Returns all combinations of a shape with component types.
 const fn formats<const N: usize>(shape: Type, kinds: [(ComponentType, bool); N]) -> [ElementFormat; N] {
     let mut formats = [(ComponentType::F32, shape, false); N];
     let mut i = 0;
@@ -35,7 +35,7 @@ const fn formats<const N: usize>(shape: Type, kinds: [(ComponentType, bool); N])
 
 use ComponentType::{F32, I8, I16, U8, U16};
 
-/// Every format of KHR_mesh_quantization, allowed whether or not a file asks for the extension.
+/// Every format of KHR_mesh_quantization, allowed even if a file does not request the extension.
 const QUANTIZED: [(ComponentType, bool); 9] = [
     (F32, false),
     (I8, false),
@@ -56,7 +56,7 @@ const COLOR_4: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (U8, true)
 const COLOR: &[ElementFormat] = &[COLOR_3[0], COLOR_3[1], COLOR_3[2], COLOR_4[0], COLOR_4[1], COLOR_4[2]];
 const WRONG: &str = code::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT;
 
-/// All meshes.
+/// Returns all meshes.
 pub(super) fn meshes(document: &Document<'_>) -> Result<Vec<ReadMesh>, ImportError> {
     let context = document.context;
     let count = document.root.meshes.len();
@@ -136,7 +136,7 @@ fn read_primitive(
     Ok(Primitive { vertices, indices, material, morph_targets })
 }
 
-/// The accessor of an attribute.
+/// Returns the accessor of an attribute.
 pub(super) fn attribute(
     primitive: &json::mesh::Primitive,
     semantic: Semantic,
@@ -144,7 +144,7 @@ pub(super) fn attribute(
     primitive.attributes.get(&Checked::Valid(semantic)).copied()
 }
 
-/// An error unless `count` is the number of vertices.
+/// Refuses an attribute whose `count` is not the number of vertices.
 pub(super) fn unequal(count: usize, vertices: usize, from: &str) -> Result<(), ImportError> {
     if count == vertices {
         return Ok(());
@@ -153,7 +153,7 @@ pub(super) fn unequal(count: usize, vertices: usize, from: &str) -> Result<(), I
     Err(invalid(Place::Pointer(from.to_owned()), code::MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT, reason))
 }
 
-/// An attribute as finite floats, if the primitive has it.
+/// Returns an attribute as finite floats, if the primitive has it.
 fn column<const N: usize>(
     document: &Document<'_>,
     primitive: &json::mesh::Primitive,
@@ -186,7 +186,7 @@ fn positions(
     Ok(Some(positions))
 }
 
-/// The file's normals made unit; those it lacks, and those without a length, from the triangles.
+/// Returns normalized normals; those that the file lacks, and those of length zero, are computed from the triangles.
 fn all_normals(
     document: &Document<'_>,
     primitive: &json::mesh::Primitive,
@@ -218,7 +218,7 @@ fn all_normals(
     Ok(unit.into_iter().enumerate().map(|(vertex, normal)| normal.unwrap_or_else(|| made[vertex])).collect())
 }
 
-/// The Khronos validator's tolerance, widened to the step of 8-bit normals.
+/// Tolerance of the Khronos validator, plus the step of 8-bit normals.
 const UNIT_TOLERANCE: f32 = 0.00674 + 1.0 / 127.0;
 
 fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -> Vec<Vec4> {
@@ -227,7 +227,7 @@ fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -
         document.context.warn(
             place.clone(),
             code::ACCESSOR_INVALID_SIGN,
-            "w should be 1 or -1; its sign is taken",
+            "w should be 1 or -1; its sign is used",
         );
     }
     if tangents.iter().any(|t| (Vec3::new(t[0], t[1], t[2]).length() - 1.0).abs() > UNIT_TOLERANCE) {
@@ -261,17 +261,17 @@ fn colors(
         document.context.warn(
             Place::Pointer(from),
             code::ACCESSOR_NON_CLAMPED,
-            "colours outside 0..1 were clamped",
+            "colors outside 0..1 were clamped",
         );
     }
     Ok(colors.iter().map(clamped).collect())
 }
 
-/// Attributes that nobody looks at, once each.
+/// Adds one warning for each attribute that is not used.
 fn warn_unknown(document: &Document<'_>, primitive: &json::mesh::Primitive, path: &str) {
     for semantic in primitive.attributes.keys() {
         let name = match semantic {
-            Checked::Invalid => "an attribute of unknown name".to_owned(),
+            Checked::Invalid => "an attribute with an unknown name".to_owned(),
             Checked::Valid(semantic @ (Semantic::Colors(1..) | Semantic::TexCoords(2..))) => {
                 semantic.to_string()
             }

@@ -1,8 +1,8 @@
-//! glTF 2.0, as JSON with files beside it (`.gltf`) or in one binary container (`.glb`).
+//! glTF 2.0, as JSON text with referenced files (`.gltf`) or in one binary container (`.glb`).
 //!
-//! The JSON text becomes the `gltf` crate's document model and nothing more of that crate is used: its own checks,
-//! readers and file access panic, hang or take gigabytes on small files. What stands between the model and the bytes
-//! is here: `accessor` is the only module that looks into a buffer, `graph` the only one that walks the nodes.
+//! Of the `gltf` crate only the document model is used, to parse the JSON text. Its checks, readers and file access
+//! panic, hang or allocate gigabytes on small files, so this module has its own: `accessor` is the only module that
+//! reads a buffer, `graph` the only one that walks the nodes.
 //!
 //! Reading order: `survey` and `document` (text → model), `buffer`, `accessor`, `graph`, `node`, `skin`, `mesh`,
 //! `animation`, `scene`. [`check`] lists every rule.

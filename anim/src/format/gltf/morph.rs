@@ -11,7 +11,7 @@ use gltf::json::accessor::Accessor;
 use serde_json::value::RawValue;
 use std::collections::HashMap;
 
-/// The morph targets of a primitive; each column is empty or as long as the primitive.
+/// Returns the morph targets of a primitive; each column is empty or of the length of the primitive.
 pub(super) fn morph_targets(
     document: &Document<'_>,
     primitive: &json::mesh::Primitive,
@@ -43,7 +43,8 @@ pub(super) fn morph_targets(
     Ok(read)
 }
 
-/// The mesh's own weights, one a target; gives all primitives the same number of targets, and the targets names.
+/// Returns the default weights of the mesh, one per target. Gives all primitives the same number of targets, and the
+/// targets their names.
 pub(super) fn morph_weights(
     document: &Document<'_>,
     mesh: &json::Mesh,
@@ -70,7 +71,7 @@ pub(super) fn morph_weights(
     fitted(mesh.weights.as_deref(), targets, &[], place, code::MESH_INVALID_WEIGHTS_COUNT, document)
 }
 
-/// `weights` with one value a target, filled up from `default` and zeros.
+/// Returns `weights` with one value per target; missing ones are taken from `default`, then zero.
 pub(super) fn fitted(
     weights: Option<&[f32]>,
     targets: usize,
@@ -91,10 +92,10 @@ pub(super) fn fitted(
     Ok(fitted)
 }
 
-/// Extras longer than this are not searched for names.
+/// Longest extras that are searched for names.
 const EXTRAS_BYTES: usize = 1 << 20;
 
-/// `extras.targetNames`: not in the specification, but what everybody writes.
+/// Returns `extras.targetNames`, which is not in the specification, but which most exporters write.
 fn target_names(mesh: &json::Mesh) -> Vec<String> {
     let names = |text: &str| -> Option<Vec<String>> {
         let members: HashMap<String, &RawValue> = serde_json::from_str(text).ok()?;

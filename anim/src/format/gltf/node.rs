@@ -1,4 +1,4 @@
-//! Where each node stands: relative to its parent, and in the scene.
+//! Transforms of nodes, relative to their parents and in the scene.
 
 use super::accessor::invalid;
 use super::check as code;
@@ -9,11 +9,11 @@ use crate::limits::HUGE;
 use glam::{DMat4, Mat4, Quat, Vec3, Vec4};
 use gltf::json;
 
-/// A node's transform, taken apart and exact.
+/// Transform of a node, decomposed without loss.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Local {
     pub(super) parts: Transform,
-    /// The matrix itself where `parts` cannot express it.
+    /// The matrix itself if `parts` cannot represent it.
     pub(super) sheared: Option<Mat4>,
 }
 
@@ -23,10 +23,10 @@ impl Local {
     }
 }
 
-/// How far a rotation's length may be from one before it is worth a warning (the Khronos validator's tolerance).
+/// Largest deviation of a rotation's length from one without a warning (the Khronos validator's tolerance).
 pub(super) const ROTATION_TOLERANCE: f32 = 0.00769;
 
-/// Transforms of all nodes relative to their parents.
+/// Returns the transforms of all nodes relative to their parents.
 pub(super) fn locals(root: &json::Root, context: &ImportContext<'_>) -> Result<Vec<Local>, ImportError> {
     let mut locals = context.vec(&Place::Pointer("/nodes".to_owned()), root.nodes.len())?;
     for (index, node) in root.nodes.iter().enumerate() {
@@ -58,10 +58,10 @@ fn local(node: &json::Node, index: usize, context: &ImportContext<'_>) -> Result
     if let Some(matrix) = node.matrix {
         finite(&matrix, "matrix")?;
         if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
-            let text = "the matrix counts, the node's translation, rotation and scale do not";
+            let text = "the node has a matrix; its translation, rotation and scale are ignored";
             context.warn(at("matrix"), code::NODE_MATRIX_TRS, text);
         }
-        local = taken_apart(Mat4::from_cols_array(&matrix), &at("matrix"), context)?;
+        local = decomposed(Mat4::from_cols_array(&matrix), &at("matrix"), context)?;
     }
     if local.parts.translation.abs().max_element() > HUGE {
         context.warn(
@@ -73,24 +73,24 @@ fn local(node: &json::Node, index: usize, context: &ImportContext<'_>) -> Result
     Ok(local)
 }
 
-/// A matrix as translation, rotation and scale; as it is where it cannot be.
-fn taken_apart(mut matrix: Mat4, place: &Place, context: &ImportContext<'_>) -> Result<Local, ImportError> {
+/// Decomposes a matrix into translation, rotation and scale; keeps the matrix if that is not possible.
+fn decomposed(mut matrix: Mat4, place: &Place, context: &ImportContext<'_>) -> Result<Local, ImportError> {
     if matrix.row(3).abs_diff_eq(Vec4::W, 1e-5) {
         set_last_row(&mut matrix);
     } else {
         context.warn(
             place.clone(),
             code::NODE_MATRIX_NON_TRS,
-            "the last row should be 0 0 0 1 and is taken to be so",
+            "the last row should be 0 0 0 1 and was replaced by that",
         );
         set_last_row(&mut matrix);
     }
     let parts = Transform::from_matrix(matrix);
     if !parts.is_finite() {
-        let reason = "the matrix is too large to be taken apart".to_owned();
+        let reason = "the matrix is too large to be decomposed".to_owned();
         return Err(invalid(place.clone(), code::TRANSFORM_OVERFLOW, reason));
     }
-    // Only the axes: a large translation must not hide a small shear.
+    // Only the axes, so that a large translation does not hide a small shear.
     let largest = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.abs().max_element());
     let tolerance = 1e-4 * largest.into_iter().fold(f32::MIN_POSITIVE, f32::max);
     if parts.to_matrix().abs_diff_eq(matrix, tolerance) {
@@ -108,7 +108,7 @@ pub(super) fn set_last_row(matrix: &mut Mat4) {
     (matrix.x_axis.w, matrix.y_axis.w, matrix.z_axis.w, matrix.w_axis.w) = (0.0, 0.0, 0.0, 1.0);
 }
 
-/// `rotation` with length one; the identity when it has none.
+/// Returns `rotation` normalized; the identity if its length is zero.
 pub(super) fn unit_rotation(rotation: Quat, place: impl Fn() -> Place, context: &ImportContext<'_>) -> Quat {
     match unit(rotation) {
         Some((unit, error)) => {
@@ -116,7 +116,7 @@ pub(super) fn unit_rotation(rotation: Quat, place: impl Fn() -> Place, context: 
                 context.warn(
                     place(),
                     code::ROTATION_NON_UNIT,
-                    "the rotation is not of unit length and was made so",
+                    "the rotation is not of unit length; it was normalized",
                 );
             }
             unit
@@ -125,29 +125,29 @@ pub(super) fn unit_rotation(rotation: Quat, place: impl Fn() -> Place, context: 
             context.warn(
                 place(),
                 code::ROTATION_NON_UNIT,
-                "the rotation has no length; none is taken instead",
+                "the rotation has no length; the identity is used instead",
             );
             Quat::IDENTITY
         }
     }
 }
 
-/// A finite quaternion with length one, and how far its length was from that; `None` for zero.
+/// Returns a finite quaternion normalized, and the deviation of its length from one; `None` for zero.
 pub(super) fn unit(rotation: Quat) -> Option<(Quat, f32)> {
-    // Double precision: the square of 1e-30 or 1e30 does not fit single.
+    // Double precision, because the square of 1e-30 or 1e30 does not fit single precision.
     let wide = rotation.as_dquat();
     let length = wide.length();
     if length == 0.0 || !length.is_finite() {
         return None;
     }
-    // Already unit to the last bit that counts: kept as it is.
+    // Already normalized as far as single precision goes: kept bit for bit.
     if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
         return Some((rotation, 0.0));
     }
     Some(((wide * (1.0 / length)).as_quat(), (length - 1.0).abs() as f32))
 }
 
-/// Node space → scene space at rest, for all nodes; refused where it overflows.
+/// Returns the transforms from node space to scene space at rest, for all nodes; an error if one overflows.
 pub(super) fn globals(
     graph: &Graph,
     locals: &[Local],
@@ -160,7 +160,7 @@ pub(super) fn globals(
         let global = parent * locals[node as usize].matrix();
         if !global.is_finite() {
             let place = Place::Pointer(format!("/nodes/{node}"));
-            let reason = "the transforms down to this node multiply to more than fits".to_owned();
+            let reason = "the product of the transforms of this node and its ancestors overflows".to_owned();
             return Err(invalid(place, code::TRANSFORM_OVERFLOW, reason));
         }
         globals[node as usize] = global;
@@ -168,7 +168,7 @@ pub(super) fn globals(
     Ok(globals)
 }
 
-/// The inverse, computed in double precision; `None` where there is none that fits single precision.
+/// Returns the inverse, computed in double precision; `None` if it does not exist or does not fit single precision.
 pub(super) fn inverse(matrix: Mat4) -> Option<Mat4> {
     let wide: DMat4 = matrix.as_dmat4();
     let determinant = wide.determinant();
@@ -178,7 +178,7 @@ pub(super) fn inverse(matrix: Mat4) -> Option<Mat4> {
     Some(wide.inverse().as_mat4()).filter(Mat4::is_finite)
 }
 
-/// The largest of three absolute values.
+/// Returns the largest of the three absolute values.
 pub(super) fn largest(vector: Vec3) -> f32 {
     vector.abs().max_element()
 }

@@ -1,4 +1,4 @@
-//! From nodes to bones and instances: what moves, and what is shown.
+//! Turns nodes into bones and instances: what is animated, and what is shown.
 
 use super::accessor::{Document, invalid, unresolved};
 use super::check as code;
@@ -10,32 +10,32 @@ use crate::data::{Bone, BoneIndex, MeshInstance, Skeleton, Skin};
 use crate::format::{ImportError, Place};
 use glam::Mat4;
 
-/// Bones and instances, and how nodes map to them.
+/// Bones and instances, and the mapping from nodes to them.
 pub(super) struct Stage {
     pub(super) skeleton: Skeleton,
     pub(super) instances: Vec<MeshInstance>,
-    /// The bone of each node.
+    /// Bone of each node.
     pub(super) bones: Vec<Option<BoneIndex>>,
     /// Number of morph targets of each mesh.
     morph_targets: Vec<usize>,
 }
 
 impl Stage {
-    /// The instance that node `node` is; `None` for one without mesh, or outside the scene.
+    /// Returns the instance of node `node`; `None` for one without mesh, or outside the scene.
     pub(super) fn instance_of(&self, node: usize) -> Option<u32> {
-        // Instances are in node order.
+        // Instances are in the order of the nodes.
         let found = self.instances.binary_search_by_key(&Some(node as u32), |instance| instance.node);
         found.ok().map(|index| index as u32)
     }
 
-    /// How many morph targets the mesh of `node` has.
+    /// Returns the number of morph targets of the mesh of `node`.
     pub(super) fn morph_targets_of(&self, document: &Document<'_>, node: usize) -> usize {
         let mesh = document.root.nodes[node].mesh;
         mesh.and_then(|mesh| self.morph_targets.get(mesh.value()).copied()).unwrap_or(0)
     }
 }
 
-/// Numbers the bones: parents first, depth first from the roots. `is_bone` gets the ancestors too.
+/// Numbers the bones: parents first, depth first from the roots. Also sets `is_bone` for the ancestors.
 pub(super) fn number_bones(
     document: &Document<'_>,
     graph: &Graph,
@@ -54,7 +54,7 @@ pub(super) fn number_bones(
     Ok(bones)
 }
 
-/// The bones themselves. A bone's offset is that of the first skin that uses it.
+/// Returns the bones. A bone's offset is that of the first skin that uses it.
 pub(super) fn skeleton(
     document: &Document<'_>,
     graph: &Graph,
@@ -80,7 +80,7 @@ pub(super) fn skeleton(
     }
     for skin in skins.iter().rev() {
         document.context.work(skin.bones.len())?;
-        // Backwards, so that the first joint counts where one is named twice.
+        // Iterated backwards, so that the first joint is used where one is listed twice.
         for (&bone, &offset) in skin.bones.iter().zip(&skin.offsets).rev() {
             list[bone as usize].offset = offset;
         }
@@ -88,7 +88,7 @@ pub(super) fn skeleton(
     Ok(Skeleton { bones: list })
 }
 
-/// Places every mesh of the scene that is shown: the default one, else the first, else all nodes.
+/// Places every mesh of the scene that is shown: the default scene, otherwise the first one, otherwise all nodes.
 pub(super) fn stage(
     document: &Document<'_>,
     graph: &Graph,
@@ -109,7 +109,7 @@ pub(super) fn stage(
             meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
         let skin = skin_of(document, index, read)?;
         if !is_shown[index] {
-            let text = "the mesh stands outside the scene that is shown";
+            let text = "the mesh is not in the scene that is shown";
             document.context.warn(Place::Pointer(path), code::NODE_NOT_IN_SCENE, text);
             continue;
         }
@@ -127,7 +127,7 @@ pub(super) fn stage(
     Ok(Stage { skeleton, instances, bones, morph_targets })
 }
 
-/// The skin of a node, if its mesh has joints; refused where a vertex names a joint that the skin lacks.
+/// Returns the skin of a node, if its mesh has joints; an error if a vertex refers to a joint that the skin lacks.
 fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
     let Some(skin) = document.root.nodes[index].skin else { return Ok(None) };
     let path = format!("/nodes/{index}/skin");
@@ -140,14 +140,15 @@ fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Opt
             Ok(None)
         }
         Some(largest) if usize::from(largest) >= joints => {
-            let reason = format!("a vertex names joint {largest}, the skin has {joints}");
+            let reason = format!("a vertex refers to joint {largest}, the skin has {joints} joints");
             Err(invalid(Place::Pointer(path), code::ACCESSOR_JOINTS_INDEX_OOB, reason))
         }
         Some(_) => Ok(Some(skin.value() as u32)),
     }
 }
 
-/// For each node the bone that carries it, and the way there: from the node up to the first bone, or to the scene.
+/// Returns for each node the bone that carries it, and the transform to that bone: from the node up to the first bone,
+/// or to the scene.
 fn carriers(
     document: &Document<'_>,
     graph: &Graph,
@@ -171,14 +172,14 @@ fn carriers(
     Ok(carriers)
 }
 
-/// Which nodes belong to the scene that is shown.
+/// Returns for each node whether it is in the scene that is shown.
 fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
     let root = document.root;
     let place = Place::Pointer("/scenes".to_owned());
     let index = match root.scene {
         Some(scene) if scene.value() < root.scenes.len() => scene.value(),
         Some(scene) => {
-            let text = format!("there is no number {}; the first scene is shown", scene.value());
+            let text = format!("there is no scene {}; the first one is shown", scene.value());
             document.context.warn(Place::Pointer("/scene".to_owned()), code::UNRESOLVED_REFERENCE, text);
             0
         }
@@ -213,7 +214,7 @@ fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportErro
     Ok(is_shown)
 }
 
-/// References of a node that nothing else looks at.
+/// Checks the references of a node that no other module uses.
 fn check_references(document: &Document<'_>, index: usize) -> Result<(), ImportError> {
     let node = &document.root.nodes[index];
     if let Some(camera) = node.camera {

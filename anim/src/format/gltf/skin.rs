@@ -1,4 +1,4 @@
-//! Skins: which nodes are joints, and the way from bind space to each.
+//! Skins: the joints, and the transforms from bind space to them.
 
 use super::accessor::{Document, invalid, unresolved};
 use super::check as code;
@@ -10,12 +10,16 @@ use glam::{Mat4, Vec4};
 use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
 
-/// Checks the joints of every skin; marks each in `is_bone`.
+/// Checks the joints of every skin and sets `is_bone` for each of them.
 pub(super) fn mark_joints(document: &Document<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
     for (index, skin) in document.root.skins.iter().enumerate() {
         let path = format!("/skins/{index}/joints");
         if skin.joints.is_empty() {
-            return Err(invalid(Place::Pointer(path), code::EMPTY_ENTITY, "a skin has no joint".to_owned()));
+            return Err(invalid(
+                Place::Pointer(path),
+                code::EMPTY_ENTITY,
+                "the skin has no joint".to_owned(),
+            ));
         }
         if skin.joints.len() > JOINTS_PER_SKIN {
             let (size, limit) = (skin.joints.len() as u64, JOINTS_PER_SKIN as u64);
@@ -30,13 +34,13 @@ pub(super) fn mark_joints(document: &Document<'_>, is_bone: &mut [bool]) -> Resu
         }
         seen.sort_unstable();
         if seen.windows(2).any(|pair| pair[0] == pair[1]) {
-            document.context.warn(Place::Pointer(path), code::DUPLICATE_ELEMENTS, "a joint is named twice");
+            document.context.warn(Place::Pointer(path), code::DUPLICATE_ELEMENTS, "a joint is listed twice");
         }
     }
     Ok(())
 }
 
-/// All skins; `bones` names the bone of each node.
+/// Returns all skins; `bones` contains the bone of each node.
 pub(super) fn skins(document: &Document<'_>, bones: &[Option<BoneIndex>]) -> Result<Vec<Skin>, ImportError> {
     let context = document.context;
     let mut skins = context.vec(&Place::Pointer("/skins".to_owned()), document.root.skins.len())?;
@@ -52,7 +56,7 @@ pub(super) fn skins(document: &Document<'_>, bones: &[Option<BoneIndex>]) -> Res
     Ok(skins)
 }
 
-/// Inverse bind matrices, one a joint; identities where the skin names none.
+/// Returns the inverse bind matrices, one per joint; identities if the skin has none.
 fn offsets(document: &Document<'_>, skin: &json::Skin, index: usize) -> Result<Vec<Mat4>, ImportError> {
     let path = format!("/skins/{index}/inverseBindMatrices");
     let place = Place::Pointer(path.clone());
@@ -80,11 +84,11 @@ fn offsets(document: &Document<'_>, skin: &json::Skin, index: usize) -> Result<V
         matrices.push(matrix);
     }
     if singular > 0 {
-        let text = format!("{singular} matrices cannot be inverted; the identity is taken instead");
+        let text = format!("{singular} matrices cannot be inverted; the identity is used instead");
         context.warn(place.clone(), code::ACCESSOR_INVALID_IBM, text);
     }
     if skewed > 0 {
-        let text = format!("the last row of {skewed} matrices should be 0 0 0 1 and is taken to be so");
+        let text = format!("the last row of {skewed} matrices should be 0 0 0 1 and was replaced by that");
         context.warn(place, code::ACCESSOR_INVALID_IBM, text);
     }
     Ok(matrices)

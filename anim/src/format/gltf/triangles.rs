@@ -1,4 +1,4 @@
-//! Indices: strips and fans become lists, lists are checked, and what has no indices gets them.
+//! Triangle indices: strips and fans become lists, lists are checked, and primitives without indices get them.
 
 use super::accessor::{Document, invalid};
 use super::check as code;
@@ -14,7 +14,7 @@ const INDEX_FORMATS: &[(ComponentType, Type, bool)] = &[
     (ComponentType::U32, Type::Scalar, false),
 ];
 
-/// Three indices a triangle, each below `vertices`; none for points and lines.
+/// Returns three indices per triangle, each below `vertices`; none for points and lines.
 pub(super) fn triangles(
     document: &Document<'_>,
     primitive: &Primitive,
@@ -48,7 +48,7 @@ pub(super) fn triangles(
             Ok(Vec::new())
         }
         Checked::Invalid => {
-            let reason = "none of the modes 0..6".to_owned();
+            let reason = "the mode is not one of 0..6".to_owned();
             Err(invalid(Place::Pointer(format!("{path}/mode")), code::VALUE_NOT_IN_LIST, reason))
         }
     }
@@ -72,15 +72,17 @@ fn check_indices(
 
 fn list(mut indices: Vec<u32>, place: &Place, context: &ImportContext<'_>) -> Vec<u32> {
     if !indices.len().is_multiple_of(3) {
-        let text =
-            format!("{} indices do not make whole triangles; the last ones are left out", indices.len());
+        let text = format!(
+            "{} indices are not a whole number of triangles; the last ones are left out",
+            indices.len()
+        );
         context.warn(place.clone(), code::MESH_PRIMITIVE_INCOMPATIBLE_MODE, text);
         indices.truncate(indices.len() / 3 * 3);
     }
     indices
 }
 
-/// glTF 2.0 §3.7.2.1: triangle i of a strip is i, i + 1 + i % 2, i + 2 - i % 2.
+/// Converts a strip: triangle i is i, i + 1 + i % 2, i + 2 - i % 2 (glTF 2.0 §3.7.2.1).
 fn strip(indices: &[u32], place: &Place, context: &ImportContext<'_>) -> Result<Vec<u32>, ImportError> {
     let count = indices.len().saturating_sub(2);
     let mut list = context.vec(place, count.saturating_mul(3))?;
@@ -91,7 +93,7 @@ fn strip(indices: &[u32], place: &Place, context: &ImportContext<'_>) -> Result<
     Ok(list)
 }
 
-/// glTF 2.0 §3.7.2.1: triangle i of a fan is i + 1, i + 2, 0.
+/// Converts a fan: triangle i is i + 1, i + 2, 0 (glTF 2.0 §3.7.2.1).
 fn fan(indices: &[u32], place: &Place, context: &ImportContext<'_>) -> Result<Vec<u32>, ImportError> {
     let count = indices.len().saturating_sub(2);
     let mut list = context.vec(place, count.saturating_mul(3))?;
@@ -102,10 +104,10 @@ fn fan(indices: &[u32], place: &Place, context: &ImportContext<'_>) -> Result<Ve
     Ok(list)
 }
 
-/// Normals from the triangles around each vertex, weighted by area; +Y where there is no triangle with one.
+/// Returns normals from the triangles around each vertex, weighted by area; +Y for a vertex without a proper triangle.
 ///
-/// The specification asks for flat normals. Those need vertices of their own a triangle, and vertices keep the
-/// file's number and order here, so that edits and comparisons can name them.
+/// The specification requires flat normals. Those need separate vertices for each triangle, whereas vertices keep the
+/// number and order of the file here, so that edits and comparisons can refer to them.
 pub(super) fn normals(
     positions: &[Vec3],
     indices: &[u32],
@@ -117,7 +119,7 @@ pub(super) fn normals(
     for corners in indices.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| positions[corners[corner] as usize]);
         let across = (b - a).cross(c - a);
-        // Huge positions overflow; such a triangle says nothing about the direction.
+        // Huge positions overflow; such a triangle has no direction.
         if across.is_finite() {
             for &corner in corners {
                 normals[corner as usize] += across;
@@ -131,7 +133,7 @@ pub(super) fn normals(
     Ok(normals)
 }
 
-/// `vector` with length one, however long or short; `None` for zero.
+/// Returns `vector` normalized, however long or short; `None` for zero.
 pub(super) fn direction(vector: Vec3) -> Option<Vec3> {
     let wide = vector.as_dvec3();
     let length = wide.length();

@@ -1,4 +1,4 @@
-//! What an edit makes of one animation: which channels go, which samplers are written, which are new.
+//! Edit of one animation: which channels are removed, which samplers are rewritten, which are new.
 
 use super::channels::{Action, ChannelEdit};
 use super::document::{Document, FileAnimation, Target};
@@ -12,16 +12,16 @@ use super::needs::{NeedId, Needs};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// The numbers of a sampler: key times, or values.
+/// The key times or the values of a sampler.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Numbers {
-    /// Those of an accessor that is there and holds them.
+    /// An existing accessor that contains them.
     Kept(usize),
     Needed(NeedId),
 }
 
 impl Numbers {
-    /// Their accessor; `accessors` are those that the needs became.
+    /// Returns their accessor; `accessors` contains the accessor of each need.
     fn accessor(self, accessors: &[usize]) -> usize {
         match self {
             Self::Kept(accessor) => accessor,
@@ -30,10 +30,10 @@ impl Numbers {
     }
 }
 
-/// A sampler that is written.
+/// A sampler to be written.
 #[derive(Clone, Debug)]
 pub(super) struct SamplerDraft {
-    /// Which of the animation's; the count and above for new ones.
+    /// Number of the sampler in the animation; new ones start at the number of existing samplers.
     pub(super) number: usize,
     pub(super) input: Numbers,
     pub(super) output: Numbers,
@@ -43,15 +43,15 @@ pub(super) struct SamplerDraft {
 /// A channel that gets a sampler.
 #[derive(Clone, Debug)]
 enum ChannelDraft {
-    /// One that is there, by number, is sent to another sampler.
+    /// An existing channel, by number, that refers to another sampler now.
     Moved(usize, usize),
     New(Target, usize),
 }
 
-/// An animation, edited.
+/// An edited animation.
 #[derive(Debug, Default)]
 pub(super) struct Draft {
-    /// Another name.
+    /// New name, if it changes.
     pub(super) name: Option<String>,
     removed: Vec<Id>,
     channels: Vec<ChannelDraft>,
@@ -59,7 +59,7 @@ pub(super) struct Draft {
 }
 
 impl Draft {
-    /// What the new channels move.
+    /// Returns the targets of the new channels.
     pub(super) fn new_targets(&self) -> impl Iterator<Item = Target> + '_ {
         self.channels.iter().filter_map(|channel| match channel {
             ChannelDraft::New(target, _) => Some(*target),
@@ -67,12 +67,13 @@ impl Draft {
         })
     }
 
-    /// The samplers of the animation that are written over.
+    /// Returns the samplers of the animation that are overwritten.
     pub(super) fn rewritten(&self) -> HashSet<usize> {
         self.samplers.iter().map(|sampler| sampler.number).collect()
     }
 
-    /// What `edits` make of `animation`, or of nothing. `is_ours` says which accessors earlier saves wrote.
+    /// Returns the draft that applies `edits` to `animation`, or to an empty one. `is_ours` returns whether an earlier
+    /// save wrote an accessor.
     pub(super) fn of(
         document: &Document<'_>,
         animation: Option<&FileAnimation>,
@@ -108,7 +109,7 @@ impl Draft {
             let old = there.and_then(|there| animation.channels[there].sampler);
             let before = |name| old.and_then(|old| pool.accessor(document, animation, old, name));
             let kept = before("input").filter(|&input| document.holds_times(input, &keys.times));
-            // Where only times, or what lies between the keys, are others, the file's own values stay.
+            // If only the times or the interpolation change, the file keeps its own values.
             let in_order =
                 |times: &Arc<[f32]>| before("input").is_some_and(|old| document.holds_times(old, times));
             let values = before("output").filter(|_| channel.values_of.as_ref().is_some_and(in_order));
@@ -140,7 +141,7 @@ impl Draft {
         draft
     }
 
-    /// The patches to the text of `animation`. `accessors` are those that the needs became.
+    /// Returns the patches to the text of `animation`. `accessors` contains the accessor of each need.
     pub(super) fn patches(
         &self,
         document: &Document<'_>,
@@ -158,7 +159,7 @@ impl Draft {
                 reason: "the animation has no such list".to_owned(),
             }),
         };
-        // Only those members of the animation itself that are new.
+        // Only the new members of the animation itself.
         let mut members = ListEdit::default();
         let spot = style.spot(json, Some(animation.id), 3);
         if let Some(name) = &self.name {
@@ -182,7 +183,7 @@ impl Draft {
                         let id = animation.channels[*number].id;
                         let token = json.member(id, "sampler").ok_or_else(|| SaveError::File {
                             place: pointer.clone(),
-                            reason: "the channel names no sampler".to_owned(),
+                            reason: "the channel has no sampler".to_owned(),
                         })?;
                         patches.push(Patch::new(json.span(token), sampler.to_string(), pointer));
                     }
@@ -217,7 +218,7 @@ impl Draft {
         Ok(patches)
     }
 
-    /// The whole of a new animation.
+    /// Returns the JSON value of a new animation.
     pub(super) fn fresh(&self, accessors: &[usize]) -> Fresh {
         let mut members = Vec::new();
         if let Some(name) = self.name.as_ref().filter(|name| !name.is_empty()) {
@@ -243,7 +244,7 @@ fn fresh_channel((node, path): Target, sampler: usize) -> Fresh {
 }
 
 impl SamplerDraft {
-    /// Numbers of its accessors.
+    /// Returns the numbers of its accessors.
     fn accessors(&self, accessors: &[usize]) -> (usize, usize) {
         (self.input.accessor(accessors), self.output.accessor(accessors))
     }
@@ -256,7 +257,7 @@ impl SamplerDraft {
         Fresh::Object(members)
     }
 
-    /// The tokens of the sampler `old` that differ.
+    /// Returns the patches of the changed tokens of the sampler `old`.
     fn rewritten(
         &self,
         document: &Document<'_>,
@@ -288,22 +289,22 @@ impl SamplerDraft {
     }
 }
 
-/// Does the value say what `token` says, however it is spelt?
+/// Returns whether the value equals the one that `token` spells, in whatever notation.
 fn same_value(document: &Document<'_>, id: Id, token: &str) -> bool {
     let json = document.json;
     match json.string(id) {
-        Some(said) => quoted(&said) == token,
+        Some(text) => quoted(&text) == token,
         None => json.whole(id).is_some_and(|number| number.to_string() == token),
     }
 }
 
-/// The samplers of an animation while its channels change hands.
+/// The samplers of an animation while channels are reassigned.
 struct Pool {
-    /// Channels that use each sampler.
+    /// Number of channels that use each sampler.
     users: HashMap<usize, usize>,
-    /// Samplers that nobody uses and that an earlier save wrote.
+    /// Samplers that no channel uses and that an earlier save wrote.
     idle: Vec<usize>,
-    /// The number of the next new one.
+    /// Number of the next new sampler.
     next: usize,
 }
 
@@ -333,14 +334,14 @@ impl Pool {
         self.users.get(&sampler) == Some(&1)
     }
 
-    /// A channel goes to another sampler.
+    /// Removes one channel from the users of a sampler.
     fn leave(&mut self, sampler: usize) {
         if let Some(users) = self.users.get_mut(&sampler) {
             *users = users.saturating_sub(1);
         }
     }
 
-    /// A sampler that nobody uses.
+    /// Returns a sampler that no channel uses.
     fn another(&mut self) -> usize {
         self.idle.pop().unwrap_or_else(|| {
             self.next += 1;
@@ -348,7 +349,7 @@ impl Pool {
         })
     }
 
-    /// The accessor that a sampler of the file names.
+    /// Returns the accessor that a sampler of the file refers to.
     fn accessor(
         &self,
         document: &Document<'_>,

@@ -1,4 +1,4 @@
-//! Which channels an edit changed: the takes as they were opened against the takes as they are now.
+//! Finds the edited channels by comparing the takes as they were opened with the takes as they are now.
 
 use super::columns::{Column, Keys, Owner, keys};
 use super::document::{FileAnimation, Path, Target};
@@ -8,7 +8,7 @@ use crate::limits::CLIP_SECONDS;
 use glam::Vec3;
 use std::sync::Arc;
 
-/// What becomes of a channel.
+/// Change of a channel.
 #[derive(Clone, Debug)]
 pub(super) enum Action {
     Remove,
@@ -22,11 +22,11 @@ pub(super) struct ChannelEdit {
     /// Name of the bone, or `mesh 3`.
     pub(super) label: String,
     pub(super) action: Action,
-    /// The times with which it was opened, where its values are, one by one, those that were opened.
+    /// The opened key times of each value, if the values are a subset of the opened ones.
     pub(super) values_of: Option<Arc<[f32]>>,
 }
 
-/// The three columns of a track.
+/// Returns the three channels of a track.
 fn columns(track: &Track) -> [(Path, Column<'_>); 3] {
     [
         (Path::Translation, Column::Vector(&track.translation)),
@@ -35,7 +35,7 @@ fn columns(track: &Track) -> [(Path, Column<'_>); 3] {
     ]
 }
 
-/// The channels in which `now` differs from `opened` (`None` for a take that is new altogether).
+/// Returns the channels in which `now` differs from `opened` (`None` for a new take).
 pub(super) fn edits(
     model: &ModelData,
     opened: Option<(&Take, &FileAnimation)>,
@@ -51,7 +51,7 @@ pub(super) fn edits(
     let still = Track::default();
     for (index, (bone, track)) in bones.iter().zip(&now.tracks).enumerate() {
         if track.bone as usize != index {
-            return Err(mismatch(format!("the track at {index} moves bone {}", track.bone)));
+            return Err(mismatch(format!("the track at {index} is for bone {}", track.bone)));
         }
         let before = columns(opened.and_then(|(take, _)| take.tracks.get(index)).unwrap_or(&still));
         for ((path, before), (_, after)) in before.into_iter().zip(columns(track)) {
@@ -59,7 +59,7 @@ pub(super) fn edits(
                 continue;
             }
             let Some(node) = bone.node else {
-                return Err(no_node(now, &bone.name, "is no node of the file"));
+                return Err(no_node(now, &bone.name, "is not a node of the file"));
             };
             let owner = Owner { take: &now.name, bone: &bone.name, path, may_be_negative };
             found.push(edit((node, path), opened, before, after, owner)?);
@@ -91,7 +91,7 @@ fn edit(
     Ok(ChannelEdit { target, label: owner.bone.to_owned(), action, values_of })
 }
 
-/// Morph weights, by mesh instance.
+/// Finds the edited morph weights, by mesh instance.
 fn weights(
     model: &ModelData,
     opened: Option<(&Take, &FileAnimation)>,
@@ -118,7 +118,7 @@ fn weights(
                 return Err(refuse(format!("{} weights for {targets} targets", track.targets)));
             }
             if by_instance[track.instance as usize].replace(track.clone()).is_some() {
-                return Err(refuse("two tracks move it".to_owned()));
+                return Err(refuse("two tracks animate it".to_owned()));
             }
         }
         Ok(by_instance)
@@ -141,7 +141,7 @@ fn weights(
         }
         let label = format!("mesh {index}");
         let Some(node) = model.instances[index].node else {
-            return Err(no_node(now, &label, "is no node of the file"));
+            return Err(no_node(now, &label, "is not a node of the file"));
         };
         let owner = Owner { take: &now.name, bone: &label, path: Path::Weights, may_be_negative };
         found.push(edit((node, Path::Weights), opened, before, after, owner)?);
@@ -149,8 +149,8 @@ fn weights(
     Ok(())
 }
 
-/// What stands for "nothing moves", since an animation must have a channel: one key, at the start of the take, that
-/// holds the first bone where it rests. `None` when it is there already.
+/// Returns an edit for a take that animates nothing, since an animation must have a channel: one key at the start of
+/// the take that keeps the first bone at rest. `None` if the file has it already.
 pub(super) fn placeholder(
     model: &ModelData,
     opened: Option<&Take>,
@@ -159,7 +159,7 @@ pub(super) fn placeholder(
     let bones = &model.animation.skeleton.bones;
     let still = bones.iter().enumerate().find(|(_, bone)| bone.node.is_some() && bone.rest_matrix.is_none());
     let Some((index, bone)) = still else {
-        return Err(no_node(now, "", "moves nothing, and the file has no node that could stand for it"));
+        return Err(no_node(now, "", "animates nothing, and the file has no node for a placeholder channel"));
     };
     let start = if now.start.is_finite() { now.start.clamp(0.0, CLIP_SECONDS) } else { 0.0 };
     let rest = bone.rest.translation;

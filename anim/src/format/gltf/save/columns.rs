@@ -1,4 +1,4 @@
-//! A channel as glTF wants it: times and values as bytes, and the interpolation's name.
+//! Converts a channel to glTF: times and values as bytes, and the name of the interpolation.
 
 use super::document::Path;
 use super::error::SaveError;
@@ -8,10 +8,10 @@ use crate::sample::find_keys;
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// How far a rotation's length may be from one (the Khronos validator's tolerance).
+/// Largest deviation of a rotation's length from one (the Khronos validator's tolerance).
 const ROTATION_TOLERANCE: f64 = 0.00769;
 
-/// The keys of one target, whichever kind they are.
+/// The keys of one target, of whatever type.
 #[derive(Clone, Copy)]
 pub(super) enum Column<'a> {
     Vector(&'a Channel<Vec3>),
@@ -36,7 +36,7 @@ impl Column<'_> {
         }
     }
 
-    /// All numbers of all values.
+    /// Returns all numbers of all values.
     fn numbers(&self) -> Vec<f32> {
         match self {
             Self::Vector(channel) => channel.values.iter().flat_map(|value| value.to_array()).collect(),
@@ -45,7 +45,7 @@ impl Column<'_> {
         }
     }
 
-    /// Numbers of one value.
+    /// Returns the number of components of one value.
     fn width(&self) -> usize {
         match self {
             Self::Vector(_) => 3,
@@ -62,12 +62,12 @@ impl Column<'_> {
         }
     }
 
-    /// Are these its numbers, bit for bit?
+    /// Returns whether these are its numbers, bit for bit.
     pub(super) fn holds(&self, numbers: &[f32]) -> bool {
         !numbers.is_empty() && same_bits(&self.numbers(), numbers)
     }
 
-    /// Are all bits the same? Two columns without keys are, whatever else they say.
+    /// Returns whether all bits are the same. Two channels without keys are the same, whatever their other fields.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         if self.times().is_empty() && other.times().is_empty() {
             return true;
@@ -90,21 +90,21 @@ fn same_bits(a: &[f32], b: &[f32]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// A column ready to be written.
+/// Keys ready to be written.
 #[derive(Clone, Debug)]
 pub(super) struct Keys {
-    /// Seconds, strictly ascending; shared where channels share them.
+    /// Seconds, strictly ascending; shared between channels where possible.
     pub(super) times: Arc<[f32]>,
-    /// Numbers of the values, tangents included.
+    /// Components of the values, tangents included.
     pub(super) values: Vec<f32>,
-    /// `VEC3`, `VEC4`, `SCALAR`.
+    /// Type of a value: `VEC3`, `VEC4` or `SCALAR`.
     pub(super) shape: &'static str,
-    /// `STEP`, `LINEAR`, `CUBICSPLINE`.
+    /// Interpolation: `STEP`, `LINEAR` or `CUBICSPLINE`.
     pub(super) interpolation: &'static str,
 }
 
 impl Keys {
-    /// How many elements the output accessor has.
+    /// Returns the number of elements of the output accessor.
     pub(super) fn value_count(&self) -> usize {
         self.values.len() / shape_width(self.shape)
     }
@@ -118,13 +118,13 @@ pub(super) fn shape_width(shape: &str) -> usize {
     }
 }
 
-/// Whose keys they are, for errors.
+/// Owner of the keys, for error messages.
 #[derive(Clone, Copy)]
 pub(super) struct Owner<'a> {
     pub(super) take: &'a str,
     pub(super) bone: &'a str,
     pub(super) path: Path,
-    /// May key times be negative? glTF forbids them; a file that has them may keep them.
+    /// Whether key times may be negative. glTF forbids them; a file that has them may keep them.
     pub(super) may_be_negative: bool,
 }
 
@@ -139,11 +139,11 @@ impl Owner<'_> {
     }
 }
 
-/// Checks a column that has keys, and turns it into what glTF can say.
+/// Checks a channel with keys and converts it to what glTF can represent.
 ///
-/// * Closest key becomes step, exactly: a step at each time from which on the next key is the nearest, and one more at
-///   the end, so that the take keeps its length.
-/// * A spline of one key is written as that key, linear: glTF wants two keys of a spline.
+/// * Closest-key interpolation becomes an exact step: a step at each time from which on the next key is the nearest,
+///   and one more at the end, so that the take keeps its length.
+/// * A spline of one key is written as that key with linear interpolation, because glTF requires two keys of a spline.
 pub(super) fn keys(column: Column<'_>, owner: Owner<'_>) -> Result<Keys, SaveError> {
     let interpolation = column.interpolation();
     let numbers = column.numbers();
@@ -189,16 +189,16 @@ fn check_times(times: &[f32], owner: Owner<'_>) -> Result<(), SaveError> {
             return owner.refuse(format!("key {key} lies at {time} s, at most {CLIP_SECONDS} s"));
         }
         if time < 0.0 && !owner.may_be_negative {
-            return owner.refuse(format!("key {key} lies at {time} s, before zero, which glTF forbids"));
+            return owner.refuse(format!("key {key} is at {time} s, but glTF forbids negative key times"));
         }
         if key > 0 && times[key - 1] >= time {
-            return owner.refuse(format!("key {key} at {time} s does not come after the one before"));
+            return owner.refuse(format!("key {key} at {time} s is not later than the key before it"));
         }
     }
     Ok(())
 }
 
-/// Every rotation must be one: readers disagree about others.
+/// Refuses rotations that are not of unit length, because readers differ in how they treat them.
 fn check_rotations(keys: &Keys, owner: Owner<'_>) -> Result<(), SaveError> {
     if owner.path != Path::Rotation {
         return Ok(());
@@ -217,7 +217,7 @@ fn check_rotations(keys: &Keys, owner: Owner<'_>) -> Result<(), SaveError> {
     Ok(())
 }
 
-/// Closest key as step.
+/// Converts closest-key interpolation to steps.
 fn stepped(keys: &Keys, width: usize) -> Keys {
     let value = |key: usize| &keys.values[key * width..][..width];
     let last = keys.times.len() - 1;
@@ -234,11 +234,11 @@ fn stepped(keys: &Keys, width: usize) -> Keys {
     Keys { times: times.into(), values, shape: keys.shape, interpolation: "STEP" }
 }
 
-/// The first time after `before` at which sampling finds `after` the nearer of the two.
+/// Returns the first time after `before` at which sampling finds `after` the nearer of the two.
 fn nearest_from(before: f32, after: f32) -> f32 {
     let is_after =
         |time: f32| time >= after || find_keys(&[before, after], time).is_some_and(|keys| keys.mix >= 0.5);
-    // The share between two keys never falls with time, so the first is found by halving.
+    // The share between two keys never decreases with time, so a binary search finds the first time.
     let (mut low, mut high) = (before, after);
     while low.next_up() < high {
         let middle = low + (high - low) * 0.5;
@@ -254,7 +254,7 @@ mod tests {
     use crate::sample::sample_channel;
 
     #[test]
-    fn closest_key_as_step_gives_the_same_at_every_time() {
+    fn closest_key_converted_to_step_has_the_same_value_at_every_time() {
         let times: [f32; 5] = [0.0, 0.1, 0.3, 7.7, 7.700_001];
         let values: Vec<Vec3> = (0..5).map(|key| Vec3::splat(key as f32)).collect();
         let closest = Channel::new(times, values, Interpolation::Closest);

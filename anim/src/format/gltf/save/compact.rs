@@ -1,4 +1,4 @@
-//! Taking away what earlier saves appended and nothing uses any more.
+//! Removes what earlier saves appended and nothing uses any more.
 
 use super::buffer::Target;
 use super::columns::shape_width;
@@ -15,10 +15,10 @@ use super::source::SourceFile;
 use std::collections::{HashMap, HashSet};
 
 /// Plans a file without what earlier saves appended and nothing uses any more: bytes of the buffer, accessors, buffer
-/// views. All takes stay as they are, and so does every byte that no save of ours wrote.
+/// views. All takes stay as they are, and so does every byte that was not written by a save of this crate.
 ///
-/// Nothing changes where somebody else appended to the buffer after us. Accessors and views are taken out of their
-/// lists only where ours are the last ones, since the numbers of others must stay; else only their room shrinks.
+/// Nothing changes if another program appended to the buffer afterwards. Accessors and views are removed from their
+/// lists only if they are the last ones, since the numbers of others must stay; otherwise only their room shrinks.
 pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
     let document = Document::of(source);
     let target = Target::choose(&document);
@@ -38,7 +38,7 @@ pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
     let mut live: Vec<Slot> =
         slots.iter().filter(|slot| !at_end || used.contains(&slot.accessor)).copied().collect();
     if live.is_empty() && (accessors == 0 || views == 0 || start == 0) {
-        // A list or a buffer may not be empty.
+        // glTF forbids an empty list or buffer.
         live.push(slots[0]);
     }
     let mut end = start;
@@ -68,12 +68,12 @@ pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
         cut(&mut draw, "accessors", &document.accessors, accessors + live.len())?;
         cut(&mut draw, "bufferViews", &document.views, views + live.len())?;
     }
-    send_samplers(&mut draw, &idle, &moves);
+    redirect_samplers(&mut draw, &idle, &moves);
     draw.buffer(target, &writes, end)?;
     draw.finish()
 }
 
-/// Bytes that the accessor of a slot takes.
+/// Returns the number of bytes of a slot's accessor.
 fn needed(document: &Document<'_>, slot: &Slot) -> usize {
     let (json, id) = (document.json, document.accessors[slot.accessor]);
     let shape = json.string_member(id, "type").unwrap_or_default();
@@ -81,7 +81,7 @@ fn needed(document: &Document<'_>, slot: &Slot) -> usize {
     size.filter(|&size| size > 0 && size <= slot.room).unwrap_or(slot.room)
 }
 
-/// The accessor over another view.
+/// Returns the accessor with another view.
 fn moved_accessor(document: &Document<'_>, accessor: usize, view: usize) -> Fresh {
     let (json, id) = (document.json, document.accessors[accessor]);
     let mut members = vec![("name", Fresh::string(MARK)), ("bufferView", Fresh::whole(view))];
@@ -93,7 +93,7 @@ fn moved_accessor(document: &Document<'_>, accessor: usize, view: usize) -> Fres
     Fresh::Object(members)
 }
 
-/// A token, or a list of tokens, as it stands.
+/// Copies a token, or a list of tokens.
 fn copied(document: &Document<'_>, id: Id) -> Fresh {
     let json = document.json;
     let raw = |id| Fresh::Raw(String::from_utf8_lossy(json.token(id)).into_owned());
@@ -103,7 +103,7 @@ fn copied(document: &Document<'_>, id: Id) -> Fresh {
     }
 }
 
-/// Takes the elements from `keep` on away.
+/// Removes the elements from `keep` on.
 fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[Id], keep: usize) -> Result<(), SaveError> {
     let Some(list) = draw.list(name)? else { return Ok(()) };
     let change = ListEdit { removed: items[keep..].to_vec(), inserted: Vec::new() };
@@ -113,8 +113,8 @@ fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[Id], keep: usize) -> Result
     Ok(())
 }
 
-/// Samplers that no channel uses and whose accessors are ours: they are sent to the accessors of another sampler of
-/// their animation, which frees their own.
+/// Samplers that no channel uses and whose accessors earlier saves wrote. They are redirected to the accessors of
+/// another sampler of their animation, which makes their own accessors unused.
 struct Idle {
     /// By animation and sampler: the sampler whose accessors it gets.
     instead: HashMap<(usize, usize), usize>,
@@ -141,7 +141,7 @@ impl Idle {
         Self { instead }
     }
 
-    /// The sampler whose accessors the sampler gets: mostly itself.
+    /// Returns the sampler whose accessors a sampler gets, in most cases the sampler itself.
     fn source(&self, document: &Document<'_>, animation: usize, sampler: usize) -> Id {
         let number = self.instead.get(&(animation, sampler)).copied().unwrap_or(sampler);
         document.animations[animation].samplers[number]
@@ -161,7 +161,7 @@ impl Idle {
 }
 
 /// Writes the new numbers of accessors into the samplers.
-fn send_samplers(draw: &mut Draw<'_, '_>, idle: &Idle, moves: &HashMap<usize, usize>) {
+fn redirect_samplers(draw: &mut Draw<'_, '_>, idle: &Idle, moves: &HashMap<usize, usize>) {
     let document = draw.document;
     let json = document.json;
     for (index, animation) in document.animations.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Patches as they come together: lists that grow or have to be made, and the buffer they are about.
+//! Collects the patches of a save: lists that grow or are created, and the buffer of the new numbers.
 
 use super::buffer::{Home, Tail, Target, base64, beside, data_uri_patch};
 use super::changes::{ChangedToken, Changes, shortened};
@@ -16,17 +16,17 @@ use crate::format::uri::relative_path;
 use crate::limits::FILE_BYTES;
 use std::collections::{HashMap, HashSet};
 
-/// A plan in the making.
+/// A plan that is being made.
 pub(super) struct Draw<'d, 'a> {
     pub(super) document: &'d Document<'a>,
     pub(super) style: Style,
     pub(super) patches: Vec<Patch>,
-    /// Members of the root that come or go.
+    /// Added and removed members of the root.
     pub(super) root: ListEdit,
     pub(super) changes: Changes,
     chunk: Option<Tail>,
     beside: Option<OutputFile>,
-    /// Where elements of a list of the root go, by the list's name.
+    /// Positions of new elements of a list of the root, by the name of the list.
     spots: HashMap<&'static str, Spot>,
 }
 
@@ -50,17 +50,17 @@ impl<'d, 'a> Draw<'d, 'a> {
         self.spots.entry(list).or_insert_with(spot).clone()
     }
 
-    /// The array that is the member `name` of the root, if there is such a member.
+    /// Returns the array that is the member `name` of the root, if there is such a member.
     pub(super) fn list(&self, name: &str) -> Result<Option<Id>, SaveError> {
         let json = self.document.json;
         match json.member(0, name) {
             Some(list) if json.kind(list) == Kind::Array => Ok(Some(list)),
             None => Ok(None),
-            Some(_) => Err(SaveError::File { place: format!("/{name}"), reason: "not a list".to_owned() }),
+            Some(_) => Err(SaveError::File { place: format!("/{name}"), reason: "is not a list".to_owned() }),
         }
     }
 
-    /// Appends elements to a list of the root, which is made when it is not there.
+    /// Appends elements to a list of the root, which is created if needed.
     pub(super) fn append(&mut self, name: &'static str, items: Vec<Fresh>) -> Result<(), SaveError> {
         if items.is_empty() {
             return Ok(());
@@ -78,7 +78,7 @@ impl<'d, 'a> Draw<'d, 'a> {
         Ok(())
     }
 
-    /// A list of the root that was not there.
+    /// Adds a list to the root.
     pub(super) fn new_list(&mut self, name: &'static str, items: Vec<Fresh>) {
         let json = self.document.json;
         let spot = self.style.spot(json, Some(0), 1).with_lines(&self.style);
@@ -86,7 +86,7 @@ impl<'d, 'a> Draw<'d, 'a> {
         self.root.inserted.push((last, self.style.member(name, &Fresh::Array(items), &spot)));
     }
 
-    /// Writes `fresh` in the place of an element, unless it is written there already.
+    /// Replaces an element by `fresh`, unless it has this text already.
     pub(super) fn replace(&mut self, id: Id, list: &'static str, number: usize, fresh: &Fresh) {
         let json = self.document.json;
         let spot = self.spot(list);
@@ -118,7 +118,7 @@ impl<'d, 'a> Draw<'d, 'a> {
             Home::Chunk => None,
             Home::DataUri => None,
             Home::NewDataUri => Some(format!("data:application/octet-stream;base64,{}", base64(&tail.bytes))),
-            Home::OurFile | Home::NewFile => Some(self.file_beside(target, old, &tail)),
+            Home::OurFile | Home::NewFile => Some(self.neighbor_file(target, old, &tail)),
         };
         if target.is_new(document) {
             members.extend(uri.map(|uri| ("uri", Fresh::Raw(quoted(&uri)))));
@@ -132,7 +132,7 @@ impl<'d, 'a> Draw<'d, 'a> {
         Ok(())
     }
 
-    /// Patches the length, and the URI, of a buffer that is there.
+    /// Patches the length, and the URI, of an existing buffer.
     fn adjust(
         &mut self,
         target: Target,
@@ -161,8 +161,8 @@ impl<'d, 'a> Draw<'d, 'a> {
         Ok(())
     }
 
-    /// Plans a buffer beside the file; its URI.
-    fn file_beside(&mut self, target: Target, old: &[u8], tail: &Tail) -> String {
+    /// Plans a buffer in a new file and returns its URI.
+    fn neighbor_file(&mut self, target: Target, old: &[u8], tail: &Tail) -> String {
         let json = self.document.json;
         let uri = |id: &Id| relative_path(&json.string_member(*id, "uri")?).ok();
         let taken: HashSet<String> =
@@ -179,7 +179,7 @@ impl<'d, 'a> Draw<'d, 'a> {
         name
     }
 
-    /// The plan, if nothing in it contradicts itself and the file does not grow too large.
+    /// Returns the plan, or an error if its patches overlap or the file becomes too large.
     pub(super) fn finish(mut self) -> Result<Plan<'a>, SaveError> {
         let document = self.document;
         let json = document.json;
@@ -226,7 +226,7 @@ fn document_size(document: &Document<'_>) -> u64 {
     document.source.bytes.len() as u64
 }
 
-/// Refuses a file that could not be opened again. A container could say twice as much.
+/// Refuses a file that would be too large to be opened again. A container could be twice as large.
 fn check_size(bytes: u64) -> Result<(), SaveError> {
     if bytes > FILE_BYTES { Err(SaveError::TooLarge { bytes, limit: FILE_BYTES }) } else { Ok(()) }
 }
@@ -236,7 +236,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_that_could_not_be_opened_again_is_not_planned() {
+    fn a_file_too_large_to_be_opened_again_is_refused() {
         assert_eq!(check_size(FILE_BYTES), Ok(()));
         for bytes in [FILE_BYTES + 1, u64::from(u32::MAX) + 1, u64::MAX] {
             assert_eq!(check_size(bytes), Err(SaveError::TooLarge { bytes, limit: FILE_BYTES }));

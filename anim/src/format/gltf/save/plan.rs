@@ -20,25 +20,25 @@ use crate::data::ModelData;
 use crate::format::{EditedTake, OutputFile};
 use std::collections::{HashMap, HashSet};
 
-/// What a save will do: made by [`plan`], shown by [`Plan::changes`], done by [`Plan::write`].
+/// A planned save: made by [`plan`], described by [`Plan::changes`], carried out by [`Plan::write`].
 #[derive(Clone)]
 pub struct Plan<'a> {
     pub(super) source: &'a SourceFile,
     pub(super) patches: Vec<Patch>,
-    /// The end of the binary chunk, exchanged.
+    /// The replaced end of the binary chunk.
     pub(super) chunk: Option<Tail>,
     pub(super) beside: Option<OutputFile>,
     pub(super) changes: Changes,
 }
 
 impl Plan<'_> {
-    /// What will change.
+    /// Returns the description of the changes.
     pub fn changes(&self) -> &Changes {
         &self.changes
     }
 
-    /// The files to write, in the order in which to write them: what is beside the file first, the file itself last.
-    /// Just the same bytes where nothing changes.
+    /// Returns the files to write, in the order in which to write them: referenced files first, the main file last.
+    /// Exactly the opened bytes if nothing changes.
     pub fn write(&self) -> Vec<OutputFile> {
         let chunk = self.chunk.as_ref().map(|tail| (tail.from, tail.bytes.as_slice()));
         let bytes = if self.patches.is_empty() && chunk.is_none() {
@@ -51,21 +51,22 @@ impl Plan<'_> {
     }
 }
 
-/// A take on its way into the file.
+/// An edited take.
 pub(super) struct TakeDraft {
-    /// The animation that it is, or is a copy of.
+    /// The animation that it replaces or is a copy of.
     pub(super) base: Option<usize>,
-    /// Is it that animation, or a copy?
+    /// Whether it is a copy of that animation.
     pub(super) is_copy: bool,
     pub(super) name: String,
     edits: Vec<ChannelEdit>,
     pub(super) draft: Draft,
 }
 
-/// Finds out what a save has to change so that `source` holds the takes `now`, in that order.
+/// Plans a save after which `source` contains the takes `now`, in this order.
 ///
-/// `opened` is the model as it was read from the same bytes. Errors: it is not, or keys that glTF cannot hold; see
-/// [`SaveError`]. Takes time and memory in proportion to the file's JSON text and to the channels that changed.
+/// `opened` is the model as it was read from the same bytes. Errors: the model is not from these bytes, or glTF cannot
+/// represent the keys; see [`SaveError`]. Time and memory are proportional to the length of the JSON text and to the
+/// channels that changed.
 pub fn plan<'a>(
     source: &'a SourceFile,
     opened: &ModelData,
@@ -95,7 +96,7 @@ pub fn plan<'a>(
     draw.finish()
 }
 
-/// The animations of the file are the takes that were opened.
+/// Checks that the animations of the file are the takes that were opened.
 fn check_same_file(document: &Document<'_>, opened: &ModelData) -> Result<(), SaveError> {
     let mismatch = |place: &str, reason: String| Err(SaveError::Mismatch { place: place.to_owned(), reason });
     let (takes, animations) = (opened.animation.takes.len(), document.animations.len());
@@ -153,13 +154,13 @@ fn take_draft(
     Ok(TakeDraft { base: now.origin, is_copy, name: take.name.clone(), edits, draft })
 }
 
-/// The node that stands for "nothing moves".
+/// Returns the node that is used where nothing is animated.
 fn bone_at_rest(opened: &ModelData) -> Option<u32> {
     let mut bones = opened.animation.skeleton.bones.iter();
     bones.find(|bone| bone.node.is_some() && bone.rest_matrix.is_none())?.node
 }
 
-/// Will the animation have a channel?
+/// Returns whether the animation will have a channel.
 fn moves(animation: Option<&FileAnimation>, edits: &[ChannelEdit]) -> bool {
     let removed: HashSet<_> =
         edits.iter().filter(|edit| matches!(edit.action, Action::Remove)).map(|edit| edit.target).collect();
@@ -170,7 +171,7 @@ fn moves(animation: Option<&FileAnimation>, edits: &[ChannelEdit]) -> bool {
     edits.iter().any(|edit| matches!(edit.action, Action::Set(_))) || animation.is_some_and(stays)
 }
 
-/// Finds room for what the takes need, and writes accessors, views and bytes; the accessor of each need.
+/// Finds room for what the takes need and writes accessors, views and bytes; returns the accessor of each need.
 fn write_numbers(
     draw: &mut Draw<'_, '_>,
     target: Target,
@@ -220,7 +221,7 @@ fn write_numbers(
                 new_views.push(fresh_view);
             }
         }
-        // A need that is there already, byte for byte, costs nothing.
+        // Content that is already there, byte for byte, is not written again.
         if bytes.get(granted.offset..granted.offset + need.bytes.len()) != Some(&need.bytes) {
             writes.push((granted.offset, need.bytes.clone()));
         }
@@ -240,7 +241,7 @@ fn write_numbers(
     Ok(accessors.into_iter().flatten().collect())
 }
 
-/// Accessors that animations will still refer to without having written them.
+/// Returns the accessors that animations will still refer to without having written them.
 fn pinned(document: &Document<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
     let mut pinned = HashSet::new();
     for take in takes {
@@ -261,7 +262,7 @@ fn pinned(document: &Document<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
     pinned
 }
 
-/// The key times in a slot, if that is what it holds.
+/// Returns the key times in a slot, if it contains key times.
 fn input_bytes<'b>(document: &Document<'_>, slot: &Slot, bytes: &'b [u8]) -> Option<&'b [u8]> {
     let (json, id) = (document.json, document.accessors[slot.accessor]);
     let size = json.index_member(id, "count")?.checked_mul(4).filter(|&size| size <= slot.room)?;
@@ -294,7 +295,8 @@ pub(super) fn fresh_view(buffer: usize, granted: &Granted) -> Fresh {
     ])
 }
 
-/// Bones that are some because an animation of the file moves them or something below them, and will not be any more.
+/// Returns the bones that exist only because an animation of the file animates them or a descendant, and that will not
+/// be animated any more.
 fn bones_lost(document: &Document<'_>, opened: &ModelData, takes: &[TakeDraft]) -> Vec<(u32, String)> {
     let channels = |animation: &FileAnimation| -> Vec<_> {
         animation.channels.iter().filter_map(|channel| channel.target).collect()
@@ -321,7 +323,8 @@ fn bones_lost(document: &Document<'_>, opened: &ModelData, takes: &[TakeDraft]) 
         .collect()
 }
 
-/// Which of the bones a file would have that moves these nodes: joints, what is moved, and all above.
+/// Returns for each bone whether it would still be one if only these nodes were animated: joints, animated nodes, and
+/// all their ancestors.
 fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
     let bones = &opened.animation.skeleton.bones;
     let mut are: Vec<bool> =
@@ -331,7 +334,7 @@ fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
             *is = true;
         }
     }
-    // Parents come first.
+    // Parents come before their children.
     for bone in (0..bones.len()).rev() {
         if let Some(parent) = bones[bone].parent.filter(|_| are[bone])
             && let Some(is) = are.get_mut(parent as usize)
@@ -342,7 +345,7 @@ fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
     are
 }
 
-/// Takes and channels, for people.
+/// Describes the changes of takes and channels.
 fn describe(changes: &mut Changes, document: &Document<'_>, takes: &[TakeDraft]) {
     let names: HashMap<usize, String> = document
         .animations

@@ -1,17 +1,18 @@
-//! What earlier saves appended, and using its room again.
+//! Finds what earlier saves appended, so that its room can be reused.
 //!
-//! Each appended accessor has a buffer view of its own, and both are named [`MARK`]. A mark alone is not believed: a
-//! pair counts as ours only if it is as we write it, and if nothing but animation samplers refers to it, so that
-//! overwriting it changes nothing else. The view's length is the room there is; the accessor may need less.
+//! Each appended accessor has a buffer view of its own, and both are named [`MARK`]. The name alone is not sufficient:
+//! a pair counts as appended by us only if it has exactly the form that we write, and if nothing but animation samplers
+//! refers to it, so that overwriting it changes nothing else. The length of the view is the available room; the
+//! accessor may need less.
 
 use super::document::Document;
 use super::json::tree::{Id, Json, Kind};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// The name of what a save appends: buffers, buffer views and accessors.
+/// Name of the buffers, buffer views and accessors that a save appends.
 pub const MARK: &str = "dragonfly.keys";
 
-/// Does an object bear the mark?
+/// Returns whether an object has the name [`MARK`].
 pub(super) fn is_ours(json: Json<'_>, id: Id) -> bool {
     json.string_member(id, "name").as_deref() == Some(MARK)
 }
@@ -21,13 +22,13 @@ pub(super) fn is_ours(json: Json<'_>, id: Id) -> bool {
 pub(super) struct Slot {
     pub(super) accessor: usize,
     pub(super) view: usize,
-    /// Bytes from the start of the buffer, a multiple of four.
+    /// Offset in the buffer in bytes, a multiple of four.
     pub(super) offset: usize,
-    /// Bytes of room, a multiple of four.
+    /// Number of available bytes, a multiple of four.
     pub(super) room: usize,
 }
 
-/// All slots in a buffer whose `length` bytes are there, by accessor.
+/// Returns all slots in a buffer of `length` existing bytes, by accessor.
 pub(super) fn slots(document: &Document<'_>, buffer: usize, length: usize) -> Vec<Slot> {
     let marked: Vec<usize> = (0..document.accessors.len())
         .filter(|&accessor| is_ours(document.json, document.accessors[accessor]))
@@ -63,21 +64,21 @@ pub(super) fn slots(document: &Document<'_>, buffer: usize, length: usize) -> Ve
     marked.into_iter().filter_map(slot).collect()
 }
 
-/// Who refers to what, animation samplers left out.
+/// References from everything except animation samplers.
 struct References {
-    /// Accessors that something other than an animation sampler names.
+    /// Accessors that something other than an animation sampler refers to.
     accessors: HashSet<usize>,
-    /// How often each view is named.
+    /// Number of references to each view.
     views: HashMap<usize, usize>,
-    /// Pieces of buffers that extensions name themselves: buffer, from, to.
+    /// Ranges of buffers that extensions refer to directly: buffer, start, end.
     ranges: Vec<(usize, u64, u64)>,
 }
 
-/// Members that hold an accessor's number in meshes, skins and the extensions that are known.
+/// Members that contain the number of an accessor in meshes, skins and known extensions.
 const ACCESSORS: &[&str] = &["indices", "inverseBindMatrices", "accessor", "input", "output"];
 
-/// One look over the whole text. What an unknown extension means is guessed from the names of its members; better
-/// one reference too many than one too few.
+/// Collects the references in the whole text. The meaning of unknown extensions is guessed from the names of their
+/// members; a reference too many is harmless, a missing one is not.
 fn references(document: &Document<'_>) -> References {
     let json = document.json;
     let samplers: HashSet<Id> = document.animations.iter().flat_map(|a| a.samplers.iter().copied()).collect();
@@ -95,7 +96,7 @@ fn references(document: &Document<'_>) -> References {
         match json.kind(id) {
             Kind::Object | Kind::Array => {
                 found.ranges.extend(range_of(document, id));
-                // `/accessors` itself is no list of numbers.
+                // `/accessors` itself is not a list of numbers.
                 let is_list = around.len() > 1 && ["attributes", "targets", "accessors"].contains(&key);
                 around.push(Around {
                     end: json.end(id),
@@ -122,13 +123,13 @@ fn references(document: &Document<'_>) -> References {
 /// An array or object around a value.
 struct Around {
     end: Id,
-    /// Are the numbers in it accessors?
+    /// Whether the numbers in it are accessors.
     holds_accessors: bool,
-    /// Is it a sampler of an animation?
+    /// Whether it is a sampler of an animation.
     is_sampler: bool,
 }
 
-/// The piece of a buffer that an object names, if it does and is no buffer view.
+/// Returns the range of a buffer that an object refers to, unless the object is a buffer view.
 fn range_of(document: &Document<'_>, id: Id) -> Option<(usize, u64, u64)> {
     let json = document.json;
     let (buffer, length) = (json.index_member(id, "buffer")?, json.whole_member(id, "byteLength")?);
@@ -136,7 +137,7 @@ fn range_of(document: &Document<'_>, id: Id) -> Option<(usize, u64, u64)> {
     document.views.binary_search(&id).is_err().then_some((buffer, from, from.saturating_add(length)))
 }
 
-/// The views of a buffer that share no byte with another view or range.
+/// Returns the views of a buffer that share no byte with another view or range.
 fn undisturbed(document: &Document<'_>, buffer: usize, references: &References) -> HashSet<usize> {
     let views = (0..document.views.len()).filter_map(|view| {
         let (of, from, length) = document.view_range(view)?;
@@ -157,7 +158,7 @@ fn undisturbed(document: &Document<'_>, buffer: usize, references: &References) 
     alone
 }
 
-/// Does anything but the slots reach past byte `start` of a buffer?
+/// Returns whether anything but the slots uses bytes of a buffer from `start` on.
 pub(super) fn others_past(document: &Document<'_>, buffer: usize, start: usize, slots: &[Slot]) -> bool {
     let own: HashSet<usize> = slots.iter().map(|slot| slot.view).collect();
     let past = |range: (usize, u64, u64)| range.0 == buffer && range.2 > start as u64;
@@ -169,26 +170,26 @@ pub(super) fn others_past(document: &Document<'_>, buffer: usize, start: usize, 
     views.any(past) || references(document).ranges.into_iter().any(past)
 }
 
-/// What a column needs of the buffer.
+/// Room that a channel needs in the buffer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Request {
-    /// Bytes, a multiple of four.
+    /// Number of bytes, a multiple of four.
     pub(super) size: usize,
-    /// The accessor that held the column's predecessor.
+    /// The accessor of the replaced keys.
     pub(super) before: Option<usize>,
 }
 
-/// Where a column goes.
+/// Room granted to a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Granted {
-    /// The slot whose accessor and view are used again; `None` for new ones.
+    /// The slot whose accessor and view are reused; `None` for new ones.
     pub(super) slot: Option<Slot>,
     pub(super) offset: usize,
     pub(super) room: usize,
 }
 
-/// Finds room for every request: its own old place where it fits; else the smallest free slot that is large enough;
-/// else the last slot of the buffer, made longer; else new room at `end`. The end moves along.
+/// Finds room for every request: its previous slot if it fits; otherwise the smallest free slot that is large enough;
+/// otherwise the last slot of the buffer, extended; otherwise new room at `end`, which moves along.
 pub(super) fn grant(requests: &[Request], free: Vec<Slot>, end: &mut usize) -> Vec<Granted> {
     let mut granted: Vec<Option<Granted>> = vec![None; requests.len()];
     let same = |slot: Slot| Granted { slot: Some(slot), offset: slot.offset, room: slot.room };
@@ -232,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn room_is_used_again_before_there_is_more_of_it() {
+    fn free_room_is_reused_before_the_buffer_grows() {
         let free = vec![slot(1, 100, 40), slot(2, 140, 12), slot(3, 152, 20)];
         let requests = [
             Request { size: 12, before: None },

@@ -1,4 +1,4 @@
-//! glTF as a surgical format: [`SourceFile`] behind the interface that all formats share.
+//! glTF as a surgical format: implements the interface that all formats share for [`SourceFile`].
 
 use super::source::{SourceFile, is_data};
 use super::{Plan, SaveError, compact, plan};

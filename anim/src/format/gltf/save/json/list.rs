@@ -1,19 +1,19 @@
-//! Adding and removing elements of arrays and members of objects, commas included.
+//! Adds and removes elements of arrays and members of objects, with their commas.
 
 use super::patch::Patch;
 use super::style::{Spot, Style, gap, lead};
 use super::tree::{Id, Json};
 
-/// What is to become of an array or object.
+/// An edit of an array or object.
 #[derive(Clone, Debug, Default)]
 pub(in super::super) struct ListEdit {
-    /// Items that go, ascending.
+    /// Removed items, ascending.
     pub(in super::super) removed: Vec<Id>,
-    /// New items: after which of those that stay (`None`: before all), and their texts, in order.
+    /// New items with their texts, in order, each with the remaining item that it follows (`None`: at the start).
     pub(in super::super) inserted: Vec<(Option<Id>, String)>,
 }
 
-/// The patches that do it. Items that stay, and the space between them, keep their bytes.
+/// Returns the patches of the edit. Items that stay, and the space between them, keep their bytes.
 pub(in super::super) fn edit(
     json: Json<'_>,
     list: Id,
@@ -69,7 +69,7 @@ pub(in super::super) fn edit(
     patches
 }
 
-/// Takes runs of items away, each with the comma and the space that it needed. One item stays at least.
+/// Removes runs of items, each with its comma and space. At least one item stays.
 fn removals(json: Json<'_>, items: &[Id], stays: &[bool], pointer: &str) -> Vec<Patch> {
     let mut patches = Vec::new();
     let mut at = 0;
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn items_go_with_their_commas() {
+    fn removed_items_take_their_commas_with_them() {
         let list = "[ 1 , 2,3\n]";
         assert_eq!(edited(list, &[0], &[]), "[ 2,3\n]");
         assert_eq!(edited(list, &[1], &[]), "[ 1 , 3\n]");
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn items_come_as_their_neighbours_are() {
+    fn new_items_have_the_spacing_of_their_neighbors() {
         assert_eq!(edited("[]", &[], &[(None, "1"), (None, "2")]), "[1,2]");
         assert_eq!(edited("[1]", &[], &[(Some(0), "2"), (Some(0), "3")]), "[1,2,3]");
         assert_eq!(edited("[1, 2]", &[], &[(Some(1), "3")]), "[1, 2, 3]");
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_value_is_written_as_its_neighbours_are() {
+    fn a_new_value_has_the_formatting_of_its_neighbors() {
         let written = |text: &str| {
             let tree = Tree::read(text.as_bytes(), 0..text.len()).unwrap();
             let json = Json::new(text.as_bytes(), &tree);

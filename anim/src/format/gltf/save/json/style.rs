@@ -1,39 +1,39 @@
-//! How a text is written, and new values written that way.
+//! Formatting of a JSON text, so that new values are formatted the same way.
 //!
-//! Indent, newline, the space around colons and after commas are taken from the neighbours of a new value; where it
-//! has none, from the document at large.
+//! Indentation, line ends, the space around colons and after commas are taken from the neighbors of a new value; if it
+//! has none, from the rest of the document.
 
 use super::tree::{Id, Json, Kind};
 
 /// A value to be written.
 #[derive(Clone, Debug)]
 pub(in super::super) enum Fresh {
-    /// A token as it stands.
+    /// A token as it is.
     Raw(String),
     Object(Vec<(&'static str, Fresh)>),
     Array(Vec<Fresh>),
 }
 
 impl Fresh {
-    /// A whole number.
+    /// Returns a whole number.
     pub(in super::super) fn whole(number: usize) -> Self {
         Self::Raw(number.to_string())
     }
 
-    /// A string.
+    /// Returns a string.
     pub(in super::super) fn string(text: &str) -> Self {
         Self::Raw(super::token::quoted(text))
     }
 }
 
-/// Line ends and indent of a document that uses them.
+/// Line ends and indentation of a document that uses them.
 #[derive(Clone, Debug, PartialEq)]
 struct Lines {
     newline: String,
     unit: String,
 }
 
-/// How a document is written at large.
+/// Formatting of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub(in super::super) struct Style {
     lines: Option<Lines>,
@@ -42,7 +42,7 @@ pub(in super::super) struct Style {
     numbers_on_one_line: bool,
 }
 
-/// Where a new value goes: at which indent, and whether it and what is in it take several lines.
+/// Position of a new value: its indentation, and whether it and its content are on several lines.
 #[derive(Clone, Debug, PartialEq)]
 pub(in super::super) struct Spot {
     indent: String,
@@ -51,7 +51,7 @@ pub(in super::super) struct Spot {
 }
 
 impl Spot {
-    /// The same place for a value that takes as many lines as the document at large.
+    /// Returns the same position for a value that is on several lines if the document uses lines.
     pub(in super::super) fn with_lines(self, style: &Style) -> Self {
         let several = style.lines.is_some();
         Self { several_lines: several, inner_lines: several, ..self }
@@ -59,7 +59,7 @@ impl Spot {
 }
 
 impl Style {
-    /// The style of a document.
+    /// Returns the style of a document.
     pub(in super::super) fn of(json: Json<'_>) -> Self {
         let first = json.items(0).next();
         let colon = first.and_then(|id| json.colon(id)).map_or(":".to_owned(), text);
@@ -82,7 +82,8 @@ impl Style {
         style
     }
 
-    /// Where a new item of the array or object `list`, at `depth` arrays and objects (the root's items: 1), goes.
+    /// Returns the position of a new item of the array or object `list`, inside `depth` arrays and objects (the items
+    /// of the root: 1).
     pub(in super::super) fn spot(&self, json: Json<'_>, list: Option<Id>, depth: usize) -> Spot {
         let unit = self.lines.as_ref().map_or("", |lines| &lines.unit);
         let several = self.lines.is_some();
@@ -103,19 +104,19 @@ impl Style {
         spot
     }
 
-    /// The text of a value at a spot.
+    /// Returns the text of a value at a position.
     pub(in super::super) fn write(&self, value: &Fresh, spot: &Spot) -> String {
         let mut out = String::new();
         self.put(value, &spot.indent, spot.several_lines, spot.inner_lines, &mut out);
         out
     }
 
-    /// The text of a member at a spot.
+    /// Returns the text of a member at a position.
     pub(in super::super) fn member(&self, name: &str, value: &Fresh, spot: &Spot) -> String {
         format!("\"{name}\"{}{}", self.colon, self.write(value, spot))
     }
 
-    /// What stands between a bracket and the first of new items at a spot, between them, and before the closing one.
+    /// Returns the text before the first of new items at a position, between them, and before the closing bracket.
     pub(in super::super) fn gaps(&self, spot: &Spot) -> [String; 3] {
         match &self.lines {
             Some(lines) => {
@@ -127,7 +128,7 @@ impl Style {
         }
     }
 
-    /// What stands after a comma between items on one line.
+    /// Returns the text after a comma between items on one line.
     pub(in super::super) fn comma(&self) -> &str {
         &self.comma
     }
@@ -175,7 +176,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// The space between the opening bracket and the first item; `None` when there is no item.
+/// Returns the space between the opening bracket and the first item; `None` if there is no item.
 pub(super) fn lead(json: Json<'_>, list: Id) -> Option<String> {
     if !matches!(json.kind(list), Kind::Array | Kind::Object) {
         return None;
@@ -184,7 +185,7 @@ pub(super) fn lead(json: Json<'_>, list: Id) -> Option<String> {
     Some(text(&json.file[json.span(list).start + 1..json.item_span(first).start]))
 }
 
-/// The space between the last comma and the last item; `None` when there are less than two.
+/// Returns the space between the last comma and the last item; `None` if there are less than two items.
 pub(super) fn gap(json: Json<'_>, list: Id) -> Option<String> {
     if !matches!(json.kind(list), Kind::Array | Kind::Object) {
         return None;
