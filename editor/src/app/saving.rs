@@ -7,6 +7,7 @@ use crate::panels::Effect;
 use crate::panels::saving::{Deed, Question};
 use crate::panels::state::Overlay;
 use crate::panels::status::{Level, Status};
+use dragonfly_anim::format::gltf::GLB;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -101,10 +102,7 @@ impl Running {
         let Some(view) = &interface.state.view else { return };
         let near = view.file.path.as_deref().or(view.loaded.path.as_deref());
         let folder = near.and_then(Path::parent).map(Path::to_owned);
-        let ending = match view.loaded.format.as_str() {
-            "dragonfly" | "" => "glb",
-            format => format,
-        };
+        let ending = view.loaded.format.unwrap_or(GLB).extension();
         let name = match (&view.file.path, copy) {
             (Some(_), false) => view.file.title.clone(),
             _ => {

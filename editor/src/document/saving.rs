@@ -2,7 +2,7 @@
 
 use super::open::Open;
 use super::writing::{Overwrite, SaveFailure, Writing};
-use super::{FileView, Source};
+use super::{FileView, Source, formats};
 use crate::store::{Autosave, FileState, RealFiles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -184,17 +184,14 @@ impl Open {
     }
 }
 
-/// Endings that say what is in a file; programs believe them.
-const FORMATS: [&str; 10] = ["glb", "gltf", "dfm", "fbx", "obj", "dae", "bvh", "m3d", "x", "blend"];
-
 /// Does a name not say that the file is of another format than that with this `ending`?
 ///
 /// # Errors
 ///
 /// Why it should not be called so.
 pub fn fits(path: &Path, ending: &str) -> Result<(), String> {
-    let is = |format: &&str| path.extension().is_some_and(|other| other.eq_ignore_ascii_case(format));
-    if is(&ending) || !FORMATS.iter().any(is) {
+    let own = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    if own.eq_ignore_ascii_case(ending) || !formats().is_model_extension(own) {
         return Ok(());
     }
     Err(format!(

@@ -4,6 +4,7 @@ use super::adapter::{ModelAdapter, PendingAt, Slot};
 use super::history::Edited;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Take, Track};
+use dragonfly_anim::format::Format;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -25,8 +26,8 @@ pub struct LoadedModel {
     pub title: String,
     /// `None` for the built-in model.
     pub path: Option<PathBuf>,
-    /// "glb", "gltf", "dfm".
-    pub format: String,
+    /// Format of the file that it was read from; `None` for a model that was not read from a file.
+    pub format: Option<Format>,
     /// The data as it was read; which takes there are now is in the [`View`].
     pub model: Arc<ModelData>,
     /// How much room it takes at the begin of its first take, or in the rest pose when it has none.
