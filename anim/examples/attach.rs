@@ -1,4 +1,5 @@
-//! Puts a staff into a hand, aims with it, keeps the elbow within its limits, and finds the place of the other hand.
+//! Attaches a staff to a hand, aims with it, keeps the elbow within its limits, and computes the position of the other
+//! hand.
 //!
 //! `cargo run -p dragonfly-anim --example attach`
 
@@ -24,7 +25,7 @@ fn arm() -> Skeleton {
 
 pub(crate) fn main() -> Result<(), NoSuchSocketBone> {
     let skeleton = arm();
-    // Any animation: here the rest pose, the elbow bent much too far.
+    // Any animation: here the rest pose, with the elbow bent far too much.
     let mut poses: Vec<Transform> = skeleton.bones.iter().map(|bone| bone.rest).collect();
     poses[1].rotation = Quat::from_rotation_z(3.0);
 
@@ -40,14 +41,14 @@ pub(crate) fn main() -> Result<(), NoSuchSocketBone> {
     let mut matrices = vec![Mat4::IDENTITY; skeleton.len()];
     to_root(&skeleton, &poses, &mut matrices);
 
-    // The staff stands across the palm, 10 cm from the wrist, held 40 cm above its lower end.
+    // The staff is across the palm, 10 cm from the wrist, held 40 cm above its lower end.
     let offset = Transform { translation: Vec3::X * 0.1, ..Transform::IDENTITY };
     let socket = Socket { offset, ..Socket::on(&skeleton, "hand")? };
     let staff = attached_root(socket.to_root(&matrices), Mat4::from_translation(Vec3::Y * 0.4));
     let ends = [Vec3::ZERO, Vec3::Y * 1.8].map(|end| staff.transform_point3(end));
     println!("the staff reaches from {:.2} to {:.2}", ends[0], ends[1]);
 
-    // The other hand holds it 80 cm further up; inverse kinematics brings its bone there.
+    // The other hand holds it 80 cm further up; inverse kinematics moves its bone there.
     let on_object = Transform { translation: Vec3::Y * 1.2, ..Transform::IDENTITY };
     let target = Grip { on_object, in_hand: offset }.target(staff);
     println!("the other hand goes to {:.2}", target.position);

@@ -1,24 +1,16 @@
-//! Blends two takes: walks, breaks into a run without a stumble, and looks around meanwhile.
+//! Blends two takes: a fox walks, changes to a run without a stumble, and looks around at the same time.
 //!
 //! `cargo run -p dragonfly-anim --example blend_two`
 
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::blend::{CrossFade, Cycle, FadeCurve, Layer, Mask, blend};
 use dragonfly_anim::data::{AnimationData, Take, Transform};
-use dragonfly_anim::format::{AssetError, AssetFs, ReadOptions, read};
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::sample::sample_take;
 use glam::Mat4;
 use std::error::Error;
 
 const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
-
-struct NoOtherFiles;
-
-impl AssetFs for NoOtherFiles {
-    fn read(&self, _path: &str, _limit: u64) -> Result<Vec<u8>, AssetError> {
-        Err(AssetError::Missing)
-    }
-}
 
 fn take<'a>(data: &'a AnimationData, name: &str) -> Result<&'a Take, String> {
     let found = data.takes.iter().find(|take| take.name == name);
@@ -26,11 +18,11 @@ fn take<'a>(data: &'a AnimationData, name: &str) -> Result<&'a Take, String> {
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    let data = read("Fox.glb", &std::fs::read(FOX)?, &NoOtherFiles, &ReadOptions::default())?.model.animation;
+    let data = read("Fox.glb", &std::fs::read(FOX)?, &NoFiles, &ReadOptions::default())?.model.animation;
     let (skeleton, bones) = (&*data.skeleton, data.skeleton.len());
     let (walk, run, survey) = (take(&data, "Walk")?, take(&data, "Run")?, take(&data, "Survey")?);
     let neck = skeleton.find("b_Neck_04").ok_or("the fox has no neck")?;
-    // The neck takes part by half, the head wholly; the running leaves both to the looking.
+    // The neck has half the weight, the head the full weight; the look-around take replaces the run for both.
     let head = Mask::of_branch(skeleton, neck).feathered(skeleton, 1);
     let body = head.clone().inverted();
 

@@ -1,4 +1,4 @@
-//! Compresses every take of a model and says what that came to: `cargo run --example compress -- model.glb`.
+//! Compresses every take of a model and prints the sizes: `cargo run --example compress -- model.glb`.
 
 use dragonfly_anim::compressed::{CompressedTake, Exactness, Settings, compress};
 use dragonfly_anim::fast::Pose;
@@ -15,7 +15,8 @@ pub(crate) fn show(path: &str) -> Result<(), Box<dyn Error>> {
     let model = read(path, &std::fs::read(path)?, &NoFiles, &ReadOptions::default())?.model;
     let skeleton = &model.animation.skeleton;
 
-    // A thousandth of the model's size may be off, a tenth of it away from the bones: 1 mm at 10 cm for a person of 1 m.
+    // The tolerance is a thousandth of the model's size, measured a tenth of it away from the bones: 1 mm at 10 cm for
+    // a figure of 1 m.
     let rest = dragonfly_anim::animation::Animation::of(&model);
     let size = rest.to_root().iter().map(|bone| bone.w_axis.truncate().length()).fold(0.0, f32::max);
     let everywhere = Exactness { tolerance: size * 0.001, shell: size * 0.1 };
@@ -35,13 +36,13 @@ pub(crate) fn show(path: &str) -> Result<(), Box<dyn Error>> {
             worst.time,
         );
 
-        // The bytes are all that need be kept.
+        // The bytes are all that must be stored.
         let stored = compressed.as_bytes().to_vec();
         let back = CompressedTake::from_bytes(stored)?;
         let mut pose = Pose::new(back.bones());
         back.sample(back.start() + back.length() / 2.0, &mut pose);
         if let Some(last) = pose.get(back.bones().saturating_sub(1)) {
-            println!("  half way, the last bone stands at {}", last.translation);
+            println!("  half way, the last bone is at {}", last.translation);
         }
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! How a bone comes to stand where it stands: every number on the way, with its formula.
+//! Prints how the position of a bone is computed: every number, with its formula.
 //!
 //! ```text
 //! cargo run -p dragonfly-anim --example explain_a_bone -- [FILE.glb [BONE [SECONDS]]]
@@ -25,7 +25,7 @@ pub(crate) fn show(file: &str, name: &str, time: f32) -> Result<(), Box<dyn Erro
     let explanation = explain(&model, take, time, What::Bone(bone))?;
     println!("{explanation}");
 
-    // The same as data: nothing has to be read out of the text.
+    // The same as data: the text need not be parsed.
     for step in &explanation.bones {
         let keys = step.rotation.keys.as_ref();
         let mix = keys.map_or_else(|| "no keys".to_owned(), |keys| format!("mix {}", keys.mix));

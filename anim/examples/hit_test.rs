@@ -1,4 +1,4 @@
-//! Points at a running fox and says what is hit: `cargo run -p dragonfly-anim --example hit_test`.
+//! Points at a running fox and prints what is hit: `cargo run -p dragonfly-anim --example hit_test`.
 
 use dragonfly_anim::bounds::BoneBoxes;
 use dragonfly_anim::evaluator::Evaluator;
@@ -10,14 +10,14 @@ use std::sync::Arc;
 const FOX: &[u8] = include_bytes!("../../tests/data/gltf/Fox.glb");
 
 pub(crate) fn main() {
-    let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a sound file").model;
+    let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a valid file").model;
     let model = Arc::new(model);
 
-    // Once a model. `tree.parts()` is what can be stored beside it, and taken back with `HitTree::from_parts`.
-    let tree = Arc::new(HitTree::of(&model).expect("a model of usual size"));
+    // Once per model. `tree.parts()` can be stored with the model, and restored with `HitTree::from_parts`.
+    let tree = Arc::new(HitTree::of(&model).expect("the model is not too large"));
     let boxes = BoneBoxes::of(&model);
 
-    // Once a scene.
+    // Once per scene.
     let mut evaluator = Evaluator::new(Arc::clone(&model));
     let mut pose = HitPose::new(tree);
 

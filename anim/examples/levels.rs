@@ -10,9 +10,9 @@ use std::sync::Arc;
 const FOX: &[u8] = include_bytes!("../../tests/data/gltf/Fox.glb");
 
 pub(crate) fn main() {
-    let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a sound file").model;
+    let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a valid file").model;
 
-    // Once a model: other indices for the same vertices, and how far each is off in the poses of the takes.
+    // Once per model: other indices for the same vertices, and the error of each level in the poses of the takes.
     let chain = levels(&model, &LevelSettings::default());
     for (number, level) in chain.iter().enumerate() {
         println!("level {number}: {} triangles, {:.2} units off at most", level.triangles, level.error);
@@ -22,7 +22,7 @@ pub(crate) fn main() {
     let boxes = BoneBoxes::of(&model);
     let mut evaluator = Evaluator::new(model);
 
-    // The camera goes away; one pixel of error is allowed, and a third less before a coarser level is taken.
+    // The camera moves away. One pixel of error is allowed; a third less before a coarser level is chosen.
     let mut shown = None;
     for step in 0..8 {
         evaluator.pose(Some(1), step as f32 * 0.1);

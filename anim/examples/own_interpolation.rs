@@ -1,4 +1,5 @@
-//! An interpolation that the library does not have: a curve through the keys that needs no tangents (Catmull–Rom).
+//! Implements an interpolation that the library does not have: a curve through the keys that needs no tangents
+//! (Catmull–Rom).
 //!
 //! `cargo run -p dragonfly-anim --example own_interpolation`
 
@@ -6,7 +7,8 @@ use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::{Between, Value, sample_channel, sample_channel_with};
 use glam::{Quat, Vec3};
 
-/// What `sample_channel_with` calls between two keys: any [`Value`], so translations, rotations and scales alike.
+/// The function that `sample_channel_with` calls between two keys: for any [`Value`], so for translations, rotations
+/// and scales.
 ///
 /// The tangent at a key is the slope from the key before it to the key after it; at the ends, to the key itself.
 fn smooth<T: Value>(channel: &Channel<T>, between: Between<T>, slope: impl Fn(T, T, f32) -> T) -> T {
@@ -20,12 +22,12 @@ fn smooth<T: Value>(channel: &Channel<T>, between: Between<T>, slope: impl Fn(T,
     T::cubic(before, around(keys.before), around(keys.after), after, seconds, keys.mix)
 }
 
-/// Change a second of a vector.
+/// Returns the change per second of a vector.
 fn of_vectors(from: Vec3, to: Vec3, seconds: f32) -> Vec3 {
     (to - from) / seconds
 }
 
-/// Change a second of a rotation; keys of one track lie in one hemisphere.
+/// Returns the change per second of a rotation; keys of one track are in one hemisphere.
 fn of_rotations(from: Quat, to: Quat, seconds: f32) -> Quat {
     (to - from) * (1.0 / seconds)
 }
@@ -47,7 +49,7 @@ pub(crate) fn main() {
             turn.to_scaled_axis().z
         );
         assert!(turn.is_normalized());
-        // Keys are met whatever the interpolation does.
+        // The curve passes through the keys whatever the interpolation does.
         if let Some(key) = times.iter().position(|&key| key == time) {
             assert_eq!(place, places[key]);
         }

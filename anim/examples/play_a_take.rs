@@ -3,26 +3,17 @@
 //! `cargo run -p dragonfly-anim --example play_a_take [FILE.glb]`
 
 use dragonfly_anim::animation::Animation;
-use dragonfly_anim::format::{AssetError, AssetFs, ReadOptions, read};
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::sample::PlayMode;
 use std::error::Error;
 
 const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
 
-/// A file that needs no others: the door stays shut.
-struct NoOtherFiles;
-
-impl AssetFs for NoOtherFiles {
-    fn read(&self, _path: &str, _limit: u64) -> Result<Vec<u8>, AssetError> {
-        Err(AssetError::Missing)
-    }
-}
-
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    // The library opens no file: it is given bytes.
+    // The library opens no file: it gets the bytes.
     let file = std::env::args().skip(1).find(|argument| argument.ends_with(".glb"));
     let bytes = std::fs::read(file.as_deref().unwrap_or(FOX))?;
-    let model = read("model.glb", &bytes, &NoOtherFiles, &ReadOptions::default())?.model;
+    let model = read("model.glb", &bytes, &NoFiles, &ReadOptions::default())?.model;
 
     let mut animation = Animation::of(&model);
     let take = model.animation.takes.last().ok_or("the file has no take")?.clone();
@@ -30,11 +21,11 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     println!("{:?}: {:.3} s, {} bones", take.name, take.length, model.animation.skeleton.len());
 
     for frame in 0..30 {
-        // The clock runs on; the take begins anew.
+        // The clock runs on; the take starts again.
         let time = PlayMode::Loop.map(&take, frame as f32 / 20.0);
         animation.to_root_bone_poses(Some(number), time);
         for skin in &model.skins {
-            // One a joint, ready for a uniform buffer.
+            // One matrix per joint, ready for a uniform buffer.
             let finals = animation.skin_poses(skin);
             assert!(finals.iter().all(|matrix| matrix.is_finite()));
         }

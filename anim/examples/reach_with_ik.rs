@@ -1,4 +1,4 @@
-//! An arm reaches for a point that moves: sample a take, solve, chain the poses again.
+//! Moves the hand of an arm to a moving point: samples a take, solves, chains the poses again.
 //!
 //! `cargo run -p dragonfly-anim --example reach_with_ik`
 
@@ -14,17 +14,17 @@ fn bone(name: &str, parent: Option<u32>, x: f32) -> Bone {
 }
 
 pub(crate) fn main() {
-    // A shoulder in the origin, 30 cm and 25 cm of arm along x.
+    // A shoulder at the origin, 30 cm and 25 cm of arm along x.
     let bones = vec![bone("shoulder", None, 0.0), bone("elbow", Some(0), 0.3), bone("hand", Some(1), 0.25)];
     let skeleton = Skeleton { bones };
     let mut poses = vec![Transform::IDENTITY; skeleton.len()];
     let mut matrices = vec![Mat4::IDENTITY; skeleton.len()];
 
-    // The elbow hangs down; the last tenth of the reach is slowed, so that the arm does not snap straight.
+    // The elbow points down; the last tenth of the reach is slowed, so that the arm does not snap straight.
     let arm = TwoBone { pole: Pole::Direction(Vec3::NEG_Y), softness: 0.1, ..TwoBone::new(0, 1, 2) };
     for step in 0..=4 {
         let target = Vec3::new(0.2 + 0.1 * step as f32, 0.1, 0.0);
-        // No take here, so the rest pose; a real program gives the take that plays.
+        // There is no take here, so this is the rest pose; a real program passes the take that plays.
         sample_take(None, &skeleton, 0.0, &mut poses);
         to_root(&skeleton, &poses, &mut matrices);
         let reach = two_bone(&skeleton, &matrices, &arm, target, &mut poses).expect("an arm");
@@ -34,7 +34,7 @@ pub(crate) fn main() {
         assert!((hand.distance(target) - reach.distance).abs() < 1e-5);
     }
 
-    // The same with a chain, for rows of any number of bones; here no joint may turn more than 75°.
+    // The same with a chain, for rows of any number of bones; here no joint may rotate more than 75°.
     let mut scratch = ChainScratch::with_capacity(skeleton.len());
     let mut limit = |_bone, wish: glam::Quat| {
         let (axis, angle) = wish.to_axis_angle();

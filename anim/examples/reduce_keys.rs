@@ -1,7 +1,7 @@
-//! How many keys an author really has to look at, for several tolerances.
+//! Prints how many keys of a take are really needed, for several tolerances.
 //!
 //! ```text
-//! cargo run --release -p dragonfly-anim --example reduce_keys -- [FILE.glb [MILLIMETRES PER UNIT]]
+//! cargo run --release -p dragonfly-anim --example reduce_keys -- [FILE.glb [MILLIMETERS PER UNIT]]
 //! ```
 
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
@@ -14,7 +14,7 @@ pub(crate) const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let file = arguments.next().unwrap_or_else(|| FOX.to_owned());
-    // The fox is drawn in centimetres; glTF asks for metres, which are 1000.
+    // The fox is modeled in centimeters; glTF specifies meters, which are 1000.
     show(&file, arguments.next().unwrap_or_else(|| "10".to_owned()).parse()?)
 }
 

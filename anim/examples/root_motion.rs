@@ -1,4 +1,4 @@
-//! A walk that moves its figure: take the motion out, drive the figure by it for many loops, put it back.
+//! Moves a figure by its walk: extracts the root motion, drives the figure by it for many loops, and restores it.
 //!
 //! `cargo run -p dragonfly-anim --example root_motion`
 
@@ -8,7 +8,7 @@ use dragonfly_anim::sample::PlayMode;
 use glam::{Mat4, Vec3};
 
 pub(crate) fn main() {
-    // One bone at hip height that walks 1.2 m along z in a second, up and down a little.
+    // One bone at hip height that walks 1.2 m along z in a second, slightly up and down.
     let rest = Transform { translation: Vec3::Y, ..Transform::IDENTITY };
     let name = "hips".to_owned();
     let hips = Bone { name, parent: None, rest, rest_matrix: None, offset: Mat4::IDENTITY, node: None };
@@ -18,12 +18,12 @@ pub(crate) fn main() {
     let track = Track { translation, ..Track::default() };
     let walk = Take { name: "walk".to_owned(), length: 1.0, tracks: vec![track], ..Take::default() };
 
-    // The way along x and z and the turning are motion; the height stays in the take.
+    // The movement along x and z and the rotation are root motion; the height stays in the take.
     let (motion, in_place) = extract(&walk, &skeleton, 0, RootMotionOptions::default()).expect("a bone");
     println!("in place: {:?}", in_place.tracks[0].translation.values);
     println!("motion:   {:?}", motion.translation.values);
 
-    // Each frame the figure's own matrix is multiplied by what happened since the last frame, over any number of loops.
+    // Each frame, the figure's own matrix is multiplied by the motion since the last frame, over any number of loops.
     let mut figure = Mat4::IDENTITY;
     let (frames, seconds) = (250, 1.0 / 25.0);
     for frame in 0..frames {
@@ -34,7 +34,7 @@ pub(crate) fn main() {
     println!("after {} s: {walked:.3} m", frames as f32 * seconds);
     assert!((walked - 12.0).abs() < 1e-3);
 
-    // The motion is plain channels: make the steps half as long, and put it back.
+    // The motion is plain channels: make the steps half as long, and restore it.
     let mut shorter = motion.clone();
     shorter.translation.values = motion.translation.values.iter().map(|&place| place * 0.5).collect();
     let stroll = put_back(&in_place, &skeleton, &shorter).expect("a bone");

@@ -1,4 +1,4 @@
-//! One take on two models: a figure with arms out, and a taller one with arms down and other names.
+//! Plays one take on two models: a figure in T-pose, and a taller one with its arms down and other names.
 //!
 //! `cargo run -p dragonfly-anim --example same_animation_other_model`
 
@@ -14,7 +14,8 @@ fn bone(name: &str, parent: Option<u32>, translation: Vec3, rotation: Quat) -> B
     Bone { name: name.to_owned(), parent, rest, rest_matrix: None, offset: Mat4::IDENTITY, node: None }
 }
 
-/// Hips at `height` over a foot, an arm of 0.5 m at the shoulder that rests turned by `rest` about z.
+/// Returns a figure: hips at `height` above a foot, and an arm of 0.5 m at the shoulder that rests rotated by `rest`
+/// about z.
 fn figure(names: [&str; 4], height: f32, rest: f32) -> Skeleton {
     let none = Quat::IDENTITY;
     let bones = vec![
@@ -27,7 +28,7 @@ fn figure(names: [&str; 4], height: f32, rest: f32) -> Skeleton {
 }
 
 pub(crate) fn main() {
-    // T-pose here, arms straight down there.
+    // The source is in T-pose, the target has its arms straight down.
     let source = figure(["Hips", "LeftFoot", "LeftArm", "LeftHand"], 1.0, 0.0);
     let target = figure(["mixamorig:Hips", "foot.L", "arm.L", "hand_l"], 1.5, -FRAC_PI_2);
     let binding = Binding::by_name(&source, &target);

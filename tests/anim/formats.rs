@@ -1,6 +1,7 @@
-//! What holds for every format of the list, and for formats that other crates define.
+//! Properties of every format of the list, and of formats that other crates define.
 //!
-//! A new format needs no test here: the list is walked. It needs a file in `tests/data`, unless it can be written.
+//! The tests walk the list, so a new format is tested without a change here. It needs a file in `tests/data`, unless
+//! models can be written in it.
 
 use crate::doors::{FolderFs, MemoryFs, data, shared};
 use crate::fixture::Fixture;
@@ -63,7 +64,7 @@ fn samples(format: &Format) -> Vec<SampleFile> {
     samples
 }
 
-/// Returns the main file of a plan, as a sample with its referenced files next to it.
+/// Returns the bytes of the main file of a plan.
 fn main_file(plan: &SavePlan) -> &[u8] {
     &plan.files.last().unwrap().bytes
 }

@@ -1,4 +1,4 @@
-//! Every rule of the importer has a file that breaks it and nothing else, and the answer names the rule.
+//! Every rule of the importer has a file that breaks only this rule, and the error or warning contains the rule.
 
 use crate::doors::MemoryFs;
 use crate::fixture::{Fixture, accessor, chunk, container, glb, png};
@@ -18,7 +18,7 @@ enum Bad {
 use Answer::{Refuse, Warn};
 use Bad::{Edit, Raw};
 
-/// Rule, what must follow, and a file that breaks it.
+/// Rule, expected result, and a file that breaks it.
 const BAD: &[(&str, Answer, Bad)] = &[
     ("GLB_UNEXPECTED_END_OF_HEADER", Refuse, Raw(|| b"glTF\x02\0\0\0".to_vec())),
     ("GLB_INVALID_MAGIC", Refuse, Raw(|| b"PK\x03\x04 a zip archive".to_vec())),
@@ -393,7 +393,7 @@ const BAD: &[(&str, Answer, Bad)] = &[
     ),
 ];
 
-/// The valid container with one more chunk.
+/// Returns the valid container with one more chunk.
 fn with_chunk(kind: &[u8; 4]) -> Vec<u8> {
     container(&[&Fixture::new().glb()[12..], &chunk(kind, b"{}  ")].concat())
 }
@@ -405,7 +405,7 @@ fn sparse_indices(fixture: &mut Fixture, indices: [u16; 2]) {
     fixture.bin[at..at + 4].copy_from_slice(&indices.map(u16::to_le_bytes).concat());
 }
 
-/// What is wrong with the answer to a bad file; `None` when it names `code` and does what `expected` says.
+/// Returns what is wrong with the result of a bad file; `None` if it contains `code` and is what `expected` requires.
 fn complaint(code: &str, expected: Answer, bytes: &[u8]) -> Option<String> {
     let name = if bytes.starts_with(b"{") { "bad.gltf" } else { "bad.glb" };
     match (read(name, bytes, &MemoryFs::default(), &ReadOptions::default()), expected) {
@@ -421,7 +421,7 @@ fn complaint(code: &str, expected: Answer, bytes: &[u8]) -> Option<String> {
 }
 
 #[test]
-fn each_broken_rule_is_answered_by_its_name() {
+fn each_broken_rule_is_reported_with_its_code() {
     let mut complaints = Vec::new();
     for (number, (code, expected, bad)) in BAD.iter().enumerate() {
         let bytes = match bad {
@@ -453,6 +453,6 @@ fn each_rule_has_a_file_that_breaks_it() {
         assert!(!check.meaning.is_empty());
     }
     for (code, ..) in BAD {
-        assert!(CHECKS.iter().any(|check| check.code == *code), "{code} is no rule");
+        assert!(CHECKS.iter().any(|check| check.code == *code), "{code} is not a rule");
     }
 }

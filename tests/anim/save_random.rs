@@ -1,4 +1,4 @@
-//! Any edits, by chance: what is saved and opened again is what was asked, and saving it again changes nothing.
+//! Random edits: a saved and reopened file has exactly the edited takes, and saving it again changes nothing.
 
 use crate::doors::data;
 use crate::fixture::Fixture;
@@ -34,14 +34,14 @@ fn vectors(random: &mut Random, times: &Arc<[f32]>) -> Channel<Vec3> {
     Channel::new(times.clone(), values, interpolation)
 }
 
-/// As importing leaves rotations: unit, and neighbours in one hemisphere.
+/// Returns rotations as the importer leaves them: normalized, and neighbors in one hemisphere.
 fn rotations(random: &mut Random, times: &Arc<[f32]>) -> Channel<Quat> {
     let interpolation = interpolation(random, times.len());
     let parts = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
     let mut last: Option<Quat> = None;
     let values: Vec<Quat> = (0..times.len() * parts)
         .map(|_| {
-            // One of a few exact ones: nothing is left to be mended.
+            // One of a few exact ones, which the importer does not correct.
             let exact =
                 [Quat::IDENTITY, Quat::from_xyzw(1.0, 0.0, 0.0, 0.0), Quat::from_xyzw(0.5, 0.5, 0.5, 0.5)];
             let mut turn = if parts == 1 { random.choice(&exact) } else { rotation(random) };
@@ -57,7 +57,7 @@ fn rotations(random: &mut Random, times: &Arc<[f32]>) -> Channel<Quat> {
     Channel::new(times.clone(), values, interpolation)
 }
 
-/// Changes something somewhere in the takes.
+/// Changes something in the takes at random.
 fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<EditedTake>) {
     let index = random.below(takes.len());
     let bones = opened.model.animation.skeleton.len();
@@ -114,7 +114,7 @@ fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<EditedTake>) {
     }
 }
 
-/// Saves after some edits, again and again, each time from what was written.
+/// Saves after some edits, several times, each time starting from the saved file.
 fn sessions(name: &str, bytes: &[u8], random: &mut Random, saves: usize) {
     let mut opened = Opened::alone(name, bytes);
     for _ in 0..saves {
@@ -133,7 +133,7 @@ fn sessions(name: &str, bytes: &[u8], random: &mut Random, saves: usize) {
             crate::save_support::same_takes(&opened.model, &opened.takes(), &compacted.model);
             opened = compacted;
         }
-        crate::save_judges::crate_says_the_same(bytes, opened.source.bytes(), name);
+        crate::save_judges::crate_has_the_same_result(bytes, opened.source.bytes(), name);
     }
 }
 

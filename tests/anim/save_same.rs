@@ -1,4 +1,4 @@
-//! Open and save without an edit is the same file, byte for byte, however it is written.
+//! Saving without an edit gives the same file, byte for byte, however it is formatted.
 
 use crate::doors::{MemoryFs, shared};
 use crate::fixture::{Fixture, chunk, container, glb};
@@ -17,7 +17,7 @@ fn stays(name: &str, bytes: &[u8], door: &dyn AssetFs) -> Opened {
     opened
 }
 
-/// The same, and that an edit touches nothing else in it.
+/// Checks that the file stays the same, and that an edit changes nothing else in it.
 #[track_caller]
 fn stays_and_can_be_edited(name: &str, bytes: &[u8], door: &dyn AssetFs) {
     let opened = stays(name, bytes, door);
@@ -31,7 +31,7 @@ fn stays_and_can_be_edited(name: &str, bytes: &[u8], door: &dyn AssetFs) {
 }
 
 #[test]
-fn every_file_there_is_stays_the_same() {
+fn every_available_file_stays_the_same() {
     let mut all = files();
     let mut folders: Vec<PathBuf> = shared("assets").into_iter().collect();
     while let Some(folder) = folders.pop() {
@@ -54,7 +54,7 @@ fn every_file_there_is_stays_the_same() {
     assert!(all.len() >= 8);
 }
 
-/// The fixture with its one buffer as a data URI, as text.
+/// Returns the fixture as text, with its buffer as a data URI.
 fn text(pretty: bool) -> String {
     let text = String::from_utf8(Fixture::new().gltf()).unwrap();
     if pretty {
@@ -109,9 +109,9 @@ fn odd_spellings_stay() {
         stays_and_can_be_edited("odd.gltf", text.as_bytes(), &NoFiles);
         let fixture = Fixture::new();
         let text = text.as_bytes();
-        // The same text in a container, its buffer still a data URI.
+        // The same text in a container, with its buffer still a data URI.
         stays_and_can_be_edited("odd.glb", &glb(text, None), &NoFiles);
-        // The binary chunk is of no buffer then.
+        // The binary chunk belongs to no buffer then.
         stays_and_can_be_edited("odd.glb", &glb(text, Some(&fixture.bin)), &NoFiles);
     }
 }
@@ -152,11 +152,11 @@ fn odd_containers_stay() {
 #[test]
 fn several_buffers_stay() {
     let fixture = Fixture::new();
-    let beside = fixture.gltf_beside();
+    let beside = fixture.gltf_with_file();
     let name = fixture_bin_name(&beside);
     let door = MemoryFs::with(&[(&name, &fixture.bin), ("other.bin", &[1, 2, 3, 4])]);
     stays_and_can_be_edited("beside.gltf", &beside, &door);
-    // Buffer 0 beside a container.
+    // Buffer 0 of a container in a separate file.
     stays_and_can_be_edited("beside.glb", &glb(&beside, None), &door);
     stays_and_can_be_edited("beside.glb", &glb(&beside, Some(b"????")), &door);
     let mut several = Fixture::new();
@@ -174,7 +174,7 @@ fn fixture_bin_name(gltf: &[u8]) -> String {
 }
 
 #[test]
-fn a_file_without_animations_gets_some() {
+fn animations_can_be_added_to_a_file_without_any() {
     for (name, text) in [
         (
             "bare.gltf",
@@ -198,7 +198,7 @@ fn a_file_without_animations_gets_some() {
 }
 
 #[test]
-fn what_is_new_looks_like_its_neighbours() {
+fn new_values_are_formatted_like_their_neighbors() {
     let opened = Opened::alone("pretty.gltf", text(true).as_bytes());
     let mut takes = opened.takes();
     crate::save_edits::shift(&mut takes, 0);
@@ -207,7 +207,7 @@ fn what_is_new_looks_like_its_neighbours() {
     let take = crate::support::take((0..bones).map(track).collect());
     takes.push(dragonfly_anim::format::EditedTake { origin: None, take: take.into() });
     takes.push(takes[0].clone());
-    // The same lines, whoever writes them; only the order of members may differ, and so the commas.
+    // The same lines in any order of members, whose commas may differ too.
     let lines = |text: &str| {
         let mut lines: Vec<String> = text.lines().map(|line| line.trim_end_matches(',').to_owned()).collect();
         lines.sort();

@@ -9,7 +9,7 @@ use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Index, Root, buffer};
 
 /// A document with its buffers; every other module of the importer reads from it.
-pub(super) struct Document<'a> {
+pub(super) struct GltfDocument<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: Vec<Buffer<'a>>,
     /// Total number of bytes read.
@@ -52,7 +52,7 @@ pub(super) struct Source<'a> {
     context: &'a ImportContext<'a>,
 }
 
-impl<'a> Document<'a> {
+impl<'a> GltfDocument<'a> {
     /// Returns the bytes of a buffer view and its stride. `from` is the JSON pointer of the reference to the view.
     pub(super) fn view(
         &self,

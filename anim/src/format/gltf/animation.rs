@@ -1,9 +1,9 @@
 //! Animations become takes: one track per bone, one channel per property.
 
-use super::accessor::{Document, ElementFormat, invalid, unresolved};
+use super::accessor::{ElementFormat, GltfDocument, invalid, unresolved};
 use super::check as code;
 use super::document::NO_NODE;
-use super::keys::{self, Column, Keys};
+use super::keys::{self, SamplerTimes, SamplerValues};
 use super::scene::Stage;
 use crate::data::{Channel, MorphTrack, Take, Track};
 use crate::format::{ImportError, Place};
@@ -33,7 +33,7 @@ const WEIGHT: &[ElementFormat] = &[
 const WRONG: &str = code::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT;
 
 /// Sets `is_bone` for every node that a channel animates.
-pub(super) fn mark_animated(document: &Document<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
+pub(super) fn mark_animated(document: &GltfDocument<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
     for (index, animation) in document.root.animations.iter().enumerate() {
         for (number, channel) in animation.channels.iter().enumerate() {
             document.context.work(1)?;
@@ -49,7 +49,7 @@ pub(super) fn mark_animated(document: &Document<'_>, is_bone: &mut [bool]) -> Re
 }
 
 /// Returns all animations as takes with one track for each bone of `stage`.
-pub(super) fn takes(document: &Document<'_>, stage: &Stage) -> Result<Vec<Take>, ImportError> {
+pub(super) fn takes(document: &GltfDocument<'_>, stage: &Stage) -> Result<Vec<Take>, ImportError> {
     let context = document.context;
     let count = document.root.animations.len();
     let mut takes = context.vec(&Place::Pointer("/animations".to_owned()), count)?;
@@ -63,9 +63,9 @@ pub(super) fn takes(document: &Document<'_>, stage: &Stage) -> Result<Vec<Take>,
 
 /// State shared between takes: key times that several channels use are stored once.
 struct TakeReader<'a> {
-    document: &'a Document<'a>,
+    document: &'a GltfDocument<'a>,
     stage: &'a Stage,
-    times: HashMap<usize, Keys>,
+    times: HashMap<usize, SamplerTimes>,
     keys: usize,
 }
 
@@ -184,12 +184,12 @@ impl TakeReader<'_> {
         allowed: &[ElementFormat],
         width: usize,
         path: &str,
-    ) -> Result<(Keys, Column<N>), ImportError> {
+    ) -> Result<(SamplerTimes, SamplerValues<N>), ImportError> {
         let input = sampler.input.value();
         let keys = match self.times.get(&input) {
             Some(keys) => keys.clone(),
             None => {
-                let keys = Keys::read(self.document, sampler.input, path)?;
+                let keys = SamplerTimes::read(self.document, sampler.input, path)?;
                 self.times.insert(input, keys.clone());
                 keys
             }
@@ -213,7 +213,7 @@ impl TakeReader<'_> {
         self.document
             .context
             .charge(&source.place, (source.count as u64).saturating_mul(2 * 4 * N as u64))?;
-        let mut column = Column { values: source.floats()?, interpolation, width };
+        let mut column = SamplerValues { values: source.floats()?, interpolation, width };
         column.check(&source.place, self.document.context)?;
         column.sort(&keys, self.document.context)?;
         Ok((keys, column))
@@ -221,8 +221,8 @@ impl TakeReader<'_> {
 }
 
 fn channel_of<T: Copy, const N: usize>(
-    keys: Keys,
-    column: Column<N>,
+    keys: SamplerTimes,
+    column: SamplerValues<N>,
     value: fn([f32; N]) -> T,
 ) -> Channel<T> {
     if keys.times.is_empty() {

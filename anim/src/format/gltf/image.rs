@@ -1,6 +1,6 @@
 //! Images: found, measured and copied as they are. Nothing is decoded here.
 
-use super::accessor::{Document, invalid};
+use super::accessor::{GltfDocument, invalid};
 use super::buffer::{Fetched, fetch};
 use super::check as code;
 use crate::data::Image;
@@ -25,7 +25,7 @@ enum Key<'a> {
 
 /// Returns all images. One that cannot be read is left empty with a warning, since a model without textures is still
 /// useful.
-pub(super) fn images(document: &Document<'_>) -> Result<Images, ImportError> {
+pub(super) fn images(document: &GltfDocument<'_>) -> Result<Images, ImportError> {
     let mut read = Images::default();
     let mut known: HashMap<Key<'_>, u32> = HashMap::new();
     let mut pixels = 0;
@@ -53,7 +53,7 @@ pub(super) fn images(document: &Document<'_>) -> Result<Images, ImportError> {
     Ok(read)
 }
 
-fn read_image(document: &Document<'_>, image: &json::Image, path: &str) -> Result<Image, ImportError> {
+fn read_image(document: &GltfDocument<'_>, image: &json::Image, path: &str) -> Result<Image, ImportError> {
     let declared = image.mime_type.as_ref().map(|mime| mime.0.clone()).unwrap_or_default();
     let name = image.name.clone().unwrap_or_default();
     let mut read = Image { name, mime: declared, ..Image::default() };

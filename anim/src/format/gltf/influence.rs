@@ -1,6 +1,6 @@
 //! Joint influences of vertices: reads any number of sets and keeps the strongest four or eight.
 
-use super::accessor::Document;
+use super::accessor::GltfDocument;
 use super::check as code;
 use super::mesh::{attribute, unequal};
 use crate::data::{Influence, MAX_INFLUENCES};
@@ -48,7 +48,7 @@ struct FixedVertices {
 
 /// Reads every pair of JOINTS_n and WEIGHTS_n.
 pub(super) fn influences(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &Primitive,
     vertices: usize,
     path: &str,
@@ -91,7 +91,7 @@ pub(super) fn influences(
 }
 
 fn sets(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &Primitive,
     vertices: usize,
     path: &str,
@@ -180,7 +180,7 @@ fn share_out(found: &mut Vec<Influence>, fixed: &mut FixedVertices) {
     }
 }
 
-fn report(fixed: &FixedVertices, place: &Place, document: &Document<'_>) {
+fn report(fixed: &FixedVertices, place: &Place, document: &GltfDocument<'_>) {
     let warn = |count: usize, code, what: &str| {
         if count > 0 {
             document.context.warn(place.clone(), code, format!("{count} vertices {what}"));

@@ -1,6 +1,6 @@
 //! Keys of a sampler: increasing times, and finite values in the same order.
 
-use super::accessor::{Document, ElementFormat, invalid};
+use super::accessor::{ElementFormat, GltfDocument, invalid};
 use super::check as code;
 use super::node::{ROTATION_TOLERANCE, unit};
 use crate::data::Interpolation;
@@ -16,7 +16,7 @@ const TIME: &[ElementFormat] = &[(ComponentType::F32, Type::Scalar, false)];
 
 /// The key times of a sampler.
 #[derive(Clone)]
-pub(super) struct Keys {
+pub(super) struct SamplerTimes {
     /// Seconds, strictly ascending.
     pub(super) times: Arc<[f32]>,
     /// Number of keys in the file; larger than the length of `times` if some were left out.
@@ -25,10 +25,10 @@ pub(super) struct Keys {
     order: Option<Arc<[u32]>>,
 }
 
-impl Keys {
+impl SamplerTimes {
     /// Reads and sorts the key times; of several keys at the same time the last one is used.
     pub(super) fn read(
-        document: &Document<'_>,
+        document: &GltfDocument<'_>,
         input: json::Index<Accessor>,
         path: &str,
     ) -> Result<Self, ImportError> {
@@ -88,14 +88,14 @@ impl Keys {
 }
 
 /// Values of a sampler as in the file.
-pub(super) struct Column<const N: usize> {
+pub(super) struct SamplerValues<const N: usize> {
     pub(super) values: Vec<[f32; N]>,
     pub(super) interpolation: Interpolation,
     /// Number of values that belong together: 1, or the number of morph targets.
     pub(super) width: usize,
 }
 
-impl<const N: usize> Column<N> {
+impl<const N: usize> SamplerValues<N> {
     /// Returns the number of values per key, tangents included.
     fn per_key(&self) -> usize {
         self.width * if self.interpolation == Interpolation::CubicSpline { 3 } else { 1 }
@@ -132,7 +132,11 @@ impl<const N: usize> Column<N> {
     }
 
     /// Sorts the values into the order of `keys`.
-    pub(super) fn sort(&mut self, keys: &Keys, context: &ImportContext<'_>) -> Result<(), ImportError> {
+    pub(super) fn sort(
+        &mut self,
+        keys: &SamplerTimes,
+        context: &ImportContext<'_>,
+    ) -> Result<(), ImportError> {
         let Some(order) = &keys.order else { return Ok(()) };
         let per_key = self.per_key();
         context.work(self.values.len())?;
@@ -148,7 +152,7 @@ impl<const N: usize> Column<N> {
 ///
 /// If keys are interpolated linearly, neighbors are brought into one hemisphere: q and -q are the same rotation, and
 /// the interpolation should take the shorter way. A spline keeps its signs, because its tangents determine the way.
-pub(super) fn make_unit(column: &mut Column<4>, place: &str, context: &ImportContext<'_>) {
+pub(super) fn make_unit(column: &mut SamplerValues<4>, place: &str, context: &ImportContext<'_>) {
     let (mut zero, mut off) = (0, 0);
     let mut last: Option<Quat> = None;
     for index in 0..column.values.len() {

@@ -19,7 +19,7 @@ pub(super) fn materials(
     let mut materials = context.vec(&Place::Pointer("/materials".to_owned()), root.materials.len())?;
     for (index, material) in root.materials.iter().enumerate() {
         context.work(1)?;
-        let reader = Reader { root, images, context, path: format!("/materials/{index}") };
+        let reader = MaterialReader { root, images, context, path: format!("/materials/{index}") };
         materials.push(reader.material(material)?);
     }
     Ok(materials)
@@ -40,14 +40,14 @@ pub fn phong(base: Vec3, metallic: f32, roughness: f32) -> Phong {
     Phong { ambient: (diffuse + specular) * 0.2, diffuse, specular, specular_power }
 }
 
-struct Reader<'a> {
+struct MaterialReader<'a> {
     root: &'a json::Root,
     images: &'a [u32],
     context: &'a ImportContext<'a>,
     path: String,
 }
 
-impl Reader<'_> {
+impl MaterialReader<'_> {
     fn material(&self, material: &json::Material) -> Result<Material, ImportError> {
         let pbr = &material.pbr_metallic_roughness;
         self.finite(&pbr.base_color_factor.0, "pbrMetallicRoughness/baseColorFactor")?;

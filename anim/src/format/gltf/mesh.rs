@@ -1,6 +1,6 @@
 //! Meshes: attributes become columns, each of the length of the positions.
 
-use super::accessor::{Document, ElementFormat, invalid};
+use super::accessor::{ElementFormat, GltfDocument, invalid};
 use super::check as code;
 use super::influence::influences;
 use super::morph::{morph_targets, morph_weights};
@@ -57,7 +57,7 @@ const COLOR: &[ElementFormat] = &[COLOR_3[0], COLOR_3[1], COLOR_3[2], COLOR_4[0]
 const WRONG: &str = code::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT;
 
 /// Returns all meshes.
-pub(super) fn meshes(document: &Document<'_>) -> Result<Vec<ReadMesh>, ImportError> {
+pub(super) fn meshes(document: &GltfDocument<'_>) -> Result<Vec<ReadMesh>, ImportError> {
     let context = document.context;
     let count = document.root.meshes.len();
     let mut meshes = context.vec(&Place::Pointer("/meshes".to_owned()), count)?;
@@ -70,7 +70,7 @@ pub(super) fn meshes(document: &Document<'_>) -> Result<Vec<ReadMesh>, ImportErr
 }
 
 fn read_mesh(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     mesh: &json::Mesh,
     index: usize,
     total: &mut usize,
@@ -92,7 +92,7 @@ fn read_mesh(
 }
 
 fn read_primitive(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     path: &str,
     total: &mut usize,
@@ -155,7 +155,7 @@ pub(super) fn unequal(count: usize, vertices: usize, from: &str) -> Result<(), I
 
 /// Returns an attribute as finite floats, if the primitive has it.
 fn column<const N: usize>(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     semantic: Semantic,
     allowed: &[ElementFormat],
@@ -170,7 +170,7 @@ fn column<const N: usize>(
 }
 
 fn positions(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     path: &str,
 ) -> Result<Option<Vec<Vec3>>, ImportError> {
@@ -188,7 +188,7 @@ fn positions(
 
 /// Returns normalized normals; those that the file lacks, and those of length zero, are computed from the triangles.
 fn all_normals(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     positions: &[Vec3],
     indices: &[u32],
@@ -221,7 +221,7 @@ fn all_normals(
 /// Tolerance of the Khronos validator, plus the step of 8-bit normals.
 const UNIT_TOLERANCE: f32 = 0.00674 + 1.0 / 127.0;
 
-fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -> Vec<Vec4> {
+fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &GltfDocument<'_>) -> Vec<Vec4> {
     let place = Place::Pointer(format!("{path}/attributes/TANGENT"));
     if tangents.iter().any(|tangent| tangent[3].abs() != 1.0) {
         document.context.warn(
@@ -242,7 +242,7 @@ fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -
 }
 
 fn colors(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     count: usize,
     path: &str,
@@ -268,7 +268,7 @@ fn colors(
 }
 
 /// Adds one warning for each attribute that is not used.
-fn warn_unknown(document: &Document<'_>, primitive: &json::mesh::Primitive, path: &str) {
+fn warn_unknown(document: &GltfDocument<'_>, primitive: &json::mesh::Primitive, path: &str) {
     for semantic in primitive.attributes.keys() {
         let name = match semantic {
             Checked::Invalid => "an attribute with an unknown name".to_owned(),

@@ -36,7 +36,7 @@ pub use material::phong;
 
 use super::{Format, ImportContext, ImportError, Place, WriteSupport};
 use crate::data::{AnimationData, ModelData};
-use accessor::Document;
+use accessor::GltfDocument;
 use std::sync::Arc;
 
 /// glTF 2.0 in one binary container, `.glb`.
@@ -87,7 +87,7 @@ fn read_document(
     let graph = graph::graph(&root, context)?;
     let buffers = buffer::load(&root, bin, context)?;
     let bytes = size.saturating_add(buffers.iter().map(|buffer| buffer.bytes().len()).sum());
-    let document = Document { root: &root, buffers, bytes, context };
+    let document = GltfDocument { root: &root, buffers, bytes, context };
 
     let mut is_bone = context.filled(&Place::Pointer("/nodes".to_owned()), root.nodes.len(), false)?;
     skin::mark_joints(&document, &mut is_bone)?;

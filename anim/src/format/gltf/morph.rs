@@ -1,6 +1,6 @@
 //! Morph targets and their weights.
 
-use super::accessor::{Document, invalid};
+use super::accessor::{GltfDocument, invalid};
 use super::check as code;
 use super::mesh::{ANY_VEC3, UNIT_VEC3};
 use crate::data::{MorphTarget, Primitive};
@@ -13,7 +13,7 @@ use std::collections::HashMap;
 
 /// Returns the morph targets of a primitive; each column is empty or of the length of the primitive.
 pub(super) fn morph_targets(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     vertices: usize,
     path: &str,
@@ -46,7 +46,7 @@ pub(super) fn morph_targets(
 /// Returns the default weights of the mesh, one per target. Gives all primitives the same number of targets, and the
 /// targets their names.
 pub(super) fn morph_weights(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     mesh: &json::Mesh,
     primitives: &mut [Primitive],
     path: &str,
@@ -78,7 +78,7 @@ pub(super) fn fitted(
     default: &[f32],
     place: Place,
     code: &'static str,
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
 ) -> Result<Vec<f32>, ImportError> {
     let given = weights.unwrap_or(default);
     if given.iter().any(|weight| !weight.is_finite()) {

@@ -1,6 +1,6 @@
 //! Turns nodes into bones and instances: what is animated, and what is shown.
 
-use super::accessor::{Document, invalid, unresolved};
+use super::accessor::{GltfDocument, invalid, unresolved};
 use super::check as code;
 use super::graph::Graph;
 use super::mesh::ReadMesh;
@@ -29,7 +29,7 @@ impl Stage {
     }
 
     /// Returns the number of morph targets of the mesh of `node`.
-    pub(super) fn morph_targets_of(&self, document: &Document<'_>, node: usize) -> usize {
+    pub(super) fn morph_targets_of(&self, document: &GltfDocument<'_>, node: usize) -> usize {
         let mesh = document.root.nodes[node].mesh;
         mesh.and_then(|mesh| self.morph_targets.get(mesh.value()).copied()).unwrap_or(0)
     }
@@ -37,7 +37,7 @@ impl Stage {
 
 /// Numbers the bones: parents first, depth first from the roots. Also sets `is_bone` for the ancestors.
 pub(super) fn number_bones(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     graph: &Graph,
     is_bone: &mut [bool],
 ) -> Result<Vec<Option<BoneIndex>>, ImportError> {
@@ -56,7 +56,7 @@ pub(super) fn number_bones(
 
 /// Returns the bones. A bone's offset is that of the first skin that uses it.
 pub(super) fn skeleton(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     graph: &Graph,
     locals: &[Local],
     globals: &[Mat4],
@@ -90,7 +90,7 @@ pub(super) fn skeleton(
 
 /// Places every mesh of the scene that is shown: the default scene, otherwise the first one, otherwise all nodes.
 pub(super) fn stage(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     graph: &Graph,
     locals: &[Local],
     skeleton: Skeleton,
@@ -128,7 +128,7 @@ pub(super) fn stage(
 }
 
 /// Returns the skin of a node, if its mesh has joints; an error if a vertex refers to a joint that the skin lacks.
-fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
+fn skin_of(document: &GltfDocument<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
     let Some(skin) = document.root.nodes[index].skin else { return Ok(None) };
     let path = format!("/nodes/{index}/skin");
     let joints =
@@ -150,7 +150,7 @@ fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Opt
 /// Returns for each node the bone that carries it, and the transform to that bone: from the node up to the first bone,
 /// or to the scene.
 fn carriers(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     graph: &Graph,
     locals: &[Local],
     bones: &[Option<BoneIndex>],
@@ -173,7 +173,7 @@ fn carriers(
 }
 
 /// Returns for each node whether it is in the scene that is shown.
-fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
+fn shown(document: &GltfDocument<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
     let root = document.root;
     let place = Place::Pointer("/scenes".to_owned());
     let index = match root.scene {
@@ -215,7 +215,7 @@ fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportErro
 }
 
 /// Checks the references of a node that no other module uses.
-fn check_references(document: &Document<'_>, index: usize) -> Result<(), ImportError> {
+fn check_references(document: &GltfDocument<'_>, index: usize) -> Result<(), ImportError> {
     let node = &document.root.nodes[index];
     if let Some(camera) = node.camera {
         let path = format!("/nodes/{index}/camera");

@@ -1,6 +1,6 @@
 //! Skins: the joints, and the transforms from bind space to them.
 
-use super::accessor::{Document, invalid, unresolved};
+use super::accessor::{GltfDocument, invalid, unresolved};
 use super::check as code;
 use super::node::{inverse, set_last_row};
 use crate::data::{BoneIndex, Skin};
@@ -11,7 +11,7 @@ use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
 
 /// Checks the joints of every skin and sets `is_bone` for each of them.
-pub(super) fn mark_joints(document: &Document<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
+pub(super) fn mark_joints(document: &GltfDocument<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
     for (index, skin) in document.root.skins.iter().enumerate() {
         let path = format!("/skins/{index}/joints");
         if skin.joints.is_empty() {
@@ -41,7 +41,10 @@ pub(super) fn mark_joints(document: &Document<'_>, is_bone: &mut [bool]) -> Resu
 }
 
 /// Returns all skins; `bones` contains the bone of each node.
-pub(super) fn skins(document: &Document<'_>, bones: &[Option<BoneIndex>]) -> Result<Vec<Skin>, ImportError> {
+pub(super) fn skins(
+    document: &GltfDocument<'_>,
+    bones: &[Option<BoneIndex>],
+) -> Result<Vec<Skin>, ImportError> {
     let context = document.context;
     let mut skins = context.vec(&Place::Pointer("/skins".to_owned()), document.root.skins.len())?;
     for (index, skin) in document.root.skins.iter().enumerate() {
@@ -57,7 +60,7 @@ pub(super) fn skins(document: &Document<'_>, bones: &[Option<BoneIndex>]) -> Res
 }
 
 /// Returns the inverse bind matrices, one per joint; identities if the skin has none.
-fn offsets(document: &Document<'_>, skin: &json::Skin, index: usize) -> Result<Vec<Mat4>, ImportError> {
+fn offsets(document: &GltfDocument<'_>, skin: &json::Skin, index: usize) -> Result<Vec<Mat4>, ImportError> {
     let path = format!("/skins/{index}/inverseBindMatrices");
     let place = Place::Pointer(path.clone());
     let context = document.context;

@@ -1,6 +1,6 @@
 //! Triangle indices: strips and fans become lists, lists are checked, and primitives without indices get them.
 
-use super::accessor::{Document, invalid};
+use super::accessor::{GltfDocument, invalid};
 use super::check as code;
 use crate::format::{ImportContext, ImportError, Place};
 use glam::Vec3;
@@ -16,7 +16,7 @@ const INDEX_FORMATS: &[(ComponentType, Type, bool)] = &[
 
 /// Returns three indices per triangle, each below `vertices`; none for points and lines.
 pub(super) fn triangles(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &Primitive,
     vertices: usize,
     path: &str,

@@ -1,7 +1,7 @@
 //! Edit of one animation: which channels are removed, which samplers are rewritten, which are new.
 
 use super::channels::{Action, ChannelEdit};
-use super::document::{Document, FileAnimation, Target};
+use super::document::{ChannelTarget, FileAnimation, SourceDocument};
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
 use super::json::patch::Patch;
@@ -45,7 +45,7 @@ pub(super) struct SamplerDraft {
 enum ChannelDraft {
     /// An existing channel, by number, that refers to another sampler now.
     Moved(usize, usize),
-    New(Target, usize),
+    New(ChannelTarget, usize),
 }
 
 /// An edited animation.
@@ -60,7 +60,7 @@ pub(super) struct Draft {
 
 impl Draft {
     /// Returns the targets of the new channels.
-    pub(super) fn new_targets(&self) -> impl Iterator<Item = Target> + '_ {
+    pub(super) fn new_targets(&self) -> impl Iterator<Item = ChannelTarget> + '_ {
         self.channels.iter().filter_map(|channel| match channel {
             ChannelDraft::New(target, _) => Some(*target),
             ChannelDraft::Moved(..) => None,
@@ -75,7 +75,7 @@ impl Draft {
     /// Returns the draft that applies `edits` to `animation`, or to an empty one. `is_ours` returns whether an earlier
     /// save wrote an accessor.
     pub(super) fn of(
-        document: &Document<'_>,
+        document: &SourceDocument<'_>,
         animation: Option<&FileAnimation>,
         edits: &[ChannelEdit],
         name: Option<String>,
@@ -98,9 +98,9 @@ impl Draft {
             }
             return draft;
         };
-        let removed: HashSet<Target> =
+        let removed: HashSet<ChannelTarget> =
             edits.iter().filter(|e| matches!(e.action, Action::Remove)).map(|e| e.target).collect();
-        let goes = |target: Option<Target>| target.is_some_and(|target| removed.contains(&target));
+        let goes = |target: Option<ChannelTarget>| target.is_some_and(|target| removed.contains(&target));
         draft.removed = animation.channels.iter().filter(|c| goes(c.target)).map(|c| c.id).collect();
         let mut pool = Pool::of(document, animation, &draft.removed, is_ours);
         for channel in edits {
@@ -144,7 +144,7 @@ impl Draft {
     /// Returns the patches to the text of `animation`. `accessors` contains the accessor of each need.
     pub(super) fn patches(
         &self,
-        document: &Document<'_>,
+        document: &SourceDocument<'_>,
         animation: &FileAnimation,
         accessors: &[usize],
         style: &Style,
@@ -238,7 +238,7 @@ impl Draft {
     }
 }
 
-fn fresh_channel((node, path): Target, sampler: usize) -> Fresh {
+fn fresh_channel((node, path): ChannelTarget, sampler: usize) -> Fresh {
     let target = vec![("node", Fresh::whole(node as usize)), ("path", Fresh::string(path.name()))];
     Fresh::Object(vec![("sampler", Fresh::whole(sampler)), ("target", Fresh::Object(target))])
 }
@@ -260,7 +260,7 @@ impl SamplerDraft {
     /// Returns the patches of the changed tokens of the sampler `old`.
     fn rewritten(
         &self,
-        document: &Document<'_>,
+        document: &SourceDocument<'_>,
         old: Id,
         input: usize,
         output: usize,
@@ -290,7 +290,7 @@ impl SamplerDraft {
 }
 
 /// Returns whether the value equals the one that `token` spells, in whatever notation.
-fn same_value(document: &Document<'_>, id: Id, token: &str) -> bool {
+fn same_value(document: &SourceDocument<'_>, id: Id, token: &str) -> bool {
     let json = document.json;
     match json.string(id) {
         Some(text) => quoted(&text) == token,
@@ -310,7 +310,7 @@ struct Pool {
 
 impl Pool {
     fn of(
-        document: &Document<'_>,
+        document: &SourceDocument<'_>,
         animation: &FileAnimation,
         removed: &[Id],
         is_ours: &dyn Fn(usize) -> bool,
@@ -352,7 +352,7 @@ impl Pool {
     /// Returns the accessor that a sampler of the file refers to.
     fn accessor(
         &self,
-        document: &Document<'_>,
+        document: &SourceDocument<'_>,
         animation: &FileAnimation,
         sampler: usize,
         name: &str,

@@ -1,6 +1,6 @@
 //! The buffer that new numbers are appended to.
 
-use super::document::Document;
+use super::document::SourceDocument;
 use super::json::patch::Patch;
 use super::json::token::{unquoted, written_at};
 use super::reuse::is_ours;
@@ -25,7 +25,7 @@ pub(super) enum Home {
 
 /// The buffer that new numbers are appended to.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Target {
+pub(super) struct TargetBuffer {
     pub(super) home: Home,
     /// Number of the buffer, which may be that of a new one.
     pub(super) index: usize,
@@ -33,10 +33,10 @@ pub(super) struct Target {
     pub(super) present: usize,
 }
 
-impl Target {
+impl TargetBuffer {
     /// Chooses the binary chunk where there can be one; otherwise the file that an earlier save wrote; otherwise a data
     /// URI; otherwise, if the document has buffers in referenced files, a new file; otherwise a new data URI.
-    pub(super) fn choose(document: &Document<'_>) -> Self {
+    pub(super) fn choose(document: &SourceDocument<'_>) -> Self {
         let json = document.json;
         let uri = |index: usize| json.string_member(document.buffers[index], "uri");
         let count = document.buffers.len();
@@ -65,12 +65,12 @@ impl Target {
     }
 
     /// Returns whether the buffer is not yet an element of `/buffers`.
-    pub(super) fn is_new(&self, document: &Document<'_>) -> bool {
+    pub(super) fn is_new(&self, document: &SourceDocument<'_>) -> bool {
         self.index >= document.buffers.len()
     }
 
     /// Returns the existing bytes.
-    pub(super) fn bytes<'d>(&self, document: &'d Document<'_>) -> &'d [u8] {
+    pub(super) fn bytes<'d>(&self, document: &'d SourceDocument<'_>) -> &'d [u8] {
         if let (Home::Chunk, true) = (self.home, self.is_new(document)) {
             let bin = document.source.container.glb.as_ref().and_then(|chunks| chunks.bin.clone());
             return bin.and_then(|bin| document.source.bytes.get(bin)).unwrap_or_default();
@@ -102,7 +102,7 @@ impl Tail {
 
 /// Returns the patch that replaces the end of a data URI; `uri` is its string in the text.
 pub(super) fn data_uri_patch(
-    document: &Document<'_>,
+    document: &SourceDocument<'_>,
     uri: usize,
     old: &[u8],
     tail: &Tail,

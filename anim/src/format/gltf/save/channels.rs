@@ -1,7 +1,7 @@
 //! Finds the edited channels by comparing the takes as they were opened with the takes as they are now.
 
-use super::columns::{Column, Keys, Owner, keys};
-use super::document::{FileAnimation, Path, Target};
+use super::columns::{ChannelKeys, EncodedKeys, Owner, keys};
+use super::document::{ChannelTarget, FileAnimation, Path};
 use super::error::SaveError;
 use crate::data::{Channel, Interpolation, ModelData, MorphTrack, Take, Track};
 use crate::limits::CLIP_SECONDS;
@@ -12,13 +12,13 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub(super) enum Action {
     Remove,
-    Set(Keys),
+    Set(EncodedKeys),
 }
 
 /// A channel that differs.
 #[derive(Clone, Debug)]
 pub(super) struct ChannelEdit {
-    pub(super) target: Target,
+    pub(super) target: ChannelTarget,
     /// Name of the bone, or `mesh 3`.
     pub(super) label: String,
     pub(super) action: Action,
@@ -27,11 +27,11 @@ pub(super) struct ChannelEdit {
 }
 
 /// Returns the three channels of a track.
-fn columns(track: &Track) -> [(Path, Column<'_>); 3] {
+fn columns(track: &Track) -> [(Path, ChannelKeys<'_>); 3] {
     [
-        (Path::Translation, Column::Vector(&track.translation)),
-        (Path::Rotation, Column::Rotation(&track.rotation)),
-        (Path::Scale, Column::Vector(&track.scale)),
+        (Path::Translation, ChannelKeys::Vector(&track.translation)),
+        (Path::Rotation, ChannelKeys::Rotation(&track.rotation)),
+        (Path::Scale, ChannelKeys::Vector(&track.scale)),
     ]
 }
 
@@ -74,10 +74,10 @@ fn no_node(take: &Take, bone: &str, reason: &'static str) -> SaveError {
 }
 
 fn edit(
-    target: Target,
+    target: ChannelTarget,
     opened: Option<(&Take, &FileAnimation)>,
-    before: Column<'_>,
-    after: Column<'_>,
+    before: ChannelKeys<'_>,
+    after: ChannelKeys<'_>,
     owner: Owner<'_>,
 ) -> Result<ChannelEdit, SaveError> {
     let in_file = opened.is_some_and(|(_, animation)| animation.channel(target).is_some());
@@ -135,7 +135,7 @@ fn weights(
         let targets = before.as_ref().or(after.as_ref()).map_or(0, |track| track.targets);
         let before = before.unwrap_or_else(|| no_keys(index as u32, targets));
         let after = after.unwrap_or_else(|| no_keys(index as u32, targets));
-        let (before, after) = (Column::Weights(&before), Column::Weights(&after));
+        let (before, after) = (ChannelKeys::Weights(&before), ChannelKeys::Weights(&after));
         if before.is_same(&after) {
             continue;
         }
@@ -166,11 +166,11 @@ pub(super) fn placeholder(
     let rest = if rest.is_finite() { rest } else { Vec3::ZERO };
     let channel = Channel::new([start], [rest], Interpolation::Step);
     let before = opened.and_then(|take| Some(&take.tracks.get(index)?.translation));
-    if before.is_some_and(|before| Column::Vector(before).is_same(&Column::Vector(&channel))) {
+    if before.is_some_and(|before| ChannelKeys::Vector(before).is_same(&ChannelKeys::Vector(&channel))) {
         return Ok(None);
     }
     let owner = Owner { take: &now.name, bone: &bone.name, path: Path::Translation, may_be_negative: false };
-    let keys = keys(Column::Vector(&channel), owner)?;
+    let keys = keys(ChannelKeys::Vector(&channel), owner)?;
     let target = (bone.node.unwrap_or_default(), Path::Translation);
     Ok(Some(ChannelEdit { target, label: bone.name.clone(), action: Action::Set(keys), values_of: None }))
 }

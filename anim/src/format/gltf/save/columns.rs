@@ -13,13 +13,13 @@ const ROTATION_TOLERANCE: f64 = 0.00769;
 
 /// The keys of one target, of whatever type.
 #[derive(Clone, Copy)]
-pub(super) enum Column<'a> {
+pub(super) enum ChannelKeys<'a> {
     Vector(&'a Channel<Vec3>),
     Rotation(&'a Channel<Quat>),
     Weights(&'a MorphTrack),
 }
 
-impl Column<'_> {
+impl ChannelKeys<'_> {
     pub(super) fn times(&self) -> &Arc<[f32]> {
         match self {
             Self::Vector(channel) => &channel.times,
@@ -92,7 +92,7 @@ fn same_bits(a: &[f32], b: &[f32]) -> bool {
 
 /// Keys ready to be written.
 #[derive(Clone, Debug)]
-pub(super) struct Keys {
+pub(super) struct EncodedKeys {
     /// Seconds, strictly ascending; shared between channels where possible.
     pub(super) times: Arc<[f32]>,
     /// Components of the values, tangents included.
@@ -103,7 +103,7 @@ pub(super) struct Keys {
     pub(super) interpolation: &'static str,
 }
 
-impl Keys {
+impl EncodedKeys {
     /// Returns the number of elements of the output accessor.
     pub(super) fn value_count(&self) -> usize {
         self.values.len() / shape_width(self.shape)
@@ -144,7 +144,7 @@ impl Owner<'_> {
 /// * Closest-key interpolation becomes an exact step: a step at each time from which on the next key is the nearest,
 ///   and one more at the end, so that the take keeps its length.
 /// * A spline of one key is written as that key with linear interpolation, because glTF requires two keys of a spline.
-pub(super) fn keys(column: Column<'_>, owner: Owner<'_>) -> Result<Keys, SaveError> {
+pub(super) fn keys(column: ChannelKeys<'_>, owner: Owner<'_>) -> Result<EncodedKeys, SaveError> {
     let interpolation = column.interpolation();
     let numbers = column.numbers();
     check_times(column.times(), owner)?;
@@ -157,20 +157,20 @@ pub(super) fn keys(column: Column<'_>, owner: Owner<'_>) -> Result<Keys, SaveErr
     if let Some(odd) = numbers.iter().position(|number| !number.is_finite()) {
         return owner.refuse(format!("key {} is not finite", odd / per_key));
     }
-    let keys = Keys {
+    let keys = EncodedKeys {
         times: column.times().clone(),
         values: numbers,
         shape: column.shape(),
         interpolation: "LINEAR",
     };
     let keys = match interpolation {
-        Interpolation::Step => Keys { interpolation: "STEP", ..keys },
+        Interpolation::Step => EncodedKeys { interpolation: "STEP", ..keys },
         Interpolation::Linear => keys,
         Interpolation::CubicSpline if count == 1 => {
             let width = column.width();
-            Keys { values: keys.values[width..2 * width].to_vec(), ..keys }
+            EncodedKeys { values: keys.values[width..2 * width].to_vec(), ..keys }
         }
-        Interpolation::CubicSpline => Keys { interpolation: "CUBICSPLINE", ..keys },
+        Interpolation::CubicSpline => EncodedKeys { interpolation: "CUBICSPLINE", ..keys },
         Interpolation::Closest => stepped(&keys, column.width()),
     };
     check_rotations(&keys, owner)?;
@@ -186,7 +186,7 @@ fn check_times(times: &[f32], owner: Owner<'_>) -> Result<(), SaveError> {
             return owner.refuse(format!("the time of key {key} is {time}"));
         }
         if time.abs() > CLIP_SECONDS {
-            return owner.refuse(format!("key {key} lies at {time} s, at most {CLIP_SECONDS} s"));
+            return owner.refuse(format!("key {key} is at {time} s, at most {CLIP_SECONDS} s"));
         }
         if time < 0.0 && !owner.may_be_negative {
             return owner.refuse(format!("key {key} is at {time} s, but glTF forbids negative key times"));
@@ -199,7 +199,7 @@ fn check_times(times: &[f32], owner: Owner<'_>) -> Result<(), SaveError> {
 }
 
 /// Refuses rotations that are not of unit length, because readers differ in how they treat them.
-fn check_rotations(keys: &Keys, owner: Owner<'_>) -> Result<(), SaveError> {
+fn check_rotations(keys: &EncodedKeys, owner: Owner<'_>) -> Result<(), SaveError> {
     if owner.path != Path::Rotation {
         return Ok(());
     }
@@ -218,7 +218,7 @@ fn check_rotations(keys: &Keys, owner: Owner<'_>) -> Result<(), SaveError> {
 }
 
 /// Converts closest-key interpolation to steps.
-fn stepped(keys: &Keys, width: usize) -> Keys {
+fn stepped(keys: &EncodedKeys, width: usize) -> EncodedKeys {
     let value = |key: usize| &keys.values[key * width..][..width];
     let last = keys.times.len() - 1;
     let mut times = vec![keys.times[0]];
@@ -231,7 +231,7 @@ fn stepped(keys: &Keys, width: usize) -> Keys {
         times.push(keys.times[last]);
         values.extend(value(last));
     }
-    Keys { times: times.into(), values, shape: keys.shape, interpolation: "STEP" }
+    EncodedKeys { times: times.into(), values, shape: keys.shape, interpolation: "STEP" }
 }
 
 /// Returns the first time after `before` at which sampling finds `after` the nearer of the two.
@@ -259,7 +259,7 @@ mod tests {
         let values: Vec<Vec3> = (0..5).map(|key| Vec3::splat(key as f32)).collect();
         let closest = Channel::new(times, values, Interpolation::Closest);
         let owner = Owner { take: "", bone: "", path: Path::Translation, may_be_negative: false };
-        let keys = keys(Column::Vector(&closest), owner).unwrap();
+        let keys = keys(ChannelKeys::Vector(&closest), owner).unwrap();
         assert_eq!(keys.interpolation, "STEP");
         assert!(keys.times.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", keys.times);
         assert_eq!(keys.times.last(), times.last());

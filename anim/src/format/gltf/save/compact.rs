@@ -1,8 +1,8 @@
 //! Removes what earlier saves appended and nothing uses any more.
 
-use super::buffer::Target;
+use super::buffer::TargetBuffer;
 use super::columns::shape_width;
-use super::document::Document;
+use super::document::SourceDocument;
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
@@ -20,8 +20,8 @@ use std::collections::{HashMap, HashSet};
 /// Nothing changes if another program appended to the buffer afterwards. Accessors and views are removed from their
 /// lists only if they are the last ones, since the numbers of others must stay; otherwise only their room shrinks.
 pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
-    let document = Document::of(source);
-    let target = Target::choose(&document);
+    let document = SourceDocument::of(source);
+    let target = TargetBuffer::choose(&document);
     let mut slots = slots(&document, target.index, target.present);
     slots.sort_by_key(|slot| slot.offset);
     let mut draw = Draw::new(&document);
@@ -74,7 +74,7 @@ pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
 }
 
 /// Returns the number of bytes of a slot's accessor.
-fn needed(document: &Document<'_>, slot: &Slot) -> usize {
+fn needed(document: &SourceDocument<'_>, slot: &Slot) -> usize {
     let (json, id) = (document.json, document.accessors[slot.accessor]);
     let shape = json.string_member(id, "type").unwrap_or_default();
     let size = json.index_member(id, "count").and_then(|count| count.checked_mul(shape_width(&shape) * 4));
@@ -82,7 +82,7 @@ fn needed(document: &Document<'_>, slot: &Slot) -> usize {
 }
 
 /// Returns the accessor with another view.
-fn moved_accessor(document: &Document<'_>, accessor: usize, view: usize) -> Fresh {
+fn moved_accessor(document: &SourceDocument<'_>, accessor: usize, view: usize) -> Fresh {
     let (json, id) = (document.json, document.accessors[accessor]);
     let mut members = vec![("name", Fresh::string(MARK)), ("bufferView", Fresh::whole(view))];
     for name in ["componentType", "count", "type", "min", "max"] {
@@ -94,7 +94,7 @@ fn moved_accessor(document: &Document<'_>, accessor: usize, view: usize) -> Fres
 }
 
 /// Copies a token, or a list of tokens.
-fn copied(document: &Document<'_>, id: Id) -> Fresh {
+fn copied(document: &SourceDocument<'_>, id: Id) -> Fresh {
     let json = document.json;
     let raw = |id| Fresh::Raw(String::from_utf8_lossy(json.token(id)).into_owned());
     match json.items(id).next() {
@@ -121,7 +121,7 @@ struct Idle {
 }
 
 impl Idle {
-    fn of(document: &Document<'_>, slots: &[Slot]) -> Self {
+    fn of(document: &SourceDocument<'_>, slots: &[Slot]) -> Self {
         let ours: HashSet<usize> = slots.iter().map(|slot| slot.accessor).collect();
         let mut instead = HashMap::new();
         for (index, animation) in document.animations.iter().enumerate() {
@@ -142,12 +142,12 @@ impl Idle {
     }
 
     /// Returns the sampler whose accessors a sampler gets, in most cases the sampler itself.
-    fn source(&self, document: &Document<'_>, animation: usize, sampler: usize) -> Id {
+    fn source(&self, document: &SourceDocument<'_>, animation: usize, sampler: usize) -> Id {
         let number = self.instead.get(&(animation, sampler)).copied().unwrap_or(sampler);
         document.animations[animation].samplers[number]
     }
 
-    fn used_accessors(&self, document: &Document<'_>) -> HashSet<usize> {
+    fn used_accessors(&self, document: &SourceDocument<'_>) -> HashSet<usize> {
         let mut used = HashSet::new();
         for (index, animation) in document.animations.iter().enumerate() {
             for number in 0..animation.samplers.len() {

@@ -36,7 +36,7 @@ impl Path {
 }
 
 /// A node and its animated property.
-pub(super) type Target = (u32, Path);
+pub(super) type ChannelTarget = (u32, Path);
 
 /// A channel of an animation.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ pub(super) struct FileChannel {
     pub(super) id: Id,
     pub(super) sampler: Option<usize>,
     /// `None` for a target that the importer leaves out.
-    pub(super) target: Option<Target>,
+    pub(super) target: Option<ChannelTarget>,
 }
 
 /// An animation of the file.
@@ -54,7 +54,7 @@ pub(super) struct FileAnimation {
     pub(super) channels: Vec<FileChannel>,
     pub(super) samplers: Vec<Id>,
     /// The first channel of each target, which is the one that the importer uses.
-    firsts: HashMap<Target, usize>,
+    firsts: HashMap<ChannelTarget, usize>,
 }
 
 impl FileAnimation {
@@ -74,19 +74,19 @@ impl FileAnimation {
     }
 
     /// Returns the number of the channel that the importer uses for a target.
-    pub(super) fn channel(&self, target: Target) -> Option<usize> {
+    pub(super) fn channel(&self, target: ChannelTarget) -> Option<usize> {
         self.firsts.get(&target).copied()
     }
 }
 
-fn target_of(json: Json<'_>, target: Id) -> Option<Target> {
+fn target_of(json: Json<'_>, target: Id) -> Option<ChannelTarget> {
     let path = Path::named(&json.string_member(target, "path")?)?;
     let node = u32::try_from(json.whole_member(target, "node")?).ok()?;
     (node != u32::MAX).then_some((node, path))
 }
 
 /// The lists of a document that a save uses.
-pub(super) struct Document<'a> {
+pub(super) struct SourceDocument<'a> {
     pub(super) source: &'a SourceFile,
     pub(super) json: Json<'a>,
     pub(super) accessors: Vec<Id>,
@@ -107,7 +107,7 @@ pub(super) enum BufferBytes {
     Shared(Arc<[u8]>),
 }
 
-impl<'a> Document<'a> {
+impl<'a> SourceDocument<'a> {
     pub(super) fn of(source: &'a SourceFile) -> Self {
         let json = source.json();
         let buffers = json.list(0, "buffers");

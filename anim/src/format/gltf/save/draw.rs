@@ -1,8 +1,8 @@
 //! Collects the patches of a save: lists that grow or are created, and the buffer of the new numbers.
 
-use super::buffer::{Home, Tail, Target, base64, beside, data_uri_patch};
+use super::buffer::{Home, Tail, TargetBuffer, base64, beside, data_uri_patch};
 use super::changes::{ChangedToken, Changes, shortened};
-use super::document::Document;
+use super::document::SourceDocument;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
 use super::json::patch::{Patch, sort};
@@ -18,7 +18,7 @@ use std::collections::{HashMap, HashSet};
 
 /// A plan that is being made.
 pub(super) struct Draw<'d, 'a> {
-    pub(super) document: &'d Document<'a>,
+    pub(super) document: &'d SourceDocument<'a>,
     pub(super) style: Style,
     pub(super) patches: Vec<Patch>,
     /// Added and removed members of the root.
@@ -31,7 +31,7 @@ pub(super) struct Draw<'d, 'a> {
 }
 
 impl<'d, 'a> Draw<'d, 'a> {
-    pub(super) fn new(document: &'d Document<'a>) -> Self {
+    pub(super) fn new(document: &'d SourceDocument<'a>) -> Self {
         Self {
             document,
             style: Style::of(document.json),
@@ -99,7 +99,7 @@ impl<'d, 'a> Draw<'d, 'a> {
     /// Writes `writes` over the buffer, which is `end` bytes long afterwards.
     pub(super) fn buffer(
         &mut self,
-        target: Target,
+        target: TargetBuffer,
         writes: &[(usize, Vec<u8>)],
         end: usize,
     ) -> Result<(), SaveError> {
@@ -135,7 +135,7 @@ impl<'d, 'a> Draw<'d, 'a> {
     /// Patches the length, and the URI, of an existing buffer.
     fn adjust(
         &mut self,
-        target: Target,
+        target: TargetBuffer,
         end: usize,
         old: &[u8],
         tail: &Tail,
@@ -162,7 +162,7 @@ impl<'d, 'a> Draw<'d, 'a> {
     }
 
     /// Plans a buffer in a new file and returns its URI.
-    fn neighbor_file(&mut self, target: Target, old: &[u8], tail: &Tail) -> String {
+    fn neighbor_file(&mut self, target: TargetBuffer, old: &[u8], tail: &Tail) -> String {
         let json = self.document.json;
         let uri = |id: &Id| relative_path(&json.string_member(*id, "uri")?).ok();
         let taken: HashSet<String> =
@@ -222,7 +222,7 @@ impl<'d, 'a> Draw<'d, 'a> {
     }
 }
 
-fn document_size(document: &Document<'_>) -> u64 {
+fn document_size(document: &SourceDocument<'_>) -> u64 {
     document.source.bytes.len() as u64
 }
 

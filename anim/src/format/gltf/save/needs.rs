@@ -1,6 +1,6 @@
 //! The accessors that a save needs, each content once.
 
-use super::columns::Keys;
+use super::columns::EncodedKeys;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -51,7 +51,7 @@ impl Needs {
     }
 
     /// Adds values.
-    pub(super) fn output(&mut self, keys: &Keys, before: Option<usize>) -> NeedId {
+    pub(super) fn output(&mut self, keys: &EncodedKeys, before: Option<usize>) -> NeedId {
         let (bytes, count) = (little_endian(&keys.values), keys.value_count());
         self.list.push(Need { bytes, shape: keys.shape, count, bounds: None, before });
         self.list.len() - 1

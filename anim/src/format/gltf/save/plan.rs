@@ -1,11 +1,11 @@
 //! From takes to the bytes that change.
 
 use super::animation::{Draft, Numbers};
-use super::buffer::{Tail, Target};
+use super::buffer::{Tail, TargetBuffer};
 use super::changes::{ChangedChannel, Changes, ChannelChange, TakeChange, WrittenAccessor};
 use super::channels::{Action, ChannelEdit, edits, placeholder};
 use super::columns::shape_width;
-use super::document::{Document, FileAnimation, Path};
+use super::document::{FileAnimation, Path, SourceDocument};
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::patch::Patch;
@@ -72,9 +72,9 @@ pub fn plan<'a>(
     opened: &ModelData,
     now: &[EditedTake],
 ) -> Result<Plan<'a>, SaveError> {
-    let document = Document::of(source);
+    let document = SourceDocument::of(source);
     check_same_file(&document, opened)?;
-    let target = Target::choose(&document);
+    let target = TargetBuffer::choose(&document);
     let slots = slots(&document, target.index, target.present);
     let ours: HashSet<usize> = slots.iter().map(|slot| slot.accessor).collect();
     let mut needs = Needs::default();
@@ -97,7 +97,7 @@ pub fn plan<'a>(
 }
 
 /// Checks that the animations of the file are the takes that were opened.
-fn check_same_file(document: &Document<'_>, opened: &ModelData) -> Result<(), SaveError> {
+fn check_same_file(document: &SourceDocument<'_>, opened: &ModelData) -> Result<(), SaveError> {
     let mismatch = |place: &str, reason: String| Err(SaveError::Mismatch { place: place.to_owned(), reason });
     let (takes, animations) = (opened.animation.takes.len(), document.animations.len());
     if takes != animations {
@@ -119,7 +119,7 @@ fn check_same_file(document: &Document<'_>, opened: &ModelData) -> Result<(), Sa
 }
 
 fn take_draft(
-    document: &Document<'_>,
+    document: &SourceDocument<'_>,
     opened: &ModelData,
     now: &EditedTake,
     is_copy: bool,
@@ -174,7 +174,7 @@ fn moves(animation: Option<&FileAnimation>, edits: &[ChannelEdit]) -> bool {
 /// Finds room for what the takes need and writes accessors, views and bytes; returns the accessor of each need.
 fn write_numbers(
     draw: &mut Draw<'_, '_>,
-    target: Target,
+    target: TargetBuffer,
     slots: Vec<Slot>,
     takes: &[TakeDraft],
     needs: Needs,
@@ -242,7 +242,7 @@ fn write_numbers(
 }
 
 /// Returns the accessors that animations will still refer to without having written them.
-fn pinned(document: &Document<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
+fn pinned(document: &SourceDocument<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
     let mut pinned = HashSet::new();
     for take in takes {
         let Some(animation) = take.base.and_then(|base| document.animations.get(base)) else { continue };
@@ -263,7 +263,7 @@ fn pinned(document: &Document<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
 }
 
 /// Returns the key times in a slot, if it contains key times.
-fn input_bytes<'b>(document: &Document<'_>, slot: &Slot, bytes: &'b [u8]) -> Option<&'b [u8]> {
+fn input_bytes<'b>(document: &SourceDocument<'_>, slot: &Slot, bytes: &'b [u8]) -> Option<&'b [u8]> {
     let (json, id) = (document.json, document.accessors[slot.accessor]);
     let size = json.index_member(id, "count")?.checked_mul(4).filter(|&size| size <= slot.room)?;
     let is_input = json.string_member(id, "type")? == "SCALAR" && json.member(id, "min").is_some();
@@ -297,7 +297,7 @@ pub(super) fn fresh_view(buffer: usize, granted: &Granted) -> Fresh {
 
 /// Returns the bones that exist only because an animation of the file animates them or a descendant, and that will not
 /// be animated any more.
-fn bones_lost(document: &Document<'_>, opened: &ModelData, takes: &[TakeDraft]) -> Vec<(u32, String)> {
+fn bones_lost(document: &SourceDocument<'_>, opened: &ModelData, takes: &[TakeDraft]) -> Vec<(u32, String)> {
     let channels = |animation: &FileAnimation| -> Vec<_> {
         animation.channels.iter().filter_map(|channel| channel.target).collect()
     };
@@ -346,7 +346,7 @@ fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
 }
 
 /// Describes the changes of takes and channels.
-fn describe(changes: &mut Changes, document: &Document<'_>, takes: &[TakeDraft]) {
+fn describe(changes: &mut Changes, document: &SourceDocument<'_>, takes: &[TakeDraft]) {
     let names: HashMap<usize, String> = document
         .animations
         .iter()

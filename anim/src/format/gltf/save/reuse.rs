@@ -5,7 +5,7 @@
 //! refers to it, so that overwriting it changes nothing else. The length of the view is the available room; the
 //! accessor may need less.
 
-use super::document::Document;
+use super::document::SourceDocument;
 use super::json::tree::{Id, Json, Kind};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -29,7 +29,7 @@ pub(super) struct Slot {
 }
 
 /// Returns all slots in a buffer of `length` existing bytes, by accessor.
-pub(super) fn slots(document: &Document<'_>, buffer: usize, length: usize) -> Vec<Slot> {
+pub(super) fn slots(document: &SourceDocument<'_>, buffer: usize, length: usize) -> Vec<Slot> {
     let marked: Vec<usize> = (0..document.accessors.len())
         .filter(|&accessor| is_ours(document.json, document.accessors[accessor]))
         .collect();
@@ -79,7 +79,7 @@ const ACCESSORS: &[&str] = &["indices", "inverseBindMatrices", "accessor", "inpu
 
 /// Collects the references in the whole text. The meaning of unknown extensions is guessed from the names of their
 /// members; a reference too many is harmless, a missing one is not.
-fn references(document: &Document<'_>) -> References {
+fn references(document: &SourceDocument<'_>) -> References {
     let json = document.json;
     let samplers: HashSet<Id> = document.animations.iter().flat_map(|a| a.samplers.iter().copied()).collect();
     let mut found = References { accessors: HashSet::new(), views: HashMap::new(), ranges: Vec::new() };
@@ -130,7 +130,7 @@ struct Around {
 }
 
 /// Returns the range of a buffer that an object refers to, unless the object is a buffer view.
-fn range_of(document: &Document<'_>, id: Id) -> Option<(usize, u64, u64)> {
+fn range_of(document: &SourceDocument<'_>, id: Id) -> Option<(usize, u64, u64)> {
     let json = document.json;
     let (buffer, length) = (json.index_member(id, "buffer")?, json.whole_member(id, "byteLength")?);
     let from = json.whole_member(id, "byteOffset").unwrap_or(0);
@@ -138,7 +138,7 @@ fn range_of(document: &Document<'_>, id: Id) -> Option<(usize, u64, u64)> {
 }
 
 /// Returns the views of a buffer that share no byte with another view or range.
-fn undisturbed(document: &Document<'_>, buffer: usize, references: &References) -> HashSet<usize> {
+fn undisturbed(document: &SourceDocument<'_>, buffer: usize, references: &References) -> HashSet<usize> {
     let views = (0..document.views.len()).filter_map(|view| {
         let (of, from, length) = document.view_range(view)?;
         (of == buffer).then_some((from, from.saturating_add(length), Some(view)))
@@ -159,7 +159,12 @@ fn undisturbed(document: &Document<'_>, buffer: usize, references: &References) 
 }
 
 /// Returns whether anything but the slots uses bytes of a buffer from `start` on.
-pub(super) fn others_past(document: &Document<'_>, buffer: usize, start: usize, slots: &[Slot]) -> bool {
+pub(super) fn others_past(
+    document: &SourceDocument<'_>,
+    buffer: usize,
+    start: usize,
+    slots: &[Slot],
+) -> bool {
     let own: HashSet<usize> = slots.iter().map(|slot| slot.view).collect();
     let past = |range: (usize, u64, u64)| range.0 == buffer && range.2 > start as u64;
     let views = (0..document.views.len()).filter(|view| !own.contains(view));
