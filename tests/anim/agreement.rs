@@ -1,7 +1,7 @@
 //! Poses agree with those that independent programs computed from the same files, on the open path and on the fast
 //! path.
 
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{TestFolder, data, shared};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::fast::matrix::{self, mat4};
@@ -45,7 +45,7 @@ impl Comparison {
 fn load(path: &Path) -> ModelData {
     let bytes = std::fs::read(path).unwrap();
     let name = path.file_name().unwrap().to_str().unwrap();
-    let door = FolderFs(path.parent().unwrap().to_owned());
+    let door = TestFolder(path.parent().unwrap().to_owned());
     let imported = read(name, &bytes, &door, &ReadOptions::default());
     imported.unwrap_or_else(|error| panic!("{}: {error}", path.display())).model
 }

@@ -1,7 +1,7 @@
 //! Every bad file of the collection is refused with a clear error, or opens with a warning where that is allowed:
 //! quickly, with little memory, on a small stack.
 
-use crate::doors::{FolderFs, shared};
+use crate::doors::{TestFolder, shared};
 use crate::soundness::{faults, faults_of_poses};
 use dragonfly_anim::format::{AssetError, AssetFs, ImportError, Place, ReadOptions, read};
 use dragonfly_kit::counting::peak;
@@ -14,7 +14,7 @@ const MOST_TIME: Duration = Duration::from_secs(2);
 const MOST_MEMORY: u64 = 256 << 20;
 
 /// Access to a folder that records the paths that were read.
-struct RecordingFolder(FolderFs, RefCell<Vec<String>>);
+struct RecordingFolder(TestFolder, RefCell<Vec<String>>);
 
 impl AssetFs for RecordingFolder {
     fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
@@ -27,7 +27,7 @@ impl AssetFs for RecordingFolder {
 fn faults_of(path: PathBuf, expected: &str) -> Vec<String> {
     let bytes = std::fs::read(&path).unwrap();
     let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-    let door = RecordingFolder(FolderFs(path.parent().unwrap().to_owned()), RefCell::default());
+    let door = RecordingFolder(TestFolder(path.parent().unwrap().to_owned()), RefCell::default());
     let start = Instant::now();
     let (memory, result) = peak(|| read(&name, &bytes, &door, &ReadOptions::default()));
     let elapsed = start.elapsed();

@@ -124,16 +124,16 @@ fn a_cancel_takes_effect_within_a_quarter_of_a_second() {
 
 #[test]
 fn progress_increases_from_zero_to_one() {
-    let told = Cell::new((0.0, 0));
+    let reported = Cell::new((0.0, 0));
     let first = Cell::new(None);
     let progress = |part: f32| {
-        assert!(part >= told.get().0, "{part} after {}", told.get().0);
+        assert!(part >= reported.get().0, "{part} after {}", reported.get().0);
         first.set(first.get().or(Some(part)));
-        told.set((part, told.get().1 + 1));
+        reported.set((part, reported.get().1 + 1));
     };
     let options = ReadOptions { progress: &progress, ..ReadOptions::default() };
     read("a.glb", &Fixture::new().glb(), &MemoryFs::default(), &options).unwrap();
     assert_eq!(first.get(), Some(0.0));
-    assert_eq!(told.get().0, 1.0);
-    assert!(told.get().1 >= 4);
+    assert_eq!(reported.get().0, 1.0);
+    assert!(reported.get().1 >= 4);
 }

@@ -1,8 +1,8 @@
 //! Chains of bones reach every reachable target, and keep their lengths and limits.
 
 use crate::ik::{
-    PARENTS, Parent, at_distance, direction, lengths, matrices, only_rotations, origin, row, started, turn,
-    vector,
+    PARENTS, ParentScale, at_distance, direction, lengths, matrices, only_rotations, origin, row, started,
+    turn, vector,
 };
 use crate::support::bone;
 use dragonfly_anim::data::{Skeleton, Transform};
@@ -56,7 +56,7 @@ fn a_chain_out_of_reach_points_straight_at_its_target() {
     let mut scratch = ChainScratch::default();
     for round in 0..500 {
         let links = 1 + random.below(9);
-        let (skeleton, mut poses) = row(&mut random, links, Parent::Uniform);
+        let (skeleton, mut poses) = row(&mut random, links, ParentScale::Uniform);
         let old = matrices(&skeleton, &poses);
         let (way, most) = (direction(&mut random), lengths(&poses).iter().sum::<f32>());
         let target = at_distance(&old, &poses, way, most * random.choice(&[1.0001, 2.0, 1e4]));
@@ -78,7 +78,7 @@ fn a_chain_that_cannot_fold_far_enough_points_at_its_target_from_the_nearest_pos
     let mut scratch = ChainScratch::default();
     for round in 0..500 {
         let links = 2 + random.below(4);
-        let (skeleton, mut poses) = row(&mut random, links, Parent::Plain);
+        let (skeleton, mut poses) = row(&mut random, links, ParentScale::Plain);
         let long = 2 + random.below(links);
         let part = poses[long].translation;
         poses[long].translation = part.normalize() * 6.0 * links as f32;
@@ -103,7 +103,7 @@ fn a_chain_keeps_its_joint_limits_and_comes_no_farther_from_its_target() {
     let mut scratch = ChainScratch::default();
     for round in 0..500 {
         let links = 2 + random.below(6);
-        let (skeleton, mut poses) = row(&mut random, links, Parent::Plain);
+        let (skeleton, mut poses) = row(&mut random, links, ParentScale::Plain);
         poses.iter_mut().for_each(|pose| pose.rotation = Quat::IDENTITY);
         let old = matrices(&skeleton, &poses);
         let target = origin(&old, 1) + vector(&mut random) * links as f32;
@@ -232,7 +232,7 @@ fn a_chain_with_limits_reaches_most_targets_that_are_reachable_within_them() {
     let mut found = 0;
     for _ in 0..1_000 {
         let links = 2 + random.below(5);
-        let (skeleton, mut poses) = row(&mut random, links, Parent::Plain);
+        let (skeleton, mut poses) = row(&mut random, links, ParentScale::Plain);
         poses.iter_mut().for_each(|pose| pose.rotation = Quat::IDENTITY);
         let old = matrices(&skeleton, &poses);
         let mut bent = poses.clone();

@@ -1,7 +1,7 @@
 //! Each rule of the checks reports a valid model that is broken in its way, and no other rule does.
 
 use crate::dfm::golden;
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{TestFolder, data, shared};
 use crate::hostile::HostileModels;
 use dragonfly_anim::check::{Kind, MOST_OF_A_RULE, RULES, Severity, check, check_take};
 use dragonfly_anim::data::{
@@ -261,7 +261,7 @@ fn models_of_the_collection_have_no_errors() {
             if !name.ends_with(".glb") && !name.ends_with(".gltf") {
                 continue;
             }
-            let door = FolderFs(path.parent().unwrap().to_owned());
+            let door = TestFolder(path.parent().unwrap().to_owned());
             let Ok(imported) = read(&name, &std::fs::read(&path).unwrap(), &door, &ReadOptions::default())
             else {
                 continue;

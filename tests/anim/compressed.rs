@@ -1,6 +1,6 @@
 //! Compressed takes are small, within the requested tolerance, and safe to read from any bytes.
 
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{TestFolder, data, shared};
 use crate::support::{about_z, along_x, bone, take};
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::compressed::{
@@ -21,7 +21,7 @@ use std::path::PathBuf;
 
 fn load(path: PathBuf) -> ModelData {
     let bytes = std::fs::read(&path).unwrap();
-    let door = FolderFs(path.parent().unwrap().to_owned());
+    let door = TestFolder(path.parent().unwrap().to_owned());
     read("model.glb", &bytes, &door, &ReadOptions::default()).unwrap().model
 }
 

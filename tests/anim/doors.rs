@@ -35,9 +35,9 @@ impl AssetFs for MemoryFs {
 }
 
 /// Access to the files of a folder of test data.
-pub(crate) struct FolderFs(pub(crate) PathBuf);
+pub(crate) struct TestFolder(pub(crate) PathBuf);
 
-impl AssetFs for FolderFs {
+impl AssetFs for TestFolder {
     fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
         let path = self.0.join(path);
         let size = std::fs::metadata(&path).map_err(|_| AssetError::Missing)?.len();

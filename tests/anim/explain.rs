@@ -372,7 +372,7 @@ fn bones_without_a_weight_are_not_part_of_a_vertex() {
     let what = What::Vertex { instance: 0, primitive: 0, vertex: 0 };
     let explanation = explain(&made(), Some(0), 0.5, what).unwrap();
     let MovementStep::Skin { influences, .. } = &vertex_of(&explanation).movement else { panic!("a skin") };
-    let told: Vec<(Option<u32>, f32)> =
+    let shares: Vec<(Option<u32>, f32)> =
         influences.iter().map(|influence| (influence.bone, influence.weight)).collect();
-    assert_eq!(told, [(Some(1), 0.75), (Some(0), 0.25)]);
+    assert_eq!(shares, [(Some(1), 0.75), (Some(0), 0.25)]);
 }

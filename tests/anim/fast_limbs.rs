@@ -1,6 +1,6 @@
 //! Limbs of the fast path bend like those of the open path.
 
-use crate::ik::{Parent, at_distance, direction, lengths, matrices, origin, row, started, turn, vector};
+use crate::ik::{ParentScale, at_distance, direction, lengths, matrices, origin, row, started, turn, vector};
 use crate::support::angle_between;
 use dragonfly_anim::data::{Skeleton, Transform};
 use dragonfly_anim::fast::simd::Level;
@@ -14,7 +14,7 @@ use glam::{Mat4, Quat, Vec3};
 const ANGLE: f32 = 2e-4;
 
 /// The parents with a uniform scale.
-const PARENTS: [Parent; 3] = [Parent::Plain, Parent::Uniform, Parent::Mirrored];
+const PARENTS: [ParentScale; 3] = [ParentScale::Plain, ParentScale::Uniform, ParentScale::Mirrored];
 
 /// Returns `poses` after the fast path solved `limb`; `None` if it did not.
 fn fast(skeleton: &Skeleton, poses: &[Transform], limb: &TwoBone, target: Vec3) -> Option<Vec<Transform>> {
@@ -112,11 +112,11 @@ fn a_limb_with_a_weight_rotates_like_on_the_open_path() {
 fn weight_zero_changes_no_bit() {
     let mut random = started(64);
     for weight in [0.0, -0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
-        let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+        let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
         let limb = TwoBone { weight, ..limb(&mut random) };
         assert_eq!(fast(&skeleton, &poses, &limb, vector(&mut random)), Some(poses));
     }
-    let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+    let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
     let (limb, target) = (limb(&mut random), vector(&mut random));
     let over = TwoBone { weight: 7.0, ..limb };
     assert_eq!(fast(&skeleton, &poses, &over, target), fast(&skeleton, &poses, &limb, target));
@@ -124,7 +124,7 @@ fn weight_zero_changes_no_bit() {
 
 /// Returns a straight row of two segments along `way`, of lengths `a` and `b`; a negative length folds back.
 fn line(random: &mut Random, way: Vec3, a: f32, b: f32) -> (Skeleton, Vec<Transform>) {
-    let (mut skeleton, mut poses) = row(random, 2, Parent::Plain);
+    let (mut skeleton, mut poses) = row(random, 2, ParentScale::Plain);
     for (bone, length) in [(2, a), (3, b)] {
         skeleton.bones[bone].rest.translation = way * length;
         poses[bone].translation = way * length;
@@ -166,7 +166,7 @@ fn a_straight_limb_bends_towards_its_pole_or_anywhere_and_reaches_its_target() {
 fn targets_directly_behind_the_limb_are_reached() {
     let mut random = started(66);
     for round in 0..2_000 {
-        let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+        let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
         let old = matrices(&skeleton, &poses);
         let [root, middle, end] = [1, 2, 3].map(|bone| origin(&old, bone));
         if (end - root).length() < 0.2 || (middle - root).cross(end - root).length() < 0.05 {
@@ -188,7 +188,7 @@ fn targets_directly_behind_the_limb_are_reached() {
 fn limbs_of_any_size_bend_the_same_way() {
     let mut random = started(67);
     for _ in 0..300 {
-        let (mut skeleton, mut poses) = row(&mut random, 2, Parent::Plain);
+        let (mut skeleton, mut poses) = row(&mut random, 2, ParentScale::Plain);
         let (limb, target) = (limb(&mut random), vector(&mut random));
         poses[0].translation = Vec3::ZERO;
         let usual = fast(&skeleton, &poses, &limb, target).unwrap();
@@ -210,7 +210,7 @@ fn limbs_of_any_size_bend_the_same_way() {
 #[test]
 fn an_unsolvable_limb_changes_nothing() {
     let mut random = started(68);
-    let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+    let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
     let rig = Rig::new(&skeleton);
     let mut roots = RootPoses::new(&rig);
     to_root(Level::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);
@@ -267,13 +267,13 @@ fn no_input_makes_an_invalid_rotation() {
     }
 }
 
-fn random_parent(round: usize) -> Parent {
+fn random_parent(round: usize) -> ParentScale {
     PARENTS[round % 3]
 }
 
 #[test]
 fn the_returned_distance_is_that_from_the_end_to_the_target() {
-    let (skeleton, poses) = row(&mut started(70), 2, Parent::Plain);
+    let (skeleton, poses) = row(&mut started(70), 2, ParentScale::Plain);
     let rig = Rig::new(&skeleton);
     let mut roots = RootPoses::new(&rig);
     to_root(Level::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);

@@ -1,6 +1,6 @@
 //! The fast path agrees with the open path, at every SIMD level of the machine.
 
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{TestFolder, data, shared};
 use crate::support::{animation_data, bone, take};
 use dragonfly_anim::animation::{final_poses as open_finals, to_root as open_to_root};
 use dragonfly_anim::data::{
@@ -146,7 +146,7 @@ impl MapWith for Vec<Level> {
 pub(crate) fn load(path: &Path) -> ModelData {
     let bytes = std::fs::read(path).unwrap();
     let name = path.file_name().unwrap().to_str().unwrap();
-    read(name, &bytes, &FolderFs(path.parent().unwrap().to_owned()), &ReadOptions::default()).unwrap().model
+    read(name, &bytes, &TestFolder(path.parent().unwrap().to_owned()), &ReadOptions::default()).unwrap().model
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn every_available_model_moves_the_same_on_both_paths() {
         let Ok(bytes) = std::fs::read(&path) else { continue };
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         let Ok(imported) =
-            read(&name, &bytes, &FolderFs(path.parent().unwrap().to_owned()), &ReadOptions::default())
+            read(&name, &bytes, &TestFolder(path.parent().unwrap().to_owned()), &ReadOptions::default())
         else {
             continue;
         };

@@ -3,7 +3,7 @@
 //! The tests walk the list, so a new format is tested without a change here. It needs a file in `tests/data`, unless
 //! models can be written in it.
 
-use crate::doors::{FolderFs, MemoryFs, data, shared};
+use crate::doors::{MemoryFs, TestFolder, data, shared};
 use crate::fixture::Fixture;
 use crate::soundness::faults;
 use dragonfly_anim::data::{AnimationData, ModelData, Skeleton, Take};
@@ -55,7 +55,7 @@ fn samples(format: &Format) -> Vec<SampleFile> {
             samples.push(SampleFile { name, bytes, folder });
         } else if let WriteSupport::Whole(write) = format.write {
             let model =
-                read(&name, &bytes, &FolderFs(folder.clone()), &ReadOptions::default()).unwrap().model;
+                read(&name, &bytes, &TestFolder(folder.clone()), &ReadOptions::default()).unwrap().model;
             let name = format!("{name}.{}", format.extension());
             samples.push(SampleFile { name, bytes: write(&model).unwrap().bytes, folder });
         }
@@ -99,7 +99,7 @@ fn every_format_is_recognized_by_its_content_under_any_name() {
 fn every_format_reads_its_files_into_sound_models() {
     for format in BUILTIN {
         for sample in samples(format) {
-            let files = FolderFs(sample.folder.clone());
+            let files = TestFolder(sample.folder.clone());
             let imported = format.import(&sample.bytes, &files, &ReadOptions::default()).unwrap();
             assert_eq!(imported.format, *format);
             assert_eq!(faults(&imported.model), [""; 0], "{}", sample.name);
@@ -111,7 +111,7 @@ fn every_format_reads_its_files_into_sound_models() {
 fn what_every_writable_format_writes_reads_back() {
     for format in BUILTIN.iter().filter(|format| format.is_writable()) {
         for sample in samples(format) {
-            let (name, files) = (sample.name.as_str(), FolderFs(sample.folder.clone()));
+            let (name, files) = (sample.name.as_str(), TestFolder(sample.folder.clone()));
             let options = ReadOptions::default();
             let opened = format.import(&sample.bytes, &files, &options).unwrap().model;
             let file = format.edit(name, sample.bytes.clone(), &files, &options).unwrap();

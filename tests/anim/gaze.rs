@@ -55,7 +55,7 @@ fn the_last_bone_looks_straight_at_its_target_whatever_its_parents_do() {
 fn the_up_axis_stays_as_upright_as_the_gaze_allows() {
     let mut random = started(62);
     for _ in 0..500 {
-        let (skeleton, mut poses) = row(&mut random, 1, crate::ik::Parent::Uniform);
+        let (skeleton, mut poses) = row(&mut random, 1, crate::ik::ParentScale::Uniform);
         let old = matrices(&skeleton, &poses);
         let target = origin(&old, 2) + direction(&mut random) * poses[0].scale.x;
         let gaze = [Gaze { up: Vec3::Y, ..Gaze::new(2, Vec3::Z) }];
@@ -126,7 +126,7 @@ fn a_target_that_leaves_the_field_of_view_is_released_smoothly() {
 #[test]
 fn a_gaze_without_weight_or_target_changes_no_bit_and_errors_change_nothing() {
     let mut random = started(63);
-    let (skeleton, poses) = row(&mut random, 4, crate::ik::Parent::Uneven);
+    let (skeleton, poses) = row(&mut random, 4, crate::ik::ParentScale::Uneven);
     let old = matrices(&skeleton, &poses);
     let gazes = [Gaze::new(1, Vec3::X), Gaze::new(4, Vec3::Z)];
     let look = |look: &LookAt<'_>, target: Vec3| {

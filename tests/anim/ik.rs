@@ -13,14 +13,15 @@ use glam::{DVec3, Mat3, Mat4, Quat, Vec3};
 
 /// Scale of the parent of a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Parent {
+pub(crate) enum ParentScale {
     Plain,
     Uniform,
     Mirrored,
     Uneven,
 }
 
-pub(crate) const PARENTS: [Parent; 4] = [Parent::Plain, Parent::Uniform, Parent::Mirrored, Parent::Uneven];
+pub(crate) const PARENTS: [ParentScale; 4] =
+    [ParentScale::Plain, ParentScale::Uniform, ParentScale::Mirrored, ParentScale::Uneven];
 
 pub(crate) fn started(usual: u64) -> Random {
     let seed = seed(usual);
@@ -41,7 +42,7 @@ pub(crate) fn turn(random: &mut Random) -> Quat {
 }
 
 /// Bone 0 is the parent, then a row of `links + 1` bones; all rotated at random.
-pub(crate) fn row(random: &mut Random, links: usize, parent: Parent) -> (Skeleton, Vec<Transform>) {
+pub(crate) fn row(random: &mut Random, links: usize, parent: ParentScale) -> (Skeleton, Vec<Transform>) {
     let mut bones = vec![bone("parent", None, vector(random))];
     for index in 0..=links {
         let length = if index == 0 { 1.0 } else { random.between(0.2, 2.0) };
@@ -52,10 +53,10 @@ pub(crate) fn row(random: &mut Random, links: usize, parent: Parent) -> (Skeleto
     let mut poses: Vec<Transform> = skeleton.bones.iter().map(rest_pose).collect();
     poses.iter_mut().for_each(|pose| pose.rotation = turn(random));
     poses[0].scale = match parent {
-        Parent::Plain => Vec3::ONE,
-        Parent::Uniform => Vec3::splat(random.between(0.01, 20.0)),
-        Parent::Mirrored => Vec3::new(-1.0, 1.0, 1.0),
-        Parent::Uneven => Vec3::new(random.between(0.5, 2.0), -random.between(0.5, 2.0), 1.0),
+        ParentScale::Plain => Vec3::ONE,
+        ParentScale::Uniform => Vec3::splat(random.between(0.01, 20.0)),
+        ParentScale::Mirrored => Vec3::new(-1.0, 1.0, 1.0),
+        ParentScale::Uneven => Vec3::new(random.between(0.5, 2.0), -random.between(0.5, 2.0), 1.0),
     };
     (skeleton, poses)
 }
@@ -129,7 +130,7 @@ fn closed_form(root: DVec3, target: DVec3, pole: DVec3, a: f64, b: f64) -> [DVec
 fn a_limb_with_a_pole_agrees_with_the_law_of_cosines_in_f64() {
     let mut random = started(22);
     for round in 0..4_000 {
-        let parent = random.choice(&[Parent::Plain, Parent::Uniform, Parent::Mirrored]);
+        let parent = random.choice(&[ParentScale::Plain, ParentScale::Uniform, ParentScale::Mirrored]);
         let (skeleton, mut poses) = row(&mut random, 2, parent);
         let old = matrices(&skeleton, &poses);
         let root = origin(&old, 1);
@@ -160,7 +161,7 @@ fn a_limb_with_a_pole_agrees_with_the_law_of_cosines_in_f64() {
 fn a_limb_out_of_reach_points_straight_at_its_target() {
     let mut random = started(23);
     for round in 0..1_000 {
-        let (skeleton, mut poses) = row(&mut random, 2, Parent::Uniform);
+        let (skeleton, mut poses) = row(&mut random, 2, ParentScale::Uniform);
         let old = matrices(&skeleton, &poses);
         let way = direction(&mut random);
         let most: f32 = lengths(&poses).iter().sum();
@@ -181,7 +182,7 @@ fn weight_zero_changes_no_bit_and_half_a_weight_goes_half_the_way() {
     let mut random = started(24);
     let mut scratch = ChainScratch::default();
     for _ in 0..200 {
-        let (skeleton, poses) = row(&mut random, 4, Parent::Plain);
+        let (skeleton, poses) = row(&mut random, 4, ParentScale::Plain);
         let old = matrices(&skeleton, &poses);
         let target = vector(&mut random) * 3.0;
         for weight in [0.0, -0.0, -1.0, f32::NAN] {
@@ -255,7 +256,7 @@ fn soft_reach_has_no_step_and_never_quite_straightens() {
     assert!((f64::from(soft_distance(2.0, 2.0, 0.2)) - expected).abs() < 1e-6);
     assert_eq!(soft_distance(3.0, 2.0, 0.0), 2.0);
     let mut random = started(25);
-    let (skeleton, mut poses) = row(&mut random, 2, Parent::Plain);
+    let (skeleton, mut poses) = row(&mut random, 2, ParentScale::Plain);
     let old = matrices(&skeleton, &poses);
     let most: f32 = lengths(&poses).iter().sum();
     let target = at_distance(&old, &poses, Vec3::X, most);
@@ -269,7 +270,7 @@ fn soft_reach_has_no_step_and_never_quite_straightens() {
 fn the_end_gets_the_requested_rotation() {
     let mut random = started(26);
     for _ in 0..500 {
-        let (skeleton, poses) = row(&mut random, 2, Parent::Uniform);
+        let (skeleton, poses) = row(&mut random, 2, ParentScale::Uniform);
         let old = matrices(&skeleton, &poses);
         let target = origin(&old, 1) + vector(&mut random) * poses[0].scale.x;
         let axes = |matrix: Mat4| {
@@ -292,7 +293,7 @@ fn the_end_gets_the_requested_rotation() {
     // Under a mirroring parent the end is kept if it was kept, and a target rotation is the one that the matrix
     // decomposes to.
     for _ in 0..200 {
-        let (skeleton, poses) = row(&mut random, 2, Parent::Mirrored);
+        let (skeleton, poses) = row(&mut random, 2, ParentScale::Mirrored);
         let old = matrices(&skeleton, &poses);
         let target = origin(&old, 1) + vector(&mut random);
         let wanted = turn(&mut random);
@@ -355,7 +356,7 @@ fn a_real_animal_reaches_and_looks_in_every_take() {
 #[test]
 fn degenerate_limbs_have_defined_results() {
     let mut random = started(30);
-    let (skeleton, rest) = row(&mut random, 2, Parent::Plain);
+    let (skeleton, rest) = row(&mut random, 2, ParentScale::Plain);
     let old = matrices(&skeleton, &rest);
     let mut scratch = ChainScratch::default();
     let mut solve = |poses: &[Transform], target: Vec3| {
@@ -399,7 +400,7 @@ fn degenerate_limbs_have_defined_results() {
 #[test]
 fn invalid_limbs_are_an_error_and_change_nothing() {
     let mut random = started(31);
-    let (skeleton, rest) = row(&mut random, 3, Parent::Plain);
+    let (skeleton, rest) = row(&mut random, 3, ParentScale::Plain);
     let old = matrices(&skeleton, &rest);
     let mut scratch = ChainScratch::default();
     let mut fails = |root: u32, end: u32, target: Vec3, poses: &[Transform], matrices: &[Mat4]| {
@@ -468,7 +469,7 @@ fn no_input_makes_a_pose_nan() {
 #[test]
 fn solving_again_allocates_nothing() {
     let mut random = started(33);
-    let (skeleton, mut poses) = row(&mut random, 6, Parent::Plain);
+    let (skeleton, mut poses) = row(&mut random, 6, ParentScale::Plain);
     let old = matrices(&skeleton, &poses);
     let mut scratch = ChainScratch::with_capacity(7);
     let (allocated, ()) = count(|| {

@@ -309,11 +309,11 @@ fn every_file_gets_levels_and_none_exceeds_its_stated_error() {
         let poses = if model.animation.takes.len() > 4 { 1 } else { 2 };
         let chain = levels(&model, &LevelSettings { poses, ..LevelSettings::default() });
         let size = Evaluator::new(Arc::clone(&model)).bounds().sphere.radius;
-        let said: Vec<String> = chain
+        let described: Vec<String> = chain
             .iter()
             .map(|level| format!("{} ({:.2} %)", level.triangles, level.error / size * 100.0))
             .collect();
-        println!("{name:<40} {} in {:?}", said.join(", "), begin.elapsed());
+        println!("{name:<40} {} in {:?}", described.join(", "), begin.elapsed());
         for (mesh, (of, indices)) in model.meshes.iter().zip(&chain[chain.len() - 1].indices).enumerate() {
             for (primitive, indices) in of.primitives.iter().zip(indices) {
                 assert!(primitive.indices.is_empty() || !indices.is_empty(), "{name} mesh {mesh}");

@@ -1,6 +1,6 @@
 //! Chains with joint limits reach every target that is reachable within the limits.
 
-use crate::ik::{Parent, lengths, matrices, origin, row, started, turn, vector};
+use crate::ik::{ParentScale, lengths, matrices, origin, row, started, turn, vector};
 use crate::support::bone;
 use dragonfly_anim::data::{Skeleton, Transform};
 use dragonfly_anim::ik::{Chain, ChainScratch, Limit, chain};
@@ -146,7 +146,7 @@ fn found(name: &str, seed: u64, make: impl Fn(&mut Random) -> (Limited, Vec3)) -
 fn a_chain_with_limits_reaches_targets_that_are_reachable_within_them() {
     let cones = |random: &mut Random| {
         let links = 2 + random.below(5);
-        let (skeleton, mut poses) = row(random, links, Parent::Plain);
+        let (skeleton, mut poses) = row(random, links, ParentScale::Plain);
         poses.iter_mut().for_each(|pose| pose.rotation = Quat::IDENTITY);
         let cone = JointLimit::Ball(Ball::round(Vec3::X, 0.7, AngleRange::within(0.7)));
         let limited = Limited::new((skeleton, poses), |_| Some(cone));
@@ -156,7 +156,7 @@ fn a_chain_with_limits_reaches_targets_that_are_reachable_within_them() {
     let mixed = |most: f32| {
         move |random: &mut Random| {
             let links = 2 + random.below(6);
-            let row = row(random, links, Parent::Plain);
+            let row = row(random, links, ParentScale::Plain);
             let limited = Limited::new(row, |_| Some(any_limit(random)));
             let target = limited.reachable(random, most);
             (limited, target)

@@ -1,6 +1,6 @@
 //! Random models: skeletons that bend, meshes that several bones share, and invalid weights.
 
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{TestFolder, data, shared};
 use crate::support::{animation_data, bone};
 use dragonfly_anim::data::{
     Channel, Influence, Interpolation, Mesh, MeshInstance, ModelData, MorphTarget, Primitive, Skin, Take,
@@ -164,7 +164,7 @@ pub(crate) fn times(random: &mut Random, model: &ModelData, each: usize) -> Vec<
 pub(crate) fn load(path: &Path) -> Arc<ModelData> {
     let bytes = std::fs::read(path).unwrap();
     let name = path.file_name().unwrap().to_str().unwrap();
-    let door = FolderFs(path.parent().unwrap().to_owned());
+    let door = TestFolder(path.parent().unwrap().to_owned());
     Arc::new(read(name, &bytes, &door, &ReadOptions::default()).unwrap().model)
 }
 

@@ -1,6 +1,6 @@
 //! Extracting root motion and restoring it gives the original take.
 
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{TestFolder, data, shared};
 use crate::ik::{direction, started, turn, vector};
 use crate::support::{angle_between, bone, take};
 use dragonfly_anim::animation::to_root;
@@ -373,7 +373,7 @@ fn the_motion_and_the_rest_of_any_take_are_finite() {
 
 pub(crate) fn load(path: &Path) -> ModelData {
     let bytes = std::fs::read(path).unwrap();
-    let door = FolderFs(path.parent().unwrap().to_owned());
+    let door = TestFolder(path.parent().unwrap().to_owned());
     read(path.file_name().unwrap().to_str().unwrap(), &bytes, &door, &ReadOptions::default()).unwrap().model
 }
 

@@ -172,8 +172,8 @@ fn no_point_of_any_shell_moves_further_than_the_tolerance() {
         let worst = worst(&take, &reduced.take, &skeleton, &settings, |_, _| true);
         let allowed = f64::from(settings.tolerance) * (1.0 + 1e-6);
         assert!(worst <= allowed, "round {round}: {worst} mm, {settings:?}");
-        let told = reduced.measurement.largest.unwrap().millimetres;
-        assert!(worst <= told * (1.0 + 1e-6), "round {round}: {worst} mm found, {told} mm told");
+        let stated = reduced.measurement.largest.unwrap().millimetres;
+        assert!(worst <= stated * (1.0 + 1e-6), "round {round}: {worst} mm found, {stated} mm stated");
         (before, after) = (before + reduced.keys_before, after + reduced.keys_after);
     }
     println!("{before} keys became {after}");

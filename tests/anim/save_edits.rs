@@ -2,7 +2,7 @@
 
 use crate::doors::{MemoryFs, data};
 use crate::fixture::{Fixture, accessor};
-use crate::save_support::{Opened, Over, bin_of, take_mut};
+use crate::save_support::{OpenedFile, Over, bin_of, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Track};
 use dragonfly_anim::format::gltf::save::{ChannelChange, MARK, TakeChange};
 use dragonfly_anim::format::{EditedTake, NoFiles};
@@ -39,8 +39,8 @@ pub(crate) fn moving_track() -> Track {
     }
 }
 
-fn fox() -> Opened {
-    Opened::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap())
+fn fox() -> OpenedFile {
+    OpenedFile::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap())
 }
 
 fn marked(json: &Value, list: &str) -> usize {
@@ -231,7 +231,7 @@ fn closest_key_becomes_step_and_a_spline_of_one_key_that_key() {
     track.translation = closest.clone();
     track.scale = Channel::new([0.5], [Vec3::X, Vec3::Y, Vec3::Z], Interpolation::CubicSpline);
     let plan = dragonfly_anim::format::gltf::save::plan(&fox.source, &fox.model, &takes).unwrap();
-    let again = Opened::alone("Fox.glb", &plan.write()[0].bytes);
+    let again = OpenedFile::alone("Fox.glb", &plan.write()[0].bytes);
     let track = &again.model.animation.takes[0].tracks[3];
     assert_eq!(track.translation.interpolation, Interpolation::Step);
     assert_eq!(track.translation.range(), closest.range());
@@ -282,7 +282,7 @@ fn shared_fixture() -> Fixture {
 #[test]
 fn shared_samplers_and_accessors_are_not_changed() {
     let fixture = shared_fixture();
-    let opened = Opened::alone("shared.glb", &fixture.glb());
+    let opened = OpenedFile::alone("shared.glb", &fixture.glb());
     let before = &fixture.json["animations"];
     for index in 0..2 {
         let mut takes = opened.takes();
@@ -304,7 +304,7 @@ fn shared_samplers_and_accessors_are_not_changed() {
 
 #[test]
 fn removing_a_channel_removes_the_second_one_of_its_target() {
-    let opened = Opened::alone("shared.glb", &shared_fixture().glb());
+    let opened = OpenedFile::alone("shared.glb", &shared_fixture().glb());
     let mut takes = opened.takes();
     let take = take_mut(&mut takes, 0);
     for track in &mut take.tracks {
@@ -318,7 +318,7 @@ fn removing_a_channel_removes_the_second_one_of_its_target() {
 fn morph_weights_are_saved_too() {
     let fixture = Fixture::new();
     for (name, bytes) in [("a.glb", fixture.glb()), ("a.gltf", fixture.gltf())] {
-        let opened = Opened::alone(name, &bytes);
+        let opened = OpenedFile::alone(name, &bytes);
         let mut takes = opened.takes();
         let take = take_mut(&mut takes, 0);
         assert_eq!(take.morphs.len(), 1);
@@ -353,7 +353,7 @@ fn quantized_and_sparse_keys_become_floats_only_where_they_are_edited() {
     for sampler in samplers.iter_mut().filter(|sampler| sampler["output"] == accessor::ROTATIONS) {
         sampler["output"] = json!(quantised);
     }
-    let opened = Opened::alone("quantised.glb", &fixture.glb());
+    let opened = OpenedFile::alone("quantised.glb", &fixture.glb());
     let mut takes = opened.takes();
     let track = take_mut(&mut takes, 0).tracks.iter_mut().find(|track| !track.rotation.is_empty()).unwrap();
     track.rotation.values =
@@ -375,7 +375,7 @@ fn quantized_and_sparse_keys_become_floats_only_where_they_are_edited() {
 fn keys_that_the_importer_sorted_are_written_with_their_own_times() {
     let mut fixture = Fixture::new();
     fixture.float(accessor::TIMES, 0, 1.0).float(accessor::TIMES, 2, 0.0);
-    let opened = Opened::alone("unsorted.glb", &fixture.glb());
+    let opened = OpenedFile::alone("unsorted.glb", &fixture.glb());
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     let saved = opened.saved(&takes, &NoFiles);
@@ -386,7 +386,7 @@ fn keys_that_the_importer_sorted_are_written_with_their_own_times() {
 fn new_keys_of_a_file_with_a_separate_buffer_get_another_buffer_file() {
     let fixture = Fixture::new();
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
-    let opened = Opened::new("my fox.gltf", &fixture.gltf_with_file(), &door).unwrap();
+    let opened = OpenedFile::new("my fox.gltf", &fixture.gltf_with_file(), &door).unwrap();
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     let saved = opened.saved(&takes, &door);
@@ -408,7 +408,7 @@ fn new_keys_of_a_file_with_a_separate_buffer_get_another_buffer_file() {
 #[test]
 fn a_container_without_a_binary_chunk_gets_a_binary_chunk() {
     let fixture = Fixture::new();
-    let opened = Opened::alone("embedded.glb", &crate::fixture::glb(&fixture.gltf(), None));
+    let opened = OpenedFile::alone("embedded.glb", &crate::fixture::glb(&fixture.gltf(), None));
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     // Its buffer is a data URI, which becomes longer.
@@ -441,7 +441,7 @@ fn a_node_with_a_matrix_can_be_animated() {
     let still = nodes.len() - 1;
     fixture.json["skins"][0]["joints"].as_array_mut().unwrap().push(json!(still));
     fixture.json["skins"][0].as_object_mut().unwrap().remove("inverseBindMatrices");
-    let opened = Opened::alone("matrix.glb", &fixture.glb());
+    let opened = OpenedFile::alone("matrix.glb", &fixture.glb());
     let bone = opened.model.animation.skeleton.find("still").unwrap() as usize;
     let mut takes = opened.takes();
     take_mut(&mut takes, 0).tracks[bone].rotation = moving_track().rotation;

@@ -2,15 +2,15 @@
 
 use crate::doors::data;
 use crate::fixture::Fixture;
-use crate::save_support::{Opened, take_mut};
+use crate::save_support::{OpenedFile, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, Take};
 use dragonfly_anim::format::gltf::save::{SaveError, SourceFile, plan};
 use dragonfly_anim::format::{EditedTake, NoFiles, ReadOptions};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-fn fox() -> Opened {
-    Opened::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap())
+fn fox() -> OpenedFile {
+    OpenedFile::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap())
 }
 
 /// Returns the error of saving the fox with its second take changed.
@@ -73,7 +73,7 @@ fn takes_of_another_model_are_refused() {
     assert!(refused(|take| take.morphs = vec![morph(9, 1)]).contains("no such mesh instance"));
     assert!(refused(|take| take.morphs = vec![morph(0, 1)]).contains("1 weights for 0 targets"));
     let fox = fox();
-    let other = Opened::alone("other.glb", &Fixture::new().glb());
+    let other = OpenedFile::alone("other.glb", &Fixture::new().glb());
     let mismatch = plan(&fox.source, &other.model, &other.takes()).err().unwrap();
     assert!(matches!(mismatch, SaveError::Mismatch { .. }), "{mismatch}");
     let nowhere = EditedTake { origin: Some(7), take: fox.takes()[0].take.clone() };

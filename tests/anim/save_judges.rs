@@ -8,7 +8,7 @@ use crate::doors::{MemoryFs, data, shared};
 use crate::fixture::Fixture;
 use crate::made::rotation;
 use crate::save_edits::{moving_track, shift};
-use crate::save_support::{Opened, take_mut};
+use crate::save_support::{OpenedFile, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, Track};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::gltf::save::compact;
@@ -77,7 +77,7 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
     }
     let mut files = Vec::new();
     for (name, bytes) in sources {
-        let opened = Opened::alone(&name, &bytes);
+        let opened = OpenedFile::alone(&name, &bytes);
         let bones = opened.model.animation.skeleton.len();
         let mut takes = opened.takes();
         if !takes.is_empty() && takes[0].take.tracks.iter().any(|track| !track.translation.is_empty()) {
@@ -137,7 +137,7 @@ fn edited_with_buffer_file() -> (Vec<u8>, Vec<OutputFile>) {
     let fixture = Fixture::new();
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
     let before = fixture.gltf_with_file();
-    let opened = Opened::new("beside.gltf", &before, &door).unwrap();
+    let opened = OpenedFile::new("beside.gltf", &before, &door).unwrap();
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     let saved = opened.saved(&takes, &door);
@@ -207,7 +207,7 @@ fn the_validator_finds_no_new_issue_in_saved_files() {
 #[test]
 fn three_js_plays_an_edited_clip_with_the_same_poses() {
     let Some(evaluators) = evaluators() else { return };
-    let fox = Opened::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap());
+    let fox = OpenedFile::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap());
     let mut random = Random::new(5);
     let mut takes = fox.takes();
     for track in take_mut(&mut takes, 1).tracks.iter_mut().step_by(3) {

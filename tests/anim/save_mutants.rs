@@ -106,7 +106,7 @@ fn files() -> Vec<Vec<u8>> {
         seeds().into_iter().map(|seed| seed.bytes).filter(|bytes| bytes.len() <= 8 << 10).collect();
     let fixture = crate::fixture::Fixture::new();
     for (name, bytes) in [("a.glb", fixture.glb()), ("a.gltf", fixture.gltf())] {
-        let opened = crate::save_support::Opened::alone(name, &bytes);
+        let opened = crate::save_support::OpenedFile::alone(name, &bytes);
         let mut takes = opened.takes();
         crate::save_edits::shift(&mut takes, 0);
         let saved = opened.saved(&takes, &dragonfly_anim::format::NoFiles);

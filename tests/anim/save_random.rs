@@ -3,7 +3,7 @@
 use crate::doors::data;
 use crate::fixture::Fixture;
 use crate::made::{rotation, vector};
-use crate::save_support::{Opened, take_mut};
+use crate::save_support::{OpenedFile, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Track};
 use dragonfly_anim::format::gltf::save::compact;
 use dragonfly_anim::format::{EditedTake, NoFiles};
@@ -58,7 +58,7 @@ fn rotations(random: &mut Random, times: &Arc<[f32]>) -> Channel<Quat> {
 }
 
 /// Changes something in the takes at random.
-fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<EditedTake>) {
+fn edit(random: &mut Random, opened: &OpenedFile, takes: &mut Vec<EditedTake>) {
     let index = random.below(takes.len());
     let bones = opened.model.animation.skeleton.len();
     let bone = random.below(bones);
@@ -116,7 +116,7 @@ fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<EditedTake>) {
 
 /// Saves after some edits, several times, each time starting from the saved file.
 fn sessions(name: &str, bytes: &[u8], random: &mut Random, saves: usize) {
-    let mut opened = Opened::alone(name, bytes);
+    let mut opened = OpenedFile::alone(name, bytes);
     for _ in 0..saves {
         let mut takes = opened.takes();
         for _ in 0..1 + random.below(5) {
@@ -128,7 +128,7 @@ fn sessions(name: &str, bytes: &[u8], random: &mut Random, saves: usize) {
         opened = saved.opened;
         if random.below(4) == 0 {
             let bytes = compact(&opened.source).unwrap().write().remove(0).bytes;
-            let compacted = Opened::alone(name, &bytes);
+            let compacted = OpenedFile::alone(name, &bytes);
             crate::save_support::same_scene(&opened.model, &compacted.model);
             crate::save_support::same_takes(&opened.model, &opened.takes(), &compacted.model);
             opened = compacted;

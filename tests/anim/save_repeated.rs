@@ -3,7 +3,7 @@
 use crate::doors::{MemoryFs, data};
 use crate::fixture::Fixture;
 use crate::save_edits::shift;
-use crate::save_support::{Opened, Over, bin_of, rest_stays, same_scene, same_takes, take_mut};
+use crate::save_support::{OpenedFile, Over, bin_of, rest_stays, same_scene, same_takes, take_mut};
 use dragonfly_anim::data::Channel;
 use dragonfly_anim::format::gltf::save::compact;
 use dragonfly_anim::format::{AssetFs, NoFiles};
@@ -22,7 +22,7 @@ fn ten_saves_of_the_same_channel_are_as_large_as_one() {
         ("d.gltf", fixture.gltf_with_file()),
     ] {
         let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
-        let mut opened = Opened::new(name, &bytes, &door).unwrap();
+        let mut opened = OpenedFile::new(name, &bytes, &door).unwrap();
         let (mut size, mut files) = (None, Vec::new());
         for save in 0..10 {
             let mut takes = opened.takes();
@@ -39,7 +39,7 @@ fn ten_saves_of_the_same_channel_are_as_large_as_one() {
 
 #[test]
 fn room_freed_by_an_edit_is_reused_by_the_next_one() {
-    let mut opened = Opened::alone("Fox.glb", &fox_bytes());
+    let mut opened = OpenedFile::alone("Fox.glb", &fox_bytes());
     let mut sizes = Vec::new();
     let first =
         opened.model.animation.takes[0].tracks.iter().position(|track| track.rotation.len() > 4).unwrap();
@@ -61,7 +61,7 @@ fn room_freed_by_an_edit_is_reused_by_the_next_one() {
 
 #[test]
 fn a_growing_channel_at_the_end_of_the_buffer_grows_in_place() {
-    let mut opened = Opened::alone("Fox.glb", &fox_bytes());
+    let mut opened = OpenedFile::alone("Fox.glb", &fox_bytes());
     let bin = bin_of(opened.source.bytes()).len();
     for keys in 2..40 {
         let mut takes = opened.takes();
@@ -75,7 +75,7 @@ fn a_growing_channel_at_the_end_of_the_buffer_grows_in_place() {
     // Each channel needs new room while the other one follows it; the room before is reused.
     assert!(grown < 39 * 16 * 8, "{grown}");
     let plan = compact(&opened.source).unwrap();
-    let compacted = Opened::alone("Fox.glb", &plan.write()[0].bytes);
+    let compacted = OpenedFile::alone("Fox.glb", &plan.write()[0].bytes);
     same_takes(&opened.model, &opened.takes(), &compacted.model);
     assert_eq!(bin_of(compacted.source.bytes()).len() - bin, 39 * 16);
 }
@@ -90,7 +90,7 @@ fn compacting_removes_only_unused_data() {
         ("c.gltf", fixture.gltf()),
         ("d.gltf", fixture.gltf_with_file()),
     ] {
-        let opened = Opened::new(name, &bytes, &door).unwrap();
+        let opened = OpenedFile::new(name, &bytes, &door).unwrap();
         assert!(
             compact(&opened.source).unwrap().changes().is_empty(),
             "the file has nothing that a save appended"
@@ -112,7 +112,7 @@ fn compacting_removes_only_unused_data() {
         let files = plan.write();
         rest_stays(twice.bytes(), &files.last().unwrap().bytes, plan.changes());
         let over = Over::new(&files, &over as &dyn AssetFs);
-        let again = Opened::new(name, &files.last().unwrap().bytes, &over).unwrap();
+        let again = OpenedFile::new(name, &files.last().unwrap().bytes, &over).unwrap();
         same_scene(&twice.opened.model, &again.model);
         same_takes(&twice.opened.model, &twice.opened.takes(), &again.model);
         assert!(compact(&again.source).unwrap().changes().is_empty(), "the second time nothing changes");
@@ -124,7 +124,7 @@ fn compacting_removes_only_unused_data() {
         let plan = compact(&back.opened.source).unwrap();
         let files = plan.write();
         let last = Over::new(&files, &over);
-        let last = Opened::new(name, &files.last().unwrap().bytes, &last).unwrap();
+        let last = OpenedFile::new(name, &files.last().unwrap().bytes, &last).unwrap();
         same_takes(&back.opened.model, &back.opened.takes(), &last.model);
     }
 }
@@ -138,7 +138,7 @@ fn the_mark_alone_does_not_make_an_accessor_ours() {
             item["name"] = dragonfly_anim::format::gltf::save::MARK.into();
         }
     }
-    let opened = Opened::alone("liar.glb", &fixture.glb());
+    let opened = OpenedFile::alone("liar.glb", &fixture.glb());
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     // Meshes, skins and the other channels keep their numbers: `saved` compares them.
@@ -151,14 +151,14 @@ fn the_mark_alone_does_not_make_an_accessor_ours() {
 }
 
 /// Returns the fixture, saved once, with its JSON changed by another program.
-fn changed_by_another_program(change: impl Fn(&mut serde_json::Value)) -> Opened {
-    let opened = Opened::alone("a.glb", &Fixture::new().glb());
+fn changed_by_another_program(change: impl Fn(&mut serde_json::Value)) -> OpenedFile {
+    let opened = OpenedFile::alone("a.glb", &Fixture::new().glb());
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     let saved = opened.saved(&takes, &NoFiles);
     let (mut json, bin) = (saved.json(), bin_of(saved.bytes()));
     change(&mut json);
-    Opened::alone("a.glb", &crate::fixture::glb(json.to_string().as_bytes(), Some(&bin)))
+    OpenedFile::alone("a.glb", &crate::fixture::glb(json.to_string().as_bytes(), Some(&bin)))
 }
 
 #[test]
@@ -230,7 +230,7 @@ fn data_with_references_from_another_program_is_not_overwritten() {
         let saved = opened.saved(&takes, &NoFiles);
         assert_eq!(saved.changes.bytes_reused > 0, may, "{who}: {}", saved.changes);
         let compacted = compact(&opened.source).unwrap().write().remove(0).bytes;
-        let compacted = Opened::alone("a.glb", &compacted);
+        let compacted = OpenedFile::alone("a.glb", &compacted);
         same_takes(&opened.model, &opened.takes(), &compacted.model);
     }
 }

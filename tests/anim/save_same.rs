@@ -3,13 +3,13 @@
 use crate::doors::{MemoryFs, shared};
 use crate::fixture::{Fixture, chunk, container, glb};
 use crate::made::files;
-use crate::save_support::Opened;
+use crate::save_support::OpenedFile;
 use dragonfly_anim::format::{AssetFs, NoFiles};
 use std::path::PathBuf;
 
 #[track_caller]
-fn stays(name: &str, bytes: &[u8], door: &dyn AssetFs) -> Opened {
-    let opened = Opened::new(name, bytes, door).unwrap_or_else(|error| panic!("{name}: {error}"));
+fn stays(name: &str, bytes: &[u8], door: &dyn AssetFs) -> OpenedFile {
+    let opened = OpenedFile::new(name, bytes, door).unwrap_or_else(|error| panic!("{name}: {error}"));
     let saved = opened.saved(&opened.takes(), door);
     assert!(saved.bytes() == bytes, "{name}");
     assert!(saved.changes.is_empty() && saved.changes.files.is_empty(), "{name}: {}", saved.changes);
@@ -46,7 +46,7 @@ fn every_available_file_stays_the_same() {
     all.sort();
     all.dedup();
     for path in &all {
-        let (opened, door) = Opened::file(path);
+        let (opened, door) = OpenedFile::file(path);
         let saved = opened.saved(&opened.takes(), &door);
         assert!(saved.bytes() == &**opened.source.bytes(), "{}", path.display());
     }
@@ -199,7 +199,7 @@ fn animations_can_be_added_to_a_file_without_any() {
 
 #[test]
 fn new_values_are_formatted_like_their_neighbors() {
-    let opened = Opened::alone("pretty.gltf", text(true).as_bytes());
+    let opened = OpenedFile::alone("pretty.gltf", text(true).as_bytes());
     let mut takes = opened.takes();
     crate::save_edits::shift(&mut takes, 0);
     let bones = opened.model.animation.skeleton.len() as u32;
@@ -222,9 +222,9 @@ fn new_values_are_formatted_like_their_neighbors() {
     }
     for (from, to) in [("\n", "\r\n"), ("  ", "\t"), ("  ", "    "), (": ", " : ")] {
         let source = text(true).replace(from, to);
-        let saved = Opened::alone("pretty.gltf", source.as_bytes()).saved(&takes, &NoFiles);
+        let saved = OpenedFile::alone("pretty.gltf", source.as_bytes()).saved(&takes, &NoFiles);
         assert_eq!(String::from_utf8(saved.bytes().to_vec()).unwrap(), plain.replace(from, to), "{to:?}");
     }
-    let minified = Opened::alone("small.gltf", text(false).as_bytes()).saved(&takes, &NoFiles);
+    let minified = OpenedFile::alone("small.gltf", text(false).as_bytes()).saved(&takes, &NoFiles);
     assert!(!minified.bytes().contains(&b'\n') && !minified.bytes().contains(&b' '));
 }

@@ -1,6 +1,6 @@
 //! Opens, saves and reopens files, and compares the result with the edits.
 
-use crate::doors::FolderFs;
+use crate::doors::TestFolder;
 use dragonfly_anim::data::{Channel, ModelData, MorphTrack, Take, Track};
 use dragonfly_anim::format::gltf::save::{Changes, MARK, SaveError, SourceFile, plan};
 use dragonfly_anim::format::{
@@ -32,12 +32,12 @@ impl AssetFs for Over<'_> {
 }
 
 /// A file with its model.
-pub(crate) struct Opened {
+pub(crate) struct OpenedFile {
     pub(crate) source: SourceFile,
     pub(crate) model: ModelData,
 }
 
-impl Opened {
+impl OpenedFile {
     pub(crate) fn new(name: &str, bytes: &[u8], door: &dyn AssetFs) -> Result<Self, ImportError> {
         let model = read(name, bytes, door, &ReadOptions::default())?.model;
         let source = SourceFile::open(name, bytes, door, &ReadOptions::default())?;
@@ -50,8 +50,8 @@ impl Opened {
     }
 
     /// Opens a file together with those in its folder.
-    pub(crate) fn file(path: &Path) -> (Self, FolderFs) {
-        let door = FolderFs(path.parent().unwrap().to_owned());
+    pub(crate) fn file(path: &Path) -> (Self, TestFolder) {
+        let door = TestFolder(path.parent().unwrap().to_owned());
         let name = path.file_name().unwrap().to_str().unwrap();
         let opened = Self::new(name, &std::fs::read(path).unwrap(), &door);
         (opened.unwrap_or_else(|error| panic!("{}: {error}", path.display())), door)
@@ -65,12 +65,16 @@ impl Opened {
 
     /// Saves, checks that the rest stays, reopens the file and checks that it has the edits.
     #[track_caller]
-    pub(crate) fn saved(&self, now: &[EditedTake], door: &dyn AssetFs) -> Saved {
+    pub(crate) fn saved(&self, now: &[EditedTake], door: &dyn AssetFs) -> ReopenedFile {
         self.try_saved(now, door).unwrap_or_else(|error| panic!("{}: {error}", self.source.name()))
     }
 
     #[track_caller]
-    pub(crate) fn try_saved(&self, now: &[EditedTake], door: &dyn AssetFs) -> Result<Saved, SaveError> {
+    pub(crate) fn try_saved(
+        &self,
+        now: &[EditedTake],
+        door: &dyn AssetFs,
+    ) -> Result<ReopenedFile, SaveError> {
         let plan = plan(&self.source, &self.model, now)?;
         let files = plan.write();
         let changes = plan.changes().clone();
@@ -78,25 +82,25 @@ impl Opened {
         assert_eq!(files.last().unwrap().name, self.source.name());
         let over = Over::new(&files, door);
         let bytes = &files.last().unwrap().bytes;
-        let opened = Opened::new(self.source.name(), bytes, &over);
+        let opened = OpenedFile::new(self.source.name(), bytes, &over);
         let opened = opened.unwrap_or_else(|error| {
             panic!("{}: the saved file cannot be opened: {error}\n{changes}", self.source.name())
         });
         bounds_are_exact(bytes);
         same_scene(&self.model, &opened.model);
         same_takes(&self.model, now, &opened.model);
-        Ok(Saved { opened, files, changes })
+        Ok(ReopenedFile { opened, files, changes })
     }
 }
 
 /// A file that was saved and reopened.
-pub(crate) struct Saved {
-    pub(crate) opened: Opened,
+pub(crate) struct ReopenedFile {
+    pub(crate) opened: OpenedFile,
     pub(crate) files: Vec<OutputFile>,
     pub(crate) changes: Changes,
 }
 
-impl Saved {
+impl ReopenedFile {
     pub(crate) fn bytes(&self) -> &[u8] {
         &self.files.last().unwrap().bytes
     }

@@ -132,9 +132,9 @@ proptest! {
 }
 
 /// The operations on words of 32 bits.
-struct Words([u32; 8], [u32; 8], Vec<u8>);
+struct WordOps([u32; 8], [u32; 8], Vec<u8>);
 
-impl Kernel for Words {
+impl Kernel for WordOps {
     type Output = [[u32; 8]; 7];
 
     #[inline(always)]
@@ -172,7 +172,7 @@ proptest! {
             None => 0,
         };
         for level in Level::all() {
-            let got = level.run(Words(a, b, bytes.clone()));
+            let got = level.run(WordOps(a, b, bytes.clone()));
             for at in 0..8 {
                 let (x, y, count) = (a[at], b[at], b[at] & 63);
                 let expected = [
@@ -237,9 +237,9 @@ proptest! {
 }
 
 /// Small whole numbers as floats, and the operations on vectors of four.
-struct Small([u16; 8], [u8; 8]);
+struct SmallNumbers([u16; 8], [u8; 8]);
 
-impl Kernel for Small {
+impl Kernel for SmallNumbers {
     type Output = ([Floats8; 2], [[f32; 4]; 5]);
 
     #[inline(always)]
@@ -266,7 +266,7 @@ impl Kernel for Small {
 fn small_whole_numbers_become_the_same_floats() {
     let (u16s, u8s) = ([0, 1, 2, 255, 256, 32_768, 65_534, 65_535], [0, 1, 2, 127, 128, 200, 254, 255]);
     for level in Level::all() {
-        let ([wide, narrow], four) = level.run(Small(u16s, u8s));
+        let ([wide, narrow], four) = level.run(SmallNumbers(u16s, u8s));
         assert_eq!(wide, u16s.map(f32::from), "{}", level.name());
         assert_eq!(narrow, u8s.map(f32::from), "{}", level.name());
         let expected = [

@@ -1,6 +1,6 @@
 //! Blends of two takes of a real animal, compared with a second implementation of the formulas in f64.
 
-use crate::doors::{FolderFs, data};
+use crate::doors::{TestFolder, data};
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::blend::{CrossFade, Cycle, FadeCurve, Layer, Mask, add, blend, blend_two, difference};
 use dragonfly_anim::data::{ModelData, Transform};
@@ -11,7 +11,7 @@ use glam::{DMat4, DQuat, DVec3, Mat4};
 fn fox() -> ModelData {
     let folder = data().join("gltf");
     let bytes = std::fs::read(folder.join("Fox.glb")).unwrap();
-    read("Fox.glb", &bytes, &FolderFs(folder), &ReadOptions::default()).unwrap().model
+    read("Fox.glb", &bytes, &TestFolder(folder), &ReadOptions::default()).unwrap().model
 }
 
 fn sampled(model: &ModelData, take: Option<&str>, time: f32) -> Vec<Transform> {

@@ -38,7 +38,7 @@ pub(crate) fn directory(bytes: &[u8]) -> Option<usize> {
 }
 
 /// Corrects the total and every checksum, as far as the directory can be found.
-pub(crate) fn mend(bytes: &mut [u8]) {
+pub(crate) fn fix_checksums(bytes: &mut [u8]) {
     if bytes.len() >= 4 {
         let total = (bytes.len() as u32).to_le_bytes();
         bytes[..4].copy_from_slice(&total);

@@ -1,7 +1,7 @@
 //! Malicious files: every checksum correct, anything else wrong. The result is a model or an error, within the
 //! guaranteed memory.
 
-use super::frame::{mend, number, parts};
+use super::frame::{fix_checksums, number, parts};
 use super::golden::{file, model};
 use super::made::RandomModels;
 use crate::doors::MemoryFs;
@@ -75,7 +75,7 @@ fn mutants_with_correct_checksums_do_no_harm() {
         for number in 0..mutants {
             let seed = first.wrapping_add(number);
             let mut bytes = Mutator::new(seed, WORDS).mutant(&files);
-            mend(&mut bytes);
+            fix_checksums(&mut bytes);
             match tried(&bytes) {
                 Ok(done) => read += u64::from(done),
                 Err(what) => panic!("DRAGONFLY_SEED={seed}: {what}"),
@@ -96,7 +96,7 @@ fn a_wrong_number_at_any_place_does_no_harm() {
         for number in numbers {
             let mut bytes = file.clone();
             bytes[at..at + 4].copy_from_slice(&number.to_le_bytes());
-            mend(&mut bytes);
+            fix_checksums(&mut bytes);
             match tried(&bytes) {
                 Ok(done) => read += usize::from(done),
                 Err(what) => panic!("{number:#x} at byte {at}: {what}"),
@@ -134,7 +134,7 @@ fn a_count_that_exceeds_the_bytes_is_refused_before_any_allocation() {
         let count = at + if index < 6 { 0 } else { 4 };
         assert!(number(&bytes, count).unwrap() < 100);
         bytes[count..count + 4].copy_from_slice(&0x7fff_ffffu32.to_le_bytes());
-        mend(&mut bytes);
+        fix_checksums(&mut bytes);
         let (memory, result) = peak(|| dfm::read(&bytes));
         let error = result.unwrap_err();
         assert!(memory < 64 << 10, "{}: {memory} bytes, {error}", tag.escape_ascii());

@@ -1,6 +1,6 @@
 //! The reader refuses invalid files with the byte offset; the writer refuses invalid models with their place.
 
-use super::frame::{byte_of, mend, parts};
+use super::frame::{byte_of, fix_checksums, parts};
 use super::golden::{file, model};
 use dragonfly_anim::data::{ModelData, Take};
 use dragonfly_anim::format::dfm::{self, WriteError};
@@ -23,7 +23,7 @@ fn elements(tag: &[u8; 4]) -> usize {
 fn refused(at: usize, number: u32, code: &str, place: usize, words: &str) {
     let mut bytes = file();
     bytes[at..at + 4].copy_from_slice(&number.to_le_bytes());
-    mend(&mut bytes);
+    fix_checksums(&mut bytes);
     let error = dfm::read(&bytes).unwrap_err();
     assert_eq!((error.code(), byte_of(&error)), (code, place), "{error}");
     assert!(error.to_string().contains(words), "{error}");

@@ -1,7 +1,7 @@
 //! Reading returns exactly what was written: every field, every float bit for bit.
 
 use super::made::RandomModels;
-use crate::doors::{FolderFs, data, shared};
+use crate::doors::{TestFolder, data, shared};
 use crate::seeds::seeds;
 use dragonfly_anim::data::{Channel, Interpolation, ModelData, Take, Track};
 use dragonfly_anim::format::{NoFiles, ReadOptions, dfm, read};
@@ -51,7 +51,7 @@ fn every_model_of_the_collection_reads_back_bit_for_bit() {
     let mut read_in = 0;
     for path in &models {
         let name = path.file_name().unwrap().to_str().unwrap();
-        let (bytes, door) = (std::fs::read(path).unwrap(), FolderFs(path.parent().unwrap().to_owned()));
+        let (bytes, door) = (std::fs::read(path).unwrap(), TestFolder(path.parent().unwrap().to_owned()));
         match read(name, &bytes, &door, &ReadOptions::default()) {
             Ok(imported) => {
                 let file = reads_back(&imported.model, name);

@@ -1,6 +1,6 @@
 //! Other versions: a newer minor version is read as far as it is known, a newer major version is refused.
 
-use super::frame::{byte_of, checksum, directory, mend, parts};
+use super::frame::{byte_of, checksum, directory, fix_checksums, parts};
 use super::golden::{file, model};
 use dragonfly_anim::format::{NoFiles, ReadOptions, dfm, read};
 
@@ -37,7 +37,7 @@ fn grown(extra: usize, minor: u16) -> Vec<u8> {
     bytes.extend_from_slice(&[1, 0]);
     bytes.extend_from_slice(&minor.to_le_bytes());
     bytes.extend_from_slice(b"0000dfm\x1a");
-    mend(&mut bytes);
+    fix_checksums(&mut bytes);
     bytes
 }
 
@@ -64,7 +64,7 @@ fn a_newer_major_version_is_refused() {
     let mut bytes = file();
     let at = bytes.len() - 12;
     bytes[at] = 2;
-    mend(&mut bytes);
+    fix_checksums(&mut bytes);
     let error = dfm::read(&bytes).unwrap_err();
     assert_eq!(
         error.to_string(),

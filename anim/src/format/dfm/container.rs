@@ -2,8 +2,8 @@
 //! here.
 
 use super::code::{DFM_CHECKSUM, DFM_ENDING, DFM_LENGTH, DFM_NEWER, DFM_PARTS, DFM_SIZE};
-use super::part::{PARTS, Part};
-use super::record::{Fields, Record};
+use super::part::{DfmPart, PARTS};
+use super::record::{DfmRecord, RecordFields};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, invalid};
 use crate::checksum::Checksum;
@@ -19,7 +19,7 @@ const ENTRY: usize = 16;
 const HEADER: usize = 12;
 
 /// A part of the file.
-pub(super) struct Found<'a> {
+pub(super) struct FoundPart<'a> {
     /// Offset of the part in the file.
     pub(super) at: usize,
     /// Number of elements.
@@ -31,11 +31,14 @@ pub(super) struct Found<'a> {
 }
 
 /// Finds every part, in the order of [`PARTS`].
-pub(super) fn open<'a>(bytes: &'a [u8], context: &ImportContext<'_>) -> Result<Vec<Found<'a>>, ImportError> {
+pub(super) fn open<'a>(
+    bytes: &'a [u8],
+    context: &ImportContext<'_>,
+) -> Result<Vec<FoundPart<'a>>, ImportError> {
     length(bytes)?;
     let (directory_at, newer) = ending(bytes)?;
     let directory = &bytes[directory_at..bytes.len() - ENDING];
-    let mut header = Fields::new(directory);
+    let mut header = RecordFields::new(directory);
     let tag: [u8; 4] = header.take();
     let (count, size) = (header.u32() as usize, header.u32() as usize);
     let entries = &directory[HEADER..];
@@ -94,7 +97,7 @@ fn length(bytes: &[u8]) -> Result<(), ImportError> {
 /// Returns the offset of the directory, and whether the file has a newer minor version.
 fn ending(bytes: &[u8]) -> Result<(usize, bool), ImportError> {
     let at = bytes.len() - ENDING;
-    let mut fields = Fields::new(&bytes[at..]);
+    let mut fields = RecordFields::new(&bytes[at..]);
     let (directory_at, major, minor) = (fields.u32() as usize, fields.u16(), fields.u16());
     let (checksum, magic): (u32, [u8; 4]) = (fields.u32(), fields.take());
     if magic != ENDING_MAGIC {
@@ -141,7 +144,7 @@ fn extent<'a>(
     expected: Option<[u8; 4]>,
     context: &ImportContext<'_>,
 ) -> Result<&'a [u8], ImportError> {
-    let mut fields = Fields::new(entry);
+    let mut fields = RecordFields::new(entry);
     let tag: [u8; 4] = fields.take();
     let (offset, size, checksum) = (fields.u32() as usize, fields.u32() as usize, fields.u32());
     if let Some(expected) = expected.filter(|&expected| expected != tag) {
@@ -167,13 +170,13 @@ fn extent<'a>(
 }
 
 /// Splits `bytes`, found at `at`, into header and elements.
-fn header_of(part: Part, at: usize, bytes: &[u8], newer: bool) -> Result<Found<'_>, ImportError> {
+fn header_of(part: DfmPart, at: usize, bytes: &[u8], newer: bool) -> Result<FoundPart<'_>, ImportError> {
     let layout = part.layout();
     let Some((header, elements)) = bytes.split_at_checked(part.header_bytes()) else {
         let reason = format!("the {} end within their header", layout.name);
         return Err(invalid(at + bytes.len(), DFM_SIZE, reason));
     };
-    let mut fields = Fields::new(header);
+    let mut fields = RecordFields::new(header);
     if !part.is_of_thesis() {
         let tag: [u8; 4] = fields.take();
         if tag != layout.tag {
@@ -184,7 +187,7 @@ fn header_of(part: Part, at: usize, bytes: &[u8], newer: bool) -> Result<Found<'
     let (count, size) = (fields.u32(), fields.u32() as usize);
     let mut sizes = [size, 0, 0];
     let mut known = [layout.size, 0, 0];
-    if part == Part::Takes {
+    if part == DfmPart::Takes {
         sizes = [size, fields.u32() as usize, fields.u32() as usize];
         known = [layout.size, TrackRecord::SIZE, KeyframeRecord::SIZE];
     } else if (count as usize).checked_mul(size) != Some(elements.len()) {
@@ -196,5 +199,5 @@ fn header_of(part: Part, at: usize, bytes: &[u8], newer: bool) -> Result<Found<'
         let reason = format!("{}: elements of {sizes:?} bytes, this version has {known:?}", layout.name);
         return Err(invalid(at, DFM_SIZE, reason));
     }
-    Ok(Found { at, count, sizes, bytes: elements })
+    Ok(FoundPart { at, count, sizes, bytes: elements })
 }

@@ -9,10 +9,10 @@
 //! become one key-frame. Merging keeps the order of each queue, so that even times that do not increase are kept.
 
 use super::code::DFM_INDEX;
-use super::part::Part;
-use super::reader::Reader;
+use super::part::DfmPart;
+use super::reader::DfmReader;
 use super::take::{KeyframeRecord, TrackRecord, times_increase};
-use super::writer::Writer;
+use super::writer::DfmWriter;
 use crate::data::{Bone, Channel, Interpolation, Track, Transform};
 use crate::format::ImportError;
 use crate::limits::KEYS_PER_CHANNEL;
@@ -26,34 +26,38 @@ const SCALE: u32 = 4;
 /// A channel value as floats.
 trait Floats: Copy {
     /// Appends the value to the part of tangents.
-    fn put(self, writer: &mut Writer);
+    fn put(self, writer: &mut DfmWriter);
     /// Reads a value from the part of tangents.
-    fn get(reader: &mut Reader<'_, '_>) -> Result<Self, ImportError>;
+    fn get(reader: &mut DfmReader<'_, '_>) -> Result<Self, ImportError>;
 }
 
 impl Floats for Vec3 {
-    fn put(self, writer: &mut Writer) {
-        writer.put_all(Part::Slopes, &self.to_array());
+    fn put(self, writer: &mut DfmWriter) {
+        writer.put_all(DfmPart::Slopes, &self.to_array());
     }
 
-    fn get(reader: &mut Reader<'_, '_>) -> Result<Self, ImportError> {
-        Ok(Self::new(reader.get(Part::Slopes)?, reader.get(Part::Slopes)?, reader.get(Part::Slopes)?))
+    fn get(reader: &mut DfmReader<'_, '_>) -> Result<Self, ImportError> {
+        Ok(Self::new(
+            reader.get(DfmPart::Slopes)?,
+            reader.get(DfmPart::Slopes)?,
+            reader.get(DfmPart::Slopes)?,
+        ))
     }
 }
 
 impl Floats for Quat {
-    fn put(self, writer: &mut Writer) {
-        writer.put_all(Part::Slopes, &self.to_array());
+    fn put(self, writer: &mut DfmWriter) {
+        writer.put_all(DfmPart::Slopes, &self.to_array());
     }
 
-    fn get(reader: &mut Reader<'_, '_>) -> Result<Self, ImportError> {
+    fn get(reader: &mut DfmReader<'_, '_>) -> Result<Self, ImportError> {
         let xyz = Vec3::get(reader)?;
-        Ok(Self::from_xyzw(xyz.x, xyz.y, xyz.z, reader.get(Part::Slopes)?))
+        Ok(Self::from_xyzw(xyz.x, xyz.y, xyz.z, reader.get(DfmPart::Slopes)?))
     }
 }
 
 /// Writes `track`, which animates `bone`.
-pub(super) fn write_track(track: &Track, bone: &Bone, writer: &mut Writer) -> Result<(), String> {
+pub(super) fn write_track(track: &Track, bone: &Bone, writer: &mut DfmWriter) -> Result<(), String> {
     let columns = [
         ("translation", track.translation.times.len(), columns_fit(&track.translation)),
         ("rotation", track.rotation.times.len(), columns_fit(&track.rotation)),
@@ -68,7 +72,7 @@ pub(super) fn write_track(track: &Track, bone: &Bone, writer: &mut Writer) -> Re
     let interpolations =
         [track.translation.interpolation, track.rotation.interpolation, track.scale.interpolation];
     let keyframes = u32::try_from(keyframes).map_err(|_| format!("{keyframes} key-frames"))?;
-    writer.put(Part::Takes, &TrackRecord { bone: track.bone, keyframes, interpolations });
+    writer.put(DfmPart::Takes, &TrackRecord { bone: track.bone, keyframes, interpolations });
     let rest = rest_pose(bone);
     for Merged { time, keys, at } in merge(track) {
         let pose = Transform {
@@ -76,7 +80,7 @@ pub(super) fn write_track(track: &Track, bone: &Bone, writer: &mut Writer) -> Re
             rotation: value(&track.rotation, keys & ROTATION, at[1], rest.rotation, time),
             scale: value(&track.scale, keys & SCALE, at[2], rest.scale, time),
         };
-        writer.put(Part::Takes, &KeyframeRecord { time, pose, keys });
+        writer.put(DfmPart::Takes, &KeyframeRecord { time, pose, keys });
     }
     write_slopes(&track.translation, writer);
     write_slopes(&track.rotation, writer);
@@ -95,7 +99,7 @@ fn value<T: crate::sample::Value>(channel: &Channel<T>, is_key: u32, at: usize, 
 }
 
 /// Writes the in- and out-tangents of every key of a cubic spline.
-fn write_slopes<T: Floats>(channel: &Channel<T>, writer: &mut Writer) {
+fn write_slopes<T: Floats>(channel: &Channel<T>, writer: &mut DfmWriter) {
     if channel.interpolation == Interpolation::CubicSpline {
         for key in channel.values.chunks_exact(3) {
             key[0].put(writer);
@@ -130,15 +134,15 @@ fn merge(track: &Track) -> impl Iterator<Item = Merged> + '_ {
 }
 
 /// Reads the track of bone `index`.
-pub(super) fn read_track(reader: &mut Reader<'_, '_>, index: u32) -> Result<Track, ImportError> {
-    let TrackRecord { bone, keyframes, interpolations } = reader.get_sized(Part::Takes, 1)?;
+pub(super) fn read_track(reader: &mut DfmReader<'_, '_>, index: u32) -> Result<Track, ImportError> {
+    let TrackRecord { bone, keyframes, interpolations } = reader.get_sized(DfmPart::Takes, 1)?;
     if bone != index {
         return Err(reader.wrong(DFM_INDEX, format!("track {index} is for bone {bone}")));
     }
     reader.limit("keys of one channel", keyframes, KEYS_PER_CHANNEL)?;
-    let mut list: Vec<KeyframeRecord> = reader.vec(Part::Takes, 2, keyframes as usize)?;
+    let mut list: Vec<KeyframeRecord> = reader.vec(DfmPart::Takes, 2, keyframes as usize)?;
     for _ in 0..keyframes {
-        list.push(reader.get_sized(Part::Takes, 2)?);
+        list.push(reader.get_sized(DfmPart::Takes, 2)?);
     }
     let [translation, rotation, scale] = interpolations;
     Ok(Track {
@@ -151,7 +155,7 @@ pub(super) fn read_track(reader: &mut Reader<'_, '_>, index: u32) -> Result<Trac
 
 /// Reads the channel whose keys are the key-frames of `list` with its bit.
 fn read_channel<T: Floats>(
-    reader: &mut Reader<'_, '_>,
+    reader: &mut DfmReader<'_, '_>,
     list: &[KeyframeRecord],
     bit: u32,
     interpolation: Interpolation,

@@ -21,10 +21,10 @@ use super::{
     WriteSupport,
 };
 use crate::data::{AnimationData, ModelData};
-use reader::Reader;
+use reader::DfmReader;
 use std::sync::Arc;
 use thiserror::Error;
-use writer::Writer;
+use writer::DfmWriter;
 
 /// Major and minor version that is written. Files of another major version are refused. Files of a newer minor version
 /// are read, with a warning, without the content that this version does not know.
@@ -75,7 +75,7 @@ pub enum WriteError {
 /// file can be read. Refused are models that break the invariants of their types (columns of different lengths, an
 /// index out of range, not exactly one track per bone), and models that need 4 GiB or more.
 pub fn write(model: &ModelData) -> Result<Vec<u8>, WriteError> {
-    let mut writer = Writer::new();
+    let mut writer = DfmWriter::new();
     writer.text(&model.name);
     image::write(model, &mut writer)?;
     material::write(model, &mut writer);
@@ -119,14 +119,14 @@ impl From<WriteError> for ExportError {
 
 /// Detects the size of a vertex, at byte 8, or the ending.
 fn looks_like_dfm(bytes: &[u8]) -> bool {
-    let size = (part::Part::Vertices.layout().size as u32).to_le_bytes();
+    let size = (part::DfmPart::Vertices.layout().size as u32).to_le_bytes();
     let begins = bytes.get(8..12) == Some(&size) && !bytes.starts_with(b"glTF");
     let total = (bytes.len() as u64).to_le_bytes();
     begins || (bytes.ends_with(&ENDING_MAGIC) && bytes.starts_with(&total[..4]))
 }
 
 fn read_model(bytes: &[u8], context: &ImportContext<'_>, strict: bool) -> Result<ModelData, ImportError> {
-    let mut reader = Reader::new(bytes, context, strict)?;
+    let mut reader = DfmReader::new(bytes, context, strict)?;
     context.progress(0.2)?;
     let name = reader.text()?;
     let images = image::read(&mut reader)?;

@@ -1,15 +1,15 @@
 //! Reads elements from the parts, one after the other, each with its place in the file.
 
 use super::code::{DFM_COUNT, DFM_TEXT, DFM_VALUE};
-use super::container::{Found, open};
+use super::container::{FoundPart, open};
 use super::invalid;
-use super::part::{PARTS, Part};
-use super::record::{Fields, Record};
+use super::part::{DfmPart, PARTS};
+use super::record::{DfmRecord, RecordFields};
 use crate::format::ImportContext;
 use crate::format::{ImportError, Place};
 
 /// A file whose parts were found.
-pub(super) struct Reader<'a, 'g> {
+pub(super) struct DfmReader<'a, 'g> {
     parts: Vec<Stream<'a>>,
     pub(super) context: &'g ImportContext<'g>,
     /// Whether to accept only what an importer guarantees: finite numbers, increasing key times, values within the
@@ -28,7 +28,7 @@ struct Stream<'a> {
     rest: &'a [u8],
 }
 
-impl<'a, 'g> Reader<'a, 'g> {
+impl<'a, 'g> DfmReader<'a, 'g> {
     /// Finds the parts and verifies their checksums.
     pub(super) fn new(
         bytes: &'a [u8],
@@ -36,7 +36,7 @@ impl<'a, 'g> Reader<'a, 'g> {
         strict: bool,
     ) -> Result<Self, ImportError> {
         let found = open(bytes, context)?;
-        let stream = |(found, layout): (Found<'a>, &super::part::Layout)| Stream {
+        let stream = |(found, layout): (FoundPart<'a>, &super::part::PartLayout)| Stream {
             count: found.count,
             sizes: found.sizes,
             at: found.at + layout.part.header_bytes(),
@@ -47,23 +47,23 @@ impl<'a, 'g> Reader<'a, 'g> {
     }
 
     /// Returns the number of elements in the header of `part`.
-    pub(super) fn count(&self, part: Part) -> usize {
+    pub(super) fn count(&self, part: DfmPart) -> usize {
         self.parts[part as usize].count as usize
     }
 
     /// Returns the number of elements of `part` that were not read yet.
-    pub(super) fn left(&self, part: Part) -> usize {
+    pub(super) fn left(&self, part: DfmPart) -> usize {
         let stream = &self.parts[part as usize];
         stream.rest.len() / stream.sizes[0].max(1)
     }
 
     /// Reads the next element of `part`.
-    pub(super) fn get<R: Record>(&mut self, part: Part) -> Result<R, ImportError> {
+    pub(super) fn get<R: DfmRecord>(&mut self, part: DfmPart) -> Result<R, ImportError> {
         self.get_sized(part, 0)
     }
 
     /// Reads the next element of `part`, of the size number `kind`: takes, tracks and key-frames are one part.
-    pub(super) fn get_sized<R: Record>(&mut self, part: Part, kind: usize) -> Result<R, ImportError> {
+    pub(super) fn get_sized<R: DfmRecord>(&mut self, part: DfmPart, kind: usize) -> Result<R, ImportError> {
         self.context.work(1)?;
         let stream = &mut self.parts[part as usize];
         let Some((element, rest)) = stream.rest.split_at_checked(stream.sizes[kind]) else {
@@ -72,7 +72,7 @@ impl<'a, 'g> Reader<'a, 'g> {
         self.last = stream.at;
         stream.at += element.len();
         stream.rest = rest;
-        let mut fields = Fields::new(element);
+        let mut fields = RecordFields::new(element);
         let record = R::get(&mut fields).map_err(|reason| self.wrong(DFM_VALUE, reason))?;
         if self.strict && !fields.finite {
             let reason = format!("{}: a number is NaN or infinite", part.layout().name);
@@ -82,7 +82,7 @@ impl<'a, 'g> Reader<'a, 'g> {
     }
 
     /// Reads the next `count` elements of `part`.
-    pub(super) fn list<R: Record>(&mut self, part: Part, count: usize) -> Result<Vec<R>, ImportError> {
+    pub(super) fn list<R: DfmRecord>(&mut self, part: DfmPart, count: usize) -> Result<Vec<R>, ImportError> {
         let mut list = self.vec(part, 0, count)?;
         for _ in 0..count {
             list.push(self.get(part)?);
@@ -92,7 +92,7 @@ impl<'a, 'g> Reader<'a, 'g> {
 
     /// Returns a vector with capacity for `count` values, one per element of `part`; an error if fewer elements are
     /// left.
-    pub(super) fn vec<T>(&self, part: Part, kind: usize, count: usize) -> Result<Vec<T>, ImportError> {
+    pub(super) fn vec<T>(&self, part: DfmPart, kind: usize, count: usize) -> Result<Vec<T>, ImportError> {
         let stream = &self.parts[part as usize];
         if count > stream.rest.len() / stream.sizes[kind].max(1) {
             return Err(ends(part, stream.at));
@@ -101,7 +101,7 @@ impl<'a, 'g> Reader<'a, 'g> {
     }
 
     /// Reads the next `count` bytes of `part`, whose elements are bytes.
-    pub(super) fn bytes(&mut self, part: Part, count: usize) -> Result<&'a [u8], ImportError> {
+    pub(super) fn bytes(&mut self, part: DfmPart, count: usize) -> Result<&'a [u8], ImportError> {
         let stream = &mut self.parts[part as usize];
         // In a newer version the elements could be larger than a byte; such a file cannot be read.
         let taken = stream.rest.split_at_checked(count).filter(|_| stream.sizes[0] == 1);
@@ -115,8 +115,8 @@ impl<'a, 'g> Reader<'a, 'g> {
 
     /// Reads the next text.
     pub(super) fn text(&mut self) -> Result<String, ImportError> {
-        let length = self.get::<u32>(Part::TextLengths)? as usize;
-        let bytes = self.bytes(Part::Text, length)?;
+        let length = self.get::<u32>(DfmPart::TextLengths)? as usize;
+        let bytes = self.bytes(DfmPart::Text, length)?;
         match std::str::from_utf8(bytes) {
             Ok(text) => Ok(text.to_owned()),
             Err(error) => {
@@ -162,6 +162,6 @@ impl<'a, 'g> Reader<'a, 'g> {
     }
 }
 
-fn ends(part: Part, at: usize) -> ImportError {
+fn ends(part: DfmPart, at: usize) -> ImportError {
     invalid(at, DFM_COUNT, format!("there are no more {}, but the file needs more", part.layout().name))
 }

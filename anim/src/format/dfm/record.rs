@@ -16,23 +16,23 @@ pub(super) fn some(index: u32) -> Option<u32> {
 }
 
 /// One element of a part, of a fixed size.
-pub(super) trait Record: Sized {
+pub(super) trait DfmRecord: Sized {
     /// Size in bytes.
     const SIZE: usize;
     /// Appends the element to `out`.
     fn put(&self, out: &mut Vec<u8>);
     /// Reads the element; the error describes the number that is not allowed.
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String>;
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String>;
 }
 
 /// The bytes of one element, read from the front.
-pub(super) struct Fields<'a> {
+pub(super) struct RecordFields<'a> {
     bytes: &'a [u8],
     /// Whether every float so far was finite.
     pub(super) finite: bool,
 }
 
-impl<'a> Fields<'a> {
+impl<'a> RecordFields<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, finite: true }
     }
@@ -107,7 +107,7 @@ impl Put for Vec<u8> {
 /// Implements records of one field.
 macro_rules! plain {
     ($($type:ty, $size:literal, $put:expr, $get:ident;)*) => {$(
-        impl Record for $type {
+        impl DfmRecord for $type {
             const SIZE: usize = $size;
 
             fn put(&self, out: &mut Vec<u8>) {
@@ -115,7 +115,7 @@ macro_rules! plain {
                 put(self, out);
             }
 
-            fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+            fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
                 Ok(fields.$get())
             }
         }
@@ -129,14 +129,14 @@ plain! {
     Vec4, 16, |vector, out| out.floats(&vector.to_array()), vec4;
 }
 
-impl Record for u8 {
+impl DfmRecord for u8 {
     const SIZE: usize = 1;
 
     fn put(&self, out: &mut Vec<u8>) {
         out.push(*self);
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         Ok(fields.take::<1>()[0])
     }
 }

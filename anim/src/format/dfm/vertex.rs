@@ -1,6 +1,6 @@
 //! Vertices as in the thesis, and the influences after the fourth.
 
-use super::record::{Fields, Put, Record};
+use super::record::{DfmRecord, Put, RecordFields};
 use crate::data::Influence;
 use glam::{Vec2, Vec3};
 
@@ -19,7 +19,7 @@ pub(super) struct VertexRecord {
     pub(super) influences: [Influence; FIRST_INFLUENCES],
 }
 
-impl Record for VertexRecord {
+impl DfmRecord for VertexRecord {
     const SIZE: usize = 84;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -38,7 +38,7 @@ impl Record for VertexRecord {
         }
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (position, normal) = (fields.vec3(), fields.vec3());
         let texture_coordinates = [fields.vec2(), fields.vec2()];
         let bones = [(); FIRST_INFLUENCES].map(|()| fields.u32());
@@ -52,7 +52,7 @@ impl Record for VertexRecord {
 /// An influence after the fourth.
 pub(super) struct InfluenceRecord(pub(super) Influence);
 
-impl Record for InfluenceRecord {
+impl DfmRecord for InfluenceRecord {
     const SIZE: usize = 8;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -60,7 +60,7 @@ impl Record for InfluenceRecord {
         out.floats(&[self.0.weight]);
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (joint, weight) = (fields.u32(), fields.f32());
         let joint = u16::try_from(joint).map_err(|_| format!("joint {joint} does not fit 16 bits"))?;
         Ok(Self(Influence { joint, weight }))

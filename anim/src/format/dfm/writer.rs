@@ -1,51 +1,51 @@
 //! Collects the parts of a file and concatenates them, with the total length and the checksums at the end.
 
-use super::part::{PARTS, Part};
-use super::record::{Put, Record};
+use super::part::{DfmPart, PARTS};
+use super::record::{DfmRecord, Put};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, WriteError};
 use crate::checksum::Checksum;
 
 /// A file that is being written.
-pub(super) struct Writer {
+pub(super) struct DfmWriter {
     /// Elements of each part, without its header.
     parts: [Vec<u8>; PARTS.len()],
     /// Number of takes, since their elements differ in size.
     pub(super) takes: usize,
 }
 
-impl Writer {
+impl DfmWriter {
     pub(super) fn new() -> Self {
         Self { parts: [const { Vec::new() }; PARTS.len()], takes: 0 }
     }
 
     /// Appends an element to `part`.
-    pub(super) fn put<R: Record>(&mut self, part: Part, record: &R) {
+    pub(super) fn put<R: DfmRecord>(&mut self, part: DfmPart, record: &R) {
         record.put(&mut self.parts[part as usize]);
     }
 
     /// Appends elements to `part`.
-    pub(super) fn put_all<R: Record>(&mut self, part: Part, records: &[R]) {
+    pub(super) fn put_all<R: DfmRecord>(&mut self, part: DfmPart, records: &[R]) {
         for record in records {
             self.put(part, record);
         }
     }
 
     /// Appends bytes to `part`, whose elements are bytes.
-    pub(super) fn bytes(&mut self, part: Part, bytes: &[u8]) {
+    pub(super) fn bytes(&mut self, part: DfmPart, bytes: &[u8]) {
         self.parts[part as usize].extend_from_slice(bytes);
     }
 
     /// Appends a text; texts are read in the order in which they were written.
     pub(super) fn text(&mut self, text: &str) {
-        self.put(Part::TextLengths, &(text.len() as u32));
-        self.bytes(Part::Text, text.as_bytes());
+        self.put(DfmPart::TextLengths, &(text.len() as u32));
+        self.bytes(DfmPart::Text, text.as_bytes());
     }
 
     /// Returns the number of elements of `part` so far.
-    pub(super) fn count(&self, part: Part) -> usize {
+    pub(super) fn count(&self, part: DfmPart) -> usize {
         match part {
-            Part::Takes => self.takes,
+            DfmPart::Takes => self.takes,
             part => self.parts[part as usize].len() / part.layout().size,
         }
     }
@@ -76,13 +76,13 @@ impl Writer {
         Ok(file)
     }
 
-    fn header(&self, part: Part, file: &mut Vec<u8>) {
+    fn header(&self, part: DfmPart, file: &mut Vec<u8>) {
         if !part.is_of_thesis() {
             file.extend_from_slice(&part.layout().tag);
         }
         file.u32(self.count(part) as u32);
         file.u32(part.layout().size as u32);
-        if part == Part::Takes {
+        if part == DfmPart::Takes {
             file.u32(TrackRecord::SIZE as u32);
             file.u32(KeyframeRecord::SIZE as u32);
         }

@@ -1,6 +1,6 @@
 //! Bounds checks: no byte of a buffer is read before its position has been checked in this module.
 
-use super::buffer::Buffer;
+use super::buffer::BufferData;
 use super::check as code;
 use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{CANCEL_EVERY, VERTICES, ZERO_ELEMENTS};
@@ -11,7 +11,7 @@ use gltf::json::{Index, Root, buffer};
 /// A document with its buffers; every other module of the importer reads from it.
 pub(super) struct GltfDocument<'a> {
     pub(super) root: &'a Root,
-    pub(super) buffers: Vec<Buffer<'a>>,
+    pub(super) buffers: Vec<BufferData<'a>>,
     /// Total number of bytes read.
     pub(super) bytes: usize,
     pub(super) context: &'a ImportContext<'a>,
@@ -42,7 +42,7 @@ struct Sparse<'a> {
 }
 
 /// An accessor whose bytes are all known to be inside its buffer.
-pub(super) struct Source<'a> {
+pub(super) struct AccessorSource<'a> {
     /// JSON pointer to the accessor, such as `/accessors/3`.
     pub(super) place: Place,
     pub(super) count: usize,
@@ -66,7 +66,7 @@ impl<'a> GltfDocument<'a> {
             .buffers
             .get(view.buffer.value())
             .ok_or_else(|| unresolved(&format!("{}/buffer", place()), view.buffer.value()))?;
-        if matches!(buffer, Buffer::Missing) {
+        if matches!(buffer, BufferData::Missing) {
             let at = Place::Pointer(format!("/buffers/{}", view.buffer.value()));
             let reason = "the buffer has no URI, and the file has no binary chunk for it".to_owned();
             return Err(invalid(at, code::BUFFER_MISSING_GLB_DATA, reason));
@@ -104,7 +104,7 @@ impl<'a> GltfDocument<'a> {
         from: &str,
         allowed: &[ElementFormat],
         wrong: &'static str,
-    ) -> Result<Source<'a>, ImportError> {
+    ) -> Result<AccessorSource<'a>, ImportError> {
         let number = index.value();
         let accessor = self.root.accessors.get(number).ok_or_else(|| unresolved(from, number))?;
         let path = format!("/accessors/{number}");
@@ -128,7 +128,7 @@ impl<'a> GltfDocument<'a> {
             Some(_) => Some(self.sparse_of(accessor, count, size, &path)?),
             None => None,
         };
-        Ok(Source { place: Place::Pointer(path), count, format, base, sparse, context: self.context })
+        Ok(AccessorSource { place: Place::Pointer(path), count, format, base, sparse, context: self.context })
     }
 
     fn format_of(&self, accessor: &Accessor, path: &str) -> Result<ElementFormat, ImportError> {
@@ -242,7 +242,7 @@ fn strided<'a>(
     Ok(Strided { bytes: bytes_of, stride, size })
 }
 
-impl Source<'_> {
+impl AccessorSource<'_> {
     /// Returns all elements as floats, with integers normalized if the accessor is. May contain NaN and infinity.
     pub(super) fn floats<const N: usize>(&self) -> Result<Vec<[f32; N]>, ImportError> {
         match (self.format.0, self.format.2) {
@@ -343,7 +343,7 @@ fn little_endian(bytes: &[u8], kind: ComponentType) -> usize {
 
 /// Describes a format: `VEC3 of normalized U8`.
 fn describe((component, shape, normalized): ElementFormat) -> String {
-    let normalized = if normalized { "normalised " } else { "" };
+    let normalized = if normalized { "normalized " } else { "" };
     format!("{shape:?} of {normalized}{component:?}").to_uppercase()
 }
 

@@ -4,7 +4,7 @@ use super::accessor::{ElementFormat, GltfDocument, invalid, unresolved};
 use super::check as code;
 use super::document::NO_NODE;
 use super::keys::{self, SamplerTimes, SamplerValues};
-use super::scene::Stage;
+use super::scene::SceneLayout;
 use crate::data::{Channel, MorphTrack, Take, Track};
 use crate::format::{ImportError, Place};
 use crate::limits::KEYS;
@@ -49,7 +49,7 @@ pub(super) fn mark_animated(document: &GltfDocument<'_>, is_bone: &mut [bool]) -
 }
 
 /// Returns all animations as takes with one track for each bone of `stage`.
-pub(super) fn takes(document: &GltfDocument<'_>, stage: &Stage) -> Result<Vec<Take>, ImportError> {
+pub(super) fn takes(document: &GltfDocument<'_>, stage: &SceneLayout) -> Result<Vec<Take>, ImportError> {
     let context = document.context;
     let count = document.root.animations.len();
     let mut takes = context.vec(&Place::Pointer("/animations".to_owned()), count)?;
@@ -64,7 +64,7 @@ pub(super) fn takes(document: &GltfDocument<'_>, stage: &Stage) -> Result<Vec<Ta
 /// State shared between takes: key times that several channels use are stored once.
 struct TakeReader<'a> {
     document: &'a GltfDocument<'a>,
-    stage: &'a Stage,
+    stage: &'a SceneLayout,
     times: HashMap<usize, SamplerTimes>,
     keys: usize,
 }

@@ -47,7 +47,7 @@ fn decoded(
 
 /// Bytes of one buffer.
 #[derive(Clone)]
-pub(super) enum Buffer<'a> {
+pub(super) enum BufferData<'a> {
     /// A buffer without a URI and without a binary chunk: an error as soon as an accessor needs it.
     Missing,
     /// The binary chunk of the file.
@@ -56,7 +56,7 @@ pub(super) enum Buffer<'a> {
     Fetched(Arc<[u8]>, usize),
 }
 
-impl Buffer<'_> {
+impl BufferData<'_> {
     pub(super) fn bytes(&self) -> &[u8] {
         match self {
             Self::Missing => &[],
@@ -71,7 +71,7 @@ pub(super) fn load<'a>(
     root: &json::Root,
     bin: Option<&'a [u8]>,
     context: &ImportContext<'_>,
-) -> Result<Vec<Buffer<'a>>, ImportError> {
+) -> Result<Vec<BufferData<'a>>, ImportError> {
     let mut buffers = context.vec(&Place::Pointer("/buffers".to_owned()), root.buffers.len())?;
     for (index, buffer) in root.buffers.iter().enumerate() {
         context.work(1)?;
@@ -80,14 +80,14 @@ pub(super) fn load<'a>(
         let loaded = match &buffer.uri {
             Some(uri) => {
                 let place = Place::Pointer(format!("/buffers/{index}/uri"));
-                Buffer::Fetched(fetch(uri, &place, context)?.bytes, 0)
+                BufferData::Fetched(fetch(uri, &place, context)?.bytes, 0)
             }
             None => match bin.filter(|_| index == 0) {
-                Some(bytes) => Buffer::Chunk(bytes),
+                Some(bytes) => BufferData::Chunk(bytes),
                 None => {
                     let text = "the buffer has no URI, and the file has no binary chunk for it";
                     context.warn(place, code::BUFFER_MISSING_GLB_DATA, text);
-                    buffers.push(Buffer::Missing);
+                    buffers.push(BufferData::Missing);
                     continue;
                 }
             },
@@ -99,15 +99,15 @@ pub(super) fn load<'a>(
 
 /// Returns the buffer shortened to `announced` bytes.
 fn cut<'a>(
-    buffer: Buffer<'a>,
+    buffer: BufferData<'a>,
     announced: u64,
     place: &Place,
     context: &ImportContext<'_>,
-) -> Result<Buffer<'a>, ImportError> {
+) -> Result<BufferData<'a>, ImportError> {
     let present = match &buffer {
-        Buffer::Missing => 0,
-        Buffer::Chunk(bytes) => bytes.len(),
-        Buffer::Fetched(bytes, _) => bytes.len(),
+        BufferData::Missing => 0,
+        BufferData::Chunk(bytes) => bytes.len(),
+        BufferData::Fetched(bytes, _) => bytes.len(),
     };
     let length = usize::try_from(announced).ok().filter(|&length| length <= present).ok_or_else(|| {
         let reason = format!("byteLength is {announced}, but there are {present} bytes");
@@ -115,15 +115,15 @@ fn cut<'a>(
         ImportError::Invalid { place, code: code::BUFFER_BYTE_LENGTH_MISMATCH, reason }
     })?;
     // A binary chunk is padded to a multiple of four.
-    let slack = if matches!(buffer, Buffer::Chunk(_)) { 3 } else { 0 };
+    let slack = if matches!(buffer, BufferData::Chunk(_)) { 3 } else { 0 };
     if present - length > slack {
         let text = format!("byteLength is {announced}, but there are {present} bytes");
         context.warn(place.clone(), code::BUFFER_GLB_CHUNK_TOO_BIG, text);
     }
     Ok(match buffer {
-        Buffer::Missing => Buffer::Missing,
-        Buffer::Chunk(bytes) => Buffer::Chunk(&bytes[..length]),
-        Buffer::Fetched(bytes, _) => Buffer::Fetched(bytes, length),
+        BufferData::Missing => BufferData::Missing,
+        BufferData::Chunk(bytes) => BufferData::Chunk(&bytes[..length]),
+        BufferData::Fetched(bytes, _) => BufferData::Fetched(bytes, length),
     })
 }
 

@@ -10,14 +10,14 @@ pub struct Check {
     /// Name in the validator, or a name of this crate where the validator has none.
     pub code: &'static str,
     /// Consequence of breaking the rule.
-    pub answer: Answer,
+    pub answer: Consequence,
     /// Description of a violation.
     pub meaning: &'static str,
 }
 
 /// Consequence of breaking a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Answer {
+pub enum Consequence {
     /// The file is not read.
     Refuse,
     /// The file is read, with a warning.
@@ -33,7 +33,7 @@ macro_rules! checks {
 
         /// All rules.
         pub const CHECKS: &[Check] =
-            &[$(Check { code: $code, answer: Answer::$answer, meaning: $meaning }),*];
+            &[$(Check { code: $code, answer: Consequence::$answer, meaning: $meaning }),*];
     };
 }
 

@@ -25,7 +25,7 @@ pub(super) fn parse(bytes: &[u8], at: u64, context: &ImportContext<'_>) -> Resul
     let parsed = if text.len() <= PARSE_AT_ONCE {
         json::deserialize::from_str(&text)
     } else {
-        let reader = Watched { text: text.as_bytes(), context, cancelled: false };
+        let reader = CancellableReader { text: text.as_bytes(), context, cancelled: false };
         json::deserialize::from_reader(io::BufReader::with_capacity(1 << 16, reader))
     };
     context.progress(0.2)?;
@@ -118,13 +118,13 @@ fn offset(text: &str, line: usize, column: usize) -> usize {
 }
 
 /// Reads the text in pieces and polls the cancel flag between them.
-struct Watched<'a> {
+struct CancellableReader<'a> {
     text: &'a [u8],
     context: &'a ImportContext<'a>,
     cancelled: bool,
 }
 
-impl Read for Watched<'_> {
+impl Read for CancellableReader<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         self.cancelled |= self.context.work(buffer.len()).is_err();
         if self.cancelled {

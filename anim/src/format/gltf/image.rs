@@ -18,7 +18,7 @@ pub(super) struct Images {
 
 /// Source of an image; images of a file with the same source become one.
 #[derive(PartialEq, Eq, Hash)]
-enum Key<'a> {
+enum ImageSource<'a> {
     View(usize),
     Uri(&'a str),
 }
@@ -27,14 +27,14 @@ enum Key<'a> {
 /// useful.
 pub(super) fn images(document: &GltfDocument<'_>) -> Result<Images, ImportError> {
     let mut read = Images::default();
-    let mut known: HashMap<Key<'_>, u32> = HashMap::new();
+    let mut known: HashMap<ImageSource<'_>, u32> = HashMap::new();
     let mut pixels = 0;
     for (index, image) in document.root.images.iter().enumerate() {
         document.context.work(1)?;
         let path = format!("/images/{index}");
         let key = match (&image.buffer_view, &image.uri) {
-            (Some(view), None) => Key::View(view.value()),
-            (None, Some(uri)) => Key::Uri(uri),
+            (Some(view), None) => ImageSource::View(view.value()),
+            (None, Some(uri)) => ImageSource::Uri(uri),
             _ => {
                 let reason = "an image needs either a URI or a buffer view".to_owned();
                 return Err(invalid(Place::Pointer(path), code::UNDEFINED_PROPERTY, reason));

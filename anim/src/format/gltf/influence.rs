@@ -20,7 +20,7 @@ const WEIGHT_FORMATS: &[(ComponentType, Type, bool)] = &[
 
 /// The influences of a primitive's vertices.
 #[derive(Debug, Default)]
-pub(super) struct Influences {
+pub(super) struct VertexInfluences {
     /// `per_vertex` influences for each vertex, strongest first.
     pub(super) list: Vec<Influence>,
     /// Number of influences per vertex: 0, 4 or 8.
@@ -52,10 +52,10 @@ pub(super) fn influences(
     primitive: &Primitive,
     vertices: usize,
     path: &str,
-) -> Result<Influences, ImportError> {
+) -> Result<VertexInfluences, ImportError> {
     let sets = sets(document, primitive, vertices, path)?;
     if sets.is_empty() {
-        return Ok(Influences::default());
+        return Ok(VertexInfluences::default());
     }
     let context = document.context;
     let place = Place::Pointer(format!("{path}/attributes/WEIGHTS_0"));
@@ -87,7 +87,7 @@ pub(super) fn influences(
         list.truncate(vertices * per_vertex);
         list.shrink_to_fit();
     }
-    Ok(Influences { list, per_vertex, largest_joint })
+    Ok(VertexInfluences { list, per_vertex, largest_joint })
 }
 
 fn sets(

@@ -11,13 +11,13 @@ use gltf::json;
 
 /// Transform of a node, decomposed without loss.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Local {
+pub(super) struct LocalTransform {
     pub(super) parts: Transform,
     /// The matrix itself if `parts` cannot represent it.
     pub(super) sheared: Option<Mat4>,
 }
 
-impl Local {
+impl LocalTransform {
     pub(super) fn matrix(&self) -> Mat4 {
         self.sheared.unwrap_or_else(|| self.parts.to_matrix())
     }
@@ -27,7 +27,10 @@ impl Local {
 pub(super) const ROTATION_TOLERANCE: f32 = 0.00769;
 
 /// Returns the transforms of all nodes relative to their parents.
-pub(super) fn locals(root: &json::Root, context: &ImportContext<'_>) -> Result<Vec<Local>, ImportError> {
+pub(super) fn locals(
+    root: &json::Root,
+    context: &ImportContext<'_>,
+) -> Result<Vec<LocalTransform>, ImportError> {
     let mut locals = context.vec(&Place::Pointer("/nodes".to_owned()), root.nodes.len())?;
     for (index, node) in root.nodes.iter().enumerate() {
         context.work(1)?;
@@ -36,13 +39,17 @@ pub(super) fn locals(root: &json::Root, context: &ImportContext<'_>) -> Result<V
     Ok(locals)
 }
 
-fn local(node: &json::Node, index: usize, context: &ImportContext<'_>) -> Result<Local, ImportError> {
+fn local(
+    node: &json::Node,
+    index: usize,
+    context: &ImportContext<'_>,
+) -> Result<LocalTransform, ImportError> {
     let at = |member: &str| Place::Pointer(format!("/nodes/{index}/{member}"));
     let finite = |numbers: &[f32], member: &str| match numbers.iter().all(|number| number.is_finite()) {
         true => Ok(()),
         false => Err(invalid(at(member), code::VALUE_NOT_IN_RANGE, "a number is not finite".to_owned())),
     };
-    let mut local = Local { parts: Transform::IDENTITY, sheared: None };
+    let mut local = LocalTransform { parts: Transform::IDENTITY, sheared: None };
     if let Some(translation) = node.translation {
         finite(&translation, "translation")?;
         local.parts.translation = translation.into();
@@ -74,7 +81,11 @@ fn local(node: &json::Node, index: usize, context: &ImportContext<'_>) -> Result
 }
 
 /// Decomposes a matrix into translation, rotation and scale; keeps the matrix if that is not possible.
-fn decomposed(mut matrix: Mat4, place: &Place, context: &ImportContext<'_>) -> Result<Local, ImportError> {
+fn decomposed(
+    mut matrix: Mat4,
+    place: &Place,
+    context: &ImportContext<'_>,
+) -> Result<LocalTransform, ImportError> {
     if matrix.row(3).abs_diff_eq(Vec4::W, 1e-5) {
         set_last_row(&mut matrix);
     } else {
@@ -94,14 +105,14 @@ fn decomposed(mut matrix: Mat4, place: &Place, context: &ImportContext<'_>) -> R
     let largest = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.abs().max_element());
     let tolerance = 1e-4 * largest.into_iter().fold(f32::MIN_POSITIVE, f32::max);
     if parts.to_matrix().abs_diff_eq(matrix, tolerance) {
-        return Ok(Local { parts, sheared: None });
+        return Ok(LocalTransform { parts, sheared: None });
     }
     context.warn(
         place.clone(),
         code::NODE_MATRIX_NON_TRS,
         "the matrix is sheared; it is shown, but cannot be edited",
     );
-    Ok(Local { parts, sheared: Some(matrix) })
+    Ok(LocalTransform { parts, sheared: Some(matrix) })
 }
 
 pub(super) fn set_last_row(matrix: &mut Mat4) {
@@ -150,7 +161,7 @@ pub(super) fn unit(rotation: Quat) -> Option<(Quat, f32)> {
 /// Returns the transforms from node space to scene space at rest, for all nodes; an error if one overflows.
 pub(super) fn globals(
     graph: &Graph,
-    locals: &[Local],
+    locals: &[LocalTransform],
     context: &ImportContext<'_>,
 ) -> Result<Vec<Mat4>, ImportError> {
     let mut globals = context.filled(&Place::Pointer("/nodes".to_owned()), locals.len(), Mat4::IDENTITY)?;

@@ -5,13 +5,13 @@ use super::check as code;
 use super::graph::Graph;
 use super::mesh::ReadMesh;
 use super::morph::fitted;
-use super::node::{Local, inverse};
+use super::node::{LocalTransform, inverse};
 use crate::data::{Bone, BoneIndex, MeshInstance, Skeleton, Skin};
 use crate::format::{ImportError, Place};
 use glam::Mat4;
 
 /// Bones and instances, and the mapping from nodes to them.
-pub(super) struct Stage {
+pub(super) struct SceneLayout {
     pub(super) skeleton: Skeleton,
     pub(super) instances: Vec<MeshInstance>,
     /// Bone of each node.
@@ -20,7 +20,7 @@ pub(super) struct Stage {
     morph_targets: Vec<usize>,
 }
 
-impl Stage {
+impl SceneLayout {
     /// Returns the instance of node `node`; `None` for one without mesh, or outside the scene.
     pub(super) fn instance_of(&self, node: usize) -> Option<u32> {
         // Instances are in the order of the nodes.
@@ -58,7 +58,7 @@ pub(super) fn number_bones(
 pub(super) fn skeleton(
     document: &GltfDocument<'_>,
     graph: &Graph,
-    locals: &[Local],
+    locals: &[LocalTransform],
     globals: &[Mat4],
     bones: &[Option<BoneIndex>],
     skins: &[Skin],
@@ -92,11 +92,11 @@ pub(super) fn skeleton(
 pub(super) fn stage(
     document: &GltfDocument<'_>,
     graph: &Graph,
-    locals: &[Local],
+    locals: &[LocalTransform],
     skeleton: Skeleton,
     bones: Vec<Option<BoneIndex>>,
     meshes: &[ReadMesh],
-) -> Result<Stage, ImportError> {
+) -> Result<SceneLayout, ImportError> {
     let is_shown = shown(document, graph)?;
     let carriers = carriers(document, graph, locals, &bones)?;
     let mut instances = Vec::new();
@@ -124,7 +124,7 @@ pub(super) fn stage(
         instances.push(MeshInstance { mesh, node, skin, bone, to_bone, morph_weights });
     }
     let morph_targets = meshes.iter().map(|read| read.mesh.morph_weights.len()).collect();
-    Ok(Stage { skeleton, instances, bones, morph_targets })
+    Ok(SceneLayout { skeleton, instances, bones, morph_targets })
 }
 
 /// Returns the skin of a node, if its mesh has joints; an error if a vertex refers to a joint that the skin lacks.
@@ -152,7 +152,7 @@ fn skin_of(document: &GltfDocument<'_>, index: usize, read: &ReadMesh) -> Result
 fn carriers(
     document: &GltfDocument<'_>,
     graph: &Graph,
-    locals: &[Local],
+    locals: &[LocalTransform],
     bones: &[Option<BoneIndex>],
 ) -> Result<Vec<(Option<BoneIndex>, Mat4)>, ImportError> {
     let place = Place::Pointer("/nodes".to_owned());

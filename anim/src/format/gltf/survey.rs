@@ -4,7 +4,7 @@
 //! so both are checked here first.
 
 use super::check as code;
-use super::walk::{Step, Walk};
+use super::walk::{Walk, WalkStep};
 use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{JSON_DEPTH, NODES};
 use gltf::json;
@@ -41,16 +41,16 @@ pub(super) fn survey(text: &[u8], context: &ImportContext<'_>) -> Result<Survey,
         }
         skipping = None;
         match step {
-            Step::Key if matches!(walk.key(depth - 1), b"extras") => skipping = Some(depth),
-            Step::Key => {
+            WalkStep::Key if matches!(walk.key(depth - 1), b"extras") => skipping = Some(depth),
+            WalkStep::Key => {
                 survey.memory += MEMBER;
                 if asked_for(&mut walk, depth).is_some_and(|member| walk.key(depth - 1) == member.name) {
                     walk.frames()[depth - 1].note = 0;
                 }
             }
-            Step::Open => survey.opened(&mut walk, depth)?,
-            Step::Close => survey.closed(&mut walk, depth),
-            Step::Scalar(from, to) => survey.scalar(&mut walk, &text[from..to])?,
+            WalkStep::Open => survey.opened(&mut walk, depth)?,
+            WalkStep::Close => survey.closed(&mut walk, depth),
+            WalkStep::Scalar(from, to) => survey.scalar(&mut walk, &text[from..to])?,
         }
     }
     Ok(survey)
@@ -131,7 +131,7 @@ impl Survey {
 }
 
 /// A member that the document model requires.
-struct Member {
+struct RequiredMember {
     name: &'static [u8],
     /// Text to insert into an empty object, and before other members.
     alone: &'static str,
@@ -139,11 +139,13 @@ struct Member {
 }
 
 /// Represents "no node"; an extension may specify what is animated.
-const NODE: Member = Member { name: b"node", alone: "\"node\":4294967295", followed: "\"node\":4294967295," };
-const NODES_OF_SCENE: Member = Member { name: b"nodes", alone: "\"nodes\":[]", followed: "\"nodes\":[]," };
+const NODE: RequiredMember =
+    RequiredMember { name: b"node", alone: "\"node\":4294967295", followed: "\"node\":4294967295," };
+const NODES_OF_SCENE: RequiredMember =
+    RequiredMember { name: b"nodes", alone: "\"nodes\":[]", followed: "\"nodes\":[]," };
 
 /// Returns the member that the document model requires in the innermost object and the specification does not.
-fn asked_for(walk: &mut Walk<'_>, depth: usize) -> Option<&'static Member> {
+fn asked_for(walk: &mut Walk<'_>, depth: usize) -> Option<&'static RequiredMember> {
     if depth == 0 || walk.frames()[depth - 1].is_array {
         return None;
     }

@@ -5,7 +5,7 @@
 
 /// Result of one step of the walk; [`Walk::pointer`] returns its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Step {
+pub(super) enum WalkStep {
     /// `[` or `{`
     Open,
     /// `]` or `}`; the frame that it closes is still the innermost one.
@@ -18,7 +18,7 @@ pub(super) enum Step {
 
 /// An enclosing array or object.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(super) struct WalkFrame {
     pub(super) is_array: bool,
     /// Number of values started.
     pub(super) count: usize,
@@ -33,7 +33,7 @@ pub(super) struct Frame {
 pub(super) struct Walk<'a> {
     text: &'a [u8],
     at: usize,
-    frames: Vec<Frame>,
+    frames: Vec<WalkFrame>,
     /// The innermost frame is removed with the next step.
     closing: bool,
 }
@@ -50,7 +50,7 @@ impl<'a> Walk<'a> {
 
     /// Returns the enclosing arrays and objects, innermost last; after [`Step::Open`] and [`Step::Close`] with that one
     /// included.
-    pub(super) fn frames(&mut self) -> &mut [Frame] {
+    pub(super) fn frames(&mut self) -> &mut [WalkFrame] {
         &mut self.frames
     }
 
@@ -63,7 +63,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Returns the next step; `None` at the end of the text, or where it is invalid.
-    pub(super) fn step(&mut self) -> Option<Step> {
+    pub(super) fn step(&mut self) -> Option<WalkStep> {
         if std::mem::take(&mut self.closing) {
             self.frames.pop();
         }
@@ -82,7 +82,7 @@ impl<'a> Walk<'a> {
                     self.at += 1;
                     self.frames.last()?;
                     self.closing = true;
-                    return Some(Step::Close);
+                    return Some(WalkStep::Close);
                 }
                 b'"' => return self.string(),
                 _ => return Some(self.word()),
@@ -90,14 +90,14 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn open(&mut self, is_array: bool) -> Step {
+    fn open(&mut self, is_array: bool) -> WalkStep {
         self.value_begins();
         self.at += 1;
-        self.frames.push(Frame { is_array, count: 0, key: (0, 0), expects_key: !is_array, note: 0 });
-        Step::Open
+        self.frames.push(WalkFrame { is_array, count: 0, key: (0, 0), expects_key: !is_array, note: 0 });
+        WalkStep::Open
     }
 
-    fn string(&mut self) -> Option<Step> {
+    fn string(&mut self) -> Option<WalkStep> {
         let from = self.at;
         let mut to = from + 1;
         loop {
@@ -113,20 +113,20 @@ impl<'a> Walk<'a> {
         {
             frame.key = (from + 1, to);
             frame.expects_key = false;
-            return Some(Step::Key);
+            return Some(WalkStep::Key);
         }
         self.value_begins();
-        Some(Step::Scalar(from, self.at))
+        Some(WalkStep::Scalar(from, self.at))
     }
 
-    fn word(&mut self) -> Step {
+    fn word(&mut self) -> WalkStep {
         let from = self.at;
         let ends = |byte: &u8| {
             matches!(byte, b' ' | b'\t' | b'\n' | b'\r' | b',' | b':' | b'[' | b']' | b'{' | b'}' | b'"')
         };
         self.at = self.text[from..].iter().position(ends).map_or(self.text.len(), |length| from + length);
         self.value_begins();
-        Step::Scalar(from, self.at)
+        WalkStep::Scalar(from, self.at)
     }
 
     fn value_begins(&mut self) {
@@ -159,7 +159,7 @@ pub(super) fn pointer_before(text: &[u8], end: usize) -> String {
     let mut pointer = String::new();
     while let Some(step) = walk.step() {
         if walk.at() >= end {
-            pointer = walk.pointer(usize::from(matches!(step, Step::Open | Step::Close)));
+            pointer = walk.pointer(usize::from(matches!(step, WalkStep::Open | WalkStep::Close)));
             break;
         }
     }

@@ -4,23 +4,23 @@ use super::channels::{Action, ChannelEdit};
 use super::document::{ChannelTarget, FileAnimation, SourceDocument};
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::Patch;
-use super::json::style::{Fresh, Style};
+use super::json::patch::TextPatch;
+use super::json::style::{Fresh, JsonStyle};
 use super::json::token::quoted;
-use super::json::tree::{Id, Kind};
+use super::json::tree::{JsonKind, ValueId};
 use super::needs::{NeedId, Needs};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// The key times or the values of a sampler.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Numbers {
+pub(super) enum SamplerNumbers {
     /// An existing accessor that contains them.
     Kept(usize),
     Needed(NeedId),
 }
 
-impl Numbers {
+impl SamplerNumbers {
     /// Returns their accessor; `accessors` contains the accessor of each need.
     fn accessor(self, accessors: &[usize]) -> usize {
         match self {
@@ -35,8 +35,8 @@ impl Numbers {
 pub(super) struct SamplerDraft {
     /// Number of the sampler in the animation; new ones start at the number of existing samplers.
     pub(super) number: usize,
-    pub(super) input: Numbers,
-    pub(super) output: Numbers,
+    pub(super) input: SamplerNumbers,
+    pub(super) output: SamplerNumbers,
     interpolation: &'static str,
 }
 
@@ -53,7 +53,7 @@ enum ChannelDraft {
 pub(super) struct Draft {
     /// New name, if it changes.
     pub(super) name: Option<String>,
-    removed: Vec<Id>,
+    removed: Vec<ValueId>,
     channels: Vec<ChannelDraft>,
     pub(super) samplers: Vec<SamplerDraft>,
 }
@@ -86,8 +86,8 @@ impl Draft {
         let Some(animation) = animation else {
             for (number, channel) in edits.iter().enumerate() {
                 let Action::Set(keys) = &channel.action else { continue };
-                let input = Numbers::Needed(needs.input(&keys.times, None));
-                let output = Numbers::Needed(needs.output(keys, None));
+                let input = SamplerNumbers::Needed(needs.input(&keys.times, None));
+                let output = SamplerNumbers::Needed(needs.output(keys, None));
                 draft.samplers.push(SamplerDraft {
                     number,
                     input,
@@ -124,12 +124,12 @@ impl Draft {
             };
             let before = |name| pool.accessor(document, animation, number, name);
             let input = match kept {
-                Some(kept) => Numbers::Kept(kept),
-                None => Numbers::Needed(needs.input(&keys.times, before("input"))),
+                Some(kept) => SamplerNumbers::Kept(kept),
+                None => SamplerNumbers::Needed(needs.input(&keys.times, before("input"))),
             };
             let output = match values {
-                Some(values) => Numbers::Kept(values),
-                None => Numbers::Needed(needs.output(keys, before("output"))),
+                Some(values) => SamplerNumbers::Kept(values),
+                None => SamplerNumbers::Needed(needs.output(keys, before("output"))),
             };
             draft.samplers.push(SamplerDraft { number, input, output, interpolation: keys.interpolation });
             match there {
@@ -147,13 +147,13 @@ impl Draft {
         document: &SourceDocument<'_>,
         animation: &FileAnimation,
         accessors: &[usize],
-        style: &Style,
+        style: &JsonStyle,
         pointer: &str,
-    ) -> Result<Vec<Patch>, SaveError> {
+    ) -> Result<Vec<TextPatch>, SaveError> {
         let json = document.json;
         let mut patches = Vec::new();
         let list = |name: &str| match json.member(animation.id, name) {
-            Some(list) if json.kind(list) == Kind::Array => Ok(list),
+            Some(list) if json.kind(list) == JsonKind::Array => Ok(list),
             _ => Err(SaveError::File {
                 place: format!("{pointer}/{name}"),
                 reason: "the animation has no such list".to_owned(),
@@ -165,7 +165,7 @@ impl Draft {
         if let Some(name) = &self.name {
             match json.member(animation.id, "name") {
                 Some(old) => {
-                    patches.push(Patch::new(json.span(old), quoted(name), format!("{pointer}/name")))
+                    patches.push(TextPatch::new(json.span(old), quoted(name), format!("{pointer}/name")))
                 }
                 None => members.inserted.push((None, style.member("name", &Fresh::string(name), &spot))),
             }
@@ -185,7 +185,7 @@ impl Draft {
                             place: pointer.clone(),
                             reason: "the channel has no sampler".to_owned(),
                         })?;
-                        patches.push(Patch::new(json.span(token), sampler.to_string(), pointer));
+                        patches.push(TextPatch::new(json.span(token), sampler.to_string(), pointer));
                     }
                     ChannelDraft::New(target, sampler) => {
                         let fresh = fresh_channel(*target, *sampler);
@@ -261,12 +261,12 @@ impl SamplerDraft {
     fn rewritten(
         &self,
         document: &SourceDocument<'_>,
-        old: Id,
+        old: ValueId,
         input: usize,
         output: usize,
-        style: &Style,
+        style: &JsonStyle,
         pointer: &str,
-    ) -> Vec<Patch> {
+    ) -> Vec<TextPatch> {
         let json = document.json;
         let mut patches = Vec::new();
         let mut members = ListEdit::default();
@@ -279,7 +279,7 @@ impl SamplerDraft {
         ] {
             match json.member(old, name) {
                 Some(id) if same_value(document, id, &token) => {}
-                Some(id) => patches.push(Patch::new(json.span(id), token, format!("{pointer}/{name}"))),
+                Some(id) => patches.push(TextPatch::new(json.span(id), token, format!("{pointer}/{name}"))),
                 None if is_default => {}
                 None => members.inserted.push((last, style.member(name, &Fresh::Raw(token), &spot))),
             }
@@ -290,7 +290,7 @@ impl SamplerDraft {
 }
 
 /// Returns whether the value equals the one that `token` spells, in whatever notation.
-fn same_value(document: &SourceDocument<'_>, id: Id, token: &str) -> bool {
+fn same_value(document: &SourceDocument<'_>, id: ValueId, token: &str) -> bool {
     let json = document.json;
     match json.string(id) {
         Some(text) => quoted(&text) == token,
@@ -312,7 +312,7 @@ impl Pool {
     fn of(
         document: &SourceDocument<'_>,
         animation: &FileAnimation,
-        removed: &[Id],
+        removed: &[ValueId],
         is_ours: &dyn Fn(usize) -> bool,
     ) -> Self {
         let mut users: HashMap<usize, usize> = HashMap::new();

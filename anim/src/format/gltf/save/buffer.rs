@@ -1,7 +1,7 @@
 //! The buffer that new numbers are appended to.
 
 use super::document::SourceDocument;
-use super::json::patch::Patch;
+use super::json::patch::TextPatch;
 use super::json::token::{unquoted, written_at};
 use super::reuse::is_ours;
 use super::source::is_data;
@@ -10,7 +10,7 @@ use std::collections::HashSet;
 
 /// Storage of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Home {
+pub(super) enum BufferHome {
     /// The binary chunk, which is created if needed.
     Chunk,
     /// An existing data URI.
@@ -26,7 +26,7 @@ pub(super) enum Home {
 /// The buffer that new numbers are appended to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TargetBuffer {
-    pub(super) home: Home,
+    pub(super) home: BufferHome,
     /// Number of the buffer, which may be that of a new one.
     pub(super) index: usize,
     /// Number of existing bytes.
@@ -44,7 +44,7 @@ impl TargetBuffer {
         if let Some(chunks) = &document.source.container.glb {
             let bin = chunks.bin.as_ref();
             if count == 0 || (bin.is_some() && json.member(document.buffers[0], "uri").is_none()) {
-                return Self { home: Home::Chunk, index: 0, present: bin.map_or(0, |bin| bin.len()) };
+                return Self { home: BufferHome::Chunk, index: 0, present: bin.map_or(0, |bin| bin.len()) };
             }
         }
         let ours = (0..count).find(|&index| {
@@ -53,15 +53,19 @@ impl TargetBuffer {
                 && document.buffer(index).is_some()
         });
         if let Some(index) = ours {
-            return Self { home: Home::OurFile, index, present: present(index) };
+            return Self { home: BufferHome::OurFile, index, present: present(index) };
         }
         let data =
             |index: &usize| uri(*index).is_some_and(|uri| is_data(&uri)) && document.buffer(*index).is_some();
         if let Some(index) = (0..count).find(data) {
-            return Self { home: Home::DataUri, index, present: present(index) };
+            return Self { home: BufferHome::DataUri, index, present: present(index) };
         }
         let beside = (0..count).any(|index| uri(index).is_some_and(|uri| !is_data(&uri)));
-        Self { home: if beside { Home::NewFile } else { Home::NewDataUri }, index: count, present: 0 }
+        Self {
+            home: if beside { BufferHome::NewFile } else { BufferHome::NewDataUri },
+            index: count,
+            present: 0,
+        }
     }
 
     /// Returns whether the buffer is not yet an element of `/buffers`.
@@ -71,7 +75,7 @@ impl TargetBuffer {
 
     /// Returns the existing bytes.
     pub(super) fn bytes<'d>(&self, document: &'d SourceDocument<'_>) -> &'d [u8] {
-        if let (Home::Chunk, true) = (self.home, self.is_new(document)) {
+        if let (BufferHome::Chunk, true) = (self.home, self.is_new(document)) {
             let bin = document.source.container.glb.as_ref().and_then(|chunks| chunks.bin.clone());
             return bin.and_then(|bin| document.source.bytes.get(bin)).unwrap_or_default();
         }
@@ -81,12 +85,12 @@ impl TargetBuffer {
 
 /// The replaced end of a buffer: everything from byte `from` on.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tail {
+pub(super) struct BufferTail {
     pub(super) from: usize,
     pub(super) bytes: Vec<u8>,
 }
 
-impl Tail {
+impl BufferTail {
     /// Returns the tail of a buffer of `old` bytes that is resized to `end` bytes and then overwritten by `writes`
     /// (offset and bytes).
     pub(super) fn of(old: &[u8], writes: &[(usize, Vec<u8>)], end: usize) -> Self {
@@ -105,9 +109,9 @@ pub(super) fn data_uri_patch(
     document: &SourceDocument<'_>,
     uri: usize,
     old: &[u8],
-    tail: &Tail,
+    tail: &BufferTail,
     pointer: &str,
-) -> Patch {
+) -> TextPatch {
     let token = document.json.token(uri);
     let span = document.json.span(uri);
     let text = unquoted(token);
@@ -120,7 +124,7 @@ pub(super) fn data_uri_patch(
     } else {
         (body + written_bytes(&text.as_bytes()[body..], tail.from), percent(&tail.bytes))
     };
-    Patch::new(span.start + written_at(token, from)..span.end - 1, new, pointer)
+    TextPatch::new(span.start + written_at(token, from)..span.end - 1, new, pointer)
 }
 
 /// Returns the length of the percent-encoded text of the first `count` bytes.

@@ -1,7 +1,7 @@
 //! Finds the edited channels by comparing the takes as they were opened with the takes as they are now.
 
-use super::columns::{ChannelKeys, EncodedKeys, Owner, keys};
-use super::document::{ChannelTarget, FileAnimation, Path};
+use super::columns::{ChannelKeys, EncodedKeys, KeysOwner, keys};
+use super::document::{ChannelTarget, FileAnimation, TargetPath};
 use super::error::SaveError;
 use crate::data::{Channel, Interpolation, ModelData, MorphTrack, Take, Track};
 use crate::limits::CLIP_SECONDS;
@@ -27,11 +27,11 @@ pub(super) struct ChannelEdit {
 }
 
 /// Returns the three channels of a track.
-fn columns(track: &Track) -> [(Path, ChannelKeys<'_>); 3] {
+fn columns(track: &Track) -> [(TargetPath, ChannelKeys<'_>); 3] {
     [
-        (Path::Translation, ChannelKeys::Vector(&track.translation)),
-        (Path::Rotation, ChannelKeys::Rotation(&track.rotation)),
-        (Path::Scale, ChannelKeys::Vector(&track.scale)),
+        (TargetPath::Translation, ChannelKeys::Vector(&track.translation)),
+        (TargetPath::Rotation, ChannelKeys::Rotation(&track.rotation)),
+        (TargetPath::Scale, ChannelKeys::Vector(&track.scale)),
     ]
 }
 
@@ -61,7 +61,7 @@ pub(super) fn edits(
             let Some(node) = bone.node else {
                 return Err(no_node(now, &bone.name, "is not a node of the file"));
             };
-            let owner = Owner { take: &now.name, bone: &bone.name, path, may_be_negative };
+            let owner = KeysOwner { take: &now.name, bone: &bone.name, path, may_be_negative };
             found.push(edit((node, path), opened, before, after, owner)?);
         }
     }
@@ -78,7 +78,7 @@ fn edit(
     opened: Option<(&Take, &FileAnimation)>,
     before: ChannelKeys<'_>,
     after: ChannelKeys<'_>,
-    owner: Owner<'_>,
+    owner: KeysOwner<'_>,
 ) -> Result<ChannelEdit, SaveError> {
     let in_file = opened.is_some_and(|(_, animation)| animation.channel(target).is_some());
     if !before.times().is_empty() && !in_file {
@@ -143,8 +143,8 @@ fn weights(
         let Some(node) = model.instances[index].node else {
             return Err(no_node(now, &label, "is not a node of the file"));
         };
-        let owner = Owner { take: &now.name, bone: &label, path: Path::Weights, may_be_negative };
-        found.push(edit((node, Path::Weights), opened, before, after, owner)?);
+        let owner = KeysOwner { take: &now.name, bone: &label, path: TargetPath::Weights, may_be_negative };
+        found.push(edit((node, TargetPath::Weights), opened, before, after, owner)?);
     }
     Ok(())
 }
@@ -169,8 +169,13 @@ pub(super) fn placeholder(
     if before.is_some_and(|before| ChannelKeys::Vector(before).is_same(&ChannelKeys::Vector(&channel))) {
         return Ok(None);
     }
-    let owner = Owner { take: &now.name, bone: &bone.name, path: Path::Translation, may_be_negative: false };
+    let owner = KeysOwner {
+        take: &now.name,
+        bone: &bone.name,
+        path: TargetPath::Translation,
+        may_be_negative: false,
+    };
     let keys = keys(ChannelKeys::Vector(&channel), owner)?;
-    let target = (bone.node.unwrap_or_default(), Path::Translation);
+    let target = (bone.node.unwrap_or_default(), TargetPath::Translation);
     Ok(Some(ChannelEdit { target, label: bone.name.clone(), action: Action::Set(keys), values_of: None }))
 }

@@ -1,6 +1,6 @@
 //! Converts a channel to glTF: times and values as bytes, and the name of the interpolation.
 
-use super::document::Path;
+use super::document::TargetPath;
 use super::error::SaveError;
 use crate::data::{Channel, Interpolation, MorphTrack};
 use crate::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
@@ -120,15 +120,15 @@ pub(super) fn shape_width(shape: &str) -> usize {
 
 /// Owner of the keys, for error messages.
 #[derive(Clone, Copy)]
-pub(super) struct Owner<'a> {
+pub(super) struct KeysOwner<'a> {
     pub(super) take: &'a str,
     pub(super) bone: &'a str,
-    pub(super) path: Path,
+    pub(super) path: TargetPath,
     /// Whether key times may be negative. glTF forbids them; a file that has them may keep them.
     pub(super) may_be_negative: bool,
 }
 
-impl Owner<'_> {
+impl KeysOwner<'_> {
     fn refuse<T>(&self, reason: impl Into<String>) -> Result<T, SaveError> {
         Err(SaveError::Keys {
             take: self.take.to_owned(),
@@ -144,7 +144,7 @@ impl Owner<'_> {
 /// * Closest-key interpolation becomes an exact step: a step at each time from which on the next key is the nearest,
 ///   and one more at the end, so that the take keeps its length.
 /// * A spline of one key is written as that key with linear interpolation, because glTF requires two keys of a spline.
-pub(super) fn keys(column: ChannelKeys<'_>, owner: Owner<'_>) -> Result<EncodedKeys, SaveError> {
+pub(super) fn keys(column: ChannelKeys<'_>, owner: KeysOwner<'_>) -> Result<EncodedKeys, SaveError> {
     let interpolation = column.interpolation();
     let numbers = column.numbers();
     check_times(column.times(), owner)?;
@@ -177,7 +177,7 @@ pub(super) fn keys(column: ChannelKeys<'_>, owner: Owner<'_>) -> Result<EncodedK
     Ok(keys)
 }
 
-fn check_times(times: &[f32], owner: Owner<'_>) -> Result<(), SaveError> {
+fn check_times(times: &[f32], owner: KeysOwner<'_>) -> Result<(), SaveError> {
     if times.len() > KEYS_PER_CHANNEL {
         return owner.refuse(format!("{} keys, at most {KEYS_PER_CHANNEL}", times.len()));
     }
@@ -199,8 +199,8 @@ fn check_times(times: &[f32], owner: Owner<'_>) -> Result<(), SaveError> {
 }
 
 /// Refuses rotations that are not of unit length, because readers differ in how they treat them.
-fn check_rotations(keys: &EncodedKeys, owner: Owner<'_>) -> Result<(), SaveError> {
-    if owner.path != Path::Rotation {
+fn check_rotations(keys: &EncodedKeys, owner: KeysOwner<'_>) -> Result<(), SaveError> {
+    if owner.path != TargetPath::Rotation {
         return Ok(());
     }
     let spline = keys.interpolation == "CUBICSPLINE";
@@ -258,7 +258,7 @@ mod tests {
         let times: [f32; 5] = [0.0, 0.1, 0.3, 7.7, 7.700_001];
         let values: Vec<Vec3> = (0..5).map(|key| Vec3::splat(key as f32)).collect();
         let closest = Channel::new(times, values, Interpolation::Closest);
-        let owner = Owner { take: "", bone: "", path: Path::Translation, may_be_negative: false };
+        let owner = KeysOwner { take: "", bone: "", path: TargetPath::Translation, may_be_negative: false };
         let keys = keys(ChannelKeys::Vector(&closest), owner).unwrap();
         assert_eq!(keys.interpolation, "STEP");
         assert!(keys.times.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", keys.times);

@@ -6,11 +6,11 @@ use super::document::SourceDocument;
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::Patch;
+use super::json::patch::TextPatch;
 use super::json::style::Fresh;
-use super::json::tree::Id;
+use super::json::tree::ValueId;
 use super::plan::{Plan, fresh_view};
-use super::reuse::{Granted, MARK, Slot, others_past, slots};
+use super::reuse::{Granted, MARK, SavedSlot, others_past, slots};
 use super::source::SourceFile;
 use std::collections::{HashMap, HashSet};
 
@@ -31,11 +31,11 @@ pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
         return draw.finish();
     }
     let start = first.offset;
-    let idle = Idle::of(&document, &slots);
+    let idle = IdleSamplers::of(&document, &slots);
     let used = idle.used_accessors(&document);
     let (accessors, views) = (document.accessors.len() - slots.len(), document.views.len() - slots.len());
     let at_end = slots.iter().all(|slot| slot.accessor >= accessors && slot.view >= views);
-    let mut live: Vec<Slot> =
+    let mut live: Vec<SavedSlot> =
         slots.iter().filter(|slot| !at_end || used.contains(&slot.accessor)).copied().collect();
     if live.is_empty() && (accessors == 0 || views == 0 || start == 0) {
         // glTF forbids an empty list or buffer.
@@ -47,7 +47,7 @@ pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
     let bytes = target.bytes(&document);
     for (number, slot) in live.iter().enumerate() {
         let to = match at_end {
-            true => Slot { accessor: accessors + number, view: views + number, ..*slot },
+            true => SavedSlot { accessor: accessors + number, view: views + number, ..*slot },
             false => *slot,
         };
         let room = needed(&document, slot);
@@ -74,7 +74,7 @@ pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
 }
 
 /// Returns the number of bytes of a slot's accessor.
-fn needed(document: &SourceDocument<'_>, slot: &Slot) -> usize {
+fn needed(document: &SourceDocument<'_>, slot: &SavedSlot) -> usize {
     let (json, id) = (document.json, document.accessors[slot.accessor]);
     let shape = json.string_member(id, "type").unwrap_or_default();
     let size = json.index_member(id, "count").and_then(|count| count.checked_mul(shape_width(&shape) * 4));
@@ -94,7 +94,7 @@ fn moved_accessor(document: &SourceDocument<'_>, accessor: usize, view: usize) -
 }
 
 /// Copies a token, or a list of tokens.
-fn copied(document: &SourceDocument<'_>, id: Id) -> Fresh {
+fn copied(document: &SourceDocument<'_>, id: ValueId) -> Fresh {
     let json = document.json;
     let raw = |id| Fresh::Raw(String::from_utf8_lossy(json.token(id)).into_owned());
     match json.items(id).next() {
@@ -104,7 +104,7 @@ fn copied(document: &SourceDocument<'_>, id: Id) -> Fresh {
 }
 
 /// Removes the elements from `keep` on.
-fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[Id], keep: usize) -> Result<(), SaveError> {
+fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[ValueId], keep: usize) -> Result<(), SaveError> {
     let Some(list) = draw.list(name)? else { return Ok(()) };
     let change = ListEdit { removed: items[keep..].to_vec(), inserted: Vec::new() };
     let json = draw.document.json;
@@ -115,13 +115,13 @@ fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[Id], keep: usize) -> Result
 
 /// Samplers that no channel uses and whose accessors earlier saves wrote. They are redirected to the accessors of
 /// another sampler of their animation, which makes their own accessors unused.
-struct Idle {
+struct IdleSamplers {
     /// By animation and sampler: the sampler whose accessors it gets.
     instead: HashMap<(usize, usize), usize>,
 }
 
-impl Idle {
-    fn of(document: &SourceDocument<'_>, slots: &[Slot]) -> Self {
+impl IdleSamplers {
+    fn of(document: &SourceDocument<'_>, slots: &[SavedSlot]) -> Self {
         let ours: HashSet<usize> = slots.iter().map(|slot| slot.accessor).collect();
         let mut instead = HashMap::new();
         for (index, animation) in document.animations.iter().enumerate() {
@@ -142,7 +142,7 @@ impl Idle {
     }
 
     /// Returns the sampler whose accessors a sampler gets, in most cases the sampler itself.
-    fn source(&self, document: &SourceDocument<'_>, animation: usize, sampler: usize) -> Id {
+    fn source(&self, document: &SourceDocument<'_>, animation: usize, sampler: usize) -> ValueId {
         let number = self.instead.get(&(animation, sampler)).copied().unwrap_or(sampler);
         document.animations[animation].samplers[number]
     }
@@ -161,7 +161,7 @@ impl Idle {
 }
 
 /// Writes the new numbers of accessors into the samplers.
-fn redirect_samplers(draw: &mut Draw<'_, '_>, idle: &Idle, moves: &HashMap<usize, usize>) {
+fn redirect_samplers(draw: &mut Draw<'_, '_>, idle: &IdleSamplers, moves: &HashMap<usize, usize>) {
     let document = draw.document;
     let json = document.json;
     for (index, animation) in document.animations.iter().enumerate() {
@@ -176,7 +176,7 @@ fn redirect_samplers(draw: &mut Draw<'_, '_>, idle: &Idle, moves: &HashMap<usize
                 let new = moves.get(&wanted).copied().unwrap_or(wanted);
                 if new != old {
                     let pointer = format!("/animations/{index}/samplers/{number}/{name}");
-                    draw.patches.push(Patch::new(json.span(token), new.to_string(), pointer));
+                    draw.patches.push(TextPatch::new(json.span(token), new.to_string(), pointer));
                 }
             }
         }

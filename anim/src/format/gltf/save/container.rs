@@ -1,7 +1,7 @@
 //! The container of the JSON text: none for `.gltf`, chunks for `.glb`.
 
 use super::super::glb;
-use super::json::patch::{Patch, patched};
+use super::json::patch::{TextPatch, patched};
 use crate::format::{ImportContext, ImportError};
 use std::ops::Range;
 
@@ -43,7 +43,7 @@ impl Container {
 
     /// Returns the file with the sorted `patches` applied to its text, and with another binary chunk if `bin` is given:
     /// the number of its bytes that stay, and the bytes after them.
-    pub(super) fn write(&self, file: &[u8], patches: &[Patch], bin: Option<(usize, &[u8])>) -> Vec<u8> {
+    pub(super) fn write(&self, file: &[u8], patches: &[TextPatch], bin: Option<(usize, &[u8])>) -> Vec<u8> {
         let Some(chunks) = &self.glb else { return patched(file, 0..file.len(), patches) };
         let mut out = file[..HEADER].to_vec();
         if patches.is_empty() {

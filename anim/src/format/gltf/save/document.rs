@@ -1,6 +1,6 @@
 //! The animations of the JSON text and where their numbers are stored, without reading the numbers.
 
-use super::json::tree::{Id, Json};
+use super::json::tree::{Json, ValueId};
 use super::source::{SourceFile, is_data};
 use crate::format::uri::DataUri;
 use std::cell::OnceCell;
@@ -10,14 +10,14 @@ use std::sync::Arc;
 
 /// Animated property of a node or mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum Path {
+pub(super) enum TargetPath {
     Translation,
     Rotation,
     Scale,
     Weights,
 }
 
-impl Path {
+impl TargetPath {
     /// Returns the name in the file.
     pub(super) fn name(self) -> &'static str {
         match self {
@@ -36,12 +36,12 @@ impl Path {
 }
 
 /// A node and its animated property.
-pub(super) type ChannelTarget = (u32, Path);
+pub(super) type ChannelTarget = (u32, TargetPath);
 
 /// A channel of an animation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FileChannel {
-    pub(super) id: Id,
+    pub(super) id: ValueId,
     pub(super) sampler: Option<usize>,
     /// `None` for a target that the importer leaves out.
     pub(super) target: Option<ChannelTarget>,
@@ -50,15 +50,15 @@ pub(super) struct FileChannel {
 /// An animation of the file.
 #[derive(Clone, Debug)]
 pub(super) struct FileAnimation {
-    pub(super) id: Id,
+    pub(super) id: ValueId,
     pub(super) channels: Vec<FileChannel>,
-    pub(super) samplers: Vec<Id>,
+    pub(super) samplers: Vec<ValueId>,
     /// The first channel of each target, which is the one that the importer uses.
     firsts: HashMap<ChannelTarget, usize>,
 }
 
 impl FileAnimation {
-    fn of(json: Json<'_>, id: Id) -> Self {
+    fn of(json: Json<'_>, id: ValueId) -> Self {
         let channels = json.list(id, "channels").into_iter().map(|id| {
             let target = json.member(id, "target").and_then(|target| target_of(json, target));
             FileChannel { id, sampler: json.index_member(id, "sampler"), target }
@@ -79,8 +79,8 @@ impl FileAnimation {
     }
 }
 
-fn target_of(json: Json<'_>, target: Id) -> Option<ChannelTarget> {
-    let path = Path::named(&json.string_member(target, "path")?)?;
+fn target_of(json: Json<'_>, target: ValueId) -> Option<ChannelTarget> {
+    let path = TargetPath::named(&json.string_member(target, "path")?)?;
     let node = u32::try_from(json.whole_member(target, "node")?).ok()?;
     (node != u32::MAX).then_some((node, path))
 }
@@ -89,10 +89,10 @@ fn target_of(json: Json<'_>, target: Id) -> Option<ChannelTarget> {
 pub(super) struct SourceDocument<'a> {
     pub(super) source: &'a SourceFile,
     pub(super) json: Json<'a>,
-    pub(super) accessors: Vec<Id>,
-    pub(super) views: Vec<Id>,
-    pub(super) buffers: Vec<Id>,
-    pub(super) nodes: Vec<Id>,
+    pub(super) accessors: Vec<ValueId>,
+    pub(super) views: Vec<ValueId>,
+    pub(super) buffers: Vec<ValueId>,
+    pub(super) nodes: Vec<ValueId>,
     pub(super) animations: Vec<FileAnimation>,
     /// Bytes of the buffers, loaded when needed.
     bytes: Vec<OnceCell<Option<BufferBytes>>>,
@@ -148,7 +148,7 @@ impl<'a> SourceDocument<'a> {
     }
 
     /// Returns whether this object has an extension.
-    pub(super) fn is_extended(&self, id: Id) -> bool {
+    pub(super) fn is_extended(&self, id: ValueId) -> bool {
         self.json.member(id, "extensions").is_some()
     }
 

@@ -1,14 +1,14 @@
 //! Collects the patches of a save: lists that grow or are created, and the buffer of the new numbers.
 
-use super::buffer::{Home, Tail, TargetBuffer, base64, beside, data_uri_patch};
+use super::buffer::{BufferHome, BufferTail, TargetBuffer, base64, beside, data_uri_patch};
 use super::changes::{ChangedToken, Changes, shortened};
 use super::document::SourceDocument;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::{Patch, sort};
-use super::json::style::{Fresh, Spot, Style};
+use super::json::patch::{TextPatch, sort};
+use super::json::style::{Fresh, JsonSpot, JsonStyle};
 use super::json::token::quoted;
-use super::json::tree::{Id, Kind};
+use super::json::tree::{JsonKind, ValueId};
 use super::plan::Plan;
 use super::reuse::MARK;
 use crate::format::OutputFile;
@@ -19,22 +19,22 @@ use std::collections::{HashMap, HashSet};
 /// A plan that is being made.
 pub(super) struct Draw<'d, 'a> {
     pub(super) document: &'d SourceDocument<'a>,
-    pub(super) style: Style,
-    pub(super) patches: Vec<Patch>,
+    pub(super) style: JsonStyle,
+    pub(super) patches: Vec<TextPatch>,
     /// Added and removed members of the root.
     pub(super) root: ListEdit,
     pub(super) changes: Changes,
-    chunk: Option<Tail>,
+    chunk: Option<BufferTail>,
     beside: Option<OutputFile>,
     /// Positions of new elements of a list of the root, by the name of the list.
-    spots: HashMap<&'static str, Spot>,
+    spots: HashMap<&'static str, JsonSpot>,
 }
 
 impl<'d, 'a> Draw<'d, 'a> {
     pub(super) fn new(document: &'d SourceDocument<'a>) -> Self {
         Self {
             document,
-            style: Style::of(document.json),
+            style: JsonStyle::of(document.json),
             patches: Vec::new(),
             root: ListEdit::default(),
             changes: Changes::default(),
@@ -44,17 +44,17 @@ impl<'d, 'a> Draw<'d, 'a> {
         }
     }
 
-    fn spot(&mut self, list: &'static str) -> Spot {
+    fn spot(&mut self, list: &'static str) -> JsonSpot {
         let (document, style) = (self.document, &self.style);
         let spot = || style.spot(document.json, document.json.member(0, list), 2);
         self.spots.entry(list).or_insert_with(spot).clone()
     }
 
     /// Returns the array that is the member `name` of the root, if there is such a member.
-    pub(super) fn list(&self, name: &str) -> Result<Option<Id>, SaveError> {
+    pub(super) fn list(&self, name: &str) -> Result<Option<ValueId>, SaveError> {
         let json = self.document.json;
         match json.member(0, name) {
-            Some(list) if json.kind(list) == Kind::Array => Ok(Some(list)),
+            Some(list) if json.kind(list) == JsonKind::Array => Ok(Some(list)),
             None => Ok(None),
             Some(_) => Err(SaveError::File { place: format!("/{name}"), reason: "is not a list".to_owned() }),
         }
@@ -87,12 +87,12 @@ impl<'d, 'a> Draw<'d, 'a> {
     }
 
     /// Replaces an element by `fresh`, unless it has this text already.
-    pub(super) fn replace(&mut self, id: Id, list: &'static str, number: usize, fresh: &Fresh) {
+    pub(super) fn replace(&mut self, id: ValueId, list: &'static str, number: usize, fresh: &Fresh) {
         let json = self.document.json;
         let spot = self.spot(list);
         let text = self.style.write(fresh, &spot);
         if text.as_bytes() != json.token(id) {
-            self.patches.push(Patch::new(json.span(id), text, format!("/{list}/{number}")));
+            self.patches.push(TextPatch::new(json.span(id), text, format!("/{list}/{number}")));
         }
     }
 
@@ -108,17 +108,19 @@ impl<'d, 'a> Draw<'d, 'a> {
         if writes.is_empty() && end == old.len() {
             return Ok(());
         }
-        let tail = Tail::of(old, writes, end);
+        let tail = BufferTail::of(old, writes, end);
         self.changes.bytes_appended = end.saturating_sub(old.len());
         self.changes.bytes_removed = old.len().saturating_sub(end);
         let within = |write: &(usize, Vec<u8>)| write.1.len().min(old.len().saturating_sub(write.0));
         self.changes.bytes_reused = writes.iter().map(within).sum();
         let mut members = vec![("name", Fresh::string(MARK)), ("byteLength", Fresh::whole(end))];
         let uri = match target.home {
-            Home::Chunk => None,
-            Home::DataUri => None,
-            Home::NewDataUri => Some(format!("data:application/octet-stream;base64,{}", base64(&tail.bytes))),
-            Home::OurFile | Home::NewFile => Some(self.neighbor_file(target, old, &tail)),
+            BufferHome::Chunk => None,
+            BufferHome::DataUri => None,
+            BufferHome::NewDataUri => {
+                Some(format!("data:application/octet-stream;base64,{}", base64(&tail.bytes)))
+            }
+            BufferHome::OurFile | BufferHome::NewFile => Some(self.neighbor_file(target, old, &tail)),
         };
         if target.is_new(document) {
             members.extend(uri.map(|uri| ("uri", Fresh::Raw(quoted(&uri)))));
@@ -126,7 +128,7 @@ impl<'d, 'a> Draw<'d, 'a> {
         } else {
             self.adjust(target, end, old, &tail, uri)?;
         }
-        if target.home == Home::Chunk {
+        if target.home == BufferHome::Chunk {
             self.chunk = Some(tail);
         }
         Ok(())
@@ -138,7 +140,7 @@ impl<'d, 'a> Draw<'d, 'a> {
         target: TargetBuffer,
         end: usize,
         old: &[u8],
-        tail: &Tail,
+        tail: &BufferTail,
         uri: Option<String>,
     ) -> Result<(), SaveError> {
         let json = self.document.json;
@@ -150,21 +152,21 @@ impl<'d, 'a> Draw<'d, 'a> {
         };
         let length = member("byteLength")?;
         if json.whole(length) != Some(end as u64) {
-            self.patches.push(Patch::new(json.span(length), end.to_string(), pointer("byteLength")));
+            self.patches.push(TextPatch::new(json.span(length), end.to_string(), pointer("byteLength")));
         }
-        if target.home == Home::DataUri {
+        if target.home == BufferHome::DataUri {
             self.patches.push(data_uri_patch(self.document, member("uri")?, old, tail, &pointer("uri")));
         }
         if let Some(uri) = uri {
-            self.patches.push(Patch::new(json.span(member("uri")?), quoted(&uri), pointer("uri")));
+            self.patches.push(TextPatch::new(json.span(member("uri")?), quoted(&uri), pointer("uri")));
         }
         Ok(())
     }
 
     /// Plans a buffer in a new file and returns its URI.
-    fn neighbor_file(&mut self, target: TargetBuffer, old: &[u8], tail: &Tail) -> String {
+    fn neighbor_file(&mut self, target: TargetBuffer, old: &[u8], tail: &BufferTail) -> String {
         let json = self.document.json;
-        let uri = |id: &Id| relative_path(&json.string_member(*id, "uri")?).ok();
+        let uri = |id: &ValueId| relative_path(&json.string_member(*id, "uri")?).ok();
         let taken: HashSet<String> =
             self.document.buffers.iter().chain(&json.list(0, "images")).filter_map(uri).collect();
         let bytes = [&old[..tail.from], &tail.bytes].concat();
@@ -191,7 +193,7 @@ impl<'d, 'a> Draw<'d, 'a> {
             return Err(SaveError::File { place: "file".to_owned(), reason });
         }
         self.check_size()?;
-        let token = |patch: &Patch| ChangedToken {
+        let token = |patch: &TextPatch| ChangedToken {
             pointer: patch.pointer.clone(),
             offset: patch.span.start,
             length: patch.span.len(),

@@ -3,7 +3,7 @@
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::Patch;
+use super::json::patch::TextPatch;
 use super::json::style::Fresh;
 use super::json::token::number;
 use crate::data::{Bone, ModelData};
@@ -45,7 +45,7 @@ pub(super) fn without_matrix<'t>(
         let first = text.find('"').unwrap_or(0);
         text.drain(..first);
         let span = json.item_span(matrix);
-        draw.patches.push(Patch::new(span, text, format!("{pointer}/matrix")));
+        draw.patches.push(TextPatch::new(span, text, format!("{pointer}/matrix")));
         draw.changes.nodes.push(node);
     }
     Ok(())

@@ -3,7 +3,7 @@
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::{Patch, patched, sort};
+use super::json::patch::{TextPatch, patched, sort};
 use super::json::style::Fresh;
 use super::plan::TakeDraft;
 use std::collections::HashSet;
@@ -50,7 +50,7 @@ pub(super) fn write_animations(
             }
             None => Vec::new(),
         };
-        let text = |patches: Vec<Patch>| match take.base {
+        let text = |patches: Vec<TextPatch>| match take.base {
             Some(base) => text_of(draw, base, patches),
             None => Ok(draw.style.write(&take.draft.fresh(accessors), &spot)),
         };
@@ -66,7 +66,7 @@ pub(super) fn write_animations(
         } else {
             let text = text(patches)?;
             let span = json.span(document.animations[place].id);
-            draw.patches.push(Patch::new(span, text, format!("/animations/{place}")));
+            draw.patches.push(TextPatch::new(span, text, format!("/animations/{place}")));
         }
     }
     draw.patches.extend(edit(json, list, &change, &draw.style, &spot, "/animations"));
@@ -74,7 +74,7 @@ pub(super) fn write_animations(
 }
 
 /// Returns the text of an animation with patches applied.
-fn text_of(draw: &Draw<'_, '_>, animation: usize, mut patches: Vec<Patch>) -> Result<String, SaveError> {
+fn text_of(draw: &Draw<'_, '_>, animation: usize, mut patches: Vec<TextPatch>) -> Result<String, SaveError> {
     let json = draw.document.json;
     let broken = || SaveError::File {
         place: format!("/animations/{animation}"),

@@ -1,20 +1,20 @@
 //! From takes to the bytes that change.
 
-use super::animation::{Draft, Numbers};
-use super::buffer::{Tail, TargetBuffer};
+use super::animation::{Draft, SamplerNumbers};
+use super::buffer::{BufferTail, TargetBuffer};
 use super::changes::{ChangedChannel, Changes, ChannelChange, TakeChange, WrittenAccessor};
 use super::channels::{Action, ChannelEdit, edits, placeholder};
 use super::columns::shape_width;
-use super::document::{FileAnimation, Path, SourceDocument};
+use super::document::{FileAnimation, SourceDocument, TargetPath};
 use super::draw::Draw;
 use super::error::SaveError;
-use super::json::patch::Patch;
+use super::json::patch::TextPatch;
 use super::json::style::Fresh;
 use super::json::token::number;
 use super::needs::{Need, Needs};
 use super::nodes::without_matrix;
 use super::order::write_animations;
-use super::reuse::{Granted, MARK, Request, Slot, grant, slots};
+use super::reuse::{Granted, MARK, RoomRequest, SavedSlot, grant, slots};
 use super::source::SourceFile;
 use crate::data::ModelData;
 use crate::format::{EditedTake, OutputFile};
@@ -24,9 +24,9 @@ use std::collections::{HashMap, HashSet};
 #[derive(Clone)]
 pub struct Plan<'a> {
     pub(super) source: &'a SourceFile,
-    pub(super) patches: Vec<Patch>,
+    pub(super) patches: Vec<TextPatch>,
     /// The replaced end of the binary chunk.
-    pub(super) chunk: Option<Tail>,
+    pub(super) chunk: Option<BufferTail>,
     pub(super) beside: Option<OutputFile>,
     pub(super) changes: Changes,
 }
@@ -87,7 +87,7 @@ pub fn plan<'a>(
     let mut draw = Draw::new(&document);
     let accessors = write_numbers(&mut draw, target, slots, &takes, needs)?;
     let animated = takes.iter().flat_map(|take| take.draft.new_targets().map(|target| (target, &*take.name)));
-    let animated = animated.filter(|(target, _)| target.1 != Path::Weights);
+    let animated = animated.filter(|(target, _)| target.1 != TargetPath::Weights);
     let animated = animated.map(|(target, take)| (target.0, take));
     without_matrix(&mut draw, opened, animated)?;
     write_animations(&mut draw, &takes, &accessors)?;
@@ -142,7 +142,7 @@ fn take_draft(
     if (!edits.is_empty() || base.is_none()) && !moves(base.map(|base| base.1), &edits) {
         let still = placeholder(opened, base.map(|base| base.0), take)?;
         let kept = bone_at_rest(opened);
-        edits.retain(|edit| Some(edit.target.0) != kept || edit.target.1 != Path::Translation);
+        edits.retain(|edit| Some(edit.target.0) != kept || edit.target.1 != TargetPath::Translation);
         edits.extend(still);
     }
     let name = match base {
@@ -175,13 +175,13 @@ fn moves(animation: Option<&FileAnimation>, edits: &[ChannelEdit]) -> bool {
 fn write_numbers(
     draw: &mut Draw<'_, '_>,
     target: TargetBuffer,
-    slots: Vec<Slot>,
+    slots: Vec<SavedSlot>,
     takes: &[TakeDraft],
     needs: Needs,
 ) -> Result<Vec<usize>, SaveError> {
     let document = draw.document;
     let pinned = pinned(document, takes);
-    let (held, free): (Vec<Slot>, Vec<Slot>) =
+    let (held, free): (Vec<SavedSlot>, Vec<SavedSlot>) =
         slots.into_iter().partition(|slot| pinned.contains(&slot.accessor));
     let bytes = target.bytes(document);
     let inputs: HashMap<&[u8], usize> =
@@ -190,8 +190,8 @@ fn write_numbers(
     let mut accessors: Vec<Option<usize>> = needs.list.iter().map(known).collect();
     let open: Vec<usize> = (0..accessors.len()).filter(|&need| accessors[need].is_none()).collect();
     let request =
-        |&need: &usize| Request { size: needs.list[need].bytes.len(), before: needs.list[need].before };
-    let requests: Vec<Request> = open.iter().map(request).collect();
+        |&need: &usize| RoomRequest { size: needs.list[need].bytes.len(), before: needs.list[need].before };
+    let requests: Vec<RoomRequest> = open.iter().map(request).collect();
     if requests.is_empty() {
         return Ok(accessors.into_iter().flatten().collect());
     }
@@ -255,15 +255,15 @@ fn pinned(document: &SourceDocument<'_>, takes: &[TakeDraft]) -> HashSet<usize> 
         }
         let numbers = take.draft.samplers.iter().flat_map(|sampler| [sampler.input, sampler.output]);
         pinned.extend(numbers.filter_map(|numbers| match numbers {
-            Numbers::Kept(accessor) => Some(accessor),
-            Numbers::Needed(_) => None,
+            SamplerNumbers::Kept(accessor) => Some(accessor),
+            SamplerNumbers::Needed(_) => None,
         }));
     }
     pinned
 }
 
 /// Returns the key times in a slot, if it contains key times.
-fn input_bytes<'b>(document: &SourceDocument<'_>, slot: &Slot, bytes: &'b [u8]) -> Option<&'b [u8]> {
+fn input_bytes<'b>(document: &SourceDocument<'_>, slot: &SavedSlot, bytes: &'b [u8]) -> Option<&'b [u8]> {
     let (json, id) = (document.json, document.accessors[slot.accessor]);
     let size = json.index_member(id, "count")?.checked_mul(4).filter(|&size| size <= slot.room)?;
     let is_input = json.string_member(id, "type")? == "SCALAR" && json.member(id, "min").is_some();
@@ -302,11 +302,11 @@ fn bones_lost(document: &SourceDocument<'_>, opened: &ModelData, takes: &[TakeDr
         animation.channels.iter().filter_map(|channel| channel.target).collect()
     };
     let before: HashSet<u32> =
-        document.animations.iter().flat_map(channels).map(|(node, _): (u32, Path)| node).collect();
+        document.animations.iter().flat_map(channels).map(|(node, _): (u32, TargetPath)| node).collect();
     let mut after: HashSet<u32> = HashSet::new();
     for take in takes {
         let base = take.base.and_then(|base| document.animations.get(base));
-        let mut targets: HashSet<(u32, Path)> = base.into_iter().flat_map(channels).collect();
+        let mut targets: HashSet<(u32, TargetPath)> = base.into_iter().flat_map(channels).collect();
         for edit in &take.edits {
             match edit.action {
                 Action::Remove => targets.remove(&edit.target),

@@ -6,20 +6,20 @@
 //! accessor may need less.
 
 use super::document::SourceDocument;
-use super::json::tree::{Id, Json, Kind};
+use super::json::tree::{Json, JsonKind, ValueId};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Name of the buffers, buffer views and accessors that a save appends.
 pub const MARK: &str = "dragonfly.keys";
 
 /// Returns whether an object has the name [`MARK`].
-pub(super) fn is_ours(json: Json<'_>, id: Id) -> bool {
+pub(super) fn is_ours(json: Json<'_>, id: ValueId) -> bool {
     json.string_member(id, "name").as_deref() == Some(MARK)
 }
 
 /// An accessor and its view that an earlier save appended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Slot {
+pub(super) struct SavedSlot {
     pub(super) accessor: usize,
     pub(super) view: usize,
     /// Offset in the buffer in bytes, a multiple of four.
@@ -29,7 +29,7 @@ pub(super) struct Slot {
 }
 
 /// Returns all slots in a buffer of `length` existing bytes, by accessor.
-pub(super) fn slots(document: &SourceDocument<'_>, buffer: usize, length: usize) -> Vec<Slot> {
+pub(super) fn slots(document: &SourceDocument<'_>, buffer: usize, length: usize) -> Vec<SavedSlot> {
     let marked: Vec<usize> = (0..document.accessors.len())
         .filter(|&accessor| is_ours(document.json, document.accessors[accessor]))
         .collect();
@@ -59,7 +59,7 @@ pub(super) fn slots(document: &SourceDocument<'_>, buffer: usize, length: usize)
             && !references.accessors.contains(&accessor)
             && references.views.get(&view) == Some(&1)
             && alone.contains(&view);
-        ours.then_some(Slot { accessor, view, offset, room })
+        ours.then_some(SavedSlot { accessor, view, offset, room })
     };
     marked.into_iter().filter_map(slot).collect()
 }
@@ -81,7 +81,8 @@ const ACCESSORS: &[&str] = &["indices", "inverseBindMatrices", "accessor", "inpu
 /// members; a reference too many is harmless, a missing one is not.
 fn references(document: &SourceDocument<'_>) -> References {
     let json = document.json;
-    let samplers: HashSet<Id> = document.animations.iter().flat_map(|a| a.samplers.iter().copied()).collect();
+    let samplers: HashSet<ValueId> =
+        document.animations.iter().flat_map(|a| a.samplers.iter().copied()).collect();
     let mut found = References { accessors: HashSet::new(), views: HashMap::new(), ranges: Vec::new() };
     let mut around: Vec<Around> = Vec::new();
     for id in 0..json.len() {
@@ -94,7 +95,7 @@ fn references(document: &SourceDocument<'_>) -> References {
         let key = json.key(id);
         let key = key.as_deref().unwrap_or_default();
         match json.kind(id) {
-            Kind::Object | Kind::Array => {
+            JsonKind::Object | JsonKind::Array => {
                 found.ranges.extend(range_of(document, id));
                 // `/accessors` itself is not a list of numbers.
                 let is_list = around.len() > 1 && ["attributes", "targets", "accessors"].contains(&key);
@@ -104,7 +105,7 @@ fn references(document: &SourceDocument<'_>) -> References {
                     is_sampler: samplers.contains(&id),
                 });
             }
-            Kind::Number => {
+            JsonKind::Number => {
                 let number = json.whole(id).and_then(|number| usize::try_from(number).ok());
                 match number {
                     Some(view) if key == "bufferView" => *found.views.entry(view).or_default() += 1,
@@ -122,7 +123,7 @@ fn references(document: &SourceDocument<'_>) -> References {
 
 /// An array or object around a value.
 struct Around {
-    end: Id,
+    end: ValueId,
     /// Whether the numbers in it are accessors.
     holds_accessors: bool,
     /// Whether it is a sampler of an animation.
@@ -130,7 +131,7 @@ struct Around {
 }
 
 /// Returns the range of a buffer that an object refers to, unless the object is a buffer view.
-fn range_of(document: &SourceDocument<'_>, id: Id) -> Option<(usize, u64, u64)> {
+fn range_of(document: &SourceDocument<'_>, id: ValueId) -> Option<(usize, u64, u64)> {
     let json = document.json;
     let (buffer, length) = (json.index_member(id, "buffer")?, json.whole_member(id, "byteLength")?);
     let from = json.whole_member(id, "byteOffset").unwrap_or(0);
@@ -163,7 +164,7 @@ pub(super) fn others_past(
     document: &SourceDocument<'_>,
     buffer: usize,
     start: usize,
-    slots: &[Slot],
+    slots: &[SavedSlot],
 ) -> bool {
     let own: HashSet<usize> = slots.iter().map(|slot| slot.view).collect();
     let past = |range: (usize, u64, u64)| range.0 == buffer && range.2 > start as u64;
@@ -177,7 +178,7 @@ pub(super) fn others_past(
 
 /// Room that a channel needs in the buffer.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Request {
+pub(super) struct RoomRequest {
     /// Number of bytes, a multiple of four.
     pub(super) size: usize,
     /// The accessor of the replaced keys.
@@ -188,25 +189,26 @@ pub(super) struct Request {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Granted {
     /// The slot whose accessor and view are reused; `None` for new ones.
-    pub(super) slot: Option<Slot>,
+    pub(super) slot: Option<SavedSlot>,
     pub(super) offset: usize,
     pub(super) room: usize,
 }
 
 /// Finds room for every request: its previous slot if it fits; otherwise the smallest free slot that is large enough;
 /// otherwise the last slot of the buffer, extended; otherwise new room at `end`, which moves along.
-pub(super) fn grant(requests: &[Request], free: Vec<Slot>, end: &mut usize) -> Vec<Granted> {
+pub(super) fn grant(requests: &[RoomRequest], free: Vec<SavedSlot>, end: &mut usize) -> Vec<Granted> {
     let mut granted: Vec<Option<Granted>> = vec![None; requests.len()];
-    let same = |slot: Slot| Granted { slot: Some(slot), offset: slot.offset, room: slot.room };
+    let same = |slot: SavedSlot| Granted { slot: Some(slot), offset: slot.offset, room: slot.room };
     let mut last = free.iter().find(|slot| slot.offset + slot.room == *end).copied();
-    let mut by_accessor: HashMap<usize, Slot> = free.into_iter().map(|slot| (slot.accessor, slot)).collect();
+    let mut by_accessor: HashMap<usize, SavedSlot> =
+        free.into_iter().map(|slot| (slot.accessor, slot)).collect();
     for (request, granted) in requests.iter().zip(&mut granted) {
         let Some(before) = request.before else { continue };
         if by_accessor.get(&before).is_some_and(|own| own.room >= request.size) {
             *granted = by_accessor.remove(&before).map(same);
         }
     }
-    let mut by_room: BTreeMap<(usize, usize), Slot> =
+    let mut by_room: BTreeMap<(usize, usize), SavedSlot> =
         by_accessor.into_values().map(|slot| ((slot.room, slot.offset), slot)).collect();
     for (request, granted) in requests.iter().zip(&mut granted).filter(|(_, granted)| granted.is_none()) {
         let fits = by_room.range((request.size, 0)..).next().map(|(key, _)| *key);
@@ -233,18 +235,18 @@ pub(super) fn grant(requests: &[Request], free: Vec<Slot>, end: &mut usize) -> V
 mod tests {
     use super::*;
 
-    fn slot(accessor: usize, offset: usize, room: usize) -> Slot {
-        Slot { accessor, view: accessor, offset, room }
+    fn slot(accessor: usize, offset: usize, room: usize) -> SavedSlot {
+        SavedSlot { accessor, view: accessor, offset, room }
     }
 
     #[test]
     fn free_room_is_reused_before_the_buffer_grows() {
         let free = vec![slot(1, 100, 40), slot(2, 140, 12), slot(3, 152, 20)];
         let requests = [
-            Request { size: 12, before: None },
-            Request { size: 12, before: Some(1) },
-            Request { size: 24, before: Some(2) },
-            Request { size: 8, before: None },
+            RoomRequest { size: 12, before: None },
+            RoomRequest { size: 12, before: Some(1) },
+            RoomRequest { size: 24, before: Some(2) },
+            RoomRequest { size: 8, before: None },
         ];
         let mut end = 172;
         let granted = grant(&requests, free, &mut end);

@@ -65,8 +65,8 @@ pub(in super::super) fn unquoted(token: &[u8]) -> Cow<'_, str> {
     while at < inner.len() {
         let (unit, length) = unit(&inner[at..]);
         match unit {
-            Unit::Byte(byte) => decoded.push(byte),
-            Unit::Character(character) => decoded.extend(character.encode_utf8(&mut [0; 4]).as_bytes()),
+            StringUnit::Byte(byte) => decoded.push(byte),
+            StringUnit::Character(character) => decoded.extend(character.encode_utf8(&mut [0; 4]).as_bytes()),
         }
         at += length;
     }
@@ -74,15 +74,15 @@ pub(in super::super) fn unquoted(token: &[u8]) -> Cow<'_, str> {
 }
 
 /// One character or escape of a string.
-enum Unit {
+enum StringUnit {
     Byte(u8),
     Character(char),
 }
 
 /// Returns the first unit of `inner`, which is not empty, and the number of bytes that spell it.
-fn unit(inner: &[u8]) -> (Unit, usize) {
+fn unit(inner: &[u8]) -> (StringUnit, usize) {
     if inner[0] != b'\\' {
-        return (Unit::Byte(inner[0]), 1);
+        return (StringUnit::Byte(inner[0]), 1);
     }
     let plain = match inner.get(1) {
         Some(b'b') => 8,
@@ -92,24 +92,24 @@ fn unit(inner: &[u8]) -> (Unit, usize) {
         Some(b't') => b'\t',
         Some(b'u') => return escaped_unit(inner),
         Some(&byte) => byte,
-        None => return (Unit::Byte(b'\\'), 1),
+        None => return (StringUnit::Byte(b'\\'), 1),
     };
-    (Unit::Byte(plain), 2)
+    (StringUnit::Byte(plain), 2)
 }
 
-fn escaped_unit(inner: &[u8]) -> (Unit, usize) {
+fn escaped_unit(inner: &[u8]) -> (StringUnit, usize) {
     let code = |at: usize| {
         let digits = std::str::from_utf8(inner.get(at + 2..at + 6)?).ok()?;
         (inner.get(at..at + 2)? == b"\\u").then(|| u16::from_str_radix(digits, 16).ok())?
     };
-    let Some(first) = code(0) else { return (Unit::Character('\u{fffd}'), inner.len().min(2)) };
+    let Some(first) = code(0) else { return (StringUnit::Character('\u{fffd}'), inner.len().min(2)) };
     if let Some(second) = code(6)
         && let Some(Ok(character)) = char::decode_utf16([first, second]).next()
         && character as u32 > 0xffff
     {
-        return (Unit::Character(character), 12);
+        return (StringUnit::Character(character), 12);
     }
-    (Unit::Character(char::from_u32(first.into()).unwrap_or('\u{fffd}')), 6)
+    (StringUnit::Character(char::from_u32(first.into()).unwrap_or('\u{fffd}')), 6)
 }
 
 /// Returns where in a string token the byte number `byte` of the decoded string is spelled, counted in the result of
@@ -125,8 +125,8 @@ pub(in super::super) fn written_at(token: &[u8], byte: usize) -> usize {
     while at < end && count < byte {
         let (unit, length) = unit(&token[at..end]);
         count += match unit {
-            Unit::Byte(_) => 1,
-            Unit::Character(character) => character.len_utf8(),
+            StringUnit::Byte(_) => 1,
+            StringUnit::Character(character) => character.len_utf8(),
         };
         at += length;
     }
