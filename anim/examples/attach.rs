@@ -1,5 +1,4 @@
-//! Attaches a staff to a hand, aims with it, keeps the elbow within its limits, and computes the position of the other
-//! hand.
+//! Attaches a staff to a hand, aims with it, clamps the elbow to its limits, and computes the target of the other hand.
 //!
 //! `cargo run -p dragonfly-anim --example attach`
 
@@ -25,11 +24,11 @@ fn arm() -> Skeleton {
 
 pub(crate) fn main() -> Result<(), NoSuchSocketBone> {
     let skeleton = arm();
-    // Any animation: here the rest pose, with the elbow bent far too much.
+    // Any animation: here the rest pose, with the elbow bent too far.
     let mut poses: Vec<Transform> = skeleton.bones.iter().map(|bone| bone.rest).collect();
     poses[1].rotation = Quat::from_rotation_z(3.0);
 
-    // On top of it: aim upwards, whatever the body does.
+    // On top of it: aim upwards, independent of the body.
     apply(&skeleton, &[Additional::turn(0, Quat::from_rotation_z(0.5), Space::Root)], &mut poses);
 
     let mut limits = JointLimits::new();
@@ -41,7 +40,7 @@ pub(crate) fn main() -> Result<(), NoSuchSocketBone> {
     let mut matrices = vec![Mat4::IDENTITY; skeleton.len()];
     to_root(&skeleton, &poses, &mut matrices);
 
-    // The staff is across the palm, 10 cm from the wrist, held 40 cm above its lower end.
+    // The staff crosses the palm, 10 cm from the wrist, and is held 40 cm above its lower end.
     let offset = Transform { translation: Vec3::X * 0.1, ..Transform::IDENTITY };
     let socket = Socket { offset, ..Socket::on(&skeleton, "hand")? };
     let staff = attached_root(socket.to_root(&matrices), Mat4::from_translation(Vec3::Y * 0.4));

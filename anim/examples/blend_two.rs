@@ -1,4 +1,4 @@
-//! Blends two takes: a fox walks, changes to a run without a stumble, and looks around at the same time.
+//! Blends two takes: a walk that changes to a run in step, while the figure looks around.
 //!
 //! `cargo run -p dragonfly-anim --example blend_two`
 
@@ -22,7 +22,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let (skeleton, bones) = (&*data.skeleton, data.skeleton.len());
     let (walk, run, survey) = (take(&data, "Walk")?, take(&data, "Run")?, take(&data, "Survey")?);
     let neck = skeleton.find("b_Neck_04").ok_or("the fox has no neck")?;
-    // The neck has half the weight, the head the full weight; the look-around take replaces the run for both.
+    // The neck has the weight 0.5, the head 1.
     let head = Mask::of_branch(skeleton, neck).feathered(skeleton, 1);
     let body = head.clone().inverted();
 

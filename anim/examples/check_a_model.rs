@@ -1,11 +1,11 @@
-//! Prints everything that is wrong with a model: the file given as argument, or a broken model made here.
+//! Prints everything that is wrong with a model: one from a file, or a broken one built here.
 
 use dragonfly_anim::check::{RULES, Severity, check};
 use dragonfly_anim::data::{Influence, Mesh, MeshInstance, ModelData, Primitive, Skin, Vertices};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use glam::{Mat4, Vec3};
 
-/// A triangle whose second vertex has a weight of a half, and whose skin flattens everything.
+/// A triangle whose second vertex has only the weight 0.5, and whose skin flattens everything.
 fn broken() -> ModelData {
     let influence = |weight| [Influence { joint: 0, weight }; 1];
     let vertices = Vertices {
@@ -32,7 +32,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let findings = check(&model);
     for finding in &findings {
-        // The rule, and its meaning.
+        // The rule and its meaning.
         let meaning = RULES.iter().find(|rule| rule.id == finding.rule).map_or("", |rule| rule.meaning);
         println!("{finding}\n    {meaning}");
     }

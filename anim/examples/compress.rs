@@ -1,6 +1,6 @@
-//! Compresses every take of a model and prints the sizes: `cargo run --example compress -- model.glb`.
+//! Compresses every take of a model and prints the results: `cargo run --example compress -- model.glb`.
 
-use dragonfly_anim::compressed::{CompressedTake, Exactness, Settings, compress};
+use dragonfly_anim::compressed::{CompressedTake, CompressionSettings, Exactness, compress};
 use dragonfly_anim::fast::Pose;
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use std::error::Error;
@@ -15,12 +15,11 @@ pub(crate) fn show(path: &str) -> Result<(), Box<dyn Error>> {
     let model = read(path, &std::fs::read(path)?, &NoFiles, &ReadOptions::default())?.model;
     let skeleton = &model.animation.skeleton;
 
-    // The tolerance is a thousandth of the model's size, measured a tenth of it away from the bones: 1 mm at 10 cm for
-    // a figure of 1 m.
+    // Tolerance of a thousandth of the model's size, at a tenth of it from the bones: 1 mm at 10 cm for a figure of 1 m.
     let rest = dragonfly_anim::animation::Animation::of(&model);
     let size = rest.to_root().iter().map(|bone| bone.w_axis.truncate().length()).fold(0.0, f32::max);
     let everywhere = Exactness { tolerance: size * 0.001, shell: size * 0.1 };
-    let settings = Settings { everywhere, ..Settings::default() };
+    let settings = CompressionSettings { everywhere, ..CompressionSettings::default() };
 
     for take in &model.animation.takes {
         let (compressed, report) = compress(take, skeleton, &settings)?;
@@ -36,7 +35,7 @@ pub(crate) fn show(path: &str) -> Result<(), Box<dyn Error>> {
             worst.time,
         );
 
-        // The bytes are all that must be stored.
+        // Only the bytes have to be stored.
         let stored = compressed.as_bytes().to_vec();
         let back = CompressedTake::from_bytes(stored)?;
         let mut pose = Pose::new(back.bones());

@@ -1,10 +1,10 @@
-//! Prints how the position of a bone is computed: every number, with its formula.
+//! Prints every number in the computation of a bone's pose, with its formula.
 //!
 //! ```text
 //! cargo run -p dragonfly-anim --example explain_a_bone -- [FILE.glb [BONE [SECONDS]]]
 //! ```
 
-use dragonfly_anim::explain::{Subject, What, explain};
+use dragonfly_anim::explain::{ExplainTarget, Subject, explain};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use std::error::Error;
 
@@ -22,7 +22,7 @@ pub(crate) fn show(file: &str, name: &str, time: f32) -> Result<(), Box<dyn Erro
     let bone = model.animation.skeleton.find(name).ok_or("no bone has that name")?;
     let take = if model.animation.takes.is_empty() { None } else { Some(0) };
 
-    let explanation = explain(&model, take, time, What::Bone(bone))?;
+    let explanation = explain(&model, take, time, ExplainTarget::Bone(bone))?;
     println!("{explanation}");
 
     // The same as data: the text need not be parsed.

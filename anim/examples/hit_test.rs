@@ -1,4 +1,4 @@
-//! Points at a running fox and prints what is hit: `cargo run -p dragonfly-anim --example hit_test`.
+//! Casts rays at a running fox and prints the hits: `cargo run -p dragonfly-anim --example hit_test`.
 
 use dragonfly_anim::bounds::BoneBoxes;
 use dragonfly_anim::evaluator::Evaluator;
@@ -13,7 +13,7 @@ pub(crate) fn main() {
     let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a valid file").model;
     let model = Arc::new(model);
 
-    // Once per model. `tree.parts()` can be stored with the model, and restored with `HitTree::from_parts`.
+    // Once per model. `tree.parts()` can be stored with it, and restored by `HitTree::from_parts`.
     let tree = Arc::new(HitTree::of(&model).expect("the model is not too large"));
     let boxes = BoneBoxes::of(&model);
 
@@ -22,7 +22,7 @@ pub(crate) fn main() {
     let mut pose = HitPose::new(tree);
 
     for frame in 0..5 {
-        // Each frame: the pose, then the boxes around it. Nothing is allocated.
+        // Every frame: the pose, then its boxes. Allocates nothing.
         let time = frame as f32 * 0.1;
         evaluator.pose(Some(2), time);
         pose.refit(&evaluator);
@@ -41,7 +41,7 @@ pub(crate) fn main() {
             None => println!("{time:.1} s: missed"),
         }
 
-        // What is near the ground below the head?
+        // The point nearest to the ground below the head.
         let paw = pose.sphere(&evaluator, Vec3::new(0.0, 0.0, 40.0), 30.0);
         println!("       nearest to the ground: {:?}", paw.map(|hit| hit.distance));
     }

@@ -22,7 +22,7 @@ pub(crate) fn main() {
     let boxes = BoneBoxes::of(&model);
     let mut evaluator = Evaluator::new(model);
 
-    // The camera moves away. One pixel of error is allowed; a third less before a coarser level is chosen.
+    // The camera moves away; one pixel of error is allowed, and a third less before a coarser level is chosen.
     let mut shown = None;
     for step in 0..8 {
         evaluator.pose(Some(1), step as f32 * 0.1);

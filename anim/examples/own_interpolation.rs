@@ -1,5 +1,4 @@
-//! Implements an interpolation that the library does not have: a curve through the keys that needs no tangents
-//! (Catmull–Rom).
+//! Adds an interpolation that the library does not have: a curve through the keys without tangents (Catmull–Rom).
 //!
 //! `cargo run -p dragonfly-anim --example own_interpolation`
 
@@ -7,8 +6,7 @@ use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::{Between, Value, sample_channel, sample_channel_with};
 use glam::{Quat, Vec3};
 
-/// The function that `sample_channel_with` calls between two keys: for any [`Value`], so for translations, rotations
-/// and scales.
+/// Interpolation for `sample_channel_with`, for any [`Value`]: translations, rotations and scales.
 ///
 /// The tangent at a key is the slope from the key before it to the key after it; at the ends, to the key itself.
 fn smooth<T: Value>(channel: &Channel<T>, between: Between<T>, slope: impl Fn(T, T, f32) -> T) -> T {
@@ -22,12 +20,12 @@ fn smooth<T: Value>(channel: &Channel<T>, between: Between<T>, slope: impl Fn(T,
     T::cubic(before, around(keys.before), around(keys.after), after, seconds, keys.mix)
 }
 
-/// Returns the change per second of a vector.
+/// Change of a vector per second.
 fn of_vectors(from: Vec3, to: Vec3, seconds: f32) -> Vec3 {
     (to - from) / seconds
 }
 
-/// Returns the change per second of a rotation; keys of one track are in one hemisphere.
+/// Change of a rotation per second; keys of one track are in one hemisphere.
 fn of_rotations(from: Quat, to: Quat, seconds: f32) -> Quat {
     (to - from) * (1.0 / seconds)
 }
@@ -49,7 +47,7 @@ pub(crate) fn main() {
             turn.to_scaled_axis().z
         );
         assert!(turn.is_normalized());
-        // The curve passes through the keys whatever the interpolation does.
+        // On a key its value is exact, with any interpolation.
         if let Some(key) = times.iter().position(|&key| key == time) {
             assert_eq!(place, places[key]);
         }

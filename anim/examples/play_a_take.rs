@@ -10,7 +10,7 @@ use std::error::Error;
 const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    // The library opens no file: it gets the bytes.
+    // The library opens no file: the caller passes the bytes.
     let file = std::env::args().skip(1).find(|argument| argument.ends_with(".glb"));
     let bytes = std::fs::read(file.as_deref().unwrap_or(FOX))?;
     let model = read("model.glb", &bytes, &NoFiles, &ReadOptions::default())?.model;
@@ -21,7 +21,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     println!("{:?}: {:.3} s, {} bones", take.name, take.length, model.animation.skeleton.len());
 
     for frame in 0..30 {
-        // The clock runs on; the take starts again.
+        // The clock runs on; the take is repeated.
         let time = PlayMode::Loop.map(&take, frame as f32 / 20.0);
         animation.to_root_bone_poses(Some(number), time);
         for skin in &model.skins {

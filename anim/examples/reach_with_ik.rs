@@ -24,7 +24,7 @@ pub(crate) fn main() {
     let arm = TwoBone { pole: Pole::Direction(Vec3::NEG_Y), softness: 0.1, ..TwoBone::new(0, 1, 2) };
     for step in 0..=4 {
         let target = Vec3::new(0.2 + 0.1 * step as f32, 0.1, 0.0);
-        // There is no take here, so this is the rest pose; a real program passes the take that plays.
+        // No take here, so the rest pose; a real program passes the take that is played.
         sample_take(None, &skeleton, 0.0, &mut poses);
         to_root(&skeleton, &poses, &mut matrices);
         let reach = two_bone(&skeleton, &matrices, &arm, target, &mut poses).expect("an arm");
@@ -34,7 +34,7 @@ pub(crate) fn main() {
         assert!((hand.distance(target) - reach.distance).abs() < 1e-5);
     }
 
-    // The same with a chain, for rows of any number of bones; here no joint may rotate more than 75°.
+    // The same with a chain of any number of bones; here no joint may turn more than 75°.
     let mut scratch = ChainScratch::with_capacity(skeleton.len());
     let mut limit = |_bone, wish: glam::Quat| {
         let (axis, angle) = wish.to_axis_angle();

@@ -1,9 +1,9 @@
-//! Moves a figure by its walk: extracts the root motion, drives the figure by it for many loops, and restores it.
+//! Extracts the root motion of a walk, moves the figure by it for many loops, and restores it in the take.
 //!
 //! `cargo run -p dragonfly-anim --example root_motion`
 
 use dragonfly_anim::data::{Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
-use dragonfly_anim::motion::{RootMotionOptions, extract, put_back};
+use dragonfly_anim::motion::{RootMotionOptions, extract, restore};
 use dragonfly_anim::sample::PlayMode;
 use glam::{Mat4, Vec3};
 
@@ -18,12 +18,12 @@ pub(crate) fn main() {
     let track = Track { translation, ..Track::default() };
     let walk = Take { name: "walk".to_owned(), length: 1.0, tracks: vec![track], ..Take::default() };
 
-    // The movement along x and z and the rotation are root motion; the height stays in the take.
+    // The movement along x and z and the yaw are extracted; the height stays in the take.
     let (motion, in_place) = extract(&walk, &skeleton, 0, RootMotionOptions::default()).expect("a bone");
     println!("in place: {:?}", in_place.tracks[0].translation.values);
     println!("motion:   {:?}", motion.translation.values);
 
-    // Each frame, the figure's own matrix is multiplied by the motion since the last frame, over any number of loops.
+    // Every frame the figure's own matrix is multiplied by the motion since the last frame, over any number of loops.
     let mut figure = Mat4::IDENTITY;
     let (frames, seconds) = (250, 1.0 / 25.0);
     for frame in 0..frames {
@@ -37,7 +37,7 @@ pub(crate) fn main() {
     // The motion is plain channels: make the steps half as long, and restore it.
     let mut shorter = motion.clone();
     shorter.translation.values = motion.translation.values.iter().map(|&place| place * 0.5).collect();
-    let stroll = put_back(&in_place, &skeleton, &shorter).expect("a bone");
+    let stroll = restore(&in_place, &skeleton, &shorter).expect("a bone");
     println!("stroll:   {:?}", stroll.tracks[0].translation.values);
-    assert_eq!(put_back(&in_place, &skeleton, &motion).expect("a bone"), walk);
+    assert_eq!(restore(&in_place, &skeleton, &motion).expect("a bone"), walk);
 }

@@ -1,10 +1,10 @@
-//! Plays one take on two models: a figure in T-pose, and a taller one with its arms down and other names.
+//! Plays one take on two models: a figure in a T-pose, and a taller one with its arms down and other bone names.
 //!
 //! `cargo run -p dragonfly-anim --example same_animation_other_model`
 
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
-use dragonfly_anim::retarget::{Binding, RetargetOptions, retarget};
+use dragonfly_anim::retarget::{RetargetOptions, SkeletonBinding, retarget};
 use glam::{Mat4, Quat, Vec3};
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -14,8 +14,7 @@ fn bone(name: &str, parent: Option<u32>, translation: Vec3, rotation: Quat) -> B
     Bone { name: name.to_owned(), parent, rest, rest_matrix: None, offset: Mat4::IDENTITY, node: None }
 }
 
-/// Returns a figure: hips at `height` above a foot, and an arm of 0.5 m at the shoulder that rests rotated by `rest`
-/// about z.
+/// Hips at `height` over a foot, an arm of 0.5 m at the shoulder whose rest pose is rotated by `rest` about z.
 fn figure(names: [&str; 4], height: f32, rest: f32) -> Skeleton {
     let none = Quat::IDENTITY;
     let bones = vec![
@@ -31,7 +30,7 @@ pub(crate) fn main() {
     // The source is in T-pose, the target has its arms straight down.
     let source = figure(["Hips", "LeftFoot", "LeftArm", "LeftHand"], 1.0, 0.0);
     let target = figure(["mixamorig:Hips", "foot.L", "arm.L", "hand_l"], 1.5, -FRAC_PI_2);
-    let binding = Binding::by_name(&source, &target);
+    let binding = SkeletonBinding::by_name(&source, &target);
     assert_eq!((binding.bound(), &binding.unbound_target[..]), (4, &[][..]));
 
     // The source takes a step and raises its arm.

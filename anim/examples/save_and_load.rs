@@ -1,11 +1,11 @@
-//! Saves a model as `.dfm` and loads it again, without any loss: the file given as argument, or a model made here.
+//! Saves a model as `.dfm` and loads it again, without loss: one from a file, or one built here.
 
 use dragonfly_anim::data::{Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform};
 use dragonfly_anim::format::{NoFiles, ReadOptions, dfm, read};
 use glam::{Mat4, Quat, Vec3};
 use std::f32::consts::FRAC_PI_2;
 
-/// One bone that rotates by a quarter in a second.
+/// One bone that makes a quarter turn in a second.
 fn turning() -> ModelData {
     let bone = Bone {
         name: "arm".to_owned(),
@@ -40,10 +40,10 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
         again.animation.takes.len()
     );
 
-    // Damage is detected, and the message contains the place.
-    let mut changed = bytes.clone();
-    changed[bytes.len() / 2] ^= 1;
-    println!("changed: {}", dfm::read(&changed).expect_err("the checksum does not match"));
-    println!("truncated: {}", dfm::read(&bytes[..bytes.len() / 2]).expect_err("half of it is missing"));
+    // Damage is detected, and the message contains its position.
+    let mut altered = bytes.clone();
+    altered[bytes.len() / 2] ^= 1;
+    println!("altered: {}", dfm::read(&altered).expect_err("the checksum does not fit"));
+    println!("cut short: {}", dfm::read(&bytes[..bytes.len() / 2]).expect_err("half of it is missing"));
     Ok(())
 }

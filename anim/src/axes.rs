@@ -7,15 +7,15 @@ use glam::{Mat3, Mat4, Quat, Vec3, Vec4Swizzles};
 pub(crate) struct Axes {
     x: Vec3,
     y: Vec3,
-    /// Does z point against `x × y`?
+    /// Whether z points against `x × y`.
     mirrored: bool,
 }
 
 impl Axes {
-    /// Those of the space that `matrix` leads out of: x keeps its direction, y its plane with x (Gram–Schmidt), z its
-    /// side. `None` where an axis has no length or is not finite, or all lie in one plane.
+    /// Returns the axes of the space that `matrix` maps from: x keeps its direction, y its plane with x (Gram–Schmidt),
+    /// z its side. `None` where an axis has no length or is not finite, or all are in one plane.
     pub(crate) fn of(matrix: Mat4) -> Option<Self> {
-        // Lengths first: squares of what is very small or large leave the range of f32.
+        // Lengths first: squares of very small or large numbers leave the range of f32.
         let unit = |axis: Vec3| (axis / axis.abs().max_element()).try_normalize();
         let x = unit(matrix.x_axis.xyz())?;
         let y = unit(matrix.y_axis.xyz())?;
@@ -25,15 +25,16 @@ impl Axes {
         (side != 0.0).then_some(Self { x, y, mirrored: side < 0.0 })
     }
 
-    /// The rotation with these axes; where they are mirrored, with z reversed.
+    /// Returns the rotation with these axes; where they are mirrored, with z reversed.
     pub(crate) fn rotation(&self) -> Quat {
         Quat::from_mat3(&Mat3::from_cols(self.x, self.y, self.x.cross(self.y))).normalize()
     }
 
-    /// `A⁻¹ · rotation · A`, with these axes as the columns of `A`: a rotation given in the outer space, in this one.
+    /// Returns `A⁻¹ · rotation · A`, with these axes as the columns of `A`: a rotation given in the outer space,
+    /// expressed in this one.
     ///
-    /// Mirrored axes are a rotation with all three axes reversed, and reversing all axes changes no rotation:
-    /// `(-B)⁻¹ · R · (-B) = B⁻¹ · R · B`.
+    /// Mirrored axes are a rotation with all three axes reversed, and reversing all axes changes no rotation: `(-B)⁻¹ ·
+    /// R · (-B) = B⁻¹ · R · B`.
     pub(crate) fn rotation_from_outside(&self, rotation: Quat) -> Quat {
         let sign = if self.mirrored { -1.0 } else { 1.0 };
         let axes = Mat3::from_cols(self.x * sign, self.y * sign, self.x.cross(self.y));

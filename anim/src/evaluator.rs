@@ -1,7 +1,7 @@
-//! A whole model at one time: bones, skins, morph weights, vertices, bounds.
+//! Evaluation of a whole model at one time: bones, skins, morph weights, vertices, bounds.
 //!
-//! What the command line prints and a renderer without its own plan can use. Nothing here is more than the formulas of
-//! [`crate::sample`], [`crate::animation`] and [`crate::skin`], called in order.
+//! Used by the command line, and by renderers without a pipeline of their own. Everything here calls the formulas of
+//! [`crate::sample`], [`crate::animation`] and [`crate::skin`], in order.
 
 use crate::animation::{Animation, final_poses};
 use crate::bounds::{Bounds, bounds_of_bones};
@@ -11,19 +11,19 @@ use crate::skin::{Movement, skin_normals, skin_positions};
 use glam::{Mat4, Vec3};
 use std::sync::Arc;
 
-/// A model and the pose it was put in last.
+/// A model and its most recent pose.
 #[derive(Debug)]
 pub struct Evaluator {
     model: Arc<ModelData>,
     animation: Animation,
-    /// One list a skin, one matrix a joint.
+    /// One list per skin, one matrix per joint.
     finals: Vec<Vec<Mat4>>,
-    /// One list an instance, one weight a morph target.
+    /// One list per instance, one weight per morph target.
     morph_weights: Vec<Vec<f32>>,
 }
 
 impl Evaluator {
-    /// `model` in its rest pose.
+    /// Creates an evaluator of `model` in its rest pose.
     pub fn new(model: Arc<ModelData>) -> Self {
         let finals = model.skins.iter().map(|skin| vec![Mat4::IDENTITY; skin.bones.len()]).collect();
         let morph_weights =
@@ -34,21 +34,22 @@ impl Evaluator {
         evaluator
     }
 
-    /// Puts the model in the pose of take number `take` at `time` seconds, clamped to the keys; `None`, or a number
-    /// past the end, is the rest pose. Allocates nothing.
+    /// Poses the model as take number `take` at `time` seconds, clamped to the keys; `None`, or a number past the end,
+    /// is the rest pose. Allocates nothing.
     pub fn pose(&mut self, take: Option<usize>, time: f32) {
         self.animation.to_root_bone_poses(take, time);
         self.pose_rest(take, time);
     }
 
-    /// The same, but for bones: `change` gets the pose of every bone, parent space, and may give it another one.
+    /// As [`Self::pose`], but `change` may alter the pose of every bone, parent space, before the matrices are
+    /// computed.
     pub fn pose_with(&mut self, take: Option<usize>, time: f32, change: impl FnOnce(&mut [Transform])) {
         self.animation.to_root_bone_poses(take, time);
         self.animation.to_root_bone_poses_with(change);
         self.pose_rest(take, time);
     }
 
-    /// What follows from the bones, and the morph weights.
+    /// Computes the matrices that depend on the bones, and the morph weights.
     fn pose_rest(&mut self, take: Option<usize>, time: f32) {
         for (skin, finals) in self.model.skins.iter().zip(&mut self.finals) {
             final_poses(skin, self.animation.to_root(), finals);
@@ -61,39 +62,41 @@ impl Evaluator {
         }
     }
 
-    /// The model.
+    /// Returns the model.
     pub fn model(&self) -> &Arc<ModelData> {
         &self.model
     }
 
-    /// The animation; a take replaced in it is used by the next [`Self::pose`].
+    /// Returns the animation; a take replaced in it is used by the next [`Self::pose`].
     pub fn animation_mut(&mut self) -> &mut Animation {
         &mut self.animation
     }
 
-    /// Of every bone: bone space → scene space.
+    /// Returns `to_root` of every bone: bone space → scene space.
     pub fn to_root(&self) -> &[Mat4] {
         self.animation.to_root()
     }
 
-    /// Of every joint of skin number `skin`: bind space → scene space. Empty when there is no such skin.
+    /// Returns the final poses of the joints of skin number `skin`: bind space → scene space. Empty when there is no
+    /// such skin.
     pub fn final_poses(&self, skin: usize) -> &[Mat4] {
         self.finals.get(skin).map_or(&[], Vec::as_slice)
     }
 
-    /// Of every morph target of instance number `instance`. Empty when it has none.
+    /// Returns the weights of the morph targets of instance number `instance`. Empty when it has none.
     pub fn morph_weights(&self, instance: usize) -> &[f32] {
         self.morph_weights.get(instance).map_or(&[], Vec::as_slice)
     }
 
-    /// Primitives of instance number `instance`, in file order. Empty when there is no such instance or mesh.
+    /// Returns the primitives of instance number `instance`, in file order. Empty when there is no such instance or
+    /// mesh.
     pub fn primitives(&self, instance: usize) -> &[Primitive] {
         let instance = self.model.instances.get(instance);
         let mesh = instance.and_then(|instance| self.model.meshes.get(instance.mesh as usize));
         mesh.map_or(&[], |mesh| &mesh.primitives)
     }
 
-    /// What moves primitive number `primitive` of instance number `instance`; `None` when there is none.
+    /// Returns the movement of primitive number `primitive` of instance number `instance`; `None` when there is none.
     pub fn movement(&self, instance: usize, primitive: usize) -> Option<Movement<'_>> {
         let primitive = self.primitives(instance).get(primitive)?;
         let instance = self.model.instances.get(instance)?;
@@ -101,22 +104,23 @@ impl Evaluator {
         Some(Movement::of(instance, primitive, self.to_root(), finals))
     }
 
-    /// The first positions of a primitive, as many as `out` has room for: scene space, morphed and skinned, in file
-    /// order. Returns how many were written. Allocates nothing.
+    /// Writes the positions of a primitive's vertices, up to the length of `out`: scene space, morphed and skinned, in
+    /// file order. Returns the number written. Allocates nothing.
     pub fn positions(&self, instance: usize, primitive: usize, out: &mut [Vec3]) -> usize {
         let Some(movement) = self.movement(instance, primitive) else { return 0 };
         let weights = self.morph_weights(instance);
         skin_positions(&self.primitives(instance)[primitive], movement, weights, out)
     }
 
-    /// The first normals of a primitive, likewise: unit length.
+    /// Writes the normals of a primitive's vertices, up to the length of `out`: scene space, unit length, in file
+    /// order. Returns the number written. Allocates nothing.
     pub fn normals(&self, instance: usize, primitive: usize, out: &mut [Vec3]) -> usize {
         let Some(movement) = self.movement(instance, primitive) else { return 0 };
         let weights = self.morph_weights(instance);
         skin_normals(&self.primitives(instance)[primitive], movement, weights, out)
     }
 
-    /// Positions of all vertices of all instances, in order: scene space.
+    /// Returns the positions of all vertices of all instances, in order: scene space.
     pub fn all_positions(&self) -> Vec<Vec3> {
         let mut all = Vec::new();
         for instance in 0..self.model.instances.len() {
@@ -129,14 +133,15 @@ impl Evaluator {
         all
     }
 
-    /// Box and sphere around every vertex in this pose; around the origins of the bones when there is no vertex.
+    /// Returns the box and sphere around every vertex in this pose; around the origins of the bones when there is no
+    /// vertex.
     pub fn bounds(&self) -> Bounds {
         let positions = self.all_positions();
         if positions.is_empty() { bounds_of_bones(self.to_root()) } else { Bounds::of_points(&positions) }
     }
 }
 
-/// Most morph targets that any primitive of the instance's mesh has.
+/// Returns the largest number of morph targets of any primitive of the instance's mesh.
 fn targets(model: &ModelData, instance: &MeshInstance) -> usize {
     let mesh = model.meshes.get(instance.mesh as usize);
     let primitives = mesh.map_or(&[][..], |mesh| &mesh.primitives);

@@ -1,6 +1,6 @@
 //! What a compressed take costs: bytes, error, time to make, time to sample.
 
-use dragonfly_anim::compressed::{Exactness, Settings, compress};
+use dragonfly_anim::compressed::{CompressionSettings, Exactness, compress};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::fast::Pose;
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
@@ -31,7 +31,7 @@ fn model(name: &str, path: &Path, settings: &[(&str, Exactness)]) {
 
 fn takes(name: &str, model: &ModelData, everywhere: Exactness) {
     let skeleton = &model.animation.skeleton;
-    let settings = Settings { everywhere, ..Settings::default() };
+    let settings = CompressionSettings { everywhere, ..CompressionSettings::default() };
     for take in &model.animation.takes {
         let name = format!("{name}_{}", take.name);
         let begin = Instant::now();

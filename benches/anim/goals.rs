@@ -6,7 +6,7 @@
 //! `instructions` says whether they are reached.
 
 use crate::measure::Measured;
-use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::fast::simd::SimdLevel;
 
 /// Rows, whose takes are as they are and compressed, and how many times the sketch's time each may take.
 const BOTH: [(&str, f64); 4] = [
@@ -45,7 +45,7 @@ struct Times {
 }
 
 fn times() -> Vec<Times> {
-    let level = Level::best().name();
+    let level = SimdLevel::best().name();
     let mut goals = Vec::new();
     let mut add = |case: String, beside: String, most| goals.push(Times { case, beside, most });
     for (row, most) in BOTH {
@@ -84,6 +84,6 @@ pub(crate) fn say(all: &[Measured]) {
 
 /// Prints the goals in instructions, a line a case, for the script that counts.
 pub(crate) fn print_instructions() {
-    let level = Level::best().name();
+    let level = SimdLevel::best().name();
     INSTRUCTIONS.iter().for_each(|(case, most)| println!("{level}/{case} {most}"));
 }

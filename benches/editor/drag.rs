@@ -4,20 +4,20 @@
 //! computed and becomes an edit, the document does it and shows its state, the scene takes it and is computed for it. What
 //! follows is drawing. The end of the way is read from the runtime's trace of the graphics thread.
 
-use dragonfly::document::{
-    Cancel, Document, DocumentReply, LoadError, LoadedModel, Opened, Progress, Setup, Source, View,
-    open_model,
-};
-use dragonfly::graphics::Look;
-use dragonfly::graphics::scene::Scene;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Effect, Request, Settings, State, hands};
-use dragonfly::store::{Autosave, RealFiles};
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
 };
+use dragonfly_document::{
+    Cancel, Document, DocumentReply, LoadError, LoadedModel, Opened, Progress, Setup, Source, View,
+    open_model,
+};
+use dragonfly_picture::Look;
+use dragonfly_picture::scene::Scene;
 use dragonfly_runtime::{Address, Context, Event, Receiver, Record, Thread, TraceSnapshot};
+use dragonfly_store::{Autosave, RealFiles};
 use glam::{Mat4, Quat, Vec3};
 use std::cell::RefCell;
 use std::path::Path;

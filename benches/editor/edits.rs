@@ -1,9 +1,9 @@
 //! What edits cost in a take of 200 bones × 10 minutes × 120 keys a second: 43 million keys.
 
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, KeySet, Property, TakeRef};
-use dragonfly::document::history::{Edited, Gesture};
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, KeySet, Property, TakeRef};
+use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::counting;
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;

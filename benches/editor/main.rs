@@ -3,7 +3,7 @@
 mod edits;
 mod timeline;
 
-use dragonfly::document::{Cancel, Source, load_model};
+use dragonfly_document::{Cancel, Source, load_model};
 use dragonfly_kit::bench::measure;
 
 #[global_allocator]

@@ -4,9 +4,6 @@
 //!
 //! `DRAGONFLY_BENCH_KEYS` takes a part of the ten minutes, 0..1, for a machine with little memory.
 
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::history::Edited;
-use dragonfly::document::{Change, LoadedModel, View};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{ChannelId, Deed, KeysRequest, TimeWindow};
 use dragonfly::panels::{Desk, Effect, Request, Settings, State, style};
@@ -14,6 +11,9 @@ use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
 };
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::history::Edited;
+use dragonfly_document::{Change, LoadedModel, View};
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -82,7 +82,7 @@ fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, ans
     let frames = 100_000 / channels.len() as u32;
     let from = (zoom.start + zoom.length * 0.3) as f32;
     let stretch = [from, from + frames as f32 / RATE];
-    let choice = dragonfly::control::bones::Choice::Replace;
+    let choice = dragonfly_document::bones::Choice::Replace;
     window.state.execute(Request::Timeline(KeysRequest::Select { channels, stretch, choice }));
     let selected = window.state.keys.selection.count(&take);
     let mut shown = Vec::new();
@@ -156,7 +156,7 @@ impl Window {
         let mut state = State::new(Settings::default(), Instant::now());
         state.show(view.clone());
         state.playback.playing = false;
-        let choice = dragonfly::control::bones::Choice::Replace;
+        let choice = dragonfly_document::bones::Choice::Replace;
         state.execute(Request::SelectBones(bones.to_vec(), choice));
         let mut window = Self { context, desk: Desk::new(""), state, begin: Instant::now(), frame: 0 };
         // Fonts, layout, and curves that are computed over several frames.

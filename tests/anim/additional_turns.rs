@@ -2,7 +2,7 @@
 
 use crate::blending::{a_pose, a_rotation, assert_sound, bits, hostile};
 use crate::support::{angle_between, assert_near, bone};
-use dragonfly_anim::additional::{Additional, Change, Parts, Space, apply};
+use dragonfly_anim::additional::{Additional, AdditionalMode, PoseParts, Space, apply};
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{Skeleton, Transform};
 use dragonfly_kit::counting::count;
@@ -23,8 +23,8 @@ fn matrices(skeleton: &Skeleton, poses: &[Transform]) -> Vec<Mat4> {
     out
 }
 
-fn entry(bone: u32, transform: Transform, space: Space, change: Change) -> Additional {
-    Additional { bone, transform, space, change, parts: Parts::ALL, weight: 1.0 }
+fn entry(bone: u32, transform: Transform, space: Space, mode: AdditionalMode) -> Additional {
+    Additional { bone, transform, space, mode, parts: PoseParts::ALL, weight: 1.0 }
 }
 
 /// A pose with a uniform scale, perhaps mirrored: for these, rotations in other spaces are exact.
@@ -43,8 +43,8 @@ proptest! {
         let (skeleton, space) = (chain(3), [Space::Bone, Space::Parent, Space::Root][space]);
         for (transform, weight) in [(by, 0.0), (by, -1.0), (by, f32::NAN), (REST, 1.0), (REST, 0.5)] {
             let mut poses = pose.clone();
-            let change = Change::Add;
-            apply(&skeleton, &[Additional { weight, ..entry(2, transform, space, change) }], &mut poses);
+            let mode = AdditionalMode::Add;
+            apply(&skeleton, &[Additional { weight, ..entry(2, transform, space, mode) }], &mut poses);
             prop_assert_eq!(bits(poses[2]), bits(pose[2]), "{} {:?}", weight, transform);
         }
     }
@@ -56,7 +56,7 @@ proptest! {
         let skeleton = chain(4);
         let transform = Transform { rotation: turn, translation: Vec3::from_array(by), ..REST };
         let mut poses = pose.clone();
-        apply(&skeleton, &[entry(3, transform, Space::Root, Change::Add)], &mut poses);
+        apply(&skeleton, &[entry(3, transform, Space::Root, AdditionalMode::Add)], &mut poses);
         let (before, after) = (matrices(&skeleton, &pose)[3], matrices(&skeleton, &poses)[3]);
         let place = before.w_axis.truncate();
         let expected = Mat4::from_translation(place + Vec3::from_array(by))
@@ -72,7 +72,7 @@ proptest! {
     ) {
         let skeleton = chain(3);
         let mut poses = pose;
-        apply(&skeleton, &[entry(2, there, Space::Root, Change::Replace)], &mut poses);
+        apply(&skeleton, &[entry(2, there, Space::Root, AdditionalMode::Replace)], &mut poses);
         let (got, expected) = (matrices(&skeleton, &poses)[2], there.to_matrix());
         // The rounding error grows with the scales of the parents.
         prop_assert!(got.abs_diff_eq(expected, 5e-3), "{got}\n{expected}");
@@ -84,7 +84,7 @@ proptest! {
         let by = Transform { scale: Vec3::splat(by.scale.y), ..by };
         let pose = Transform { scale: Vec3::splat(pose.scale.y), ..pose };
         let mut poses = [pose];
-        apply(&skeleton, &[entry(0, by, Space::Bone, Change::Add)], &mut poses);
+        apply(&skeleton, &[entry(0, by, Space::Bone, AdditionalMode::Add)], &mut poses);
         assert_near(poses[0].to_matrix(), pose.to_matrix() * by.to_matrix(), 1e-5);
     }
 }
@@ -144,7 +144,7 @@ fn entries_are_applied_in_order() {
     apply(&skeleton, &turns, &mut poses);
     assert!(angle_between(poses[0].rotation, y * x) < 1e-6);
     // A replacement discards what came before it.
-    let still = entry(0, REST, Space::Parent, Change::Replace);
+    let still = entry(0, REST, Space::Parent, AdditionalMode::Replace);
     apply(&skeleton, &[turns[0], still], &mut poses);
     assert_eq!(poses[0], REST);
 }
@@ -155,7 +155,7 @@ fn a_replacement_in_the_space_of_the_bone_starts_from_its_rest_pose() {
     skeleton.bones[0].rest.rotation = Quat::from_rotation_x(0.3);
     let mut poses = [Transform { rotation: Quat::from_rotation_z(2.0), translation: Vec3::X, ..REST }];
     let turn = Transform { rotation: Quat::from_rotation_y(0.4), ..REST };
-    apply(&skeleton, &[entry(0, turn, Space::Bone, Change::Replace)], &mut poses);
+    apply(&skeleton, &[entry(0, turn, Space::Bone, AdditionalMode::Replace)], &mut poses);
     assert!(angle_between(poses[0].rotation, Quat::from_rotation_x(0.3) * turn.rotation) < 1e-6);
     assert_eq!(poses[0].translation, Vec3::Y);
 }
@@ -168,8 +168,8 @@ fn only_the_selected_components_change() {
     let there =
         Transform { translation: Vec3::ONE, rotation: Quat::from_rotation_y(0.4), scale: Vec3::splat(9.0) };
     let mut poses = [running];
-    let replace = entry(0, there, Space::Parent, Change::Replace);
-    apply(&skeleton, &[Additional { parts: Parts::ROTATION, ..replace }], &mut poses);
+    let replace = entry(0, there, Space::Parent, AdditionalMode::Replace);
+    apply(&skeleton, &[Additional { parts: PoseParts::ROTATION, ..replace }], &mut poses);
     assert_eq!(bits(poses[0]), bits(Transform { rotation: there.rotation, ..running }));
 }
 
@@ -186,14 +186,25 @@ fn entries_that_cannot_be_applied_are_skipped() {
         &[
             Additional::turn(2, turn, Space::Bone),
             Additional::turn(u32::MAX, turn, Space::Root),
-            entry(1, nan, Space::Parent, Change::Replace),
+            entry(1, nan, Space::Parent, AdditionalMode::Replace),
             // The parent has a scale of zero: its space cannot be inverted.
-            entry(1, Transform { translation: Vec3::X, rotation: turn, ..REST }, Space::Root, Change::Add),
             entry(
                 1,
                 Transform { translation: Vec3::X, rotation: turn, ..REST },
                 Space::Root,
-                Change::Replace,
+                AdditionalMode::Add,
+            ),
+            entry(
+                1,
+                Transform { translation: Vec3::X, rotation: turn, ..REST },
+                Space::Root,
+                AdditionalMode::Add,
+            ),
+            entry(
+                1,
+                Transform { translation: Vec3::X, rotation: turn, ..REST },
+                Space::Root,
+                AdditionalMode::Replace,
             ),
         ],
         &mut poses,
@@ -223,8 +234,8 @@ fn invalid_poses_and_entries_give_finite_results() {
                 Transform { translation: Vec3::X, ..REST }
             },
             space: random.choice(&[Space::Bone, Space::Parent, Space::Root]),
-            change: random.choice(&[Change::Add, Change::Replace]),
-            parts: random.choice(&[Parts::ALL, Parts::ROTATION]),
+            mode: random.choice(&[AdditionalMode::Add, AdditionalMode::Replace]),
+            parts: random.choice(&[PoseParts::ALL, PoseParts::ROTATION]),
             weight: random.choice(&[0.3, 1.0, f32::INFINITY]),
         };
         apply(&skeleton, &[entry], &mut poses);

@@ -5,8 +5,8 @@ use crate::doors::{TestFolder, data, shared};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::fast::matrix::{self, mat4};
-use dragonfly_anim::fast::simd::Level;
-use dragonfly_anim::fast::{Binding, KeyedTake, Pose, Rig, RootPoses, final_poses, sample, to_root};
+use dragonfly_anim::fast::simd::SimdLevel;
+use dragonfly_anim::fast::{KeyedTake, Pose, Rig, RootPoses, SkinBinding, final_poses, sample, to_root};
 use dragonfly_anim::format::{ReadOptions, read};
 use glam::{Mat4, Vec3};
 use serde_json::Value;
@@ -104,7 +104,7 @@ struct Fast<'a> {
     model: &'a ModelData,
     rig: Rig,
     takes: Vec<KeyedTake>,
-    skins: Vec<Binding>,
+    skins: Vec<SkinBinding>,
     pose: Pose,
     roots: RootPoses,
 }
@@ -114,13 +114,13 @@ impl<'a> Fast<'a> {
         let skeleton = &model.animation.skeleton;
         let rig = Rig::new(skeleton);
         let takes = model.animation.takes.iter().map(|take| KeyedTake::new(skeleton, take)).collect();
-        let skins = model.skins.iter().map(|skin| Binding::new(&rig, skin)).collect();
+        let skins = model.skins.iter().map(|skin| SkinBinding::new(&rig, skin)).collect();
         let (pose, roots) = (Pose::new(skeleton.len()), RootPoses::new(&rig));
         Self { model, rig, takes, skins, pose, roots }
     }
 
     /// Compares bones and joints of one pose of the expected file with those of the fast path.
-    fn compare(&mut self, level: Level, take: usize, expected: &Value, comparison: &mut Comparison) {
+    fn compare(&mut self, level: SimdLevel, take: usize, expected: &Value, comparison: &mut Comparison) {
         let time = expected["t"].as_f64().unwrap() as f32;
         sample(level, &self.takes[take], time, self.pose.blocks_mut());
         to_root(level, &self.rig, self.pose.blocks(), &mut self.roots);
@@ -159,7 +159,7 @@ fn compare_file(model: &Path, expected: &Path) -> Comparison {
             let time = sample["t"].as_f64().unwrap() as f32;
             evaluator.pose(Some(index), time);
             compare_pose(&evaluator, sample, &format!("take {index} at {time}"), &mut comparison);
-            for level in Level::all() {
+            for level in SimdLevel::all() {
                 fast.compare(level, index, sample, &mut comparison);
             }
         }

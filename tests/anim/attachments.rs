@@ -96,7 +96,7 @@ fn a_socket_on_a_missing_bone_is_an_error_with_its_name() {
     let skeleton = Skeleton { bones: vec![bone("hip", None, Vec3::ZERO)] };
     assert_eq!(Socket::on(&skeleton, "hip").unwrap(), Socket::at(0));
     let error = Socket::on(&skeleton, "hand").unwrap_err();
-    assert_eq!(error.to_string(), "socket: no bone of 1 is called \"hand\"");
+    assert_eq!(error.to_string(), "the socket needs a bone called \"hand\"; the skeleton (1 bones) has none");
     // By number: the origin of the scene.
     let socket = Socket { offset: offset(), ..Socket::at(7) };
     assert_eq!(socket.to_root(&[Mat4::IDENTITY]), offset().to_matrix());

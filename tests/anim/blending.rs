@@ -1,7 +1,7 @@
 //! Blending several poses into one, bone by bone.
 
 use crate::support::angle_between;
-use dragonfly_anim::blend::{Layer, Mask, blend, blend_normalised, blend_two, mix_poses, weight_at};
+use dragonfly_anim::blend::{Layer, Mask, blend, blend_normalized, blend_two, mix_poses, weight_at};
 use dragonfly_anim::data::{Channel, Interpolation, Transform};
 use dragonfly_kit::counting::count;
 use dragonfly_kit::random::{Random, seed};
@@ -99,7 +99,7 @@ proptest! {
         blend(&[REST; 3], &layers(&scaled(2.0_f32.powi(doublings))), &mut again);
         prop_assert_eq!(all_bits(&once), all_bits(&again));
         // Without a base, also for small weights.
-        blend_normalised(&[REST; 3], &layers(&scaled(2.0_f32.powi(-doublings))), &mut again);
+        blend_normalized(&[REST; 3], &layers(&scaled(2.0_f32.powi(-doublings))), &mut again);
         prop_assert_eq!(all_bits(&once), all_bits(&again));
         blend(&[REST; 3], &layers(&scaled(factor)), &mut again);
         for (a, b) in once.iter().zip(&again) {
@@ -171,9 +171,9 @@ fn the_base_gets_the_remaining_weight() {
     assert_eq!(blended([2.0, 6.0]).translation.x, 28.0);
     assert_eq!(bits(blended([0.0, 0.0])), bits(base[0]));
     let mut out = [REST];
-    blend_normalised(&base, &[Layer::new(&a, 0.25), Layer::new(&b, 0.25)], &mut out);
+    blend_normalized(&base, &[Layer::new(&a, 0.25), Layer::new(&b, 0.25)], &mut out);
     assert_eq!(out[0].translation.x, 24.0);
-    blend_normalised(&base, &[Layer::new(&a, 0.0)], &mut out);
+    blend_normalized(&base, &[Layer::new(&a, 0.0)], &mut out);
     assert_eq!(bits(out[0]), bits(base[0]));
 }
 
@@ -208,7 +208,7 @@ fn an_invalid_weight_counts_as_zero() {
     assert_eq!(out[0].translation, Vec3::new(0.5, 0.5, 0.0));
     blend(&[REST], &[Layer::new(&a, 1e-45), Layer::new(&b, 1e-45)], &mut out);
     assert!(out[0].translation.length() < 1e-40, "the base gets nearly all the weight");
-    blend_normalised(&[REST], &[Layer::new(&a, 1e-45), Layer::new(&b, 1e-45)], &mut out);
+    blend_normalized(&[REST], &[Layer::new(&a, 1e-45), Layer::new(&b, 1e-45)], &mut out);
     assert_eq!(out[0].translation, Vec3::new(0.5, 0.5, 0.0));
     assert_eq!(bits(mix_poses(a[0], b[0], f32::INFINITY)), bits(b[0]));
 }
@@ -333,7 +333,7 @@ fn invalid_poses_and_weights_give_finite_results() {
         let mut out = [hostile(&mut random); 2];
         blend(&base, &layers, &mut out);
         out.iter().for_each(|pose| assert_sound(*pose, &format!("{round}")));
-        blend_normalised(&base, &layers, &mut out);
+        blend_normalized(&base, &layers, &mut out);
         out.iter().for_each(|pose| assert_sound(*pose, &format!("{round}")));
         let mix = random.choice(&weights);
         assert_sound(mix_poses(base[0], poses[0][0], mix), &format!("{round}, two"));
@@ -361,7 +361,7 @@ fn blending_allocates_nothing() {
     let mut out = [REST; 50];
     let (count, ()) = count(|| {
         blend(&poses[0], &layers, &mut out);
-        blend_normalised(&poses[0], &layers, &mut out);
+        blend_normalized(&poses[0], &layers, &mut out);
         blend_two(&poses[0], &poses[1], 0.5, Some(&mask), &mut out);
     });
     assert_eq!(count.allocations, 0);

@@ -3,7 +3,7 @@
 use crate::dfm::golden;
 use crate::doors::{TestFolder, data, shared};
 use crate::hostile::HostileModels;
-use dragonfly_anim::check::{Kind, MOST_OF_A_RULE, RULES, Severity, check, check_take};
+use dragonfly_anim::check::{MAX_PER_RULE, PathKind, RULES, Severity, check, check_take};
 use dragonfly_anim::data::{
     Bone, Channel, Interpolation, Mesh, MeshInstance, ModelData, MorphTrack, Primitive,
 };
@@ -184,8 +184,8 @@ fn findings_contain_their_place() {
     let mut model = golden::model();
     primitive(&mut model).indices[2] = 9;
     let findings = check(&model);
-    assert_eq!(findings[0].place.number(Kind::Triangle), Some(0));
-    assert_eq!(findings[0].place.number(Kind::Take), None);
+    assert_eq!(findings[0].path.number(PathKind::Triangle), Some(0));
+    assert_eq!(findings[0].path.number(PathKind::Take), None);
 }
 
 #[test]
@@ -212,8 +212,8 @@ fn many_findings_of_one_rule_are_shortened_to_a_count() {
     let vertices = Vertices { positions, ..Vertices::default() };
     let mesh = Mesh { primitives: vec![Primitive { vertices, ..Primitive::default() }], ..Mesh::default() };
     let findings = check(&ModelData { meshes: vec![mesh], ..ModelData::default() });
-    assert_eq!(findings.len(), MOST_OF_A_RULE + 1);
-    assert_eq!(findings[MOST_OF_A_RULE].to_string(), "error: model: and 49900 more of these");
+    assert_eq!(findings.len(), MAX_PER_RULE + 1);
+    assert_eq!(findings[MAX_PER_RULE].to_string(), "error: model: and 49900 more of these");
 }
 
 #[test]

@@ -4,13 +4,13 @@ use crate::doors::{TestFolder, data, shared};
 use crate::support::{about_z, along_x, bone, take};
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::compressed::{
-    CompressError, CompressedTake, Exactness, MAGIC, Report, Settings, compress,
+    CompressError, CompressedTake, CompressionReport, CompressionSettings, Exactness, MAGIC, compress,
 };
 use dragonfly_anim::data::{
     AnimationData, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
 };
-use dragonfly_anim::fast::simd::Level;
-use dragonfly_anim::fast::{Binding, Playing, Pose, Rig, Scratch, matrix, pose_character};
+use dragonfly_anim::fast::simd::SimdLevel;
+use dragonfly_anim::fast::{Playing, Pose, Rig, Scratch, SkinBinding, matrix, pose_character};
 use dragonfly_anim::format::{ReadOptions, read};
 use dragonfly_anim::sample::sample_take;
 use dragonfly_kit::counting::count;
@@ -32,8 +32,8 @@ fn fox() -> ModelData {
 /// Fox is about 80 units high: roughly millimeters times ten.
 const FOX: Exactness = Exactness { tolerance: 0.02, shell: 5.0 };
 
-fn with(everywhere: Exactness) -> Settings {
-    Settings { everywhere, ..Settings::default() }
+fn with(everywhere: Exactness) -> CompressionSettings {
+    CompressionSettings { everywhere, ..CompressionSettings::default() }
 }
 
 fn skeleton(parents: &[Option<u32>]) -> Skeleton {
@@ -56,7 +56,13 @@ fn key_times(take: &Take) -> Vec<f32> {
 
 /// Returns the largest distance of shell points at `times`, in units of each bone's tolerance. Measured here a second
 /// time, with the open path and matrices, independently of the compressor.
-fn largest_share(skeleton: &Skeleton, raw: &Take, decoded: &Take, settings: &Settings, times: &[f32]) -> f32 {
+fn largest_share(
+    skeleton: &Skeleton,
+    raw: &Take,
+    decoded: &Take,
+    settings: &CompressionSettings,
+    times: &[f32],
+) -> f32 {
     let mut largest = 0.0_f32;
     for &time in times {
         let (raw, decoded) = (to_root(skeleton, raw, time), to_root(skeleton, decoded, time));
@@ -75,7 +81,11 @@ fn largest_share(skeleton: &Skeleton, raw: &Take, decoded: &Take, settings: &Set
 
 /// Compresses a take and checks the bound at every key of the raw take.
 #[track_caller]
-fn checked(take: &Take, skeleton: &Skeleton, settings: &Settings) -> (CompressedTake, Report) {
+fn checked(
+    take: &Take,
+    skeleton: &Skeleton,
+    settings: &CompressionSettings,
+) -> (CompressedTake, CompressionReport) {
     let (compressed, report) = compress(take, skeleton, settings).unwrap();
     assert_eq!(report.bytes.total(), compressed.as_bytes().len());
     assert!(report.share_of_tolerance <= 1.0);
@@ -146,13 +156,13 @@ fn the_rig_of_the_bench_is_smaller_than_with_acl_at_the_same_error() {
     ];
     for (name, theirs) in acl {
         let take = model.animation.takes.iter().find(|take| take.name == name).unwrap();
-        for (asked, (bytes, millimetres)) in [Exactness::FINE, Exactness::COARSE].into_iter().zip(theirs) {
+        for (asked, (bytes, millimeters)) in [Exactness::FINE, Exactness::COARSE].into_iter().zip(theirs) {
             // As exact as requested, or as ACL if ACL is more exact.
-            let exactness = Exactness { tolerance: asked.tolerance.min(millimetres * 1e-3), ..asked };
+            let exactness = Exactness { tolerance: asked.tolerance.min(millimeters * 1e-3), ..asked };
             let (_, report) = checked(take, skeleton, &with(exactness));
             let ours = report.bytes.total();
             println!(
-                "{name}: {ours} bytes, {} mm; ACL {bytes}, {millimetres}",
+                "{name}: {ours} bytes, {} mm; ACL {bytes}, {millimeters}",
                 report.largest_error.distance * 1e3
             );
             assert!(ours * 10 <= bytes * 7, "{name} {exactness:?} {report:?}");
@@ -166,7 +176,8 @@ fn a_bone_with_a_smaller_tolerance_gets_more_bits() {
     let (skeleton, take) = (&model.animation.skeleton, &model.animation.takes[1]);
     let exact = Exactness { tolerance: 0.001, shell: 2.0 };
     let last = skeleton.len() as u32 - 1;
-    let settings = Settings { bones: vec![(last, FOX), (last, exact), (9999, exact)], ..with(FOX) };
+    let settings =
+        CompressionSettings { bones: vec![(last, FOX), (last, exact), (9999, exact)], ..with(FOX) };
     let (_, named) = checked(take, skeleton, &settings);
     let (_, usual) = checked(take, skeleton, &with(FOX));
     assert!(named.bytes.total() > usual.bytes.total());
@@ -178,7 +189,7 @@ fn sampling_agrees_with_the_open_path_on_the_decompressed_take_at_any_time() {
     let model = fox();
     let skeleton = &model.animation.skeleton;
     for take in &model.animation.takes {
-        for level in Level::all() {
+        for level in SimdLevel::all() {
             let compressed = compress(take, skeleton, &with(FOX)).unwrap().0.with_level(level);
             let off = largest_difference(&compressed, skeleton, &times(&compressed, &mut random));
             assert!(off < 1e-5, "{} {} {off}", take.name, level.name());
@@ -260,7 +271,7 @@ fn numbers_of_any_width_and_single_bones_stay_within_the_tolerance_at_every_simd
         let take = take(tracks.collect());
         let (compressed, report) = checked(&take, &skeleton, &with(Exactness { tolerance, shell: 0.1 }));
         assert_eq!(report.channels[3], 0, "{report:?}");
-        for level in Level::all() {
+        for level in SimdLevel::all() {
             let compressed = compressed.clone().with_level(level);
             let off = largest_difference(&compressed, &skeleton, &self::times(&compressed, &mut random));
             assert!(off < 1e-5, "{far} {}: {off}", level.name());
@@ -280,15 +291,16 @@ fn takes_of_one_key_two_keys_no_length_and_no_tracks_can_be_compressed() {
         (&[(-1.0, 0.4), (0.0, 0.5), (1.0, 0.9)], 3),
     ] {
         let take = take(vec![turning(keys), Track::default()]);
-        let (compressed, _) = checked(&take, &two, &Settings::default());
+        let (compressed, _) = checked(&take, &two, &CompressionSettings::default());
         assert_eq!(compressed.keys(), count, "{keys:?}");
         assert_eq!((compressed.start(), compressed.length()), (take.start, take.length));
     }
-    let (empty, _) = compress(&Take::default(), &Skeleton::default(), &Settings::default()).unwrap();
+    let (empty, _) =
+        compress(&Take::default(), &Skeleton::default(), &CompressionSettings::default()).unwrap();
     assert_eq!((empty.bones(), empty.keys()), (0, 1));
     empty.sample(0.3, &mut Pose::new(5));
     // No track at all: the rest pose.
-    let (rest, _) = compress(&Take::default(), &two, &Settings::default()).unwrap();
+    let (rest, _) = compress(&Take::default(), &two, &CompressionSettings::default()).unwrap();
     let mut pose = Pose::new(2);
     rest.sample(0.0, &mut pose);
     assert!(pose.get(1).unwrap().translation.distance(Vec3::new(0.3, 0.1, 0.0)) < 1e-5);
@@ -307,7 +319,7 @@ fn steps_and_splines_are_resampled_at_the_rate_of_the_settings() {
     let curved = take(vec![Track { translation: curve, ..Track::default() }]);
     for (rate, keys) in [(None, 31), (Some(10.0), 11), (Some(120.0), 121)] {
         for take in [&stepped, &curved] {
-            let settings = Settings { rate, ..Settings::default() };
+            let settings = CompressionSettings { rate, ..CompressionSettings::default() };
             let (compressed, report) = compress(take, &one, &settings).unwrap();
             assert_eq!(compressed.keys(), keys);
             assert!(report.share_of_tolerance <= 1.0);
@@ -325,7 +337,7 @@ fn numbers_that_are_not_finite_or_too_large_give_an_error_or_finite_poses() {
         let channel = along_x(&[(0.0, 0.0), (1.0, value), (2.0, 1.0)], Interpolation::Linear);
         let moving = Track { translation: channel.clone(), scale: channel, ..Track::default() };
         let take = take(vec![moving, Track::default()]);
-        match compress(&take, &one, &Settings::default()) {
+        match compress(&take, &one, &CompressionSettings::default()) {
             Ok((compressed, _)) => {
                 let times = [0.0, 0.5, 1.0, 1.3, 2.0];
                 largest_difference(&compressed, &one, &times);
@@ -337,7 +349,10 @@ fn numbers_that_are_not_finite_or_too_large_give_an_error_or_finite_poses() {
         translation: along_x(&[(0.0, 0.0), (1e-3, 1.0), (1e9, 2.0)], Interpolation::Linear),
         ..Track::default()
     }]);
-    assert!(matches!(compress(&long, &one, &Settings::default()), Err(CompressError::TooLarge { .. })));
+    assert!(matches!(
+        compress(&long, &one, &CompressionSettings::default()),
+        Err(CompressError::TooLarge { .. })
+    ));
 }
 
 #[test]
@@ -400,8 +415,12 @@ fn invalid_bytes_with_a_correct_checksum_do_no_harm() {
     let fox = fox();
     let files: Vec<Vec<u8>> = [
         compress(&fox.animation.takes[1], &fox.animation.skeleton, &with(FOX)).unwrap().0,
-        compress(&random_take(&mut random, 5, 40), &skeleton(&[None; 5]), &Settings::default()).unwrap().0,
-        compress(&random_take(&mut random, 9, 1), &skeleton(&[None; 9]), &Settings::default()).unwrap().0,
+        compress(&random_take(&mut random, 5, 40), &skeleton(&[None; 5]), &CompressionSettings::default())
+            .unwrap()
+            .0,
+        compress(&random_take(&mut random, 9, 1), &skeleton(&[None; 9]), &CompressionSettings::default())
+            .unwrap()
+            .0,
     ]
     .iter()
     .map(|take| take.as_bytes().to_vec())
@@ -441,7 +460,7 @@ fn a_character_plays_compressed_takes_as_the_open_path_plays_the_decompressed() 
     let model = fox();
     let (skeleton, skin) = (&model.animation.skeleton, &model.skins[0]);
     let rig = Rig::new(skeleton);
-    let binding = Binding::new(&rig, skin);
+    let binding = SkinBinding::new(&rig, skin);
     let mut scratch = Scratch::new(&rig);
     let mut finals = vec![matrix::IDENTITY; binding.joints()];
     for take in &model.animation.takes {
@@ -451,7 +470,7 @@ fn a_character_plays_compressed_takes_as_the_open_path_plays_the_decompressed() 
         for step in 0..20 {
             let time = compressed.start() + compressed.length() * step as f32 / 19.0;
             let playing = [Playing::new(&compressed, time)];
-            pose_character(Level::best(), &rig, &binding, &playing, &mut scratch, &mut finals);
+            pose_character(SimdLevel::best(), &rig, &binding, &playing, &mut scratch, &mut finals);
             open.to_root_bone_poses_of(&raw, time);
             for (joint, (fast, open)) in finals.iter().zip(open.skin_poses(skin)).enumerate() {
                 let rows = open.transpose().to_cols_array();

@@ -10,7 +10,8 @@ use dragonfly_anim::data::{
 };
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::explain::{
-    BoneStep, ChannelStep, ExplainError, Explanation, MovementStep, Subject, VertexResult, What, explain,
+    BoneStep, ChannelStep, ExplainError, ExplainTarget, Explanation, MovementStep, Subject, VertexResult,
+    explain,
 };
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use glam::{Mat4, Quat, Vec3};
@@ -227,7 +228,7 @@ fn every_step_of_a_bone_agrees_with_the_formulas() {
         for take in 0..takes {
             for bone in 0..model.animation.skeleton.len() as u32 {
                 for time in TIMES {
-                    let explanation = explain(&model, Some(take), time, What::Bone(bone)).unwrap();
+                    let explanation = explain(&model, Some(take), time, ExplainTarget::Bone(bone)).unwrap();
                     let to_root = check_bones(&explanation).last().unwrap().1;
                     let Subject::Bone(result) = explanation.subject else { panic!("a bone was asked for") };
                     let offset = textbook::matrix(result.offset);
@@ -241,7 +242,7 @@ fn every_step_of_a_bone_agrees_with_the_formulas() {
 #[test]
 fn every_step_of_a_vertex_agrees_with_the_formulas() {
     let explained = |model: &ModelData, time, instance, vertex| {
-        let what = What::Vertex { instance, primitive: 0, vertex };
+        let what = ExplainTarget::Vertex { instance, primitive: 0, vertex };
         let explanation = explain(model, Some(0), time, what).unwrap();
         check_vertex(&explanation, vertex_of(&explanation));
     };
@@ -260,7 +261,7 @@ fn an_explanation_contains_the_played_values_bit_for_bit() {
             evaluator.pose(Some(0), time);
             let finals = animation.final_bone_poses(Some(0), time).to_vec();
             for (bone, &final_pose) in finals.iter().enumerate() {
-                let explanation = explain(&model, Some(0), time, What::Bone(bone as u32)).unwrap();
+                let explanation = explain(&model, Some(0), time, ExplainTarget::Bone(bone as u32)).unwrap();
                 let step = explanation.bone(bone as u32).unwrap();
                 assert_eq!(step.to_root, evaluator.to_root()[bone]);
                 assert_eq!(step.pose, animation.poses()[bone]);
@@ -273,8 +274,11 @@ fn an_explanation_contains_the_played_values_bit_for_bit() {
                 let mut normals = vec![Vec3::ZERO; count];
                 evaluator.normals(instance, 0, &mut normals);
                 for vertex in (0..count).step_by(41) {
-                    let what =
-                        What::Vertex { instance: instance as u32, primitive: 0, vertex: vertex as u32 };
+                    let what = ExplainTarget::Vertex {
+                        instance: instance as u32,
+                        primitive: 0,
+                        vertex: vertex as u32,
+                    };
                     let explanation = explain(&model, Some(0), time, what).unwrap();
                     let result = vertex_of(&explanation);
                     assert_eq!(result.final_position, positions[vertex]);
@@ -291,7 +295,7 @@ fn the_worked_example_is_explained_with_keys_four_and_five() {
     let track = Track { translation: along_x(&keys, Interpolation::Linear), ..Track::default() };
     let animation = animation_data(vec![bone("only", None, Vec3::ZERO)], vec![take(vec![track])]);
     let model = ModelData { animation, ..ModelData::default() };
-    let explanation = explain(&model, Some(0), 0.35, What::Bone(0)).unwrap();
+    let explanation = explain(&model, Some(0), 0.35, ExplainTarget::Bone(0)).unwrap();
     let keys = explanation.bones[0].translation.keys.as_ref().unwrap();
     // Counted from zero here, from one in the thesis.
     assert_eq!((keys.before.index + 1, keys.after.index + 1, keys.count), (4, 5, 11));
@@ -303,7 +307,7 @@ fn the_worked_example_is_explained_with_keys_four_and_five() {
 
 #[test]
 fn the_text_contains_each_section_and_its_columns_are_aligned() {
-    let text = explain(&fox(), Some(1), 0.35, What::Vertex { instance: 0, primitive: 0, vertex: 9 })
+    let text = explain(&fox(), Some(1), 0.35, ExplainTarget::Vertex { instance: 0, primitive: 0, vertex: 9 })
         .unwrap()
         .to_string();
     println!("{text}");
@@ -316,7 +320,7 @@ fn the_text_contains_each_section_and_its_columns_are_aligned() {
         "  Keys around the time, and the temporary key-frame (§2.1.5.2)",
         "  To-root (§2.1.5.1) = to_parent, because a root has no parent",
         "The vertex as stored (§2.1.2.1)",
-        "Skin 0: what each bone adds (§2.1.4)",
+        "Skin 0: contribution of each bone (§2.1.4)",
         "Result, scene space",
     ] {
         assert!(text.lines().any(|line| line == heading), "the heading \"{heading}\" is missing");
@@ -332,9 +336,9 @@ fn the_text_contains_each_section_and_its_columns_are_aligned() {
 fn a_missing_item_is_an_error_with_its_number() {
     let model = made();
     let error = |take, what| explain(&model, take, 0.0, what).unwrap_err();
-    let vertex = |instance, primitive, vertex| What::Vertex { instance, primitive, vertex };
-    assert_eq!(error(Some(1), What::Bone(0)), ExplainError::NoTake { take: 1, takes: 1 });
-    assert_eq!(error(None, What::Bone(2)), ExplainError::NoBone { bone: 2, bones: 2 });
+    let vertex = |instance, primitive, vertex| ExplainTarget::Vertex { instance, primitive, vertex };
+    assert_eq!(error(Some(1), ExplainTarget::Bone(0)), ExplainError::NoTake { take: 1, takes: 1 });
+    assert_eq!(error(None, ExplainTarget::Bone(2)), ExplainError::NoBone { bone: 2, bones: 2 });
     assert_eq!(error(None, vertex(3, 0, 0)), ExplainError::NoInstance { instance: 3, instances: 3 });
     assert_eq!(error(None, vertex(0, 1, 0)).to_string(), "instance 0 has no primitive 1; it has 1");
     let text = "primitive 0 of instance 1 has no vertex 7; it has 1";
@@ -352,7 +356,7 @@ fn the_keys_of_morph_weights_are_those_of_the_instance() {
     take.morphs.insert(0, other);
     model.animation.takes[0] = Arc::new(take);
     let explained = |instance, time| {
-        let what = What::Vertex { instance, primitive: 0, vertex: 0 };
+        let what = ExplainTarget::Vertex { instance, primitive: 0, vertex: 0 };
         vertex_of(&explain(&model, Some(0), time, what).unwrap()).clone()
     };
     let vertex = explained(0, 0.5);
@@ -369,7 +373,7 @@ fn the_keys_of_morph_weights_are_those_of_the_instance() {
 
 #[test]
 fn bones_without_a_weight_are_not_part_of_a_vertex() {
-    let what = What::Vertex { instance: 0, primitive: 0, vertex: 0 };
+    let what = ExplainTarget::Vertex { instance: 0, primitive: 0, vertex: 0 };
     let explanation = explain(&made(), Some(0), 0.5, what).unwrap();
     let MovementStep::Skin { influences, .. } = &vertex_of(&explanation).movement else { panic!("a skin") };
     let shares: Vec<(Option<u32>, f32)> =

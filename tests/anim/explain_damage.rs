@@ -3,7 +3,7 @@
 use crate::explain::{made, vertex_of};
 use dragonfly_anim::data::{ModelData, Take, Transform};
 use dragonfly_anim::evaluator::Evaluator;
-use dragonfly_anim::explain::{ExplainError, Explanation, What, explain};
+use dragonfly_anim::explain::{ExplainError, ExplainTarget, Explanation, explain};
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 
@@ -113,13 +113,13 @@ fn damaged_models_are_explained_without_a_panic() {
         for time in [f32::NAN, f32::NEG_INFINITY, 0.5, 1.5, f32::MAX] {
             evaluator.pose(Some(0), time);
             for bone in 0..2 {
-                let explanation = explain(&model, Some(0), time, What::Bone(bone)).unwrap();
+                let explanation = explain(&model, Some(0), time, ExplainTarget::Bone(bone)).unwrap();
                 check_sound(&explanation, damage);
                 let to_root = explanation.bone(bone).unwrap().to_root;
                 assert_eq!(to_root, evaluator.to_root()[bone as usize], "{damage}");
             }
             for instance in 0..3 {
-                let what = What::Vertex { instance, primitive: 0, vertex: 0 };
+                let what = ExplainTarget::Vertex { instance, primitive: 0, vertex: 0 };
                 let explanation = explain(&model, Some(0), time, what).unwrap();
                 check_sound(&explanation, damage);
                 let mut played = [Vec3::ZERO];
@@ -138,7 +138,7 @@ fn damaged_models_are_explained_without_a_panic() {
 fn an_instance_of_no_mesh_has_no_primitives() {
     let mut model = (*made()).clone();
     model.instances[0].mesh = 99;
-    let error =
-        explain(&model, None, 0.0, What::Vertex { instance: 0, primitive: 0, vertex: 0 }).unwrap_err();
+    let error = explain(&model, None, 0.0, ExplainTarget::Vertex { instance: 0, primitive: 0, vertex: 0 })
+        .unwrap_err();
     assert_eq!(error, ExplainError::NoPrimitive { instance: 0, primitive: 0, primitives: 0 });
 }

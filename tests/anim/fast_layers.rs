@@ -4,11 +4,11 @@ use crate::doors::{data, shared};
 use crate::fast_path::{Worst, compare_poses, load, made};
 use dragonfly_anim::data::{ModelData, Transform};
 use dragonfly_anim::evaluator::Evaluator;
-use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{
-    Binding, KeyedTake, LaneMask, Playing, Pose, PoseLayer, Rig, RootPoses, Scratch, SkinnedVertices,
-    TwoBone, add, blend, blend_normalised, difference, distance_left, matrix, pose_character, pose_crowd,
-    sample, skin_vertices, to_root, two_bone,
+    FastTwoBone, KeyedTake, LaneMask, Playing, Pose, PoseLayer, Rig, RootPoses, Scratch, SkinBinding,
+    SkinnedVertices, add, blend, blend_normalized, difference, distance_left, matrix, pose_character,
+    pose_crowd, sample, skin_vertices, to_root, two_bone,
 };
 use dragonfly_anim::sample::mix::slerp;
 use dragonfly_kit::counting::count;
@@ -79,11 +79,11 @@ fn any_number_of_layers_blends_according_to_the_formula() {
             })
             .collect();
         let fast_base = Pose::from_transforms(&base);
-        for (normalised, level) in
-            [false, true].into_iter().flat_map(|n| Level::all().into_iter().map(move |l| (n, l)))
+        for (normalized, level) in
+            [false, true].into_iter().flat_map(|n| SimdLevel::all().into_iter().map(move |l| (n, l)))
         {
             let mut out = Pose::new(bones);
-            let blend = if normalised { blend_normalised } else { blend };
+            let blend = if normalized { blend_normalized } else { blend };
             blend(level, fast_base.blocks(), &list, out.blocks_mut());
             let expected: Vec<Transform> = (0..bones)
                 .map(|bone| {
@@ -94,14 +94,14 @@ fn any_number_of_layers_blends_according_to_the_formula() {
                     let parts: Vec<(Transform, f32)> =
                         (0..count).map(|at| (layers[at][bone], weight(at))).collect();
                     let sum: f32 = parts.iter().map(|part| part.1).sum();
-                    let rest = match normalised {
+                    let rest = match normalized {
                         true => f32::from(sum == 0.0),
                         false => (1.0 - sum).max(0.0),
                     };
                     blended(base[bone], rest, &parts)
                 })
                 .collect();
-            compare_poses(&out, &expected, &mut worst, &format!("{round} {} {normalised}", level.name()));
+            compare_poses(&out, &expected, &mut worst, &format!("{round} {} {normalized}", level.name()));
         }
     }
     worst.assert("blends");
@@ -115,7 +115,7 @@ fn a_blend_of_a_pose_with_itself_is_the_pose() {
     let mut out = Pose::new(67);
     let layers = [0.2, 0.5, 0.9].map(|weight| PoseLayer::new(soa.blocks(), weight));
     let mut worst = Worst::default();
-    for level in Level::all() {
+    for level in SimdLevel::all() {
         blend(level, soa.blocks(), &layers, out.blocks_mut());
         compare_poses(&out, &pose, &mut worst, level.name());
     }
@@ -129,7 +129,7 @@ fn an_additive_layer_adds_its_share_of_the_difference() {
     let [from_soa, to_soa, base_soa] = [&from, &to, &base].map(|list| Pose::from_transforms(list));
     let (mut more, mut out) = (Pose::new(67), Pose::new(67));
     let mut worst = Worst::default();
-    for level in Level::all() {
+    for level in SimdLevel::all() {
         difference(level, to_soa.blocks(), from_soa.blocks(), more.blocks_mut());
         add(level, from_soa.blocks(), more.blocks(), 1.0, None, out.blocks_mut());
         compare_poses(&out, &to, &mut worst, "back");
@@ -171,29 +171,29 @@ fn a_limb_reaches_every_reachable_target() {
     let mut pose = rig.rest().clone();
     let mut roots = RootPoses::new(&rig);
     for round in 0..500 {
-        let limb = TwoBone {
+        let limb = FastTwoBone {
             pole: if round % 2 == 0 { Vec3::ZERO } else { vector(&mut random) },
-            ..TwoBone::new(root, middle, end)
+            ..FastTwoBone::new(root, middle, end)
         };
-        sample(Level::best(), &take, random.unit(), pose.blocks_mut());
-        to_root(Level::best(), &rig, pose.blocks(), &mut roots);
+        sample(SimdLevel::best(), &take, random.unit(), pose.blocks_mut());
+        to_root(SimdLevel::best(), &rig, pose.blocks(), &mut roots);
         let place = |bone: u32| matrix::transform_point(roots.get(bone as usize), Vec3::ZERO);
         let (a, b) = ((place(middle) - place(root)).length(), (place(end) - place(middle)).length());
         let (least, most) = ((a - b).abs(), a + b);
         let distance = least + (most - least) * random.between(0.02, 0.98);
         let target = place(root) + vector(&mut random).normalize_or(Vec3::X) * distance;
         assert!(two_bone(&limb, target, &roots, &mut pose));
-        to_root(Level::best(), &rig, pose.blocks(), &mut roots);
+        to_root(SimdLevel::best(), &rig, pose.blocks(), &mut roots);
         let left = distance_left(&limb, target, &roots);
         assert!(left < 1e-4 * most, "{round}: {left} of {most}");
         // A target out of reach: the limb is straight and points at it.
         let far = place_of(&roots, root) + vector(&mut random).normalize_or(Vec3::X) * most * 2.0;
         assert!(two_bone(&limb, far, &roots, &mut pose));
-        to_root(Level::best(), &rig, pose.blocks(), &mut roots);
+        to_root(SimdLevel::best(), &rig, pose.blocks(), &mut roots);
         assert!((distance_left(&limb, far, &roots) - most).abs() < 1e-3 * most, "{round}");
     }
-    assert!(!two_bone(&TwoBone::new(root, middle, 999), Vec3::ZERO, &roots, &mut pose));
-    assert!(!two_bone(&TwoBone::new(root, middle, end), Vec3::NAN, &roots, &mut pose));
+    assert!(!two_bone(&FastTwoBone::new(root, middle, 999), Vec3::ZERO, &roots, &mut pose));
+    assert!(!two_bone(&FastTwoBone::new(root, middle, end), Vec3::NAN, &roots, &mut pose));
 }
 
 fn place_of(roots: &RootPoses, bone: u32) -> Vec3 {
@@ -204,7 +204,7 @@ fn place_of(roots: &RootPoses, bone: u32) -> Vec3 {
 fn compare_pipeline(model: ModelData, take: usize) {
     let model = Arc::new(model);
     let rig = Rig::new(&model.animation.skeleton);
-    let binding = Binding::new(&rig, &model.skins[0]);
+    let binding = SkinBinding::new(&rig, &model.skins[0]);
     let keyed = KeyedTake::new(&model.animation.skeleton, &model.animation.takes[take]);
     let mut evaluator = Evaluator::new(Arc::clone(&model));
     let mut scratch = Scratch::new(&rig);
@@ -221,7 +221,7 @@ fn compare_pipeline(model: ModelData, take: usize) {
         evaluator.positions(0, 0, &mut open_points);
         evaluator.normals(0, 0, &mut open_directions);
         let size = open_points.iter().map(|point| point.abs().max_element()).fold(1.0, f32::max);
-        for level in Level::all() {
+        for level in SimdLevel::all() {
             pose_character(level, &rig, &binding, &[Playing::new(&keyed, time)], &mut scratch, &mut finals);
             assert_eq!(
                 skin_vertices(level, &vertices, &finals, &mut points, &mut directions),
@@ -260,7 +260,7 @@ fn a_crowd_equals_its_single_characters_and_allocates_nothing() {
         offsets: animation.skeleton.bones.iter().map(|bone| bone.offset).take(54).collect(),
         ..Default::default()
     };
-    let binding = Binding::new(&rig, &skin);
+    let binding = SkinBinding::new(&rig, &skin);
     let takes: Vec<KeyedTake> =
         animation.takes.iter().map(|take| KeyedTake::new(&animation.skeleton, take)).collect();
     let mask = LaneMask::new((0..67).map(|bone| (bone % 3) as f32 / 2.0));
@@ -275,7 +275,7 @@ fn a_crowd_equals_its_single_characters_and_allocates_nothing() {
                 .collect()
         })
         .collect();
-    for level in Level::all() {
+    for level in SimdLevel::all() {
         let mut scratch = Scratch::new(&rig);
         let mut crowd = vec![matrix::IDENTITY; 50 * 54];
         let (asked, ()) = count(|| {
@@ -303,7 +303,7 @@ fn overflowing_numbers_have_the_same_result_as_on_the_open_path() {
     let rig = Rig::new(skeleton);
     let mut open = vec![glam::Mat4::IDENTITY; 20];
     dragonfly_anim::animation::to_root(skeleton, &[], &mut open);
-    for level in Level::all() {
+    for level in SimdLevel::all() {
         let mut roots = RootPoses::new(&rig);
         to_root(level, &rig, &[], &mut roots);
         for (bone, (fast, open)) in roots.matrices().iter().zip(&open).enumerate() {

@@ -3,8 +3,8 @@
 use crate::ik::{ParentScale, at_distance, direction, lengths, matrices, origin, row, started, turn, vector};
 use crate::support::angle_between;
 use dragonfly_anim::data::{Skeleton, Transform};
-use dragonfly_anim::fast::simd::Level;
-use dragonfly_anim::fast::{Pose, Rig, RootPoses, TwoBone, matrix, to_root, two_bone};
+use dragonfly_anim::fast::simd::SimdLevel;
+use dragonfly_anim::fast::{FastTwoBone, Pose, Rig, RootPoses, matrix, to_root, two_bone};
 use dragonfly_anim::ik;
 use dragonfly_kit::counting::count;
 use dragonfly_kit::random::Random;
@@ -17,10 +17,15 @@ const ANGLE: f32 = 2e-4;
 const PARENTS: [ParentScale; 3] = [ParentScale::Plain, ParentScale::Uniform, ParentScale::Mirrored];
 
 /// Returns `poses` after the fast path solved `limb`; `None` if it did not.
-fn fast(skeleton: &Skeleton, poses: &[Transform], limb: &TwoBone, target: Vec3) -> Option<Vec<Transform>> {
+fn fast(
+    skeleton: &Skeleton,
+    poses: &[Transform],
+    limb: &FastTwoBone,
+    target: Vec3,
+) -> Option<Vec<Transform>> {
     let rig = Rig::new(skeleton);
     let (mut pose, mut roots) = (Pose::from_transforms(poses), RootPoses::new(&rig));
-    to_root(Level::best(), &rig, pose.blocks(), &mut roots);
+    to_root(SimdLevel::best(), &rig, pose.blocks(), &mut roots);
     let (asked, is_solved) = count(|| two_bone(limb, target, &roots, &mut pose));
     assert_eq!(asked.allocations, 0);
     let mut after = poses.to_vec();
@@ -29,7 +34,7 @@ fn fast(skeleton: &Skeleton, poses: &[Transform], limb: &TwoBone, target: Vec3) 
 }
 
 /// Returns `poses` after the open path solved the same limb.
-fn open(skeleton: &Skeleton, poses: &[Transform], limb: &TwoBone, target: Vec3) -> Vec<Transform> {
+fn open(skeleton: &Skeleton, poses: &[Transform], limb: &FastTwoBone, target: Vec3) -> Vec<Transform> {
     let pole = if limb.pole == Vec3::ZERO { ik::Pole::AsPosed } else { ik::Pole::Direction(limb.pole) };
     let same = ik::TwoBone {
         pole,
@@ -43,13 +48,13 @@ fn open(skeleton: &Skeleton, poses: &[Transform], limb: &TwoBone, target: Vec3) 
 }
 
 /// Returns the limb 1–2–3 of a row, with a pole in two of three cases.
-fn limb(random: &mut Random) -> TwoBone {
+fn limb(random: &mut Random) -> FastTwoBone {
     let pole = if random.below(3) == 0 { Vec3::ZERO } else { vector(random) };
-    TwoBone { pole, ..TwoBone::new(1, 2, 3) }
+    FastTwoBone { pole, ..FastTwoBone::new(1, 2, 3) }
 }
 
 /// Solves many limbs made by `limb` on both paths and compares root and middle.
-fn compare(usual: u64, limb: impl Fn(&mut Random) -> TwoBone) {
+fn compare(usual: u64, limb: impl Fn(&mut Random) -> FastTwoBone) {
     let mut random = started(usual);
     let (mut compared, mut worst) = (0, 0.0_f32);
     for round in 0..3_000 {
@@ -96,12 +101,15 @@ fn a_limb_bends_like_on_the_open_path() {
 
 #[test]
 fn a_soft_limb_bends_like_on_the_open_path() {
-    compare(62, |random| TwoBone { softness: random.choice(&[0.01, 0.1, 0.4, 1.0, 3.0]), ..limb(random) });
+    compare(62, |random| FastTwoBone {
+        softness: random.choice(&[0.01, 0.1, 0.4, 1.0, 3.0]),
+        ..limb(random)
+    });
 }
 
 #[test]
 fn a_limb_with_a_weight_rotates_like_on_the_open_path() {
-    compare(63, |random| TwoBone {
+    compare(63, |random| FastTwoBone {
         softness: random.choice(&[0.0, 0.2]),
         weight: random.between(0.01, 0.99),
         ..limb(random)
@@ -113,12 +121,12 @@ fn weight_zero_changes_no_bit() {
     let mut random = started(64);
     for weight in [0.0, -0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
         let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
-        let limb = TwoBone { weight, ..limb(&mut random) };
+        let limb = FastTwoBone { weight, ..limb(&mut random) };
         assert_eq!(fast(&skeleton, &poses, &limb, vector(&mut random)), Some(poses));
     }
     let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
     let (limb, target) = (limb(&mut random), vector(&mut random));
-    let over = TwoBone { weight: 7.0, ..limb };
+    let over = FastTwoBone { weight: 7.0, ..limb };
     assert_eq!(fast(&skeleton, &poses, &over, target), fast(&skeleton, &poses, &limb, target));
 }
 
@@ -213,14 +221,14 @@ fn an_unsolvable_limb_changes_nothing() {
     let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
     let rig = Rig::new(&skeleton);
     let mut roots = RootPoses::new(&rig);
-    to_root(Level::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);
+    to_root(SimdLevel::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);
     let root = matrix::transform_point(roots.get(1), Vec3::ZERO);
-    let limb = TwoBone::new(1, 2, 3);
+    let limb = FastTwoBone::new(1, 2, 3);
     let mut cases = vec![
-        (TwoBone { root: 9, ..limb }, Vec3::ONE),
-        (TwoBone { middle: u32::MAX, ..limb }, Vec3::ONE),
-        (TwoBone { end: 4, ..limb }, Vec3::ONE),
-        (TwoBone { end: 2, ..limb }, Vec3::ONE),
+        (FastTwoBone { root: 9, ..limb }, Vec3::ONE),
+        (FastTwoBone { middle: u32::MAX, ..limb }, Vec3::ONE),
+        (FastTwoBone { end: 4, ..limb }, Vec3::ONE),
+        (FastTwoBone { end: 2, ..limb }, Vec3::ONE),
         (limb, root),
     ];
     for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX] {
@@ -250,12 +258,12 @@ fn no_input_makes_an_invalid_rotation() {
         let rig = Rig::new(&skeleton);
         let mut pose = Pose::from_transforms(&poses);
         let mut roots = RootPoses::new(&rig);
-        to_root(Level::best(), &rig, pose.blocks(), &mut roots);
-        let limb = TwoBone {
+        to_root(SimdLevel::best(), &rig, pose.blocks(), &mut roots);
+        let limb = FastTwoBone {
             pole: any(&mut random),
             softness: random.choice(&odd),
             weight: random.choice(&odd),
-            ..TwoBone::new(1, 2, 3)
+            ..FastTwoBone::new(1, 2, 3)
         };
         let target = if round % 2 == 0 { vector(&mut random) } else { any(&mut random) };
         two_bone(&limb, target, &roots, &mut pose);
@@ -276,8 +284,8 @@ fn the_returned_distance_is_that_from_the_end_to_the_target() {
     let (skeleton, poses) = row(&mut started(70), 2, ParentScale::Plain);
     let rig = Rig::new(&skeleton);
     let mut roots = RootPoses::new(&rig);
-    to_root(Level::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);
+    to_root(SimdLevel::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);
     let old: Vec<Mat4> = matrices(&skeleton, &poses);
-    let left = dragonfly_anim::fast::distance_left(&TwoBone::new(1, 2, 3), Vec3::ONE, &roots);
+    let left = dragonfly_anim::fast::distance_left(&FastTwoBone::new(1, 2, 3), Vec3::ONE, &roots);
     assert!((left - origin(&old, 3).distance(Vec3::ONE)).abs() < 1e-5);
 }

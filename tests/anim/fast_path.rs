@@ -7,8 +7,10 @@ use dragonfly_anim::data::{
     AnimationData, Channel, Interpolation, ModelData, Skeleton, Skin, Take, Track, Transform,
 };
 use dragonfly_anim::fast::matrix::mat4;
-use dragonfly_anim::fast::simd::Level;
-use dragonfly_anim::fast::{Binding, KeyedTake, Pose, Rig, RootPoses, final_poses, matrix, sample, to_root};
+use dragonfly_anim::fast::simd::SimdLevel;
+use dragonfly_anim::fast::{
+    KeyedTake, Pose, Rig, RootPoses, SkinBinding, final_poses, matrix, sample, to_root,
+};
 use dragonfly_anim::format::{ReadOptions, read};
 use dragonfly_anim::sample::sample_take;
 use dragonfly_kit::random::{Random, seed};
@@ -103,13 +105,13 @@ fn compare_model(animation: &AnimationData, skins: &[Skin]) -> Worst {
     let skeleton: &Skeleton = &animation.skeleton;
     let mut worst = Worst::default();
     let rig = Rig::new(skeleton);
-    let bindings: Vec<Binding> = skins.iter().map(|skin| Binding::new(&rig, skin)).collect();
+    let bindings: Vec<SkinBinding> = skins.iter().map(|skin| SkinBinding::new(&rig, skin)).collect();
     let (mut pose, mut roots) = (Pose::new(skeleton.len()), RootPoses::new(&rig));
     let mut open = vec![Transform::IDENTITY; skeleton.len()];
     let mut open_roots = vec![Mat4::IDENTITY; skeleton.len()];
     for (index, take) in animation.takes.iter().enumerate() {
         let keyed = KeyedTake::new(skeleton, take);
-        for (time, level) in times(take).into_iter().flat_map(|time| Level::all().map_with(time)) {
+        for (time, level) in times(take).into_iter().flat_map(|time| SimdLevel::all().map_with(time)) {
             let place = format!("{} take {index} at {time}", level.name());
             sample_take(Some(take), skeleton, time, &mut open);
             sample(level, &keyed, time, pose.blocks_mut());
@@ -134,11 +136,11 @@ fn compare_model(animation: &AnimationData, skins: &[Skin]) -> Worst {
 
 /// Pairs a time with every level.
 trait MapWith {
-    fn map_with(self, time: f32) -> Vec<(f32, Level)>;
+    fn map_with(self, time: f32) -> Vec<(f32, SimdLevel)>;
 }
 
-impl MapWith for Vec<Level> {
-    fn map_with(self, time: f32) -> Vec<(f32, Level)> {
+impl MapWith for Vec<SimdLevel> {
+    fn map_with(self, time: f32) -> Vec<(f32, SimdLevel)> {
         self.into_iter().map(|level| (time, level)).collect()
     }
 }
@@ -292,7 +294,7 @@ fn a_rig_of_67_joints_agrees_with_exact_poses_on_the_fast_path() {
             .as_array()
             .unwrap()
             .iter()
-            .flat_map(|pose| Level::all().into_iter().map(move |level| (pose, level)))
+            .flat_map(|pose| SimdLevel::all().into_iter().map(move |level| (pose, level)))
         {
             let time = expected["t"].as_f64().unwrap() as f32;
             sample(level, &keyed, time, pose.blocks_mut());

@@ -4,7 +4,7 @@
 use crate::ik::{started, vector};
 use dragonfly_anim::data::{Influence, MorphTarget, Primitive, Vertices};
 use dragonfly_anim::fast::matrix::{Matrix34, matrix34};
-use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{SkinnedVertices, skin_morphed_vertices, skin_vertices};
 use dragonfly_anim::skin::{Movement, skin_normals, skin_positions};
 use dragonfly_kit::counting::count;
@@ -67,7 +67,7 @@ fn compare(primitive: &Primitive, finals: &[Mat4], weights: &[f32], place: &str)
     let size = positions.iter().map(|point| point.abs().max_element()).fold(1.0, f32::max);
     let vertices = SkinnedVertices::new(primitive);
     let rows: Vec<Matrix34> = finals.iter().copied().map(matrix34).collect();
-    for level in Level::all() {
+    for level in SimdLevel::all() {
         let (mut points, mut directions) = (vec![[f32::NAN; 3]; count], vec![[f32::NAN; 3]; count]);
         let (asked, written) = count_written(level, &vertices, weights, &rows, &mut points, &mut directions);
         assert_eq!((asked, written), (0, count), "{place}");
@@ -85,7 +85,7 @@ fn compare(primitive: &Primitive, finals: &[Mat4], weights: &[f32], place: &str)
 
 /// Returns the number of allocations, and of written vertices.
 fn count_written(
-    level: Level,
+    level: SimdLevel,
     vertices: &SkinnedVertices,
     weights: &[f32],
     finals: &[Matrix34],
@@ -190,7 +190,7 @@ fn without_weights_morph_targets_change_no_bit() {
     let plain = SkinnedVertices::new(&primitive);
     primitive.morph_targets = targets(&mut random, 3, 150);
     let vertices = SkinnedVertices::new(&primitive);
-    for level in Level::all() {
+    for level in SimdLevel::all() {
         let moved = |vertices: &SkinnedVertices, weights: &[f32]| {
             let (mut points, mut directions) = (vec![[0.0; 3]; 150], vec![[0.0; 3]; 150]);
             skin_morphed_vertices(level, vertices, weights, &finals, &mut points, &mut directions);
@@ -230,7 +230,7 @@ fn the_shorter_output_limits_the_number_of_written_vertices() {
     let vertices = SkinnedVertices::new(&primitive);
     let finals: Vec<Matrix34> = poses(&mut random, 10).into_iter().map(matrix34).collect();
     let (mut points, mut directions) = (vec![[0.0; 3]; 200], vec![[0.0; 3]; 200]);
-    let level = Level::best();
+    let level = SimdLevel::best();
     assert_eq!(skin_vertices(level, &vertices, &finals, &mut points, &mut directions), 200);
     for room in [0, 1, 7, 8, 9, 130, 199] {
         let (mut some, mut others) = (vec![[0.0; 3]; room], vec![[0.0; 3]; 200]);

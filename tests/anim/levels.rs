@@ -6,7 +6,7 @@ use dragonfly_anim::data::{Influence, Mesh, MeshInstance, ModelData, Primitive, 
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::hit::nearest_on_triangle;
 use dragonfly_anim::level::{
-    Level, LevelSettings, Progression, Screen, SimplifySettings, choose_level, error_in_pixels, levels,
+    LevelSettings, Lod, Progression, Screen, SimplifySettings, choose_level, error_in_pixels, levels,
     radius_in_pixels, simplify,
 };
 use dragonfly_kit::random::{Random, seed};
@@ -428,8 +428,8 @@ fn a_large_sheet_is_reduced_within_seconds() {
     assert!(begin.elapsed().as_secs() < 60);
 }
 
-fn level(error: f32) -> Level {
-    Level { indices: vec![], triangles: 0, error }
+fn level(error: f32) -> Lod {
+    Lod { indices: vec![], triangles: 0, error }
 }
 
 #[test]

@@ -31,6 +31,7 @@ mod fast_path;
 mod fast_vertices;
 mod fixture;
 mod formats;
+mod front_door;
 mod gaze;
 mod hits;
 mod hostile;

@@ -29,7 +29,7 @@ fn a_mask_is_made_from_a_branch_or_from_names() {
     assert_eq!(named.weights(), [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0], "all bones with the name");
     let error = Mask::of_names(&skeleton, ["hat", "wing"]).unwrap_err();
     assert_eq!(error, NoSuchBone { name: "wing".to_owned(), bones: 7 });
-    assert_eq!(error.to_string(), "mask: no bone of 7 is called \"wing\"");
+    assert_eq!(error.to_string(), "the mask needs a bone called \"wing\"; the skeleton (7 bones) has none");
     assert_eq!(Mask::from_weights([f32::NAN, -1.0, 0.25, 7.0]).weights(), [0.0, 0.0, 0.25, 1.0]);
 }
 

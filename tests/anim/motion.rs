@@ -6,7 +6,7 @@ use crate::support::{angle_between, bone, take};
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform};
 use dragonfly_anim::format::{ReadOptions, read};
-use dragonfly_anim::motion::{Axis, MotionError, RootMotion, RootMotionOptions, extract, in_place, put_back};
+use dragonfly_anim::motion::{Axis, MotionError, RootMotion, RootMotionOptions, extract, in_place, restore};
 use dragonfly_anim::sample::{PlayMode, Value, sample_take};
 use dragonfly_kit::counting::count;
 use dragonfly_kit::random::Random;
@@ -135,7 +135,7 @@ fn extracted_and_restored_motion_gives_the_take_at_and_between_keys() {
         let take = take(vec![above, hips]);
         let options = options(&mut random);
         let (motion, still) = extract(&take, &skeleton, 1, options).unwrap();
-        let back = put_back(&still, &skeleton, &motion).unwrap();
+        let back = restore(&still, &skeleton, &motion).unwrap();
         let off = difference(&skeleton, &take, &back);
         worst = worst.max(off);
         assert!(off < 1e-4, "{round}: {off}\n{options:?} {kinds:?}\n{take:?}");
@@ -218,7 +218,7 @@ fn a_root_without_keys_has_no_motion() {
     let (motion, still) = extract(&take, &skeleton, 1, RootMotionOptions::default()).unwrap();
     assert!(motion.translation.is_empty() && motion.rotation.is_empty());
     assert_eq!(still, take);
-    assert_eq!(put_back(&still, &skeleton, &motion).unwrap(), take);
+    assert_eq!(restore(&still, &skeleton, &motion).unwrap(), take);
     assert_eq!(motion.delta(0.1, 77.7, PlayMode::Loop), Transform::IDENTITY);
     // Fewer tracks than bones.
     let bare = Take { length: 1.0, ..Take::default() };
@@ -308,7 +308,7 @@ fn an_edited_motion_moves_the_take_as_edited() {
         Channel::new([0.0, 0.25, 1.0], [Vec3::ZERO, Vec3::X, Vec3::X * 4.0], Interpolation::Linear);
     motion.rotation =
         Channel::new([0.0, 1.0], [Quat::IDENTITY, Quat::from_rotation_y(1.0)], Interpolation::Linear);
-    let moved = put_back(&still, &skeleton, &motion).unwrap();
+    let moved = restore(&still, &skeleton, &motion).unwrap();
     for time in [0.0, 0.1, 0.25, 0.6, 1.0] {
         let got = origins(&skeleton, &moved, time)[0];
         let expected = motion.at(time).to_matrix() * Mat4::from_translation(Vec3::Y);
@@ -316,7 +316,7 @@ fn an_edited_motion_moves_the_take_as_edited() {
     }
     // Also if the bone has no keys at all.
     let none = Take { tracks: vec![], ..take };
-    let got = origins(&skeleton, &put_back(&none, &skeleton, &motion).unwrap(), 0.6)[0];
+    let got = origins(&skeleton, &restore(&none, &skeleton, &motion).unwrap(), 0.6)[0];
     assert!(got.abs_diff_eq(motion.at(0.6).to_matrix() * Mat4::from_translation(Vec3::Y), 1e-4));
 }
 
@@ -361,7 +361,7 @@ fn the_motion_and_the_rest_of_any_take_are_finite() {
         }
         let take = take(vec![Track::default(), hips]);
         let Ok((motion, still)) = extract(&take, &skeleton, 1, options(&mut random)) else { continue };
-        let Ok(back) = put_back(&still, &skeleton, &motion) else { continue };
+        let Ok(back) = restore(&still, &skeleton, &motion) else { continue };
         for time in [f32::NAN, -1.0, 0.0, 0.5, 1.0, 3.0] {
             assert!(motion.at(time).is_finite() && motion.delta(0.3, time, PlayMode::Loop).is_finite());
             for take in [&still, &back] {
@@ -395,7 +395,7 @@ fn the_motion_of_real_takes_is_restored_within_a_ten_thousandth() {
                 let all = RootMotionOptions { translation: [true; 3], ..RootMotionOptions::default() };
                 for options in [RootMotionOptions::default(), all] {
                     let (motion, still) = extract(take, skeleton, bone, options).unwrap();
-                    let back = put_back(&still, skeleton, &motion).unwrap();
+                    let back = restore(&still, skeleton, &motion).unwrap();
                     let off = difference(skeleton, take, &back);
                     println!("{} {} bone {bone}: {off}", model.name, take.name);
                     assert!(off < 1e-4, "{} bone {bone}: {off}", take.name);

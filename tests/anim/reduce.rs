@@ -59,7 +59,7 @@ fn worst(
     settings: &ReduceSettings,
     counts: impl Fn(usize, f32) -> bool,
 ) -> f64 {
-    let unit = f64::from(settings.millimetres_per_unit);
+    let unit = f64::from(settings.millimeters_per_unit);
     let shell = f64::from(settings.shell) / unit;
     let points = around();
     let mut worst = 0.0_f64;
@@ -172,7 +172,7 @@ fn no_point_of_any_shell_moves_further_than_the_tolerance() {
         let worst = worst(&take, &reduced.take, &skeleton, &settings, |_, _| true);
         let allowed = f64::from(settings.tolerance) * (1.0 + 1e-6);
         assert!(worst <= allowed, "round {round}: {worst} mm, {settings:?}");
-        let stated = reduced.measurement.largest.unwrap().millimetres;
+        let stated = reduced.measurement.largest.unwrap().millimeters;
         assert!(worst <= stated * (1.0 + 1e-6), "round {round}: {worst} mm found, {stated} mm stated");
         (before, after) = (before + reduced.keys_before, after + reduced.keys_after);
     }
@@ -407,7 +407,7 @@ fn any_take_is_reduced_or_left_unchanged() {
             let settings = ReduceSettings {
                 tolerance: first,
                 shell: second,
-                millimetres_per_unit: first,
+                millimeters_per_unit: first,
                 frames_per_second: if second > 1.0 { 0.0 } else { second },
                 contacts: Contacts {
                     tolerance: second,
@@ -445,14 +445,14 @@ fn model(path: &Path) -> ModelData {
 }
 
 /// Prints the result of reducing every take of a model, and checks its error.
-fn report(name: &str, model: &ModelData, millimetres_per_unit: f32, tolerances: &[f32]) {
+fn report(name: &str, model: &ModelData, millimeters_per_unit: f32, tolerances: &[f32]) {
     let skeleton = &model.animation.skeleton;
     // A quarter of a minute of motion capture takes too long without optimization; the example `reduce_keys` reduces
     // that one.
     for take in model.animation.takes.iter().filter(|take| take.keys() < 20_000) {
         for &tolerance in tolerances {
             for contacts in [false, true] {
-                let mut settings = ReduceSettings { millimetres_per_unit, ..within(tolerance, 30.0) };
+                let mut settings = ReduceSettings { millimeters_per_unit, ..within(tolerance, 30.0) };
                 settings.contacts.search = contacts.then(ContactSearch::default);
                 let began = std::time::Instant::now();
                 let reduced = reduce(take, skeleton, &settings).unwrap();
@@ -469,7 +469,7 @@ fn report(name: &str, model: &ModelData, millimetres_per_unit: f32, tolerances: 
                     if contacts { "yes" } else { "no" },
                     reduced.contacts.len(),
                     100.0 * after as f64 / before as f64,
-                    largest.millimetres,
+                    largest.millimeters,
                     skeleton.bones[largest.bone as usize].name,
                     largest.time,
                 );
@@ -506,6 +506,6 @@ fn a_comparison_of_two_takes_finds_the_bone_and_time_of_the_difference() {
     let found = measure(&of(&keys), &of(&other), &skeleton, &within(1.0, 30.0)).unwrap();
     let largest = found.largest.unwrap();
     assert_eq!((largest.bone, largest.time, found.holds()), (1, 0.4, false));
-    assert!((largest.millimetres - 250.0).abs() < 1e-3, "{largest:?}");
+    assert!((largest.millimeters - 250.0).abs() < 1e-3, "{largest:?}");
     assert!(measure(&of(&keys), &of(&keys), &skeleton, &within(0.0, 30.0)).unwrap().holds());
 }

@@ -6,7 +6,7 @@ use crate::support::{angle_between, bone, take};
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track, Transform};
 use dragonfly_anim::retarget::{
-    BindError, Binding, RetargetOptions, height_ratio, leg_ratio, rebind, retarget,
+    BindError, RetargetOptions, SkeletonBinding, height_ratio, leg_ratio, rebind, retarget,
 };
 use dragonfly_anim::sample::sample_take;
 use dragonfly_kit::random::Random;
@@ -116,7 +116,7 @@ fn a_take_on_its_own_skeleton_is_the_take() {
     for round in 0..200 {
         let skeleton = person(&mut random);
         let take = dance(&mut random, &skeleton);
-        let binding = Binding::by_name(&skeleton, &skeleton);
+        let binding = SkeletonBinding::by_name(&skeleton, &skeleton);
         assert!(binding.unbound_source.is_empty() && binding.unbound_target.is_empty());
         let result = retarget(&take, &skeleton, &skeleton, &binding, &RetargetOptions::default());
         for time in moments(&take) {
@@ -137,7 +137,7 @@ fn a_take_on_its_own_skeleton_is_the_take() {
 fn real_takes_on_their_own_skeletons_are_the_takes() {
     for model in models() {
         let skeleton = &model.animation.skeleton;
-        let binding = Binding::by_name(skeleton, skeleton);
+        let binding = SkeletonBinding::by_name(skeleton, skeleton);
         let options = RetargetOptions { stretch: true, ..RetargetOptions::default() };
         for take in &model.animation.takes {
             let result = retarget(take, skeleton, skeleton, &binding, &options);
@@ -164,7 +164,7 @@ fn on_a_skeleton_of_another_size_all_positions_are_scaled() {
         for bone in &mut target.bones {
             bone.rest.translation *= factor;
         }
-        let binding = Binding::by_name(&source, &target);
+        let binding = SkeletonBinding::by_name(&source, &target);
         assert!((height_ratio(&source, &target, &binding, 1, Vec3::Y) / factor - 1.0).abs() < 1e-4);
         assert!((leg_ratio(&source, &target, &binding, 2, 4).unwrap() / factor - 1.0).abs() < 1e-4);
         let result = retarget(&take, &source, &target, &binding, &RetargetOptions::default());
@@ -179,7 +179,7 @@ fn on_a_skeleton_of_another_size_all_positions_are_scaled() {
     let take = dance(&mut random, &source);
     let mut target = source.clone();
     target.bones[0].rest.scale = Vec3::splat(0.01);
-    let binding = Binding::by_name(&source, &target);
+    let binding = SkeletonBinding::by_name(&source, &target);
     let result = retarget(&take, &source, &target, &binding, &RetargetOptions::default());
     for time in moments(&take) {
         for (a, b) in places(&source, &take, time).into_iter().zip(places(&target, &result, time)) {
@@ -202,7 +202,7 @@ fn on_a_skeleton_with_another_rest_pose_bones_point_in_the_same_direction() {
         }
         let other: Vec<Quat> = (0..target.len()).map(|_| turn(&mut random)).collect();
         pose_rest(&mut target, |index, _| other[index]);
-        let binding = Binding::by_name(&source, &target);
+        let binding = SkeletonBinding::by_name(&source, &target);
         let result = retarget(&take, &source, &target, &binding, &RetargetOptions::default());
         for time in moments(&take) {
             let (old, new) = (places(&source, &take, time), places(&target, &result, time));
@@ -231,7 +231,7 @@ fn bones_that_only_one_side_has_are_bridged() {
             target.bones[11].rest.rotation.inverse() * target.bones[14].rest.translation;
         target.bones[14].rest.rotation =
             target.bones[11].rest.rotation.inverse() * target.bones[14].rest.rotation;
-        let binding = Binding::by_name(&source, &target);
+        let binding = SkeletonBinding::by_name(&source, &target);
         assert_eq!((&binding.unbound_target[..], &binding.unbound_source[..]), (&[11][..], &[][..]));
         let result = retarget(&take, &source, &target, &binding, &RetargetOptions::default());
         assert!(result.tracks[11].is_empty());
@@ -242,7 +242,7 @@ fn bones_that_only_one_side_has_are_bridged() {
         let times = keys(&mut random);
         let values: Vec<Quat> = times.iter().map(|_| turn(&mut random)).collect();
         twisted.tracks[11].rotation = Channel::new(times, values, Interpolation::Linear);
-        let binding = Binding::by_name(&target, &source);
+        let binding = SkeletonBinding::by_name(&target, &source);
         let back = retarget(&twisted, &target, &source, &binding, &RetargetOptions::default());
         for time in moments(&take) {
             let (old, new) = (matrices(&source, &take, time), matrices(&target, &result, time));
@@ -275,7 +275,7 @@ fn names_are_matched_exactly_first_and_then_without_common_affixes() {
         "Eye_L",
     ]);
     let target = bones(&["arm_l", "hips", "Arm.L", "twin", "twin", "twin", "", "TAIL", "eye.L"]);
-    let binding = Binding::by_name(&source, &target);
+    let binding = SkeletonBinding::by_name(&source, &target);
     assert_eq!(
         binding.source_of,
         [Some(2), Some(0), Some(1), Some(3), Some(4), None, None, Some(5), None],
@@ -284,9 +284,9 @@ fn names_are_matched_exactly_first_and_then_without_common_affixes() {
     assert_eq!(binding.unbound_source, [6, 7, 8]);
     assert_eq!(binding.unbound_target, [5, 6, 8]);
     assert_eq!(binding.bound(), 6);
-    let map = Binding::from_map(&source, &target, &[(0, 1), (0, 2)]).unwrap();
+    let map = SkeletonBinding::from_map(&source, &target, &[(0, 1), (0, 2)]).unwrap();
     assert_eq!((map.source_of[1], map.source_of[2], map.bound()), (Some(0), Some(0), 2));
-    let fails = |pairs: &[(u32, u32)]| Binding::from_map(&source, &target, pairs).unwrap_err();
+    let fails = |pairs: &[(u32, u32)]| SkeletonBinding::from_map(&source, &target, pairs).unwrap_err();
     assert_eq!(fails(&[(9, 0)]), BindError::NoSourceBone { bone: 9 });
     assert_eq!(fails(&[(0, 9)]), BindError::NoTargetBone { bone: 9 });
     assert_eq!(fails(&[(0, 1), (1, 1)]), BindError::BoundTwice { bone: 1 });
@@ -303,7 +303,7 @@ fn a_take_bound_by_name_is_copied_unchanged_to_the_bones_of_that_name() {
             .map(|name| bone(name, None, Vec3::ZERO))
             .collect(),
     };
-    let result = rebind(&take, &Binding::by_name(&source, &target));
+    let result = rebind(&take, &SkeletonBinding::by_name(&source, &target));
     assert_eq!((result.start, result.length, result.tracks.len()), (take.start, take.length, 4));
     for (index, from) in [(0, Some(8)), (1, None), (2, Some(11)), (3, Some(1))] {
         let expected = from.map_or_else(Track::default, |from: usize| take.tracks[from].clone());
@@ -331,7 +331,7 @@ fn retargeted_poses_are_always_finite() {
             }
         }
         take.tracks.truncate(random.below(16));
-        let mut binding = Binding::by_name(&source, &target);
+        let mut binding = SkeletonBinding::by_name(&source, &target);
         binding.source_of[random.below(14)] = Some(random.below(20) as u32);
         binding.source_of.truncate(10 + random.below(5));
         let options = RetargetOptions {

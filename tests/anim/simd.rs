@@ -1,6 +1,6 @@
 //! Every instruction set of the machine gives the same results as scalar calculations.
 
-use dragonfly_anim::fast::simd::{Float4, Float8, Kernel, Level, Simd, Word8};
+use dragonfly_anim::fast::simd::{Float4, Float8, Kernel, Simd, SimdLevel, Word8};
 use proptest::prelude::*;
 
 type Floats8 = [f32; 8];
@@ -117,7 +117,7 @@ proptest! {
         b in prop::array::uniform8(prop_oneof![-1e2_f32..-1e-2, 1e-2_f32..1e2]),
         c in prop::array::uniform8(-1e2_f32..1e2),
     ) {
-        for level in Level::all() {
+        for level in SimdLevel::all() {
             for ((name, got), (expected_name, expected, off)) in
                 level.run(Everything(a, b, c)).into_iter().zip(scalar_results(a, b, c))
             {
@@ -171,7 +171,7 @@ proptest! {
             }
             None => 0,
         };
-        for level in Level::all() {
+        for level in SimdLevel::all() {
             let got = level.run(WordOps(a, b, bytes.clone()));
             for at in 0..8 {
                 let (x, y, count) = (a[at], b[at], b[at] & 63);
@@ -217,7 +217,7 @@ proptest! {
         lanes in prop::array::uniform8(prop_oneof![0_u8..16, any::<u8>()]),
         words in prop::array::uniform8(any::<u16>()),
     ) {
-        for level in Level::all() {
+        for level in SimdLevel::all() {
             let got = level.run(Near(bytes.clone(), at, second, lanes, words));
             for lane in 0..8 {
                 let byte = |step: u8| match (bytes.len().checked_sub(32), lanes[lane].wrapping_add(step)) {
@@ -265,7 +265,7 @@ impl Kernel for SmallNumbers {
 #[test]
 fn small_whole_numbers_become_the_same_floats() {
     let (u16s, u8s) = ([0, 1, 2, 255, 256, 32_768, 65_534, 65_535], [0, 1, 2, 127, 128, 200, 254, 255]);
-    for level in Level::all() {
+    for level in SimdLevel::all() {
         let ([wide, narrow], four) = level.run(SmallNumbers(u16s, u8s));
         assert_eq!(wide, u16s.map(f32::from), "{}", level.name());
         assert_eq!(narrow, u8s.map(f32::from), "{}", level.name());
@@ -282,7 +282,7 @@ fn small_whole_numbers_become_the_same_floats() {
 
 #[test]
 fn the_fastest_level_is_first_and_the_portable_one_last() {
-    let levels = Level::all();
-    assert_eq!((levels.first(), levels.last()), (Some(&Level::best()), Some(&Level::PORTABLE)));
+    let levels = SimdLevel::all();
+    assert_eq!((levels.first(), levels.last()), (Some(&SimdLevel::best()), Some(&SimdLevel::PORTABLE)));
     println!("levels here: {:?}", levels.iter().map(|level| level.name()).collect::<Vec<_>>());
 }

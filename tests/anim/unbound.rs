@@ -4,7 +4,7 @@ use crate::ik::{started, turn, vector};
 use crate::retarget::{dance, keys, matrices, moments, person, places, turns};
 use crate::support::{angle_between, bone, take};
 use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track};
-use dragonfly_anim::retarget::{Binding, RetargetOptions, retarget};
+use dragonfly_anim::retarget::{RetargetOptions, SkeletonBinding, retarget};
 use dragonfly_kit::random::Random;
 use glam::{Quat, Vec3};
 
@@ -20,8 +20,8 @@ fn under_a_root(random: &mut Random, skeleton: &Skeleton) -> Skeleton {
 }
 
 /// Returns a binding of all bones by name, except the source bones `names`.
-fn without(source: &Skeleton, target: &Skeleton, names: &[&str]) -> Binding {
-    let mut binding = Binding::by_name(source, target);
+fn without(source: &Skeleton, target: &Skeleton, names: &[&str]) -> SkeletonBinding {
+    let mut binding = SkeletonBinding::by_name(source, target);
     for bound in &mut binding.source_of {
         bound.take_if(|bone| names.contains(&&*source.bones[*bone as usize].name));
     }
@@ -110,7 +110,7 @@ fn the_walk_of_an_unbound_root_is_kept_on_any_figure() {
     let take = take(vec![moved(walk), moved(bob), Track::default()]);
     let target =
         Skeleton { bones: vec![bone("hips", None, Vec3::Y * 2.0), bone("foot", Some(0), Vec3::NEG_Y * 2.0)] };
-    let binding = Binding::by_name(&source, &target);
+    let binding = SkeletonBinding::by_name(&source, &target);
     let result = retarget(&take, &source, &target, &binding, &RetargetOptions::default());
     for (time, expected) in
         [(0.0, [0.0, 2.0, 0.0]), (0.25, [0.0, 2.1, 0.5]), (0.5, [0.0, 2.2, 1.0]), (1.5, [0.0, 2.0, 3.0])]

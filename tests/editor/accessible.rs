@@ -1,7 +1,7 @@
 //! Who cannot see the window hears what is in it: every control of the whole desk has a name.
 
 use crate::workbench::{Window, Workbench};
-use dragonfly::document::{Source, View, load_model};
+use dragonfly_document::{Source, View, load_model};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::sync::Arc;
@@ -41,7 +41,7 @@ fn nameless(window: &Window) -> Vec<String> {
 }
 
 fn fox() -> View {
-    let source = Source::File(crate::program::data("gltf/Fox.glb"));
+    let source = Source::File(dragonfly_kit::folder::data("gltf/Fox.glb"));
     let loaded = load_model(&source, &mut |_| {}, &Default::default()).expect("the fox");
     View::opened(1, Arc::new(loaded))
 }

@@ -1,8 +1,8 @@
 //! The right button at a bone.
 
 use crate::workbench::{Window, Workbench};
-use dragonfly::document::Change;
-use dragonfly::document::edit::{Edit, TakeRef};
+use dragonfly_document::Change;
+use dragonfly_document::edit::{Edit, TakeRef};
 use egui::{Event, Key, Modifiers, PointerButton, Popup, Pos2};
 use egui_kittest::kittest::Queryable;
 

@@ -1,6 +1,7 @@
 //! What the command line promises to scripts and to people.
 
-use crate::program::{Folder, data, dragonfly, outcome, run};
+use crate::program::{dragonfly, outcome, run};
+use dragonfly_kit::folder::{Folder, data};
 use serde_json::Value;
 use std::io::Read;
 use std::process::Stdio;

@@ -1,7 +1,7 @@
 //! Bones are paired by their names, however those are written, and every guess is told.
 
-use dragonfly::control::bones::{MirrorGuess, MirrorPairs, Side};
 use dragonfly_anim::format::{AssetError, AssetFs, ReadOptions, read};
+use dragonfly_document::bones::{MirrorGuess, MirrorPairs, Side};
 use dragonfly_kit::random::{Random, seed};
 use std::path::{Path, PathBuf};
 use std::time::Instant;

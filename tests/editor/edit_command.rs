@@ -1,6 +1,7 @@
 //! What `dragonfly edit` promises: edits from a text, saved without touching the rest.
 
-use crate::program::{Folder, data, dragonfly, outcome, run};
+use crate::program::{dragonfly, outcome, run};
+use dragonfly_kit::folder::{Folder, data};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 

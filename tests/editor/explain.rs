@@ -1,6 +1,7 @@
 //! What `dragonfly explain` promises: the same numbers as `pose`, with the way to them.
 
-use crate::program::{data, run};
+use crate::program::run;
+use dragonfly_kit::folder::data;
 use serde_json::Value;
 
 fn fox() -> String {

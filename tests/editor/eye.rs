@@ -1,13 +1,13 @@
 //! The eyes in the tree of the skeleton, and the names over the picture.
 
-use crate::fixture;
 use crate::panels::Bench;
 use crate::shots;
 use crate::timeline_rig::Animator;
-use dragonfly::document::Change;
-use dragonfly::document::edit::{Edit, TakeRef};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::{self, Id};
+use dragonfly_document::Change;
+use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_kit::document::fixture;
 use egui::Modifiers;
 use egui_kittest::kittest::Queryable;
 

@@ -2,12 +2,13 @@
 //! change under us, no driver at all. A Vulkan layer between the program and the real driver does it (`fault_layer/`).
 
 use crate::fixture_layer::{Layer, lines};
-use crate::program::{Folder, data, dragonfly, outcome};
+use crate::program::{dragonfly, outcome};
 use crate::screen::Screen;
-use crate::studio;
 use crate::window::{Editor, SOON, alone, rest, same};
-use dragonfly::document::{Cancel, LoadedModel, Source, load_model};
-use dragonfly::graphics::{PictureSettings, Studio};
+use dragonfly_document::{Cancel, LoadedModel, Source, load_model};
+use dragonfly_kit::folder::{Folder, data};
+use dragonfly_kit::picture::studio;
+use dragonfly_picture::{PictureSettings, Studio};
 use image::RgbaImage;
 use std::process::Command;
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Builds the layer that makes faults, and tells a program to use it.
 
-use crate::program::Folder;
+use dragonfly_kit::folder::Folder;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;

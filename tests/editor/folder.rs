@@ -1,7 +1,8 @@
 //! A model reads regular files of its own folder tree and nothing else, whatever it asks for, and never waits.
 
-use crate::program::{Folder as Scratch, run};
-use dragonfly::document::{Folder, read_file};
+use crate::program::run;
+use dragonfly_document::{Folder, read_file};
+use dragonfly_kit::folder::Folder as Scratch;
 use std::path::Path;
 use std::time::{Duration, Instant};
 

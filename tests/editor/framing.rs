@@ -1,11 +1,14 @@
 //! Where the eye goes to see the model.
 
-use crate::program::data;
-use dragonfly::control::gizmo::GizmoView;
-use dragonfly::document::{Cancel, Source, View, load_model};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Request, Settings, State};
 use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_document::{Cancel, Source, View, load_model};
+use dragonfly_kit::folder::data;
+use dragonfly_kit::picture::images::{difference, settings};
+use dragonfly_kit::picture::studio;
+use dragonfly_picture::PictureSettings;
+use dragonfly_picture::gizmo::GizmoView;
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
 use std::time::Instant;
@@ -36,4 +39,34 @@ fn all_is_framed_as_it_stands_now() {
     assert_eq!(seen.len(), places.len(), "all of the running fox is before the eye");
     let outside = seen.iter().filter(|at| at.min_element() < 0.0 || at.cmpgt(size).any()).count();
     assert_eq!(outside, 0, "of {} vertices", places.len());
+}
+
+#[test]
+fn a_skeleton_without_any_surface_is_seen() {
+    let source = Source::File(data("gltf/Fox_skeleton.glb"));
+    let loaded = Arc::new(load_model(&source, &mut |_| {}, &Cancel::default()).unwrap());
+    let (animation, warnings) = (&loaded.model.animation, &loaded.warnings);
+    assert_eq!((animation.skeleton.bones.len(), animation.takes.len()), (25, 3));
+    assert!(loaded.model.instances.is_empty() && warnings.is_empty(), "{warnings:?}");
+
+    // The editor shows the bones, although its settings do not ask for them.
+    let mut state = State::new(Settings::default(), Instant::now());
+    assert!(!state.settings.look.skeleton && !state.shows_skeleton());
+    state.show(View::opened(1, Arc::clone(&loaded)));
+    assert!(state.shows_skeleton());
+
+    let Some(mut studio) = studio::studio() else { return };
+    let mut with = |skeleton| {
+        let settings = PictureSettings { skeleton, grid: false, ..settings() };
+        studio.render(&loaded, &settings).unwrap()
+    };
+    let (bones, empty) = (with(true), with(false));
+    let seen = difference(&bones, &empty);
+    assert!(seen > 500, "only {seen} pixels show a bone");
+    // Framed: the bones reach over much of the picture and stay away from its edges.
+    let columns: Vec<u32> =
+        (0..160).filter(|&x| (0..120).any(|y| bones.get_pixel(x, y) != empty.get_pixel(x, y))).collect();
+    let (first, last) = (columns[0], columns[columns.len() - 1]);
+    assert!(first > 2 && last < 157, "columns {first} to {last}");
+    assert_eq!(studio.stage().device().errors(), 0);
 }

@@ -1,11 +1,12 @@
 //! The gizmo in the tree of controls: met at its handles, in charge while it drags, cancelled when input is lost.
 
 use crate::gizmo_rig::{Rig, Screen, along};
-use dragonfly::control::gizmo::{AXIS_TO, GizmoAnswer, GizmoControl, Space, Tool};
+use dragonfly::control::gizmo::{GizmoAnswer, GizmoControl};
 use dragonfly::control::{
     Area, BaseControl, Button, ControlFramework, ControlId, Controls, InputEvent, Key, Modifiers, Mouse, Pass,
 };
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_picture::gizmo::{AXIS_TO, Space, Tool};
 use glam::{Mat3, Vec2, Vec3};
 
 const CORNER: Vec2 = Vec2::new(200.0, 50.0);

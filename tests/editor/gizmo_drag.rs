@@ -1,14 +1,14 @@
 //! A handle that is dragged so far moves, turns and scales its bones by exactly that, seen from anywhere.
 
 use crate::gizmo_rig::{Rig, SPACES, Screen, along, between, unit};
-use dragonfly::control::gizmo::{
-    AXIS_TO, Axis, Gizmo, GizmoAnswer, GizmoDelta, GizmoSettings, GizmoView, Handle, OUTER, Pivot, RING,
-    Space, Tool,
-};
+use dragonfly::control::gizmo::{Gizmo, GizmoAnswer};
 use dragonfly::control::{Key, Modifiers};
 use dragonfly_anim::data::Transform;
 use dragonfly_kit::counting;
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_picture::gizmo::{
+    AXIS_TO, Axis, GizmoDelta, GizmoSettings, GizmoView, Handle, OUTER, Pivot, RING, Space, Tool,
+};
 use glam::{DVec3, Mat3, Quat, Vec2, Vec3};
 
 const BONE: usize = 1;

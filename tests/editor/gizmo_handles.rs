@@ -1,11 +1,12 @@
 //! Handles are met where they are drawn, and as large on every screen.
 
 use crate::gizmo_rig::{Rig, SPACES, Screen, along, unit};
-use dragonfly::control::gizmo::{
-    AXIS_TO, Axis, CENTRE, Gizmo, GizmoRole, GizmoShape, GizmoVertex, Handle, OUTER, PLANE, RING, Space, Tool,
-};
+use dragonfly::control::gizmo::Gizmo;
 use dragonfly::control::{Key, Modifiers};
 use dragonfly_kit::counting;
+use dragonfly_picture::gizmo::{
+    AXIS_TO, Axis, CENTRE, GizmoRole, GizmoShape, GizmoVertex, Handle, OUTER, PLANE, RING, Space, Tool,
+};
 use glam::{Vec2, Vec3};
 
 const BONE: usize = 1;

@@ -1,9 +1,10 @@
 //! Keys bind a drag to an axis, and typed numbers are taken exactly.
 
 use crate::gizmo_rig::{Rig, Screen};
-use dragonfly::control::gizmo::{Axis, Gizmo, GizmoAnswer, GizmoDelta, Handle, Space, Tool};
+use dragonfly::control::gizmo::{Gizmo, GizmoAnswer};
 use dragonfly::control::{Key, Modifiers};
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_picture::gizmo::{Axis, GizmoDelta, Handle, Space, Tool};
 use glam::{DVec3, Vec2, Vec3};
 
 const NONE: Modifiers = Modifiers { shift: false, ctrl: false, alt: false };

@@ -1,11 +1,12 @@
 //! What the tests of gizmos stand on: a small skeleton, cameras, and where things appear, computed the other way: with the
 //! matrices that the picture is drawn with.
 
-use dragonfly::camera::{Camera, Projection};
-use dragonfly::control::gizmo::{Axis, Gizmo, GizmoView, Space};
+use dragonfly::control::gizmo::Gizmo;
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::bounds::Sphere;
 use dragonfly_anim::data::{Bone, BoneIndex, Skeleton, Transform};
+use dragonfly_picture::camera::{Camera, Projection};
+use dragonfly_picture::gizmo::{Axis, GizmoView, Space};
 use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
 
 /// A skeleton in a pose.

@@ -1,9 +1,10 @@
 //! Several bones at once, and bones under parents that are stretched or mirrored.
 
 use crate::gizmo_rig::{Rig, SPACES, Screen, between};
-use dragonfly::control::gizmo::{Gizmo, GizmoDelta, GizmoSettings, Pivot, Space, Tool};
+use dragonfly::control::gizmo::Gizmo;
 use dragonfly::control::{Key, Modifiers};
 use dragonfly_anim::data::Transform;
+use dragonfly_picture::gizmo::{GizmoDelta, GizmoSettings, Pivot, Space, Tool};
 use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
 
 /// A drag by typed keys.
@@ -160,7 +161,7 @@ fn a_ball_and_a_ring_follow_the_pointer_under_a_mirrored_parent_too() {
                 gizmo.pointer(to, Modifiers::default());
                 Mat3::from_mat4(rig.to_root_of(&rig.after(gizmo))[1])
             };
-            use dragonfly::control::gizmo::{Axis, Handle};
+            use dragonfly_picture::gizmo::{Axis, Handle};
             let at = middle + Vec2::X * 96.0;
             let to = middle + Vec2::new(0.0, -96.0);
             let found = begin(&mut gizmo, Handle::Ring, at, to);

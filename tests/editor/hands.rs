@@ -1,15 +1,15 @@
 //! Hands on the picture: what mouse and keys do there reaches the document at once, as one step a drag.
 
-use crate::arm;
 use crate::hands_rig::Hand;
-use dragonfly::control::bones::Choice;
-use dragonfly::control::gizmo::{Axis, Handle, Tool};
 use dragonfly::control::{InputEvent, Key, Modifiers};
-use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, Request};
+use dragonfly_document::bones::Choice;
+use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly_kit::counting;
+use dragonfly_kit::document::arm;
+use dragonfly_picture::gizmo::{Axis, Handle, Tool};
 use glam::{Quat, Vec2};
 use std::sync::Arc;
 
@@ -310,14 +310,28 @@ fn allocations_of_a_move(load: crate::hands_rig::Load, bone: u32) -> (u64, u64) 
 #[test]
 fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
     fn few(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
-        Ok(Arc::into_inner(crate::fixture::view("few", crate::fixture::skeleton(3), TAKES).loaded)
-            .expect("one")
-            .into())
+        Ok(Arc::into_inner(
+            dragonfly_kit::document::fixture::view(
+                "few",
+                dragonfly_kit::document::fixture::skeleton(3),
+                TAKES,
+            )
+            .loaded,
+        )
+        .expect("one")
+        .into())
     }
     fn many(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
-        Ok(Arc::into_inner(crate::fixture::view("many", crate::fixture::skeleton(200), TAKES).loaded)
-            .expect("one")
-            .into())
+        Ok(Arc::into_inner(
+            dragonfly_kit::document::fixture::view(
+                "many",
+                dragonfly_kit::document::fixture::skeleton(200),
+                TAKES,
+            )
+            .loaded,
+        )
+        .expect("one")
+        .into())
     }
     const TAKES: &[(&str, f32, usize)] = &[("Walk", 1.0, 11)];
     let (small, large) = (allocations_of_a_move(few, 5), allocations_of_a_move(many, 5));

@@ -1,13 +1,13 @@
 //! Whatever mouse and keys do over the window, nothing panics and nothing stays held.
 
-use crate::arm;
-use crate::fixture;
 use crate::hands_rig::{Hand, PICTURE};
 use crate::panels::{Bench, harness_of};
-use crate::program::takes_long;
-use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly::panels::commands;
 use dragonfly::panels::{Request, hands};
+use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
+use dragonfly_kit::document::arm;
+use dragonfly_kit::document::fixture;
+use dragonfly_kit::folder::takes_long;
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, pos2};
 use std::sync::Arc;

@@ -1,17 +1,17 @@
 //! A bone that is dragged takes those above it along with IK on, and pinned bones stay where they are.
 
-use crate::arm;
 use crate::hands_rig::{Hand, PICTURE};
-use dragonfly::control::gizmo::{Axis, GizmoView, Handle};
 use dragonfly::control::{InputEvent, Key};
-use dragonfly::document::edit::Property;
-use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
-use dragonfly::graphics::scene::Scene;
-use dragonfly::graphics::{Appearance, IkLook};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly_anim::data::{BoneIndex, Transform};
+use dragonfly_document::edit::Property;
+use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
+use dragonfly_kit::document::arm;
+use dragonfly_picture::gizmo::{Axis, GizmoView, Handle};
+use dragonfly_picture::scene::Scene;
+use dragonfly_picture::{Appearance, IkLook};
 use glam::{Quat, Vec2, Vec3};
 use std::sync::Arc;
 

@@ -1,15 +1,15 @@
 //! The motion path of the selected bone, its keys that can be dragged, and ghosts.
 
-use crate::arm;
 use crate::hands_rig::{Hand, PICTURE};
 use dragonfly::control::Key;
-use dragonfly::control::bones::Choice;
-use dragonfly::control::gizmo::GizmoView;
-use dragonfly::document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::settings::GhostSettings;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
+use dragonfly_kit::document::arm;
+use dragonfly_picture::gizmo::GizmoView;
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
 

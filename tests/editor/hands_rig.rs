@@ -1,13 +1,14 @@
 //! What the tests of hands stand on: the state of the window and a document beside it, turned by hand.
 
-use dragonfly::control::gizmo::{Gizmo, GizmoView, Handle};
+use dragonfly::control::gizmo::Gizmo;
 use dragonfly::control::{Button, InputEvent, Key, Modifiers};
-use dragonfly::document::{
-    Cancel, Document, DocumentHandle, DocumentReply, LoadError, Opened, Progress, Setup, Source, View,
-};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Effect, Request, Settings, State};
+use dragonfly_document::{
+    Cancel, Document, DocumentHandle, DocumentReply, LoadError, Opened, Progress, Setup, Source, View,
+};
 use dragonfly_kit::eventually;
+use dragonfly_picture::gizmo::{GizmoView, Handle};
 use dragonfly_runtime::{Captured, Context, Receiver, Thread};
 use glam::{Quat, Vec2};
 use std::cell::RefCell;

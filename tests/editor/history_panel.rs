@@ -46,7 +46,7 @@ fn the_list_says_what_was_done_to_what() {
 fn the_saved_place_is_marked() {
     let mut window = window();
     window.state_mut().edited.as_mut().unwrap().mark_saved();
-    window.state_mut().change(dragonfly::document::Change::Undo);
+    window.state_mut().change(dragonfly_document::Change::Undo);
     window.run_steps(4);
     assert!(window.query_by_label(&format!("{SCALE}, undone, saved")).is_some());
 }
@@ -69,14 +69,14 @@ fn the_list_follows_and_draws_only_what_is_seen() {
     let mut window = window();
     for step in 0..3000 {
         let name = format!("Take {step}");
-        let edit = dragonfly::document::edit::Edit::RenameTake {
-            take: dragonfly::document::edit::TakeRef::Index(0),
+        let edit = dragonfly_document::edit::Edit::RenameTake {
+            take: dragonfly_document::edit::TakeRef::Index(0),
             name,
         };
         // Without a frame in between, as a script does it.
         window.state_mut().edited.as_mut().unwrap().apply(edit, None).unwrap();
     }
-    window.state_mut().change(dragonfly::document::Change::Undo);
+    window.state_mut().change(dragonfly_document::Change::Undo);
     window.run_steps(4);
     assert!(window.query_by_label("Rename take, Take 2997 → Take 2998").is_some(), "the place is in sight");
     assert!(window.query_by_label("As it was opened").is_none());
@@ -86,7 +86,7 @@ fn the_list_follows_and_draws_only_what_is_seen() {
 #[test]
 fn the_menu_says_what_it_would_undo() {
     let mut window = window();
-    window.state_mut().change(dragonfly::document::Change::Undo);
+    window.state_mut().change(dragonfly_document::Change::Undo);
     window.run_steps(2);
     window.get_by_label("Edit").click();
     window.run_steps(4);

@@ -1,7 +1,7 @@
 //! The bone under a pointer that moves: one question at a time, and only the newest place counts.
 
 use dragonfly::app::hover::{Hover, Place};
-use dragonfly::camera::Camera;
+use dragonfly_picture::camera::Camera;
 
 fn at(x: f32) -> Option<Place> {
     Some(Place { position: [x, 0.0], camera: Camera::default(), generation: 1 })

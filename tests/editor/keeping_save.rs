@@ -1,12 +1,13 @@
 //! Saving in the document's thread: the same bytes as everywhere, nothing overwritten unasked, the journal goes along.
 
-use crate::keeping_desk::{Desk, autosave_in, fox, killed, rename, same_takes, turn};
-use crate::program::{Folder, data, run};
-use dragonfly::document::edit::Edit;
-use dragonfly::document::{
+use crate::program::run;
+use dragonfly_document::edit::Edit;
+use dragonfly_document::{
     Change, DocumentMessage, DocumentReply, NotSaved, SaveOrder, SaveTo, Setup, Source, Then,
 };
-use dragonfly::store::{FileState, RealFiles};
+use dragonfly_kit::document::desk::{Desk, autosave_in, fox, killed, rename, same_takes, turn};
+use dragonfly_kit::folder::{Folder, data};
+use dragonfly_store::{FileState, RealFiles};
 use std::fs;
 use std::path::Path;
 
@@ -123,7 +124,7 @@ fn saved_as_another_file_it_is_that_file_and_the_first_one_has_nothing_unsaved()
         offers.iter().map(|offer| (&*offer.title, offer.steps)).collect::<Vec<_>>(),
         [("Vixen.glb", 1)]
     );
-    second.tell(DocumentMessage::Decide(Box::new(offers[0].clone()), dragonfly::document::Decision::Keep));
+    second.tell(DocumentMessage::Decide(Box::new(offers[0].clone()), dragonfly_document::Decision::Keep));
     same_takes(&second.shows(|view| view.history.done == 2), &edited);
     second.change(Change::GoTo(0));
     same_takes(&second.view(), &opened);
@@ -299,7 +300,7 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     let opened = desk.open(&path);
     let offer = desk.offered().remove(0);
     assert_eq!(offer.steps, 1);
-    desk.tell(DocumentMessage::Decide(Box::new(offer), dragonfly::document::Decision::Keep));
+    desk.tell(DocumentMessage::Decide(Box::new(offer), dragonfly_document::Decision::Keep));
     let after = desk.shows(|view| view.generation > opened.generation);
     assert_eq!(after.history, before.history);
     same_takes(&before, &after);

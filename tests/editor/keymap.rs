@@ -1,10 +1,10 @@
 //! Keys can be those of another program, and be chosen anew; no key gives two commands.
 
-use crate::fixture;
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::Settings;
 use dragonfly::panels::commands::{self, Id, KeySettings, Keymap, Preset, parse, text};
 use dragonfly::panels::state::Overlay;
+use dragonfly_kit::document::fixture;
 use egui::{Key, KeyboardShortcut, Modifiers};
 use egui_kittest::kittest::Queryable;
 use std::collections::HashMap;

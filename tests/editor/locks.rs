@@ -1,13 +1,13 @@
 //! Locked bones: what leaves them alone, what is refused, and what goes for the whole take.
 
 use crate::timeline_rig::Animator;
-use dragonfly::control::bones::Choice;
-use dragonfly::document::Change;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, Property, TakeRef};
 use dragonfly::panels::commands::{Id, KeySettings, Preset};
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, Request};
-use dragonfly::posing::clipboard;
+use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, TakeRef};
+use dragonfly_document::posing::clipboard;
 use egui_kittest::kittest::Queryable;
 
 const LEFT: u32 = 3;

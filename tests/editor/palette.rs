@@ -1,8 +1,8 @@
 //! The command palette runs commands and shows takes, found by what is typed.
 
-use crate::fixture;
 use crate::panels::{Bench, harness};
 use dragonfly::panels::style;
+use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 

@@ -1,12 +1,12 @@
 //! Every panel draws every document, and what a person does in it asks for the right thing.
 
-use crate::fixture;
 use crate::shots;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, TakeRef};
-use dragonfly::document::{Change, FileView, Progress, Stage, View};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::{Change, FileView, Progress, Stage, View};
+use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::time::Instant;
@@ -96,13 +96,13 @@ fn pictures_of_the_panels() {
     }
     // A model of the person who looks, with keys selected, a marker and a range.
     if let Some(path) = std::env::var_os("DRAGONFLY_SHOTS_MODEL") {
-        let source = dragonfly::document::Source::File(path.into());
-        let cancel = dragonfly::document::Cancel::default();
-        let loaded = dragonfly::document::load_model(&source, &mut |_| {}, &cancel).unwrap();
+        let source = dragonfly_document::Source::File(path.into());
+        let cancel = dragonfly_document::Cancel::default();
+        let loaded = dragonfly_document::load_model(&source, &mut |_| {}, &cancel).unwrap();
         let view = View::opened(1, std::sync::Arc::new(loaded));
         for (name, bones) in [("model", vec![]), ("model_bone", vec![5]), ("model_bones", vec![4, 5, 6, 7])] {
             let mut bench = Bench::new(Some(view.clone()));
-            bench.state.execute(Request::SelectBones(bones, dragonfly::control::bones::Choice::Replace));
+            bench.state.execute(Request::SelectBones(bones, dragonfly_document::bones::Choice::Replace));
             let (start, length) = bench.state.take_bounds();
             bench.state.execute(Request::Seek(start + length * 0.4));
             bench.state.execute(Request::Command(dragonfly::panels::commands::Id::AddMarker));
@@ -163,10 +163,10 @@ fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
 #[test]
 fn keys_that_give_way_to_others_are_counted() {
     use crate::timeline_rig::Animator;
-    use dragonfly::control::bones::Choice;
-    use dragonfly::document::edit::Property;
     use dragonfly::panels::commands::Id;
     use dragonfly::panels::keys::KeysRequest;
+    use dragonfly_document::bones::Choice;
+    use dragonfly_document::edit::Property;
     let mut animator = Animator::with_bone(3);
     let select = |animator: &mut Animator, first: usize, last: usize| {
         let channels = std::sync::Arc::new([(3, Property::Rotation)]);
@@ -217,7 +217,7 @@ fn a_line_that_says_more_of_what_was_done_stays() {
     let copied = animator.harness.state_mut().state.execute(Request::Command(Id::CopyPose));
     let Some(Effect::Copy(text)) = copied else { panic!("{copied:?}") };
     let two = vec![3, 4];
-    animator.request(Request::SelectBones(two, dragonfly::control::bones::Choice::Replace));
+    animator.request(Request::SelectBones(two, dragonfly_document::bones::Choice::Replace));
     let copied = animator.harness.state_mut().state.execute(Request::Command(Id::CopyPose));
     let Some(Effect::Copy(both)) = copied else { panic!("{copied:?}") };
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 4, true)));
@@ -229,9 +229,8 @@ fn a_line_that_says_more_of_what_was_done_stays() {
 
 #[test]
 fn what_is_part_of_the_program_and_was_saved_is_a_file() {
-    let source = dragonfly::document::Source::BuiltIn;
-    let loaded =
-        dragonfly::document::load_model(&source, &mut |_| {}, &dragonfly::document::Cancel::default());
+    let source = dragonfly_document::Source::BuiltIn;
+    let loaded = dragonfly_document::load_model(&source, &mut |_| {}, &dragonfly_document::Cancel::default());
     let mut view = View::opened(1, std::sync::Arc::new(loaded.unwrap()));
     let path = Some("mine.glb".into());
     view.file = std::sync::Arc::new(FileView { title: "mine.glb".to_owned(), path });

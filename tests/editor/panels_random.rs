@@ -1,11 +1,12 @@
 //! Nothing that is typed, pressed or dragged anywhere in the window breaks it.
 
-use crate::program::takes_long;
+use crate::nasty;
 use crate::workbench::{Window, Workbench, button};
-use crate::{fixture, nasty};
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::edit::{Edit, TakeRef};
-use dragonfly::document::history::Edited;
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::history::Edited;
+use dragonfly_kit::document::fixture;
+use dragonfly_kit::folder::takes_long;
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Key, Modifiers, MouseWheelUnit, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -1,17 +1,17 @@
 //! Poses copied, pasted, mirrored, through the clipboard as text.
 
-use crate::edits::{model, pose, walk};
-use crate::fixture;
 use crate::panels::{Bench, harness_of};
-use dragonfly::control::bones::{MirrorGuess, MirrorPairs};
-use dragonfly::document::Change;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, Property, ResetTo};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Effect, Request};
-use dragonfly::posing::clipboard::{from_text, to_text};
-use dragonfly::posing::mirror::Mirror;
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{Bone, Skeleton, Transform};
+use dragonfly_document::Change;
+use dragonfly_document::bones::{MirrorGuess, MirrorPairs};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, ResetTo};
+use dragonfly_document::posing::clipboard::{from_text, to_text};
+use dragonfly_document::posing::mirror::Mirror;
+use dragonfly_kit::document::fixture;
+use dragonfly_kit::document::made_take::{model, pose, walk};
 use dragonfly_kit::random::{Random, seed};
 use glam::{Mat4, Quat, Vec3};
 

@@ -1,19 +1,19 @@
 //! Keys copied, cut and pasted: exactly what they held, where the playhead is.
 
-use crate::edits::{model, walk};
 use crate::timeline_rig::Animator;
-use dragonfly::control::bones::Choice;
-use dragonfly::document::Change;
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::edit::{
-    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, Property, TakeRef,
-};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::clipboard::{copied, from_text, to_text};
 use dragonfly::panels::keys::intervals::WHOLE;
 use dragonfly::panels::keys::{BoneFlag, ChannelId, KeySelection, KeysRequest, channel};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_anim::data::{Interpolation, Take};
+use dragonfly_document::Change;
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{
+    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, Property, TakeRef,
+};
+use dragonfly_kit::document::made_take::{model, walk};
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Modifiers, PointerButton};
 

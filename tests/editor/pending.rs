@@ -1,19 +1,19 @@
 //! With auto-key off a changed pose is seen, undone, kept, and in no key.
 
-use crate::edits::{model, pose, walk};
-use crate::fixture;
 use crate::panels::{Bench, harness_of};
 use crate::shots;
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, NewKey, Property, TakeRef};
-use dragonfly::document::history::Edited;
-use dragonfly::document::{Change, View};
-use dragonfly::graphics::scene::Scene;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::state::Overlay;
 use dragonfly::panels::{Effect, Request, State};
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::sample::sample_take;
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, NewKey, Property, TakeRef};
+use dragonfly_document::history::Edited;
+use dragonfly_document::{Change, View};
+use dragonfly_kit::document::fixture;
+use dragonfly_kit::document::made_take::{model, pose, walk};
+use dragonfly_picture::scene::Scene;
 use egui_kittest::kittest::Queryable;
 use glam::{Quat, Vec3};
 use std::sync::Arc;

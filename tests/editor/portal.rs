@@ -1,7 +1,7 @@
 //! A desktop's dialog for opening files (the portal `org.freedesktop.portal.FileChooser`), answered by the test, on a bus of
 //! its own.
 
-use crate::program::Folder;
+use dragonfly_kit::folder::Folder;
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};

@@ -1,17 +1,17 @@
 //! Rows of bones that follow a hand, pins that hold, bones that look.
 
-use crate::fixture;
 use crate::gizmo_rig::Rig;
 use crate::panels::Bench;
-use dragonfly::control::bones::Choice;
-use dragonfly::document::Change;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Effect, Request};
-use dragonfly::posing::{Goal, Hold, IkMode, look_at, poses_of_drag};
 use dragonfly_anim::data::{BoneIndex, Transform};
 use dragonfly_anim::joint::{Hinge, JointLimits};
+use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit};
+use dragonfly_document::posing::{Goal, Hold, IkMode, look_at, poses_of_drag};
 use dragonfly_kit::counting;
+use dragonfly_kit::document::fixture;
 use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 use std::sync::Arc;

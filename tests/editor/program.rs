@@ -1,10 +1,8 @@
 //! The real program, run and watched with a deadline.
 
-use crate::complaints;
-use rustix::process::Signal;
+use dragonfly_kit::picture::complaints;
 use std::ffi::OsStr;
 use std::io::Read;
-use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
@@ -94,11 +92,6 @@ pub(crate) fn wait(child: &mut Child, limit: Duration) -> ExitStatus {
     }
 }
 
-/// Are the random tests asked to take long?
-pub(crate) fn takes_long() -> bool {
-    std::env::var_os("DRAGONFLY_LONG").is_some()
-}
-
 /// What the threads of a process that does not end are doing: all stacks where there is a debugger, else what they wait for.
 pub(crate) fn threads(process: u32) -> String {
     let id = process.to_string();
@@ -114,19 +107,6 @@ pub(crate) fn threads(process: u32) -> String {
     told.collect::<Vec<_>>().join("\n")
 }
 
-/// Does this process ignore a signal, and with it all that it starts? What a script starts in the background ignores
-/// Ctrl+C.
-pub(crate) fn ignores(signal: Signal) -> bool {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let mask = line.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or_default();
-    let ignores = mask >> (signal.as_raw() - 1) & 1 == 1;
-    if ignores {
-        println!("skipped: {signal:?}, which whoever started this ignores");
-    }
-    ignores
-}
-
 /// Reads to the end beside the test.
 fn drain(mut from: impl Read + Send + 'static) -> Receiver<Vec<u8>> {
     let (sender, receiver) = channel();
@@ -137,36 +117,4 @@ fn drain(mut from: impl Read + Send + 'static) -> Receiver<Vec<u8>> {
     };
     std::thread::Builder::new().name("reader".to_owned()).spawn(read).expect("a thread");
     receiver
-}
-
-/// A folder that is gone when the test ends.
-pub(crate) struct Folder(PathBuf);
-
-impl Folder {
-    /// An empty folder; `name` tells to whom it belongs.
-    pub(crate) fn new(name: &str) -> Self {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&path);
-        std::fs::create_dir_all(&path).expect("a folder");
-        Self(path)
-    }
-
-    pub(crate) fn path(&self) -> &Path {
-        &self.0
-    }
-
-    pub(crate) fn join(&self, name: &str) -> PathBuf {
-        self.0.join(name)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
-/// A file of `tests/data`.
-pub(crate) fn data(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data").join(name)
 }

@@ -1,10 +1,10 @@
 //! Numbers of the selected bones are dragged and typed, and the pose becomes what they say.
 
 use crate::workbench::{Window, Workbench, drag, move_to, press, release, type_into};
-use dragonfly::control::bones::Choice;
-use dragonfly::document::Change;
 use dragonfly::panels::Request;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
+use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{Quat, Vec3};

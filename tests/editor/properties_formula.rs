@@ -1,13 +1,13 @@
 //! Whatever is typed in any column, in any order of angles, gives the pose that the rules of the document say.
 
 use crate::workbench::{Window, Workbench, type_into};
-use dragonfly::document::Change;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use dragonfly::panels::Request;
 use dragonfly::panels::properties::PropertiesLook;
 use dragonfly::panels::properties::turn;
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::joint::EulerOrder;
+use dragonfly_document::Change;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use dragonfly_kit::random::{Random, seed};
 use egui::Key;
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -1,12 +1,12 @@
 //! What a person is asked: each question is drawn whole in every window, answered by keyboard, and left by Escape.
 
-use crate::fixture;
 use crate::panels::{Bench, harness_of};
 use crate::shots;
-use dragonfly::document::{Decision, Offer, SaveOrder, SaveTo, Source, Then};
 use dragonfly::panels::saving::{Deed, Question};
 use dragonfly::panels::{Effect, Request};
-use dragonfly::store::{Fate, FileState, Life, Owner, Reading, Recoverable};
+use dragonfly_document::{Decision, Offer, SaveOrder, SaveTo, Source, Then};
+use dragonfly_kit::document::fixture;
+use dragonfly_store::{Fate, FileState, Life, Owner, Reading, Recoverable};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,11 +1,11 @@
 //! What is found again at the next start: how the timeline and IK work, and the marks of each file.
 
-use crate::fixture;
-use dragonfly::document::View;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::marks;
 use dragonfly::panels::{Request, Settings, State};
+use dragonfly_document::View;
+use dragonfly_kit::document::fixture;
 use std::time::Instant;
 
 fn file(title: &str) -> View {

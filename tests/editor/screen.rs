@@ -2,8 +2,8 @@
 //!
 //! Xvfb is the screen; it writes what it shows into a file that we read.
 
-use crate::program::Folder;
 use crate::wire::{Place, Wire, words};
+use dragonfly_kit::folder::Folder;
 use image::RgbaImage;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};

@@ -1,7 +1,7 @@
 //! What is remembered between runs survives anything that happens to the files.
 
 use dragonfly::app::store::{self, Store};
-use dragonfly::panels::settings::{RECENT, ThemeChoice};
+use dragonfly::panels::settings::{GhostSettings, RECENT, ThemeChoice};
 use dragonfly::panels::{Layout, Settings, VIEWPORT, all};
 use std::path::Path;
 
@@ -72,4 +72,12 @@ fn the_store_replaces_files_and_bears_what_is_not_there() {
     assert_eq!(store.read(store::SETTINGS), "two");
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1, "nothing half written stays");
     std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn how_ghosts_are_drawn_is_remembered_and_they_begin_as_skeletons() {
+    assert!(!GhostSettings::default().skin);
+    let text = "{\"hand\":{\"ghosts\":{\"skin\":true,\"step\":3}}}";
+    let ghosts = Settings::parse(text).hand.ghosts;
+    assert_eq!((ghosts.skin, ghosts.step, ghosts.count), (true, 3, [3, 3]));
 }

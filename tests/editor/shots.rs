@@ -1,10 +1,11 @@
 //! Pictures of the panels, to be looked at: how they are made, and those of the panels that edit.
 
+use crate::workbench;
 use crate::workbench::Workbench;
-use crate::{fixture, workbench};
-use dragonfly::document::Change;
-use dragonfly::document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use dragonfly::panels::{Request, style};
+use dragonfly_document::Change;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};

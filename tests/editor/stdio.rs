@@ -1,6 +1,7 @@
 //! What `dragonfly --stdio` promises: the editor as a conversation, a line in, a line out.
 
-use crate::program::{Folder, data, dragonfly, run, wait};
+use crate::program::{dragonfly, run, wait};
+use dragonfly_kit::folder::{Folder, data};
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;

@@ -1,10 +1,10 @@
 //! A disk that fills up: at every level of free space each kind of writing either succeeds or leaves what was there, and
 //! says so.
 
-use crate::mounted::{Mounted, may_mount};
-use crate::program::Folder;
 use dragonfly::app::store::{SETTINGS, Store};
-use dragonfly::store::{
+use dragonfly_kit::folder::Folder;
+use dragonfly_kit::mounted::{Mounted, may_mount};
+use dragonfly_store::{
     Autosave, Entry, Expected, Opening, RealFiles, SaveError, SaveOptions, Versions, replace, save,
 };
 use std::fs;
@@ -64,7 +64,7 @@ fn is_full(error: Option<SaveError>) -> bool {
 /// Keeps an old version, of a document elsewhere.
 fn keeps_versions(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
     let elsewhere = disk.with_file_name("elsewhere.glb");
-    let versions = Versions::new(disk.join("versions"), dragonfly::store::VersionLimits::default());
+    let versions = Versions::new(disk.join("versions"), dragonfly_store::VersionLimits::default());
     Box::new(move |disk| {
         fs::write(&elsewhere, pages(30, 1)).unwrap();
         let options = SaveOptions { versions: Some(&versions), ..SaveOptions::default() };

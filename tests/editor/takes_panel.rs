@@ -1,10 +1,11 @@
 //! Takes are made, named, cut, put in order and deleted in their list.
 
+use crate::nasty;
 use crate::workbench::{Window, Workbench, button, drag, move_to, press, type_into};
-use crate::{fixture, nasty};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::KeysRequest;
+use dragonfly_kit::document::fixture;
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
@@ -206,7 +207,7 @@ fn any_text_is_a_name() {
                 |text: &str| text.chars().filter(|letter| !letter.is_whitespace()).collect::<String>();
             assert_eq!(plain(&kept), plain(&wanted));
         }
-        window.state_mut().change(dragonfly::document::Change::GoTo(0));
+        window.state_mut().change(dragonfly_document::Change::GoTo(0));
         window.run_steps(2);
         assert_eq!(names(&window)[1], "Walk");
     }
@@ -236,7 +237,7 @@ fn a_take_is_dragged_to_another_place_and_stays_shown() {
     );
     give(&mut window, Id::MoveTakeUp);
     assert_eq!(shown(&window), Some(0));
-    window.state_mut().change(dragonfly::document::Change::Undo);
+    window.state_mut().change(dragonfly_document::Change::Undo);
     window.run_steps(2);
     assert_eq!(shown(&window), Some(1), "undone, it is still the same take");
 }

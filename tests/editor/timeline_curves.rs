@@ -1,12 +1,12 @@
 //! What a hand does on the curves: values up and down, times sidewards, tangents by their ends.
 
 use crate::timeline_rig::Animator;
-use dragonfly::document::Change;
-use dragonfly::document::edit::{Between, BonePose, BoneRef, Edit, Property, TakeRef};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::KeysRequest;
 use dragonfly_anim::data::Interpolation;
+use dragonfly_document::Change;
+use dragonfly_document::edit::{Between, BonePose, BoneRef, Edit, Property, TakeRef};
 use egui::{Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::EulerRot;
@@ -86,12 +86,12 @@ fn a_tangent_is_dragged_by_its_end_and_alt_breaks_it() {
     for broken in [false, true] {
         let mut animator = Animator::with_bone(3);
         let edit = Edit::SetInterpolation {
-            take: dragonfly::document::edit::TakeRef::Index(0),
+            take: dragonfly_document::edit::TakeRef::Index(0),
             bones: Vec::new(),
             properties: vec![Property::Rotation],
             interpolation: Between::CubicSpline,
         };
-        animator.request(Request::Change(dragonfly::document::Change::Edit(edit, None)));
+        animator.request(Request::Change(dragonfly_document::Change::Edit(edit, None)));
         animator.steps(4);
         let rotation = || animator.edited.adapter().slots()[0].result.tracks[3].rotation.clone();
         assert_eq!(rotation().interpolation, Interpolation::CubicSpline);

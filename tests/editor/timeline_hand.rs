@@ -1,13 +1,13 @@
 //! What a hand does in the timeline: it selects, moves, copies, scales, and takes it back.
 
-use crate::fixture;
 use crate::timeline_rig::Animator;
-use dragonfly::document::Change;
-use dragonfly::document::edit::Edit;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, Deed, KeysRequest};
-use dragonfly::playback::Repeat;
+use dragonfly_document::Change;
+use dragonfly_document::edit::Edit;
+use dragonfly_kit::document::fixture;
+use dragonfly_picture::playback::Repeat;
 use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -72,7 +72,7 @@ fn where_keys_lie_side_by_side_a_drag_draws_a_box_until_they_are_selected() {
 
 #[test]
 fn alt_click_selects_a_column_of_all_bones() {
-    let mut animator = Animator::new(crate::fixture::full());
+    let mut animator = Animator::new(dragonfly_kit::document::fixture::full());
     animator.hold(Modifiers::ALT);
     let on = animator.at(animator.key(8), 2);
     animator.click(on);
@@ -352,8 +352,8 @@ fn a_locked_bone_is_not_edited_and_says_so() {
     };
     assert!(said(&animator).contains("is locked"), "{}", said(&animator));
     // Neither from elsewhere.
-    let poses = vec![dragonfly::document::edit::BonePose {
-        bone: dragonfly::document::edit::BoneRef::Index(3),
+    let poses = vec![dragonfly_document::edit::BonePose {
+        bone: dragonfly_document::edit::BoneRef::Index(3),
         translation: Some([1.0, 0.0, 0.0]),
         rotation: None,
         scale: None,
@@ -365,7 +365,7 @@ fn a_locked_bone_is_not_edited_and_says_so() {
 
 #[test]
 fn muted_bones_rest_in_the_picture_and_solo_rests_all_others() {
-    let mut animator = Animator::new(crate::fixture::full());
+    let mut animator = Animator::new(dragonfly_kit::document::fixture::full());
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Mute, 3, true)));
     assert_eq!(animator.harness.state().state.keys.flags.still(6), [3]);
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Solo, 1, true)));

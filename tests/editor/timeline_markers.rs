@@ -1,13 +1,13 @@
 //! Markers are the program's own: beside the model, and never in its file.
 
-use crate::fixture;
 use crate::panels::Bench;
 use crate::timeline_rig::Animator;
-use dragonfly::document::edit::{Edit, TakeRef};
-use dragonfly::document::{Change, FileView};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{KeysRequest, MarkerDeed};
+use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::{Change, FileView};
+use dragonfly_kit::document::fixture;
 use egui::{PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;

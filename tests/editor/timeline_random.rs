@@ -1,10 +1,10 @@
 //! Whatever the mouse does over the timeline and the curves: no panic, and a document that is whole (promise U2).
 
-use crate::fixture;
 use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest, TimeWindow};
 use dragonfly::panels::{self, Request};
+use dragonfly_kit::document::fixture;
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 

@@ -1,12 +1,12 @@
 //! A person at the timeline and the curves: the panels without a window, with a document that answers.
 
-use crate::fixture;
 use crate::panels::{Bench, harness_of};
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::edit::Edit;
-use dragonfly::document::history::Edited;
-use dragonfly::document::{Change, HistoryView, View};
 use dragonfly::panels::{Effect, Request};
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::edit::Edit;
+use dragonfly_document::history::Edited;
+use dragonfly_document::{Change, HistoryView, View};
+use dragonfly_kit::document::fixture;
 use egui::{Event, Modifiers, PointerButton, Pos2, Rect, Vec2, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;

@@ -2,12 +2,12 @@
 //! stays held, and what was half done is taken back. Nor is anything saved or undone in the middle of a drag.
 
 use crate::timeline_rig::Animator;
-use dragonfly::document::edit::Edit;
-use dragonfly::document::history::Edited;
-use dragonfly::document::{Change, Then};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::saving::Deed;
 use dragonfly::panels::{Effect, Request};
+use dragonfly_document::edit::Edit;
+use dragonfly_document::history::Edited;
+use dragonfly_document::{Change, Then};
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, pos2};
 
@@ -160,12 +160,12 @@ fn whoever_saves_closes_or_undoes_in_the_middle_of_a_drag_does_so_without_it() {
         || Request::Command(Id::Quit),
         || Request::Change(Change::Undo),
         || Request::Deed(Deed::Leave(Then::Quit)),
-        || Request::Open(dragonfly::document::Source::BuiltIn),
+        || Request::Open(dragonfly_document::Source::BuiltIn),
     ];
     for (number, way) in ways.into_iter().enumerate() {
         let mut animator = Animator::with_bone(3);
         let rename =
-            Edit::RenameTake { take: dragonfly::document::edit::TakeRef::Index(0), name: "Sneak".to_owned() };
+            Edit::RenameTake { take: dragonfly_document::edit::TakeRef::Index(0), name: "Sneak".to_owned() };
         animator.request(Request::Change(Change::Edit(rename, None)));
         let before = animator.edited.clone();
         let keys = [animator.at(animator.key(4), 0), animator.at(animator.key(9), 0)];

@@ -1,12 +1,13 @@
 //! The mouse over the picture.
 
-use dragonfly::camera::Camera;
-use dragonfly::control::bones::{Choice, OwnedRegion};
 use dragonfly::control::{
     Area, BaseControl, Button, Catch, ControlFramework, ControlId, Controls, InputEvent, Key, Modifiers,
     Outcome, ViewportControl,
 };
+use dragonfly_document::bones::Choice;
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::pick::OwnedRegion;
 use glam::Vec2;
 
 const CORNER: Vec2 = Vec2::new(100.0, 50.0);

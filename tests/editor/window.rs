@@ -1,8 +1,9 @@
 //! The whole program as a person meets it: a real window on a screen of our own, driven by keys and mouse.
 
-use crate::complaints;
-use crate::program::{Folder, data, dragonfly, threads, wait};
+use crate::program::{dragonfly, threads, wait};
 use crate::screen::{Screen, Window, key, pass};
+use dragonfly_kit::folder::{Folder, data};
+use dragonfly_kit::picture::complaints;
 use image::RgbaImage;
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};

@@ -1,12 +1,12 @@
 //! The desktop's dialog for opening files.
 
 use crate::drag::address;
-use crate::keeping_desk::{Desk, killed, turn};
 use crate::portal::{Answer, Bus, Portal};
-use crate::program::{Folder, data};
 use crate::screen::{Screen, key, pass};
 use crate::window::{Editor, SOON, alone, eventually_shows_something, rest, same, settled};
+use dragonfly_kit::document::desk::{Desk, killed, turn};
 use dragonfly_kit::eventually;
+use dragonfly_kit::folder::{Folder, data};
 use std::time::Duration;
 
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];

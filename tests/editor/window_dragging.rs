@@ -1,11 +1,11 @@
 //! In the midst of a drag in the real window: nothing of it is saved or undone, it never outlives the hand, and no key and
 //! no button stays held when their release is never told.
 
-use crate::keeping_desk::Desk;
 use crate::screen::{key, pass};
 use crate::window::{SOON, alone};
 use crate::window_visit::Visit;
-use dragonfly::control::gizmo::Handle;
+use dragonfly_kit::document::desk::Desk;
+use dragonfly_picture::gizmo::Handle;
 use std::fs;
 use std::time::Duration;
 

@@ -1,10 +1,10 @@
 //! Files dragged onto the window.
 
 use crate::drag::{Drag, address};
-use crate::program::{Folder, data};
 use crate::screen::Screen;
 use crate::window::{Editor, SOON, alone, rest, same, settled};
 use dragonfly_kit::eventually;
+use dragonfly_kit::folder::{Folder, data};
 
 /// The viewport, without the name of the file in its corner.
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];

@@ -1,11 +1,12 @@
 //! Work done in the real window, with mouse and keys, is what was asked for: to the eye, to a screen reader, in the saved file,
 //! to another program that reads it, and byte for byte to who asks for the same through `--stdio`.
 
-use crate::program::{data, run};
+use crate::program::run;
 use crate::screen::key;
 use crate::window::alone;
 use crate::window_visit::Visit;
-use dragonfly::control::gizmo::{Axis, Handle, Space};
+use dragonfly_kit::folder::data;
+use dragonfly_picture::gizmo::{Axis, Handle, Space};
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::Value;
 use std::path::{Path, PathBuf};

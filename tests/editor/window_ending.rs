@@ -1,15 +1,16 @@
 //! However the window ends while something is not saved, the next start gives all of it back.
 
-use crate::keeping_desk::{Desk, killed};
-use crate::program::{data, ignores};
 use crate::screen::{key, pass};
 use crate::window::{SOON, alone, settled};
 use crate::window_hands::numbers;
 use crate::window_visit::Visit;
-use dragonfly::control::gizmo::Handle;
-use dragonfly::document::{Cancel, Decision, DocumentMessage, Editable, SaveTo, Source};
-use dragonfly::protocol::Session;
+use dragonfly_document::protocol::Session;
+use dragonfly_document::{Cancel, Decision, DocumentMessage, Editable, SaveTo, Source};
+use dragonfly_kit::document::desk::{Desk, killed};
+use dragonfly_kit::folder::data;
+use dragonfly_kit::process::ignores;
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_picture::gizmo::Handle;
 use glam::Quat;
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::{Value, json};

@@ -1,12 +1,14 @@
 //! A bone is picked and turned in the real window, with mouse and keys, and the numbers that are shown are the ones asked for.
 
 use crate::hands_rig::find;
-use crate::program::{data, threads};
+use crate::program::threads;
 use crate::screen::{Screen, key};
 use crate::window::{Editor, SOON, alone, eventually_shows_something};
-use dragonfly::control::gizmo::{Axis, Gizmo, GizmoView, Handle, Tool};
-use dragonfly::document::{Cancel, Source, View, load_model};
+use dragonfly::control::gizmo::Gizmo;
 use dragonfly::panels::{Request, Settings, State};
+use dragonfly_document::{Cancel, Source, View, load_model};
+use dragonfly_kit::folder::data;
+use dragonfly_picture::gizmo::{Axis, GizmoView, Handle, Tool};
 use glam::{Quat, Vec2};
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -3,7 +3,7 @@
 use crate::screen::{key, pass};
 use crate::window::{SOON, alone, eventually_shows_something};
 use crate::window_visit::Visit;
-use dragonfly::control::gizmo::Handle;
+use dragonfly_picture::gizmo::Handle;
 use std::time::Duration;
 
 /// Turns the head, which is selected, by a drag.

@@ -1,10 +1,10 @@
 //! Hands that do anything at all do no harm: the window answers, nothing is lost, everything can be undone.
 
-use crate::keeping_desk::{Desk, same_takes};
 use crate::screen::{key, pass};
 use crate::window::alone;
 use crate::window_visit::Visit;
-use dragonfly::document::Change;
+use dragonfly_document::Change;
+use dragonfly_kit::document::desk::{Desk, same_takes};
 use dragonfly_kit::random::{Random, seed};
 use std::time::{Duration, Instant};
 
@@ -98,7 +98,7 @@ fn two_thousand_random_deeds_lose_nothing() {
 
     // The journal opens, and leads back to the takes of the file.
     let mut fresh = Desk::new(&visit.folder.join("fresh"));
-    let original = fresh.open(&crate::program::data("gltf/Fox.glb"));
+    let original = fresh.open(&dragonfly_kit::folder::data("gltf/Fox.glb"));
     let mut desk = Desk::new(&visit.folder.join("autosave"));
     let view = desk.open(&visit.file);
     println!("{} of {} steps are done", view.history.done, view.history.steps.len());

@@ -1,13 +1,14 @@
 //! Saving, leaving and coming back in the real window: nothing is lost, and nothing is overwritten unasked.
 
-use crate::keeping_desk::fox;
-use crate::mounted::{Mounted, may_mount};
-use crate::program::{Folder, data, run};
+use crate::program::run;
 use crate::screen::{Screen, key};
 use crate::window::{Editor, SOON, alone};
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::{Cancel, Editable, Source};
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::{Cancel, Editable, Source};
+use dragonfly_kit::document::desk::fox;
 use dragonfly_kit::eventually;
+use dragonfly_kit::folder::{Folder, data};
+use dragonfly_kit::mounted::{Mounted, may_mount};
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,11 +1,12 @@
 //! A person with a file at the real window: hands on the keys and the mouse, and ears that hear what a screen reader tells.
 
-use crate::keeping_desk::fox;
-use crate::program::{Folder, data, threads};
+use crate::program::threads;
 use crate::screen::{Screen, key};
 use crate::stdio::Talk;
 use crate::window::{Editor, SOON, eventually_shows_something};
 use crate::window_hands::{Inside, numbers, shown};
+use dragonfly_kit::document::desk::fox;
+use dragonfly_kit::folder::{Folder, data};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

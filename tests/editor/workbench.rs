@@ -1,12 +1,12 @@
 //! The whole window without a window, with a document behind it: what panels ask for is done, and seen in the next frame.
 
-use crate::fixture;
-use dragonfly::document::adapter::ModelAdapter;
-use dragonfly::document::history::Edited;
-use dragonfly::document::{Change, HistoryView, View};
 use dragonfly::panels::state::Device;
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
 use dragonfly_anim::data::Transform;
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::history::Edited;
+use dragonfly_document::{Change, HistoryView, View};
+use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;

@@ -4,7 +4,7 @@ use crate::tree::{File, files, none, one};
 
 /// What a crate may depend on at run time.
 const DEPENDENCIES: &[(&str, &[&str])] = &[
-    ("anim", &["glam", "gltf", "serde_json", "thiserror"]),
+    ("anim", &["base64", "crc32fast", "glam", "gltf", "percent-encoding", "serde_json", "thiserror"]),
     ("runtime", &["loom", "shuttle", "spin", "tracing"]),
 ];
 

@@ -1,7 +1,7 @@
 //! From a take and a time to matrices ready for the GPU (thesis §3.1.4).
 //!
-//! [`Animation`] remembers its results, so that playing allocates nothing; the formulas themselves are free functions
-//! ([`to_root`](to_root()), [`final_poses`]) for whoever keeps the poses elsewhere.
+//! [`Animation`] keeps its results, so that playing allocates nothing; the formulas themselves are free functions
+//! ([`to_root`](to_root()), [`final_poses`]) for callers that store the poses themselves.
 
 mod formula;
 
@@ -13,7 +13,7 @@ use crate::sample::sample_take;
 use glam::Mat4;
 use std::sync::Arc;
 
-/// A skeleton, its takes, and the poses computed last.
+/// A skeleton, its takes, and the most recently computed poses.
 ///
 /// ```
 /// use dragonfly_anim::animation::Animation;
@@ -27,16 +27,16 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Animation {
     data: AnimationData,
-    /// Relative to the parents.
+    /// Poses relative to the parents.
     poses: Vec<Transform>,
-    /// Bone space → scene space.
+    /// Bone space → scene space, one matrix per bone.
     to_root: Vec<Mat4>,
-    /// What the last method computed.
+    /// Result of the most recent method.
     output: Vec<Mat4>,
 }
 
 impl Animation {
-    /// An animation of `data`, in the rest pose.
+    /// Creates an animation of `data`, in the rest pose.
     pub fn new(data: AnimationData) -> Self {
         let bones = data.skeleton.len();
         let mut animation = Self {
@@ -49,7 +49,7 @@ impl Animation {
         animation
     }
 
-    /// An animation of `model`, with room for the largest of its skins.
+    /// Creates an animation of `model`, with capacity for the largest of its skins.
     pub fn of(model: &ModelData) -> Self {
         let mut animation = Self::new(model.animation.clone());
         let largest = model.skins.iter().map(|skin| skin.bones.len()).max().unwrap_or(0);
@@ -57,8 +57,9 @@ impl Animation {
         animation
     }
 
-    /// Fills the output with the binding pose of each bone, its offset: bind space → bone space (the identity where it
-    /// is not finite).
+    /// Fills the output with the bind pose of each bone, its offset: bind space → bone space (the identity where it is
+    /// not finite).
+    #[doc(alias = "inverse bind matrices")]
     pub fn bind_bone_poses(&mut self) -> &[Mat4] {
         self.output.clear();
         self.output.extend(
@@ -71,23 +72,24 @@ impl Animation {
         &self.output
     }
 
-    /// Fills the output with the relative pose of each bone at `time` seconds: bone space → scene space.
+    /// Fills the output with `to_root` of each bone at `time` seconds: bone space → scene space.
     ///
-    /// `take` is a position in [`AnimationData::takes`]; `None`, or one past the end, is the rest pose. The time is
-    /// clamped to the keys; see [`crate::sample::loop_time`] to repeat.
+    /// `take` is a position in [`AnimationData::takes`]; `None`, or a position past the end, is the rest pose. The time
+    /// is clamped to the keys; see [`crate::sample::loop_time`] to repeat.
     pub fn to_root_bone_poses(&mut self, take: Option<usize>, time: f32) -> &[Mat4] {
         let take = take.and_then(|take| self.data.takes.get(take));
         sample_take(take.map(Arc::as_ref), &self.data.skeleton, time, &mut self.poses);
         self.chain()
     }
 
-    /// The same for a take that is not among the animation's own, but has the same skeleton.
+    /// As [`Self::to_root_bone_poses`], for a take that is not among the animation's own, but has the same skeleton.
     pub fn to_root_bone_poses_of(&mut self, take: &Take, time: f32) -> &[Mat4] {
         sample_take(Some(take), &self.data.skeleton, time, &mut self.poses);
         self.chain()
     }
 
-    /// The same for poses relative to the parents that `change` alters, beginning with those computed last.
+    /// Lets `change` alter the most recent poses (relative to the parents), then fills the output with `to_root` of
+    /// each bone: bone space → scene space.
     pub fn to_root_bone_poses_with(&mut self, change: impl FnOnce(&mut [Transform])) -> &[Mat4] {
         change(&mut self.poses);
         self.chain()
@@ -96,7 +98,7 @@ impl Animation {
     /// Fills the output with the final pose of each bone at `time` seconds: bind space → scene space, the complete
     /// computation, with each bone's own offset.
     ///
-    /// Right for a model with one skin; where skins give a bone different offsets: [`Self::skin_poses`].
+    /// Correct for a model with one skin; where skins give a bone different offsets, use [`Self::skin_poses`].
     pub fn final_bone_poses(&mut self, take: Option<usize>, time: f32) -> &[Mat4] {
         self.to_root_bone_poses(take, time);
         self.output.clear();
@@ -106,8 +108,9 @@ impl Animation {
         &self.output
     }
 
-    /// Fills the output with the final pose of each joint of `skin`, in the skin's order, from the relative poses
-    /// computed last.
+    /// Fills the output with the final pose of each joint of `skin`, in the skin's order, from the most recent
+    /// `to_root` poses.
+    #[doc(alias = "skinning matrices")]
     pub fn skin_poses(&mut self, skin: &Skin) -> &[Mat4] {
         self.output.clear();
         self.output.resize(skin.bones.len(), Mat4::IDENTITY);
@@ -115,34 +118,34 @@ impl Animation {
         &self.output
     }
 
-    /// What the last method computed.
+    /// Returns the result of the most recent method.
     pub fn output(&self) -> &[Mat4] {
         &self.output
     }
 
-    /// The relative poses computed last: bone space → scene space, in bone order.
+    /// Returns the most recent `to_root` poses: bone space → scene space, in bone order.
     pub fn to_root(&self) -> &[Mat4] {
         &self.to_root
     }
 
-    /// The poses computed last, each relative to its parent.
+    /// Returns the most recent poses, each relative to its parent.
     pub fn poses(&self) -> &[Transform] {
         &self.poses
     }
 
-    /// The skeleton and the takes.
+    /// Returns the skeleton and the takes.
     pub fn data(&self) -> &AnimationData {
         &self.data
     }
 
-    /// Puts `take` in the place of take number `index`, and returns the old one; `None` past the end.
+    /// Replaces take number `index` by `take`, and returns the old one; `None` past the end.
     ///
-    /// The poses computed last stay.
+    /// The most recent poses stay as they are.
     pub fn replace_take(&mut self, index: usize, take: Arc<Take>) -> Option<Arc<Take>> {
         self.data.takes.get_mut(index).map(|old| std::mem::replace(old, take))
     }
 
-    /// `to_root` from the poses, copied to the output.
+    /// Computes `to_root` from the poses and copies it to the output.
     fn chain(&mut self) -> &[Mat4] {
         to_root(&self.data.skeleton, &self.poses, &mut self.to_root);
         self.output.clear();

@@ -1,24 +1,25 @@
-//! A movement on top of another: what one pose has more than a reference, added to any pose.
+//! Additive animation: the difference between a pose and a reference, added to any pose.
 //!
-//! Formulas and reasons stand at [`difference`] and [`add`].
+//! Formulas and reasons are in the docs of [`difference`] and [`add`].
 
 use super::{Mask, usable, weight_or_zero};
 use crate::data::Transform;
 use crate::sample::{Value, healthy};
 use glam::{Quat, Vec3};
 
-/// What `poses` have more than `reference`, bone by bone.
+/// Computes the difference of `poses` from `reference`, bone by bone.
 ///
 /// ```text
 /// translation p - r        rotation p * r⁻¹        scale p / r
 /// ```
 ///
 /// Rotations are differences in the parent's space, applied from the left, so a nod stays a nod about the neck's axes
-/// whatever the animation below does; the editor's changes are kept in the same form. A difference is itself a list of
-/// [`Transform`]s, [`Transform::IDENTITY`] where nothing differs.
+/// whatever the animation below does; the editor stores its changes in the same form. A difference is itself a list of
+/// [`Transform`]s, with [`Transform::IDENTITY`] for no difference.
 ///
-/// Added to `reference` with weight 1 it gives `poses` back, within rounding; a value that is the same in both gives
+/// Added to `reference` with weight 1 it gives `poses` again, within rounding; a value that is equal in both gives
 /// exactly no difference. Where `poses` or `reference` is shorter than `out`: no difference. Allocates nothing.
+#[doc(alias = "additive")]
 pub fn difference(poses: &[Transform], reference: &[Transform], out: &mut [Transform]) {
     for (bone, out) in out.iter_mut().enumerate() {
         *out = match (poses.get(bone), reference.get(bone)) {
@@ -28,10 +29,10 @@ pub fn difference(poses: &[Transform], reference: &[Transform], out: &mut [Trans
     }
 }
 
-/// One bone of [`difference`].
+/// Returns the difference of one bone; see [`difference`].
 ///
-/// An axis that `reference` scales by 0 cannot be told by a factor, so it has none: 1. A difference that leaves the range
-/// of `f32` counts as none.
+/// For an axis that `reference` scales by 0 no factor exists, so the factor is 1. A difference that leaves the range of
+/// `f32` becomes no difference.
 pub fn difference_of(pose: Transform, reference: Transform) -> Transform {
     let reference = usable(reference);
     let pose = healthy(pose, reference);
@@ -53,7 +54,7 @@ pub fn difference_of(pose: Transform, reference: Transform) -> Transform {
     }
 }
 
-/// Adds `differences` to `base`, bone by bone, each as far as `weight` × `mask` says.
+/// Adds `differences` to `base`, bone by bone, each scaled by `weight` × `mask`.
 ///
 /// ```text
 /// w           = weight * mask at this bone
@@ -62,10 +63,11 @@ pub fn difference_of(pose: Transform, reference: Transform) -> Transform {
 ///
 /// `d^w` turns about `d`'s axis by `w` times its angle, the short way.
 ///
-/// Weight 0 (also a negative one and NaN) leaves the base bit for bit, and so does a difference of nothing. 1 adds
-/// all; more exaggerates. Where `differences` is shorter the base stays; where `base` is shorter the identity stands in.
-/// Several additive layers: one call after the other, `out` of the first as `base` of the next, or [`add_to`].
-/// Allocates nothing.
+/// Weight 0 (also a negative one and NaN) leaves the base unchanged bit for bit, and so does a difference of nothing. 1
+/// adds the full difference; more than 1 exaggerates it. Where `differences` is shorter, the base is kept; where `base`
+/// is shorter, the identity is used. For several additive layers, call this once per layer with `out` of one call as
+/// `base` of the next, or use [`add_to`]. Allocates nothing.
+#[doc(alias = "additive")]
 pub fn add(
     base: &[Transform],
     differences: &[Transform],
@@ -83,9 +85,9 @@ pub fn add(
     }
 }
 
-/// One bone of [`add`].
+/// Adds the difference of one bone; see [`add`].
 ///
-/// A difference that is not finite adds nothing; a sum that leaves the range of `f32` is the base's value.
+/// A difference that is not finite adds nothing; a sum that leaves the range of `f32` is replaced by the base's value.
 pub fn add_to(base: Transform, difference: Transform, weight: f32) -> Transform {
     let base = usable(base);
     let (difference, weight) = (usable(difference), weight_or_zero(weight));
@@ -95,19 +97,19 @@ pub fn add_to(base: Transform, difference: Transform, weight: f32) -> Transform 
     let translation = base.translation + difference.translation * weight;
     let scale = base.scale * (Vec3::ONE + (difference.scale - Vec3::ONE) * weight);
     Transform {
-        // A sum with nothing is kept from changing -0 to 0.
+        // Adding 0 would change -0 to 0.
         translation: if difference.translation == Vec3::ZERO {
             base.translation
         } else {
             translation.healed(base.translation)
         },
         rotation: turned(base.rotation, difference.rotation, weight),
-        // At weight 1 without the rounding of the detour over 1.
+        // At weight 1 a single product rounds less than the interpolation from 1.
         scale: if weight == 1.0 { base.scale * difference.scale } else { scale }.healed(base.scale),
     }
 }
 
-/// `by^weight * rotation`.
+/// Returns `by^weight * rotation`.
 fn turned(rotation: Quat, by: Quat, weight: f32) -> Quat {
     let by = if weight == 1.0 { by } else { power(by, weight) };
     if by == Quat::IDENTITY || by == -Quat::IDENTITY {
@@ -117,7 +119,7 @@ fn turned(rotation: Quat, by: Quat, weight: f32) -> Quat {
     if product.is_finite() { product.normalize() } else { rotation }
 }
 
-/// `rotation` about the same axis by `factor` times its angle, the short way.
+/// Returns the rotation about the same axis by `factor` times the angle of `rotation`, the short way.
 ///
 /// ```text
 /// half angle = atan2(|xyz|, w), with w ≥ 0        power = (axis * sin(half * factor), cos(half * factor))

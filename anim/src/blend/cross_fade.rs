@@ -1,24 +1,24 @@
-//! From one repeating take to another while both keep in step: from walking to running without a stumble.
+//! Fades from one repeating take to another while both stay in step, such as from walking to running.
 
 use super::cycle::{Cycle, wrapped};
 use super::fade::{Fade, FadeCurve, Faded};
 
-/// A fade between two cycles with synchronised phases.
+/// A fade between two cycles with synchronized phases.
 ///
-/// Both takes are always at the same phase (see [`Cycle`]), and their speeds change so that they stay there: one step
-/// from mark to mark takes
+/// Both takes are always at the same phase (see [`Cycle`]), and their speeds change to keep them there: one step from
+/// mark to mark takes
 ///
 /// ```text
 /// seconds = (1 - weight) * seconds in the first take  +  weight * seconds in the second
 /// ```
 ///
-/// so at the beginning the first plays at its own speed, and at the end the second. Two cycles with different numbers of
-/// marks have no marks that correspond: then marks do not count, and the phase is the plain fraction of the cycle.
+/// so at the start the first plays at its own speed, and at the end the second. Two cycles with different numbers of
+/// marks have no corresponding marks: then marks are ignored, and the phase is the plain fraction of the cycle.
 ///
-/// For takes that have nothing to do with each other, or do not repeat: [`super::FreeFade`], [`super::OneShot`].
+/// For takes that are unrelated, or do not repeat, use [`super::FreeFade`] or [`super::OneShot`].
 ///
 /// The state is two numbers, changed only by [`Self::advance`]: the same steps give the same bits. After the fade the
-/// second take runs on at its own speed, and [`Self::now`] says at which time of it another fade may begin.
+/// second take continues at its own speed, and [`Self::now`] returns the time in it at which another fade may start.
 ///
 /// ```
 /// use dragonfly_anim::blend::{CrossFade, Cycle, FadeCurve};
@@ -30,34 +30,35 @@ use super::fade::{Fade, FadeCurve, Faded};
 /// assert_eq!(now.from_time, now.to_time * 2.0);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[doc(alias = "transition")]
 pub struct CrossFade {
     from: Cycle,
     to: Cycle,
     fade: Fade,
-    /// Of both cycles, 0..1.
+    /// Phase of both cycles, 0..1.
     phase: f64,
 }
 
 impl CrossFade {
-    /// A fade that lasts `seconds`, with both cycles at phase 0.
+    /// Creates a fade that lasts `seconds`, with both cycles at phase 0.
     ///
-    /// Seconds that are negative, zero or NaN: the second take at once; infinite: the largest `f32`.
+    /// If `seconds` is negative, zero or NaN, the second take is reached at once; infinite counts as the largest `f32`.
     pub fn new(from: Cycle, to: Cycle, seconds: f32, curve: FadeCurve) -> Self {
         let alike = from.marks() == to.marks();
         let (from, to) = if alike { (from, to) } else { (from.without_marks(), to.without_marks()) };
         Self { from, to, fade: Fade::new(seconds, curve), phase: 0.0 }
     }
 
-    /// The same beginning where the first take is now: `time` seconds inside it.
+    /// Returns the same fade with the first take at `time` seconds.
     pub fn starting_at(mut self, time: f32) -> Self {
         self.phase = self.from.phase_at(time);
         self
     }
 
-    /// Lets `dt` seconds pass; then as [`Self::now`]. Negative and NaN count as 0. Allocates nothing.
+    /// Advances by `dt` seconds and returns [`Self::now`]. Negative and NaN count as 0. Allocates nothing.
     ///
     /// During the fade the weight of a step is the mean of those at its two ends, so the phase hardly depends on the
-    /// size of the steps. The part of `dt` after the end of the fade passes at the speed of the second take.
+    /// size of the steps. The part of `dt` after the end of the fade is played at the speed of the second take.
     pub fn advance(&mut self, dt: f32) -> Faded {
         let dt = f64::from(super::weight_or_zero(dt));
         let before = self.fade.weight();
@@ -67,7 +68,7 @@ impl CrossFade {
         self.now()
     }
 
-    /// Where both takes are, and how much the second counts. Allocates nothing.
+    /// Returns the times in both takes, and the weight of the second. Allocates nothing.
     pub fn now(&self) -> Faded {
         Faded {
             from_time: self.from.time_at(self.phase),
@@ -76,28 +77,28 @@ impl CrossFade {
         }
     }
 
-    /// The phase of both, 0..1.
+    /// Returns the phase of both cycles, 0..1.
     pub fn phase(&self) -> f64 {
         self.phase
     }
 
-    /// Is the second take alone?
+    /// Returns whether the fade is over, so that only the second take is left.
     pub fn is_done(&self) -> bool {
         self.fade.is_done()
     }
 
-    /// Moves the phase on by `dt` seconds with a fixed weight, from mark to mark.
+    /// Advances the phase by `dt` seconds with a fixed weight, from mark to mark.
     fn turn(&mut self, dt: f64, weight: f64) {
         let mixed = |from: f64, to: f64| (1.0 - weight) * from + weight * to;
         let round = mixed(f64::from(self.from.length()), f64::from(self.to.length()));
-        // Whole rounds change nothing, and neither does a round without length.
+        // Complete cycles change nothing, and neither does a cycle without length.
         if dt <= 0.0 || round <= 0.0 {
             return;
         }
         let mut left = dt % round;
         let marks = self.from.marks();
         let (mut mark, mut fraction) = self.from.split(self.phase);
-        // Once for each mark, and once more for the rest of the first.
+        // Once per mark, and once more for the remainder of the first.
         for _ in 0..=marks {
             let seconds = mixed(self.from.seconds_after(mark), self.to.seconds_after(mark));
             let to_next = (1.0 - fraction) * seconds;

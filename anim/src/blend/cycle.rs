@@ -1,14 +1,14 @@
-//! Takes that repeat, and how far through them one is.
+//! Repeating takes and their phases.
 
 use crate::data::Take;
 
-/// A take that repeats: where it starts, how long it is, and which moments in it are marked.
+/// A take that repeats: its start, its length, and its marked times.
 ///
-/// The *phase* is the fraction of a cycle that has passed, 0..1. With marks (moments that correspond, such as the foot
-/// touching the ground) it counts from mark to mark, so equal phases mean corresponding moments:
+/// The *phase* is the fraction of a cycle that has passed, 0..1. With marks (times that correspond, such as the foot
+/// touching the ground) it counts from mark to mark, so equal phases are corresponding moments:
 ///
 /// ```text
-/// phase = (k + f) / n      n marks; mark k was the last one, f of the way to mark k + 1 is done
+/// phase = (k + f) / n      n marks; mark k was the last one, f is the fraction of the way to mark k + 1
 /// ```
 ///
 /// Without marks the start of the cycle is the only one, and the phase is `(time - start) / length`.
@@ -23,22 +23,22 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// A cycle of `length` seconds from `start`, without marks.
+    /// Creates a cycle of `length` seconds from `start`, without marks.
     ///
-    /// A start that is not finite counts as 0; a length that is not finite or negative as 0, which is a pose that stands.
+    /// A start that is not finite counts as 0; a length that is not finite or negative as 0, which is a still pose.
     pub fn new(start: f32, length: f32) -> Self {
         let (start, length) = usable_span(start, length);
         Self { start, length, marks: vec![0.0] }
     }
 
-    /// The whole of a take.
+    /// Creates a cycle of a complete take.
     pub fn of(take: &Take) -> Self {
         Self::new(take.start, take.length)
     }
 
-    /// The same with marks at `times` (seconds, as keys of the take are).
+    /// Returns the cycle with marks at `times` (seconds, in the time of the take's keys).
     ///
-    /// They are put in order. Marks outside the cycle are left out, and so is a second one at the same time; one at the
+    /// The marks are sorted. Marks outside the cycle are left out, and so is a second one at the same time; one at the
     /// end is the same as one at the start. Where none is left, the start is the only one.
     pub fn with_marks(mut self, times: impl IntoIterator<Item = f32>) -> Self {
         let length = self.length;
@@ -53,47 +53,47 @@ impl Cycle {
         self
     }
 
-    /// The same without marks.
+    /// Returns the cycle without marks.
     pub fn without_marks(mut self) -> Self {
         self.marks.clear();
         self.marks.push(0.0);
         self
     }
 
-    /// Seconds that one round takes.
+    /// Returns the length of one cycle in seconds.
     pub fn length(&self) -> f32 {
         self.length
     }
 
-    /// Number of marks; 1 without any, the start.
+    /// Returns the number of marks; without any it is 1, the start.
     pub fn marks(&self) -> usize {
         self.marks.len()
     }
 
-    /// The time inside the take that belongs to a phase: `start ..= start + length`.
+    /// Returns the time inside the take that belongs to a phase: `start ..= start + length`.
     ///
-    /// A phase outside 0..1 is that of another round; one that is not finite is 0.
+    /// A phase outside 0..1 wraps around; one that is not finite counts as 0.
     pub fn time_at(&self, phase: f64) -> f32 {
         let (mark, fraction) = self.split(phase);
         let inside = f64::from(self.marks[mark]) + fraction * self.seconds_after(mark);
         let length = f64::from(self.length);
         let inside = if inside > length { inside - length } else { inside };
-        // The sum in f64: it is rounded once, and only then held inside.
+        // The sum is rounded once, from f64, and clamped after that.
         let time = (f64::from(self.start) + inside) as f32;
         time.clamp(self.start, (self.start + self.length).min(f32::MAX))
     }
 
-    /// The phase at a time of the take: 0 or more, less than 1.
+    /// Returns the phase at a time of the take: 0 or more, less than 1.
     ///
-    /// Times outside the cycle are those of other rounds; one that is not finite counts as the start, and a cycle without
-    /// length has phase 0 always.
+    /// Times outside the cycle wrap around; one that is not finite counts as the start, and a cycle without length
+    /// always has phase 0.
     pub fn phase_at(&self, time: f32) -> f64 {
         let length = f64::from(self.length);
         let inside = (f64::from(time) - f64::from(self.start)).rem_euclid(length);
         if !inside.is_finite() {
             return 0.0;
         }
-        // Before the first mark one is still on the way from the last.
+        // Before the first mark the last mark of the previous cycle counts.
         let passed = self.marks.partition_point(|&mark| f64::from(mark) <= inside);
         let (mark, since) = match passed.checked_sub(1) {
             Some(mark) => (mark, inside - f64::from(self.marks[mark])),
@@ -107,43 +107,43 @@ impl Cycle {
         wrapped((mark as f64 + fraction) / self.marks.len() as f64)
     }
 
-    /// Seconds from mark `mark` to the next one, which after the last is the first of the next round.
+    /// Returns the seconds from mark `mark` to the next one, which after the last is the first of the next cycle.
     pub(super) fn seconds_after(&self, mark: usize) -> f64 {
         let at = |mark: usize| self.marks.get(mark).copied().map(f64::from);
         let here = at(mark).unwrap_or(0.0);
         at(mark + 1).unwrap_or(f64::from(self.marks[0]) + f64::from(self.length)) - here
     }
 
-    /// The mark before a phase, and the fraction of the way to the next.
+    /// Returns the mark before a phase, and the fraction of the way to the next.
     pub(super) fn split(&self, phase: f64) -> (usize, f64) {
-        let place = wrapped(phase) * self.marks.len() as f64;
-        let mark = (place as usize).min(self.marks.len() - 1);
-        (mark, place - mark as f64)
+        let position = wrapped(phase) * self.marks.len() as f64;
+        let mark = (position as usize).min(self.marks.len() - 1);
+        (mark, position - mark as f64)
     }
 }
 
-/// Start and length as they may be used: finite, the length 0 or more.
+/// Returns usable values for start and length: finite, the length 0 or more.
 pub(super) fn usable_span(start: f32, length: f32) -> (f32, f32) {
     let start = if start.is_finite() { start } else { 0.0 };
     let length = if length.is_finite() { length.max(0.0) } else { 0.0 };
     (start, length)
 }
 
-/// A phase brought into 0..1; 0 where it is not finite.
+/// Wraps a phase into 0..1; 0 where it is not finite.
 pub(super) fn wrapped(phase: f64) -> f64 {
     let inside = phase.rem_euclid(1.0);
     // A tiny negative number wraps to 1 by rounding.
     if inside < 1.0 { inside } else { 0.0 }
 }
 
-/// Seconds that one round takes when cycles of several lengths run in step: their mean, weighted.
+/// Returns the common length, in seconds, of cycles of several lengths that run in step: their weighted mean.
 ///
 /// ```text
 /// Σ weight * length / Σ weight
 /// ```
 ///
-/// `cycles` are pairs of (length in seconds, weight). Negative and NaN count as 0, infinite as the largest `f32`; 0
-/// without any weight. Play each at `length / common` times its own speed.
+/// `cycles` are pairs of (length in seconds, weight). Negative and NaN count as 0, infinite as the largest `f32`; the
+/// result is 0 without any weight. Play each at `length / common` times its own speed.
 pub fn common_length(cycles: impl IntoIterator<Item = (f32, f32)>) -> f32 {
     let (mut seconds, mut weights) = (0.0_f64, 0.0_f64);
     for (length, weight) in cycles {

@@ -1,6 +1,6 @@
-//! Any number of layers, each with a weight and perhaps a mask.
+//! Any number of layers, each with a weight and optionally a mask.
 //!
-//! Formulas and reasons stand at [`blend`].
+//! Formulas and reasons are in the docs of [`blend`].
 
 use super::{Mask, usable, weight_or_zero};
 use crate::data::Transform;
@@ -8,32 +8,33 @@ use crate::sample::healthy;
 use glam::{Quat, Vec3};
 use std::cmp::Ordering;
 
-/// Weights whose sum reaches this are whole: what is missing is rounding (0.7 + 0.2 + 0.1 is less than 1 in `f32`).
+/// Sum of weights from which a bone counts as fully weighted: the remainder is rounding (0.7 + 0.2 + 0.1 is less than 1
+/// in `f32`).
 const WHOLE: f64 = 1.0 - 1e-6;
 
-/// One animation among several: poses and how much they count.
+/// One animation among several: poses and their weight.
 #[derive(Clone, Copy, Debug)]
 pub struct Layer<'a> {
-    /// One a bone, relative to the parent.
+    /// One pose per bone, relative to the parent.
     pub poses: &'a [Transform],
-    /// 0 or more; negative and NaN count as 0. Beside the other layers' weights, not a percentage.
+    /// Weight relative to the other layers' weights, 0 or more (no percentage); negative and NaN count as 0.
     pub weight: f32,
-    /// How much each bone takes part; `None`: all of them wholly.
+    /// Weight of each bone; `None`: 1 for all.
     pub mask: Option<&'a Mask>,
 }
 
 impl<'a> Layer<'a> {
-    /// A layer of all bones.
+    /// Creates a layer of all bones.
     pub fn new(poses: &'a [Transform], weight: f32) -> Self {
         Self { poses, weight, mask: None }
     }
 
-    /// The same on the bones of `mask` only.
+    /// Returns the layer restricted to the bones of `mask`.
     pub fn masked(self, mask: &'a Mask) -> Self {
         Self { mask: Some(mask), ..self }
     }
 
-    /// Its weight for one bone; 0 where it has no pose for it.
+    /// Returns the layer's weight for one bone; 0 where it has no pose for it.
     fn weight_of(&self, bone: usize) -> f64 {
         let mask = self.mask.map_or(1.0, |mask| mask.weight(bone));
         let known = bone < self.poses.len();
@@ -41,15 +42,15 @@ impl<'a> Layer<'a> {
     }
 }
 
-/// Blends `layers`; where the weights of a bone sum to less than 1, `base` takes the rest.
+/// Blends `layers`; where the weights of a bone sum to less than 1, `base` gets the remainder.
 ///
-/// For each bone, over all layers that have a say in it (weight × mask above 0):
+/// For each bone, over all layers that contribute to it (weight × mask above 0):
 ///
 /// ```text
 /// w_i         = weight of layer i * its mask at this bone
 /// W           = Σ w_i
 /// share_i     = w_i / max(W, 1)        share of the base = 1 - Σ share_i      (blend)
-/// share_i     = w_i / W                the base only where W = 0              (blend_normalised)
+/// share_i     = w_i / W                the base only where W = 0              (blend_normalized)
 /// translation = Σ share_i * translation_i
 /// scale       = Σ share_i * scale_i
 /// rotation    = Σ share_i * ±rotation_i, divided by its length
@@ -58,43 +59,44 @@ impl<'a> Layer<'a> {
 /// `base` is usually the rest pose. Sums above 1 are divided by themselves, so from there on all weights may be
 /// multiplied by one factor without changing anything; a bone with no weight at all is the base, bit for bit.
 ///
-/// * A bone whose layers (the base too, where it has a share) all hold the same value gets that value bit for bit: a
-///   blend of a pose with itself is that pose. Translation, rotation and scale are looked at one by one.
-/// * A bone with one layer alone, of weight 1 or more, is that layer bit for bit; so masks of 0 and 1 select.
+/// * A bone whose layers (and the base, where it has a share) all have the same value gets that value bit for bit: a
+///   blend of a pose with itself is that pose. Translation, rotation and scale are compared one by one.
+/// * A bone with a single layer, of weight 1 or more, is that layer bit for bit; so masks of 0 and 1 select.
 /// * Sums within a millionth of 1 count as 1.
 ///
-/// Rules for lengths and broken numbers: see [`super`]. O(bones × layers); allocates nothing (thesis §2.1.4.1).
+/// Rules for lengths and non-finite numbers: see [`super`]. O(bones × layers); allocates nothing (thesis §2.1.4.1).
 ///
 /// # Rotations
 ///
-/// `q` and `-q` are the same rotation, so before the sum each rotation is taken in the hemisphere (of the four-dimensional
-/// unit ball) of one of them, the one with the largest share. Between equal shares the values of the rotations decide,
-/// so the order of the layers never matters. The sum then cannot vanish: it points at least as far as that largest share.
-/// Two rotations exactly 180° apart lie on the border of the hemispheres and are used as they are stored.
+/// `q` and `-q` are the same rotation, so before the sum each rotation is moved to the hemisphere (of the
+/// four-dimensional unit ball) of one of them, the one with the largest share. Between equal shares the values of the
+/// rotations decide, so the order of the layers never matters. The sum then cannot vanish: it points at least as far as
+/// that largest share. Two rotations exactly 180° apart are on the border of the hemispheres and are used as they are
+/// stored.
 ///
-/// The normalised sum (nlerp of many) is the mean that minimises the weighted squares of the distances `|q - q_i|`. It
-/// has no order, needs one division, and goes the same way as slerp, only not at quite the same speed: for two rotations
-/// an angle apart it is off by at most
+/// The normalized sum (nlerp of many) is the mean that minimizes the weighted squares of the distances `|q - q_i|`. It
+/// has no order, needs one division, and follows the same path as slerp, only not at quite the same speed: for two
+/// rotations an angle apart it is off by at most
 ///
 /// | apart | 30° | 60° | 90° | 120° | 180° |
 /// |---|---|---|---|---|---|
 /// | nlerp − slerp | 0.034° | 0.27° | 0.92° | 2.3° | 8.2° |
 ///
-/// and by nothing at 0, ½ and 1. Where that is too much for two layers: [`super::blend_two`]. A slerp of three or more
-/// would depend on the order.
+/// and by nothing at 0, ½ and 1. Where that is too much for two layers, use [`super::blend_two`]. A slerp of three or
+/// more would depend on the order.
 pub fn blend(base: &[Transform], layers: &[Layer], out: &mut [Transform]) {
     blend_each(base, layers, out, |sum| if sum >= WHOLE { 0.0 } else { 1.0 - sum });
 }
 
-/// Blends `layers` with their weights divided by their sum, however small; `base` stands in only where a bone has no
+/// Blends `layers` with their weights divided by their sum, however small; `base` is used only where a bone has no
 /// weight at all.
 ///
 /// So all weights may be multiplied by one factor without changing anything. Otherwise as [`blend`].
-pub fn blend_normalised(base: &[Transform], layers: &[Layer], out: &mut [Transform]) {
+pub fn blend_normalized(base: &[Transform], layers: &[Layer], out: &mut [Transform]) {
     blend_each(base, layers, out, |sum| if sum > 0.0 { 0.0 } else { 1.0 });
 }
 
-/// Blends with the base's weight found from the sum of the layers' weights.
+/// Blends with the base's weight computed from the sum of the layers' weights.
 fn blend_each(base: &[Transform], layers: &[Layer], out: &mut [Transform], base_weight: impl Fn(f64) -> f64) {
     for (bone, out) in out.iter_mut().enumerate() {
         let base = usable(base.get(bone).copied().unwrap_or_default());
@@ -114,15 +116,15 @@ fn blend_each(base: &[Transform], layers: &[Layer], out: &mut [Transform], base_
     }
 }
 
-/// A pose and its part of the whole.
+/// A pose and its share of the blend.
 #[derive(Clone, Copy)]
 struct Share {
-    /// 0..=1; all together 1.
+    /// Share, 0..=1; all together 1.
     of: f32,
     pose: Transform,
 }
 
-/// The sums of the formulas above; `None` without any share.
+/// Computes the sums of the formulas above; `None` without any share.
 fn blend_shares(shares: impl Iterator<Item = Share> + Clone) -> Option<Transform> {
     let leading = shares.clone().reduce(|a, b| if leads(&b, &a) { b } else { a })?.pose;
     let (mut translation, mut rotation, mut scale) =
@@ -137,7 +139,7 @@ fn blend_shares(shares: impl Iterator<Item = Share> + Clone) -> Option<Transform
         same.1 &= turned == leading.rotation;
         same.2 &= pose.scale == leading.scale;
     }
-    // A sum of finite numbers may still leave the range of f32.
+    // A sum of finite numbers can still leave the range of f32.
     let vector = |same: bool, sum: Vec3, leading: Vec3| if same || !sum.is_finite() { leading } else { sum };
     Some(Transform {
         translation: vector(same.0, translation, leading.translation),
@@ -146,8 +148,9 @@ fn blend_shares(shares: impl Iterator<Item = Share> + Clone) -> Option<Transform
     })
 }
 
-/// Does `a` come before `b` as the one whose hemisphere counts? The larger share; of equal ones the rotation whose
-/// numbers, in the form with `w ≥ 0`, are larger: anything will do that does not ask for the order of the layers.
+/// Returns whether the hemisphere of `a` is preferred to that of `b`: the larger share; of equal ones the rotation
+/// whose numbers, in the form with `w ≥ 0`, are larger. Any criterion would do that does not depend on the order of the
+/// layers.
 fn leads(a: &Share, b: &Share) -> bool {
     let upper = |rotation: Quat| if rotation.w < 0.0 { -rotation } else { rotation };
     let numbers = |share: &Share| {

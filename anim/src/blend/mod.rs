@@ -1,31 +1,34 @@
-//! Several animations at once: poses of any number of takes made into one, bone by bone, before skinning
-//! (thesis §2.1.4.1: combining per bone is far cheaper than per vertex).
+//! Blending: the poses of any number of takes combined into one, bone by bone, before skinning (thesis §2.1.4.1:
+//! combining per bone is far cheaper than per vertex).
 //!
-//! Everything here takes and gives *poses*: one [`Transform`] a bone, relative to the parent, in bone order, as
-//! [`crate::sample::sample_take`] writes them and [`crate::animation::to_root`](crate::animation::to_root()) reads them.
+//! Everything here reads and writes *poses*: one [`Transform`] per bone, relative to the parent, in bone order, as
+//! [`crate::sample::sample_take`] writes them and [`crate::animation::to_root`](crate::animation::to_root()) reads
+//! them.
 //!
-//! | wish | function |
+//! | task | function |
 //! |---|---|
-//! | any number of layers with weights and masks | [`blend`], [`blend_normalised`] |
-//! | exactly two, turning at constant speed | [`blend_two`] |
-//! | a movement on top of another | [`difference`], [`add`] |
+//! | any number of layers with weights and masks | [`blend`], [`blend_normalized`] |
+//! | exactly two, rotations at constant speed | [`blend_two`] |
+//! | an additive animation on top of another | [`difference`], [`add`] |
 //! | some bones more than others | [`Mask`] |
 //! | a weight that changes over time | [`weight_at`] |
-//! | from one cycle to another without a stumble | [`CrossFade`] |
+//! | from one cycle to another, in step | [`CrossFade`] |
 //! | from any take to any other, each at its own time | [`FreeFade`] |
-//! | a take once over another, gone when it ends | [`OneShot`] |
+//! | a take once on top of another, gone when it ends | [`OneShot`] |
 //!
-//! # Rules that hold everywhere
+//! # Common rules
 //!
 //! * **Weights.** A weight that is negative or NaN counts as 0, one that is infinite as the largest `f32`. In
-//!   [`blend`] weights are relative and may be any size; where a weight is the way between two ends it is held
-//!   within 0..=1.
-//! * **Lengths.** As many poses are written as `out` has room for. A layer that is shorter has no say in the bones it
-//!   lacks; where the base is shorter the identity stands in; a mask gives the bones past its end the weight 0.
-//! * **Total.** No input panics, and no result is NaN or infinite. A number of a layer that is not finite is replaced by
-//!   the base's, one of the base by that of [`Transform::IDENTITY`]; a rotation that is not of unit length is normalised.
-//!   Healthy poses never take these ways.
-//! * **Memory.** Masks and cycles are made once; what runs every frame allocates nothing.
+//!   [`blend`] weights are relative and may be any size; where a weight interpolates between two ends it is clamped
+//!   to 0..=1.
+//! * **Lengths.** The length of `out` is the number of poses written. A layer that is shorter does not affect the bones
+//!   it
+//!   lacks; where the base is shorter, the identity is used; a mask has the weight 0 past its end.
+//! * **Total.** No input panics, and no result is NaN or infinite. A number of a layer that is not finite is replaced
+//!   by
+//!   the base's, one of the base by that of [`Transform::IDENTITY`]; a rotation that is not of unit length is normalized.
+//!   Valid poses are never changed by this.
+//! * **Memory.** Masks and cycles are created once; functions that run every frame allocate nothing.
 
 mod additive;
 mod cross_fade;
@@ -45,7 +48,7 @@ pub use curve::weight_at;
 pub use cycle::{Cycle, common_length};
 pub use fade::{FadeCurve, Faded};
 pub use free_fade::FreeFade;
-pub use layer::{Layer, blend, blend_normalised};
+pub use layer::{Layer, blend, blend_normalized};
 pub use mask::{Mask, NoSuchBone};
 pub use one_shot::OneShot;
 pub use playback::Playback;
@@ -54,18 +57,18 @@ pub use two::{blend_two, mix_poses};
 use crate::data::Transform;
 use crate::sample::healthy;
 
-/// `pose` as it may be used: see [`healthy`].
+/// Returns `pose` with unusable numbers replaced: see [`healthy`].
 fn usable(pose: Transform) -> Transform {
     healthy(pose, Transform::IDENTITY)
 }
 
-/// A weight as it may be used: 0 or more, finite.
+/// Returns a usable weight: 0 or more, finite.
 pub(crate) fn weight_or_zero(weight: f32) -> f32 {
     // NaN fails the comparison.
     if weight > 0.0 { weight.min(f32::MAX) } else { 0.0 }
 }
 
-/// A weight that is a way between two ends: 0..=1.
+/// Clamps a weight that interpolates between two ends to 0..=1.
 pub(crate) fn fraction(weight: f32) -> f32 {
     weight_or_zero(weight).min(1.0)
 }

@@ -1,4 +1,4 @@
-//! A take that plays once over another and gives way by itself: a wave, a hit, a step aside.
+//! A take that plays once on top of another and then ends by itself: a wave, a hit, a step aside.
 
 use super::fade::{FadeCurve, Faded};
 use super::playback::Playback;
@@ -11,11 +11,11 @@ use super::playback::Playback;
 /// weight = min(curve(t / fade_in), curve((l - t) / fade_out))
 /// ```
 ///
-/// so it counts nothing at its first and at its last moment, and fully in between. Where both fades together are longer
-/// than the take, both are shortened in the same proportion until they are as long. What lies below plays on at its own
-/// speed all the while, and alone afterwards.
+/// so its weight is 0 at its start and at its end, and 1 in between. Where both fades together are longer than the
+/// take, both are shortened in the same proportion until they are as long. The take below plays at its own speed during
+/// the shot and after it.
 ///
-/// In [`Faded`], `from` is what lies below, `to` the shot. The same steps give the same bits, and the result does not
+/// In [`Faded`], `from` is the take below, `to` the shot. The same steps give the same bits, and the result does not
 /// depend on how time is cut into steps, up to rounding.
 ///
 /// ```
@@ -35,45 +35,45 @@ use super::playback::Playback;
 pub struct OneShot {
     below: Playback,
     shot: Playback,
-    /// Seconds, 0 or more, together no longer than the shot.
+    /// Seconds, 0 or more; both fades together are no longer than the shot.
     fade_in: f64,
-    /// Likewise.
+    /// Seconds, 0 or more.
     fade_out: f64,
     curve: FadeCurve,
 }
 
 impl OneShot {
-    /// `shot` over `below`, from where both are; `shot` plays once even where it would repeat.
+    /// Creates a shot on top of `below`, from the current times of both; `shot` plays once even if it would repeat.
     ///
-    /// Seconds that are negative, zero or NaN: no fade on that side; infinite: the largest `f32`.
+    /// If the seconds are negative, zero or NaN, there is no fade on that side; infinite counts as the largest `f32`.
     pub fn new(below: Playback, shot: Playback, fade_in: f32, fade_out: f32, curve: FadeCurve) -> Self {
         let [fade_in, fade_out] =
             [fade_in, fade_out].map(|seconds| f64::from(super::weight_or_zero(seconds)));
         let shorter = (f64::from(shot.length()) / (fade_in + fade_out)).min(1.0);
-        // NaN where there is neither a fade nor a length.
+        // NaN where both the fades and the length are zero.
         let shorter = if shorter >= 0.0 { shorter } else { 0.0 };
         let (fade_in, fade_out) = (fade_in * shorter, fade_out * shorter);
         Self { below, shot: shot.to_play_once(), fade_in, fade_out, curve }
     }
 
-    /// Lets `dt` seconds pass; then as [`Self::now`]. Negative and NaN count as 0. Allocates nothing.
+    /// Advances by `dt` seconds and returns [`Self::now`]. Negative and NaN count as 0. Allocates nothing.
     pub fn advance(&mut self, dt: f32) -> Faded {
         self.below.advance(dt);
         self.shot.advance(dt);
         self.now()
     }
 
-    /// Where both takes are, and how much the shot counts. Allocates nothing.
+    /// Returns the times in both takes, and the weight of the shot. Allocates nothing.
     pub fn now(&self) -> Faded {
         Faded { from_time: self.below.time(), to_time: self.shot.time(), weight: self.weight() as f32 }
     }
 
-    /// What lies below, as it is now.
+    /// Returns the take below in its current state.
     pub fn below(&self) -> Playback {
         self.below
     }
 
-    /// Is the shot over, and what lies below alone?
+    /// Returns whether the shot is over, so that only the take below is left.
     pub fn is_done(&self) -> bool {
         self.shot.has_ended()
     }

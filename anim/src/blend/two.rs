@@ -1,4 +1,4 @@
-//! Exactly two poses, rotations by slerp.
+//! Blending of exactly two poses, with slerp for rotations.
 
 use super::{Mask, fraction, usable};
 use crate::data::Transform;
@@ -8,13 +8,13 @@ use glam::{Quat, Vec3};
 /// Blends two poses, `mix` of the way from `from` to `to`; rotations turn at constant speed ([`mix::slerp`]).
 ///
 /// ```text
-/// m           = mix * mask at this bone, held within 0..=1
-/// translation = (1 - m) * from + m * to            scale likewise
+/// m           = mix * mask at this bone, clamped to 0..=1
+/// translation = (1 - m) * from + m * to            scale too
 /// rotation    = slerp(from, to, m), the short way
 /// ```
 ///
-/// Where `m` is 0 the result is `from`, where it is 1 `to`, where both are the same that pose: bit for bit. Where `from`
-/// is shorter the identity stands in; where `to` is shorter `from` stays. Rules: see [`super`]. Allocates nothing.
+/// Where `m` is 0 the result is `from`, where it is 1 `to`, where both are equal that pose: bit for bit. Where `from`
+/// is shorter, the identity is used; where `to` is shorter, `from` is kept. Rules: see [`super`]. Allocates nothing.
 pub fn blend_two(from: &[Transform], to: &[Transform], mix: f32, mask: Option<&Mask>, out: &mut [Transform]) {
     for (bone, out) in out.iter_mut().enumerate() {
         let from = from.get(bone).copied().unwrap_or_default();
@@ -23,7 +23,7 @@ pub fn blend_two(from: &[Transform], to: &[Transform], mix: f32, mask: Option<&M
     }
 }
 
-/// One bone of [`blend_two`]: `mix` of the way from one pose to another.
+/// Returns the pose `mix` of the way from one pose to another; one bone of [`blend_two`].
 pub fn mix_poses(from: Transform, to: Transform, mix: f32) -> Transform {
     let from = usable(from);
     let to = healthy(to, from);
@@ -41,13 +41,13 @@ pub fn mix_poses(from: Transform, to: Transform, mix: f32) -> Transform {
     }
 }
 
-/// Linear; two equal ones without rounding.
+/// Interpolates linearly; two equal vectors without rounding.
 fn vector(from: Vec3, to: Vec3, mix: f32) -> Vec3 {
     let mixed = mix::lerp(from, to, mix);
     if from == to || !mixed.is_finite() { from } else { mixed }
 }
 
-/// The short way; two equal ones without rounding.
+/// Interpolates the short way; two equal rotations without rounding.
 fn rotation(from: Quat, to: Quat, mix: f32) -> Quat {
     if from == to || from == -to { from } else { mix::slerp(from, to, mix) }
 }

@@ -1,78 +1,78 @@
-//! A box along the axes that can be empty, moved, and widened for rounding.
+//! An axis-aligned box that can be empty, transformed, and widened for rounding.
 
 use glam::{Mat4, Vec3};
 
-/// Sixteen units in the last place: what the sums of a matrix product and of eight influences lose at most, with room
-/// to spare. Relative to the sizes of what is added, not of the sum.
+/// Sixteen units in the last place: an upper bound, with a margin, of what the sums of a matrix product and of eight
+/// influences lose. Relative to the sizes of the terms, not of the sum.
 pub(crate) const ROUNDING: f32 = 16.0 * f32::EPSILON;
 
-/// A box along the axes; empty where `min` is not at most `max`. Never NaN when made of finite points.
+/// An axis-aligned box; empty where `min` is not at most `max`. Never NaN when made of finite points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisBox {
     /// The smallest coordinate along each axis.
     pub min: Vec3,
-    /// The largest.
+    /// The largest coordinate along each axis.
     pub max: Vec3,
 }
 
 impl AxisBox {
-    /// Holds nothing.
+    /// The box that contains nothing.
     pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
-    /// Holds every finite point.
+    /// The box that contains every finite point.
     pub const WHOLE: Self = Self { min: Vec3::MIN, max: Vec3::MAX };
 
-    /// Of no size, around `point`.
+    /// Creates a box of size zero at `point`.
     pub fn at(point: Vec3) -> Self {
         Self { min: point, max: point }
     }
 
-    /// Does it hold nothing?
+    /// Returns whether the box contains nothing.
     pub fn is_empty(&self) -> bool {
         !self.min.cmple(self.max).all()
     }
 
-    /// Does it hold `point`, its faces included?
+    /// Returns whether `point` is inside, the faces included.
     pub fn contains(&self, point: Vec3) -> bool {
         self.min.cmple(point).all() && point.cmple(self.max).all()
     }
 
-    /// Grows just enough to hold `point`; one that is not finite is left out.
+    /// Grows just enough to contain `point`; one that is not finite is left out.
     pub fn add(&mut self, point: Vec3) {
         if point.is_finite() {
             *self = self.union(Self::at(point));
         }
     }
 
-    /// The smallest box around both.
+    /// Returns the smallest box around both.
     pub fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// The middle; the origin when empty.
+    /// Returns the middle; the origin when empty.
     pub fn center(&self) -> Vec3 {
         if self.is_empty() { Vec3::ZERO } else { self.min * 0.5 + self.max * 0.5 }
     }
 
-    /// Half the size along each axis; zero when empty.
+    /// Returns half the size along each axis; zero when empty.
     pub fn half(&self) -> Vec3 {
         if self.is_empty() { Vec3::ZERO } else { self.max * 0.5 - self.min * 0.5 }
     }
 
-    /// Half the surface, the usual measure of how likely a ray meets it; zero when empty.
+    /// Returns half the surface area, the usual measure of how likely a ray hits the box; zero when empty.
     pub fn half_surface(&self) -> f32 {
         let size = self.half() * 2.0;
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 
-    /// The box of this one moved by the affine `matrix` (Arvo 1990), widened so that no point within is lost to the
-    /// rounding of `f32`.
+    /// Returns the box of this one moved by the affine `matrix` (Arvo 1990), widened so that no point within is lost to
+    /// the rounding of `f32`.
     ///
     /// ```text
     /// center' = matrix * center          half' = |linear| * half + rounding
     /// ```
     ///
-    /// Empty stays empty; where a number leaves the range of `f32`: [`Self::WHOLE`].
+    /// Empty stays empty; where a number leaves the range of `f32`, the result is [`Self::WHOLE`].
     pub fn moved(&self, matrix: &Mat4) -> Self {
         if self.is_empty() {
             return Self::EMPTY;
@@ -85,18 +85,19 @@ impl AxisBox {
         Self::around(matrix.transform_point3(center), moved_half + widening(summed))
     }
 
-    /// From the middle and half the size; [`Self::WHOLE`] where that is not finite.
+    /// Creates a box from its center and half its size; [`Self::WHOLE`] where that is not finite.
     pub(crate) fn around(center: Vec3, half: Vec3) -> Self {
         Self { min: center - half, max: center + half }.or_whole()
     }
 
-    /// Itself where every number is finite, else [`Self::WHOLE`].
+    /// Returns the box where every number is finite, and [`Self::WHOLE`] otherwise.
     pub(crate) fn or_whole(self) -> Self {
         if self.min.is_finite() && self.max.is_finite() { self } else { Self::WHOLE }
     }
 }
 
-/// How far rounding can move a sum of terms whose sizes sum to `sizes`; the least normal number where all vanish.
+/// Returns how far rounding can move a sum of terms whose sizes sum to `sizes`; the least normal number where all
+/// vanish.
 pub(crate) fn widening(sizes: Vec3) -> Vec3 {
     sizes * ROUNDING + Vec3::splat(f32::MIN_POSITIVE)
 }
@@ -108,15 +109,16 @@ mod tests {
 
     #[test]
     fn a_moved_box_holds_its_moved_corners_and_little_more() {
-        let held = AxisBox { min: Vec3::new(-1.0, 2.0, 3.0), max: Vec3::new(4.0, 5.0, 9.0) };
+        let bounds = AxisBox { min: Vec3::new(-1.0, 2.0, 3.0), max: Vec3::new(4.0, 5.0, 9.0) };
         let turned = Quat::from_xyzw(0.3, -0.2, 0.5, 0.7).normalize();
         let matrix = Mat4::from_scale_rotation_translation(Vec3::new(1.0, -2.0, 0.5), turned, Vec3::X);
         let mut exact = AxisBox::EMPTY;
         for corner in 0..8 {
-            let pick = |axis: usize| if corner >> axis & 1 == 0 { held.min[axis] } else { held.max[axis] };
+            let pick =
+                |axis: usize| if corner >> axis & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] };
             exact.add(matrix.transform_point3(Vec3::new(pick(0), pick(1), pick(2))));
         }
-        let moved = held.moved(&matrix);
+        let moved = bounds.moved(&matrix);
         assert!(moved.contains(exact.min) && moved.contains(exact.max));
         assert!((moved.min - exact.min).length() < 1e-3 && (moved.max - exact.max).length() < 1e-3);
     }
@@ -124,10 +126,10 @@ mod tests {
     #[test]
     fn nothing_stays_nothing_and_too_much_is_everything() {
         assert!(AxisBox::EMPTY.moved(&Mat4::IDENTITY).is_empty());
-        let held = AxisBox::at(Vec3::splat(1e30));
-        assert_eq!(held.moved(&Mat4::from_scale(Vec3::splat(1e30))), AxisBox::WHOLE);
-        let mut held = AxisBox::EMPTY;
-        held.add(Vec3::NAN);
-        assert!(held.is_empty());
+        let bounds = AxisBox::at(Vec3::splat(1e30));
+        assert_eq!(bounds.moved(&Mat4::from_scale(Vec3::splat(1e30))), AxisBox::WHOLE);
+        let mut bounds = AxisBox::EMPTY;
+        bounds.add(Vec3::NAN);
+        assert!(bounds.is_empty());
     }
 }

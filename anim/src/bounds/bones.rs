@@ -1,4 +1,4 @@
-//! Bounds of a pose from one box a bone: as cheap as the skeleton is small.
+//! Bounds of a pose from one box per bone, at a cost proportional to the number of bones.
 
 use super::axis_box::AxisBox;
 use super::reach::Reaches;
@@ -10,12 +10,13 @@ use crate::evaluator::Evaluator;
 /// A box for each joint of each mesh, around the vertices that it moves, before they are moved (thesis §2.1.7.1: a
 /// simple bounding volume for placing the model and for hit detection).
 ///
-/// Made once a model; then the box and the sphere of any pose follow from the boxes, moved by the final poses, without
-/// looking at a vertex: O(bones of all skinned instances), nothing allocated. Both never miss a vertex, whatever its
-/// weights and morph targets are; how is told in the source, `bounds/reach.rs`. They are larger than the exact ones of
-/// [`Evaluator::bounds`], because a box also holds what lies between its vertices: on the animated characters of the
-/// tests, over all takes, the box has on average 1.01 to 1.11 times the exact diagonal and the sphere 1.01 to 1.23 times the
-/// exact radius; on one whose bones reach far with small weights 1.32 and 1.47; on cubes that morph targets pull apart 1.4.
+/// Built once per model; then the box and the sphere of any pose follow from the boxes, moved by the final poses,
+/// without reading a vertex: O(bones of all skinned instances), nothing allocated. Both always contain every vertex,
+/// whatever its weights and morph targets are; the proof is in the source, `bounds/reach.rs`. They are larger than the
+/// exact ones of [`Evaluator::bounds`], because a box also contains the space between its vertices: on the animated
+/// characters of the tests, over all takes, the box has on average 1.01 to 1.11 times the exact diagonal and the sphere
+/// 1.01 to 1.23 times the exact radius; on one whose bones reach far with small weights 1.32 and 1.47; on cubes that
+/// morph targets pull apart 1.4.
 ///
 /// ```
 /// use dragonfly_anim::{bounds::BoneBoxes, data::ModelData, evaluator::Evaluator};
@@ -28,12 +29,12 @@ use crate::evaluator::Evaluator;
 #[derive(Clone, Debug)]
 pub struct BoneBoxes {
     reaches: Reaches,
-    /// Of each mesh: its first primitive's place among all.
+    /// Position of each mesh's first primitive among all primitives.
     first: Vec<u32>,
 }
 
 impl BoneBoxes {
-    /// The boxes of `model`. O(vertices × influences + differences of morph targets).
+    /// Builds the boxes of `model`. O(vertices × influences + differences of morph targets).
     pub fn of(model: &ModelData) -> Self {
         let mut builder = ReachBuilder::new();
         let mut first = Vec::with_capacity(model.meshes.len());
@@ -44,7 +45,7 @@ impl BoneBoxes {
             count += mesh.primitives.len() as u32;
             for primitive in &mesh.primitives {
                 let targets = moving_targets(primitive);
-                // A part for either way to be moved; one that no instance needs has no vertices.
+                // One part for each way the primitive is moved; a part that no instance needs has no vertices.
                 let vertices = |used: bool| 0..if used { primitive.vertices.len() } else { 0 };
                 let without_influences = primitive.vertices.influences_per_vertex == 0;
                 builder.add(primitive, false, None, &targets, vertices(rigid || without_influences));
@@ -54,28 +55,28 @@ impl BoneBoxes {
         Self { reaches: builder.finish(), first }
     }
 
-    /// Box and sphere around every vertex in the pose of `evaluator`, which is of the model that the boxes are of;
-    /// around the origins of the bones when there is no vertex, as [`Evaluator::bounds`] has it.
+    /// Returns the box and sphere around every vertex in the pose of `evaluator`, which has to be of the same model;
+    /// around the origins of the bones when there is no vertex, as in [`Evaluator::bounds`].
     ///
-    /// Another model's pose gives finite bounds of no use. Allocates nothing where there is a vertex.
+    /// Another model's pose gives finite but useless bounds. Allocates nothing where there is a vertex.
     pub fn bounds(&self, evaluator: &Evaluator) -> Bounds {
-        let whole = self.fold(evaluator, AxisBox::EMPTY, |whole, _, _, held| whole.union(held));
+        let whole = self.fold(evaluator, AxisBox::EMPTY, |whole, _, _, bounds| whole.union(bounds));
         if whole.is_empty() {
             return bounds_of_bones(evaluator.to_root());
         }
         let center = whole.center();
-        let radius = self.fold(evaluator, 0.0_f64, |radius, part, (instance, primitive), held| {
+        let radius = self.fold(evaluator, 0.0_f64, |radius, part, (instance, primitive), bounds| {
             let Some(movement) = evaluator.movement(instance, primitive) else { return radius };
             let weights = evaluator.morph_weights(instance);
-            radius.max(self.reaches.radius(part, movement, weights, center, held))
+            radius.max(self.reaches.radius(part, movement, weights, center, bounds))
         });
         // Rounded up twice: once for the cast, once for the square root.
         let radius = (radius as f32).next_up().next_up().min(f32::MAX);
         Bounds { min: whole.min, max: whole.max, sphere: Sphere { center, radius } }
     }
 
-    /// A box around primitive number `primitive` of instance number `instance` in the pose of `evaluator`; empty where
-    /// it has no vertex or there is none. Allocates nothing.
+    /// Returns a box around primitive number `primitive` of instance number `instance` in the pose of `evaluator`;
+    /// empty where it has no vertex or does not exist. Allocates nothing.
     pub fn of_primitive(&self, evaluator: &Evaluator, instance: usize, primitive: usize) -> AxisBox {
         let part = self.part(evaluator, instance, primitive);
         let movement = evaluator.movement(instance, primitive);
@@ -83,7 +84,8 @@ impl BoneBoxes {
         self.reaches.fit(part, movement, evaluator.morph_weights(instance))
     }
 
-    /// Goes through all primitives of all instances, with the part, its place, and its box in the pose.
+    /// Folds over all primitives of all instances; `step` gets the part, its instance and primitive, and its box in the
+    /// pose.
     fn fold<T>(
         &self,
         evaluator: &Evaluator,
@@ -94,14 +96,14 @@ impl BoneBoxes {
         for instance in 0..evaluator.model().instances.len() {
             for primitive in 0..evaluator.primitives(instance).len() {
                 let Some(part) = self.part(evaluator, instance, primitive) else { continue };
-                let held = self.of_primitive(evaluator, instance, primitive);
-                state = step(state, part, (instance, primitive), held);
+                let bounds = self.of_primitive(evaluator, instance, primitive);
+                state = step(state, part, (instance, primitive), bounds);
             }
         }
         state
     }
 
-    /// The part that a primitive is, by how it is moved.
+    /// Returns the part of a primitive, depending on how it is moved.
     fn part(&self, evaluator: &Evaluator, instance: usize, primitive: usize) -> Option<usize> {
         let influences = evaluator.primitives(instance).get(primitive)?.vertices.influences_per_vertex;
         let instance = &evaluator.model().instances[instance];
@@ -112,7 +114,7 @@ impl BoneBoxes {
     }
 }
 
-/// Of each mesh: is it shown without a skin, and is it with one, and if so with which first.
+/// Returns for each mesh whether it is shown without a skin, and, where it is shown with one, the first such skin.
 fn uses(model: &ModelData) -> Vec<(bool, Option<Option<&Skin>>)> {
     let mut uses = vec![(false, None); model.meshes.len()];
     for MeshInstance { mesh, skin, .. } in &model.instances {

@@ -1,22 +1,22 @@
-//! How far a part of a mesh can reach in a pose, told from a few boxes rather than from its vertices.
+//! How far a part of a mesh can reach in a pose, computed from a few boxes rather than from its vertices.
 //!
-//! A skinned vertex is a sum of images of one point `m`, one a bone:
+//! A skinned vertex is a sum of images of one point `m`, one per bone:
 //!
 //! ```text
 //! p = Σ weight_i * final_i * m = P * (a mean of images with weight_i > 0) - N * (a mean of those with weight_i < 0)
 //! P = Σ of the positive weights, N = Σ of the negative ones, both ≥ 0
 //! ```
 //!
-//! A mean lies in every box that holds what it is the mean of. So it is enough to keep, for each joint, one box of the
-//! `m` that it moves: the boxes moved by the final poses hold every image, a box around those holds every mean, and
-//! `[P] * box - [N] * box`, with the smallest and largest sums that occur, holds every vertex. With weights that sum
-//! to 1 and are not negative that is the box itself.
+//! A mean is inside every box that contains the values it is the mean of. So it is enough to keep, for each joint, one
+//! box of the `m` that it moves: the boxes moved by the final poses contain every image, a box around those contains
+//! every mean, and `[P] * box - [N] * box`, with the smallest and largest sums that occur, contains every vertex. With
+//! weights that sum to 1 and are not negative that is the box itself.
 //!
 //! Morph targets add `Σ weight_t * difference_t` to `m`; a box of each target's differences, times its weight, is added
-//! to the joint's box. Vertices that no bone moves stand still and have a box of their own.
+//! to the joint's box. Vertices that no bone moves stay in place and have a box of their own.
 //!
-//! Each box lies along the axes of the bind space or of the bone, whichever makes it smaller; turning it is part of the
-//! matrix that moves it, so any choice is right.
+//! Each box is aligned with the axes of the bind space or of the bone, whichever makes it smaller; its rotation is part
+//! of the matrix that moves it, so any choice is correct.
 
 use super::axis_box::{AxisBox, ROUNDING, widening};
 use crate::skin::Movement;
@@ -29,25 +29,25 @@ pub(super) struct JointBox {
     pub(super) joint: u16,
     /// Axes of the box → mesh space.
     pub(super) turn: Mat3,
-    /// Along those axes.
-    pub(super) held: AxisBox,
-    /// First of [`Reaches::deltas`], and how many.
+    /// Extent along those axes.
+    pub(super) extent: AxisBox,
+    /// Range of [`Reaches::deltas`]: first, and count.
     pub(super) deltas: (u32, u32),
 }
 
-/// What one morph target adds at most.
+/// The largest movement by one morph target.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Delta {
     pub(super) target: u32,
-    /// Holds the origin; along the axes of the joint's box.
+    /// Contains the origin; along the axes of the joint's box.
     pub(super) by: AxisBox,
 }
 
-/// One part: a range of boxes, and sums of weights.
+/// One part of a mesh: a range of boxes, and sums of weights.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reach {
+pub(super) struct PartReach {
     pub(super) boxes: (u32, u32),
-    /// Vertices that do not move.
+    /// Box of the vertices that do not move.
     pub(super) still: AxisBox,
     /// Smallest and largest sum of a vertex's positive weights, and of its negative ones.
     pub(super) positive: [f32; 2],
@@ -57,41 +57,42 @@ pub(super) struct Reach {
 /// Any number of parts, in flat lists.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Reaches {
-    pub(super) parts: Vec<Reach>,
+    pub(super) parts: Vec<PartReach>,
     pub(super) boxes: Vec<JointBox>,
     pub(super) deltas: Vec<Delta>,
 }
 
 impl Reaches {
-    /// Number of parts.
+    /// Returns the number of parts.
     pub(crate) fn len(&self) -> usize {
         self.parts.len()
     }
 
-    /// Boxes of part number `part`.
+    /// Returns the boxes of part number `part`.
     fn boxes(&self, part: usize) -> &[JointBox] {
         let (first, count) = self.parts.get(part).map_or((0, 0), |part| part.boxes);
         self.boxes.get(first as usize..(first + count) as usize).unwrap_or(&[])
     }
 
-    /// A box around part number `part` when `movement` moves it and its morph targets have `weights`.
+    /// Returns a box around part number `part` when `movement` moves it and its morph targets have `weights`.
     ///
     /// Empty for a part without vertices. Allocates nothing.
     pub(crate) fn fit(&self, part: usize, movement: Movement<'_>, weights: &[f32]) -> AxisBox {
         let Some(reach) = self.parts.get(part) else { return AxisBox::EMPTY };
         let mut hull = AxisBox::EMPTY;
         for joint in self.boxes(part) {
-            let held = self.held(joint, weights);
-            if held == AxisBox::WHOLE {
-                // A sum that has no answer leaves its vertex where it is stored, wherever that is.
-                return held;
+            let extent = self.extent(joint, weights);
+            if extent == AxisBox::WHOLE {
+                // If the sum cannot be computed, skinning leaves the vertex at its stored position, wherever that is.
+                return extent;
             }
-            hull = hull.union(held.moved(&placed(joint, movement)));
+            hull = hull.union(extent.moved(&placed(joint, movement)));
         }
         weighted(hull, reach).union(reach.still)
     }
 
-    /// How far from `center` the part can reach, never less than it does. `within` is what [`Self::fit`] gave.
+    /// Returns the distance from `center` that the part can reach, never too small. `within` is the result of
+    /// [`Self::fit`].
     pub(crate) fn radius(
         &self,
         part: usize,
@@ -102,13 +103,13 @@ impl Reaches {
     ) -> f64 {
         let Some(reach) = self.parts.get(part).filter(|_| !within.is_empty()) else { return 0.0 };
         let outer = furthest(center, within);
-        // The corners below hold means, so they say nothing of a part whose weights do not make means.
+        // The corners below bound means, so they do not bound a part whose weights do not form means.
         if reach.negative[1] > 0.0 || !reach.still.is_empty() || within == AxisBox::WHOLE {
             return outer;
         }
         let mut inner = 0.0_f64;
         for joint in self.boxes(part) {
-            inner = inner.max(corner(&self.held(joint, weights), &placed(joint, movement), center));
+            inner = inner.max(corner(&self.extent(joint, weights), &placed(joint, movement), center));
         }
         let off = (1.0 - reach.positive[0]).abs().max((reach.positive[1] - 1.0).abs());
         let size = within.min.abs().max(within.max.abs()).as_dvec3().length();
@@ -116,30 +117,30 @@ impl Reaches {
         if inner.is_finite() { inner.min(outer) } else { outer }
     }
 
-    /// The joint's box, grown by what the morph targets add.
-    fn held(&self, joint: &JointBox, weights: &[f32]) -> AxisBox {
+    /// Returns the joint's box, grown by the movement of the morph targets.
+    fn extent(&self, joint: &JointBox, weights: &[f32]) -> AxisBox {
         let (first, count) = joint.deltas;
         let deltas = self.deltas.get(first as usize..(first + count) as usize).unwrap_or(&[]);
-        let mut held = joint.held;
+        let mut extent = joint.extent;
         let mut added = 0;
         for delta in deltas {
             let weight = weights.get(delta.target as usize).copied().unwrap_or(0.0);
             if weight != 0.0 {
                 let (a, b) = (delta.by.min * weight, delta.by.max * weight);
-                (held.min, held.max) = (held.min + a.min(b), held.max + a.max(b));
+                (extent.min, extent.max) = (extent.min + a.min(b), extent.max + a.max(b));
                 added += 1;
             }
         }
         if added > 0 {
-            // Each sum may be rounded once more; both the box and what was added lie within these sizes.
-            let slack = widening(held.min.abs().max(held.max.abs())) * (added as f32 + 1.0);
-            (held.min, held.max) = (held.min - slack, held.max + slack);
+            // Each sum may be rounded once more; both the box and the terms added are within these sizes.
+            let slack = widening(extent.min.abs().max(extent.max.abs())) * (added as f32 + 1.0);
+            (extent.min, extent.max) = (extent.min - slack, extent.max + slack);
         }
-        held.or_whole()
+        extent.or_whole()
     }
 }
 
-/// The matrix that moves the joint's box: along its axes → scene space.
+/// Returns the matrix that moves the joint's box: its axes → scene space.
 fn placed(joint: &JointBox, movement: Movement<'_>) -> Mat4 {
     let matrix = match movement {
         Movement::Rigid(matrix) => matrix,
@@ -148,8 +149,8 @@ fn placed(joint: &JointBox, movement: Movement<'_>) -> Mat4 {
     if joint.turn == Mat3::IDENTITY { matrix } else { matrix * Mat4::from_mat3(joint.turn) }
 }
 
-/// `[P] * hull - [N] * hull`.
-fn weighted(hull: AxisBox, reach: &Reach) -> AxisBox {
+/// Returns `[P] * hull - [N] * hull`.
+fn weighted(hull: AxisBox, reach: &PartReach) -> AxisBox {
     if hull.is_empty() {
         return hull;
     }
@@ -164,15 +165,15 @@ fn weighted(hull: AxisBox, reach: &Reach) -> AxisBox {
     AxisBox { min: min - slack, max: max + slack }.or_whole()
 }
 
-/// Distance from `center` to the furthest corner of `held`.
-fn furthest(center: Vec3, held: AxisBox) -> f64 {
+/// Returns the distance from `center` to the furthest corner of `extent`.
+fn furthest(center: Vec3, extent: AxisBox) -> f64 {
     let center = center.as_dvec3();
-    (held.min.as_dvec3() - center).abs().max((held.max.as_dvec3() - center).abs()).length()
+    (extent.min.as_dvec3() - center).abs().max((extent.max.as_dvec3() - center).abs()).length()
 }
 
-/// Distance from `center` to the furthest corner of `held` moved by `matrix`.
-fn corner(held: &AxisBox, matrix: &Mat4, center: Vec3) -> f64 {
-    let (middle, half) = (held.center(), held.half().as_dvec3());
+/// Returns the distance from `center` to the furthest corner of `extent` moved by `matrix`.
+fn corner(extent: &AxisBox, matrix: &Mat4, center: Vec3) -> f64 {
+    let (middle, half) = (extent.center(), extent.half().as_dvec3());
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.truncate().as_dvec3());
     let [x, y, z] = [axes[0] * half.x, axes[1] * half.y, axes[2] * half.z];
     let from = matrix.transform_point3(middle).as_dvec3() - center.as_dvec3();
@@ -181,7 +182,7 @@ fn corner(held: &AxisBox, matrix: &Mat4, center: Vec3) -> f64 {
         // Opposite corners together.
         furthest = furthest.max((from + corner).length_squared()).max((from - corner).length_squared());
     }
-    let sizes = (middle.abs() + held.half()).as_dvec3();
+    let sizes = (middle.abs() + extent.half()).as_dvec3();
     let summed = axes[0].abs() * sizes.x + axes[1].abs() * sizes.y + axes[2].abs() * sizes.z;
     let summed = summed.length() + matrix.w_axis.truncate().as_dvec3().length();
     furthest.sqrt() + summed * f64::from(ROUNDING)

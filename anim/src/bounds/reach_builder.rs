@@ -1,35 +1,35 @@
-//! Making the boxes of [`super::reach`]: once a model, by going through its vertices.
+//! Construction of the boxes of [`super::reach`]: once per model, from its vertices.
 
 use super::axis_box::AxisBox;
-use super::reach::{Delta, JointBox, Reach, Reaches};
+use super::reach::{Delta, JointBox, PartReach, Reaches};
 use crate::data::{Primitive, Skin};
 use glam::{Mat3, Mat4, Vec3};
 
-/// Joints that a skin can name, so the size of the table that finds a joint's box.
+/// Number of joints that a skin can have, and size of the table that finds a joint's box.
 const JOINTS: usize = 1 << 16;
 
-/// Makes parts, with a table that finds a joint's box at once.
+/// Builds parts, with a table that finds a joint's box in constant time.
 pub(crate) struct ReachBuilder {
     reaches: Reaches,
-    /// Of each joint: one more than its place among the boxes of the part being made; 0 for none.
+    /// For each joint, one more than the position of its box in the part under construction; 0 for none.
     place: Vec<u32>,
 }
 
 impl ReachBuilder {
-    /// Without parts.
+    /// Creates a builder without parts.
     pub(crate) fn new() -> Self {
         Self { reaches: Reaches::default(), place: vec![0; JOINTS] }
     }
 
-    /// All parts made.
+    /// Returns all parts.
     pub(crate) fn finish(self) -> Reaches {
         self.reaches
     }
 
-    /// Adds the part of `primitive` that `vertices` are.
+    /// Adds the part of `primitive` that consists of `vertices`.
     ///
-    /// `skinned`: do joints move it, or one matrix? `skin` gives the directions of the bones, where it is known.
-    /// `targets` are the morph targets that may move anything: [`moving_targets`].
+    /// `skinned`: whether joints move it, or one matrix. `skin` gives the directions of the bones, where it is known.
+    /// `targets` are the morph targets that may move a vertex: [`moving_targets`].
     pub(crate) fn add(
         &mut self,
         primitive: &Primitive,
@@ -39,13 +39,13 @@ impl ReachBuilder {
         vertices: impl Iterator<Item = usize> + Clone,
     ) {
         let first = self.reaches.boxes.len();
-        let mut reach = Reach {
+        let mut reach = PartReach {
             boxes: (first as u32, 0),
             still: AxisBox::EMPTY,
             positive: [f32::INFINITY, 0.0],
             negative: [f32::INFINITY, 0.0],
         };
-        // Along both kinds of axes at once; the better is kept.
+        // Boxes along both kinds of axes; the smaller is kept.
         let mut turned: Vec<AxisBox> = Vec::new();
         for vertex in vertices.clone() {
             let Some(&stored) = primitive.vertices.positions.get(vertex) else { continue };
@@ -53,13 +53,13 @@ impl ReachBuilder {
             for joint in joints(primitive, skinned, vertex) {
                 let place = self.place_of(joint, first, skin, &mut turned);
                 let joint = &mut self.reaches.boxes[first + place];
-                joint.held.add(stored);
+                joint.extent.add(stored);
                 add_turned(&mut turned[place], joint.turn, stored);
             }
         }
         for (joint, turned) in self.reaches.boxes[first..].iter_mut().zip(turned) {
-            if turned.half_surface() < joint.held.half_surface() {
-                joint.held = turned;
+            if turned.half_surface() < joint.extent.half_surface() {
+                joint.extent = turned;
             } else {
                 joint.turn = Mat3::IDENTITY;
             }
@@ -72,7 +72,7 @@ impl ReachBuilder {
         self.reaches.parts.push(reach);
     }
 
-    /// The place of `joint`'s box among those of the part, which is made where it is not there.
+    /// Returns the position of `joint`'s box in the part, and adds the box if it is missing.
     fn place_of(
         &mut self,
         joint: u16,
@@ -84,15 +84,15 @@ impl ReachBuilder {
         if *place == 0 {
             let offset = skin.and_then(|skin| skin.offsets.get(usize::from(joint)));
             let turn = offset.map_or(Mat3::IDENTITY, |offset| axes(*offset));
-            self.reaches.boxes.push(JointBox { joint, turn, held: AxisBox::EMPTY, deltas: (0, 0) });
+            self.reaches.boxes.push(JointBox { joint, turn, extent: AxisBox::EMPTY, deltas: (0, 0) });
             turned.push(AxisBox::EMPTY);
             *place = (self.reaches.boxes.len() - first) as u32;
         }
         *place as usize - 1
     }
 
-    /// Adds a part that holds parts number `a` and `b`, which are of one primitive and were added without directions of
-    /// bones.
+    /// Adds a part that contains parts number `a` and `b`, which are of one primitive and were added without directions
+    /// of bones.
     pub(crate) fn join(&mut self, a: usize, b: usize) {
         let first = self.reaches.boxes.len();
         let (of_a, of_b) = (self.reaches.parts[a], self.reaches.parts[b]);
@@ -102,7 +102,7 @@ impl ReachBuilder {
                 let joint = self.reaches.boxes[at as usize];
                 let place = self.place_of(joint.joint, first, None, &mut Vec::new());
                 let joined = &mut self.reaches.boxes[first + place];
-                joined.held = joined.held.union(joint.held);
+                joined.extent = joined.extent.union(joint.extent);
                 let of_joint = joint.deltas.0 as usize..(joint.deltas.0 + joint.deltas.1) as usize;
                 deltas.extend(self.reaches.deltas[of_joint].iter().map(|delta| (place, *delta)));
             }
@@ -117,13 +117,13 @@ impl ReachBuilder {
         });
         self.store(deltas, first);
         self.forget(first);
-        let sums = |of: fn(&Reach) -> [f32; 2]| match (of_a.boxes.1, of_b.boxes.1) {
-            // The sums of a part that nothing moves say nothing.
+        let sums = |of: fn(&PartReach) -> [f32; 2]| match (of_a.boxes.1, of_b.boxes.1) {
+            // The sums of a part that nothing moves have no meaning.
             (0, _) => of(&of_b),
             (_, 0) => of(&of_a),
             _ => [of(&of_a)[0].min(of(&of_b)[0]), of(&of_a)[1].max(of(&of_b)[1])],
         };
-        self.reaches.parts.push(Reach {
+        self.reaches.parts.push(PartReach {
             boxes: (first as u32, (self.reaches.boxes.len() - first) as u32),
             still: of_a.still.union(of_b.still),
             positive: sums(|part| part.positive),
@@ -131,19 +131,19 @@ impl ReachBuilder {
         });
     }
 
-    /// Number of parts so far.
+    /// Returns the number of parts so far.
     pub(crate) fn len(&self) -> usize {
         self.reaches.parts.len()
     }
 
-    /// Takes the joints of the part made last out of the table.
+    /// Removes the joints of the most recent part from the table.
     fn forget(&mut self, first: usize) {
         for joint in &self.reaches.boxes[first..] {
             self.place[usize::from(joint.joint)] = 0;
         }
     }
 
-    /// Stores what targets add, sorted by the place of the box.
+    /// Stores the movements of the morph targets, sorted by the position of the box.
     fn store(&mut self, found: Vec<(usize, Delta)>, first: usize) {
         for (place, delta) in found {
             let joint = &mut self.reaches.boxes[first + place];
@@ -155,17 +155,17 @@ impl ReachBuilder {
         }
     }
 
-    /// Adds the sums of the vertex's weights to those of the part, or the vertex to those that stand still.
+    /// Adds the sums of the vertex's weights to those of the part, or the vertex to those that do not move.
     fn weigh(
         &mut self,
         primitive: &Primitive,
         skinned: bool,
         vertex: usize,
         stored: Vec3,
-        reach: &mut Reach,
+        reach: &mut PartReach,
     ) {
         if !stored.is_finite() {
-            // What cannot be computed stands in the origin.
+            // Skinning puts a vertex that cannot be computed at the origin.
             reach.still.add(Vec3::ZERO);
         }
         if !skinned {
@@ -180,7 +180,7 @@ impl ReachBuilder {
         }
         if positive.is_finite() && negative.is_finite() {
             if positive == 0.0 && negative == 0.0 {
-                // A sum of nothing.
+                // A sum without terms.
                 reach.still.add(Vec3::ZERO);
                 return;
             }
@@ -195,7 +195,7 @@ impl ReachBuilder {
         }
     }
 
-    /// Adds what each target may add to each box of the part.
+    /// Adds the possible movement of each target to each box of the part.
     fn add_deltas(
         &mut self,
         primitive: &Primitive,
@@ -203,7 +203,7 @@ impl ReachBuilder {
         targets: &[u32],
         vertices: impl Iterator<Item = usize> + Clone,
         first: usize,
-        reach: &mut Reach,
+        reach: &mut PartReach,
     ) {
         let boxes = self.reaches.boxes.len() - first;
         let mut found: Vec<(usize, Delta)> = Vec::new();
@@ -217,7 +217,8 @@ impl ReachBuilder {
                     continue;
                 };
                 if !difference.is_finite() {
-                    // The vertex goes where it would be without the sum that has no answer, or to the origin.
+                    // Skinning puts the vertex at its position without the sum that cannot be computed, or at the
+                    // origin.
                     reach.still.add(primitive.vertices.positions.get(vertex).copied().unwrap_or(Vec3::ZERO));
                     continue;
                 }
@@ -240,14 +241,14 @@ impl ReachBuilder {
     }
 }
 
-/// Morph targets of `primitive` that may move a vertex.
+/// Returns the morph targets of `primitive` that may move a vertex.
 pub(crate) fn moving_targets(primitive: &Primitive) -> Vec<u32> {
     let moves = |positions: &[Vec3]| positions.iter().any(|by| *by != Vec3::ZERO);
     let targets = primitive.morph_targets.iter().enumerate();
     targets.filter(|(_, target)| moves(&target.positions)).map(|(index, _)| index as u32).collect()
 }
 
-/// Joints that move vertex `vertex`; joint 0 of a mesh without skin.
+/// Returns the joints that move vertex `vertex`; joint 0 for a mesh without skin.
 fn joints(primitive: &Primitive, skinned: bool, vertex: usize) -> impl Iterator<Item = u16> + '_ {
     let influences = if skinned { primitive.vertices.influences_of(vertex) } else { &[] };
     let moving =
@@ -255,16 +256,17 @@ fn joints(primitive: &Primitive, skinned: bool, vertex: usize) -> impl Iterator<
     moving.chain((!skinned).then_some(0))
 }
 
-/// Grows `held`, whose axes `turn` gives, by a finite `vector`; to everything where turning leaves the range of f32.
-fn add_turned(held: &mut AxisBox, turn: Mat3, vector: Vec3) {
+/// Grows `extent`, whose axes are given by `turn`, by a finite `vector`; to everything where rotating it leaves the range
+/// of f32.
+fn add_turned(extent: &mut AxisBox, turn: Mat3, vector: Vec3) {
     let turned = turn.transpose() * vector;
     if vector.is_finite() && !turned.is_finite() {
-        *held = AxisBox::WHOLE;
+        *extent = AxisBox::WHOLE;
     }
-    held.add(turned);
+    extent.add(turned);
 }
 
-/// The directions of a bone's axes in bind space, from its offset; the identity where they cannot be told.
+/// Returns the directions of a bone's axes in bind space, from its offset; the identity where they cannot be computed.
 fn axes(offset: Mat4) -> Mat3 {
     let (_, rotation, _) = offset.to_scale_rotation_translation();
     let turn = Mat3::from_quat(rotation).transpose();
@@ -272,7 +274,7 @@ fn axes(offset: Mat4) -> Mat3 {
     if turn.is_finite() && unit { turn } else { Mat3::IDENTITY }
 }
 
-/// A range with room for the rounding of its sums; nothing for one that was never set.
+/// Returns a range widened by the rounding of its sums; zero for one that was never set.
 fn outward([low, high]: [f32; 2]) -> [f32; 2] {
     if low > high {
         return [0.0, 0.0];

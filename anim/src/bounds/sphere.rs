@@ -1,22 +1,22 @@
-//! A sphere around points.
+//! Bounding spheres.
 
 use glam::{DVec3, Vec3};
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sphere {
-    /// The middle.
+    /// The center.
     pub center: Vec3,
     /// Not negative; at most the largest f32.
     pub radius: f32,
 }
 
 impl Sphere {
-    /// Around the finite ones of `points`, whose smallest and largest coordinates are `min` and `max`.
+    /// Returns a sphere around the finite ones of `points`, whose smallest and largest coordinates are `min` and `max`.
     ///
-    /// The smaller of two: one about the middle of the box, and Ritter's (start with the two points furthest apart
-    /// along an axis, then grow just enough for each point outside). Usually within a fifth of the smallest sphere
-    /// there is. All in f64, so that neither squares nor rounding lose a point.
+    /// The smaller of two: one about the center of the box, and Ritter's (start with the two points furthest apart
+    /// along an axis, then grow just enough for each point outside). Usually within a fifth of the smallest possible
+    /// sphere. All in f64, so that neither squares nor rounding lose a point.
     pub(super) fn of_points(points: &[Vec3], min: Vec3, max: Vec3) -> Self {
         let middle = min * 0.5 + max * 0.5;
         let around_box = Self::about(middle, points);
@@ -24,12 +24,12 @@ impl Sphere {
         if ritter.radius < around_box.radius { ritter } else { around_box }
     }
 
-    /// Does it hold `point`, its surface included?
+    /// Returns whether `point` is inside, the surface included.
     pub fn contains(&self, point: Vec3) -> bool {
         point.as_dvec3().distance(self.center.as_dvec3()) <= f64::from(self.radius)
     }
 
-    /// The smallest sphere about `center` that holds the finite ones of `points`.
+    /// Returns the smallest sphere about `center` that contains the finite ones of `points`.
     fn about(center: Vec3, points: &[Vec3]) -> Self {
         let middle = center.as_dvec3();
         let largest = finite(points).map(|point| point.distance_squared(middle)).fold(0.0, f64::max).sqrt();
@@ -42,7 +42,7 @@ impl Sphere {
     }
 }
 
-/// The centre that Ritter's algorithm ends at.
+/// Returns the center that Ritter's algorithm ends with.
 fn ritter_center(points: &[Vec3], min: Vec3, max: Vec3) -> Vec3 {
     let size = max.as_dvec3() - min.as_dvec3();
     let axis = if size.x >= size.y && size.x >= size.z {
@@ -67,7 +67,7 @@ fn ritter_center(points: &[Vec3], min: Vec3, max: Vec3) -> Vec3 {
     center.as_vec3()
 }
 
-/// Those without NaN or infinity.
+/// Returns the points without NaN or infinity.
 fn finite(points: &[Vec3]) -> impl Iterator<Item = DVec3> + '_ {
     points.iter().filter(|point| point.is_finite()).map(|point| point.as_dvec3())
 }

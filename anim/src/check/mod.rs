@@ -1,13 +1,13 @@
-//! Everything wrong with a model or a take, as a list with places.
+//! Validation: a list of everything wrong with a model or a take, with paths.
 //!
-//! Nothing is mended here and nothing is refused: [`check`] looks, and says what it saw, where, and how much it matters.
-//! It never panics, whatever the model holds, and takes time in proportion to the model's size.
+//! Nothing is repaired or rejected: [`check`] reports each problem with its path and severity. It never panics,
+//! whatever the model contains, and takes time in proportion to the model's size.
 //!
 //! | severity | meaning |
 //! |---|---|
-//! | [`Severity::Error`] | a promise of the data types is broken: what is shown is a stand-in, or wrong |
-//! | [`Severity::Warning`] | allowed, but probably not meant, and visible |
-//! | [`Severity::Note`] | allowed and often meant; worth knowing when something looks odd |
+//! | [`Severity::Error`] | an invariant of the data types is broken: the display uses a fallback, or is wrong |
+//! | [`Severity::Warning`] | allowed, but probably unintended, and visible |
+//! | [`Severity::Note`] | allowed and often intended; worth knowing when something looks odd |
 //!
 //! A new rule is a file in `rule/` and a line in [`RULES`].
 //!
@@ -18,33 +18,33 @@
 //! }
 //! ```
 
-mod column;
-mod place;
+mod channels;
+mod path;
 mod rule;
 
-pub use place::{Kind, Place, Step};
+pub use path::{ModelPath, PathKind, PathStep};
 
 use crate::data::{ModelData, Skeleton, Take};
 use std::fmt;
 
-/// How much a finding matters. Sorts with the worst first.
+/// Severity of a finding. Sorts with the worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// A promise of the data types is broken.
+    /// An invariant of the data types is broken.
     Error,
-    /// Probably not meant.
+    /// Probably unintended.
     Warning,
     /// Worth knowing.
     Note,
 }
 
-/// What a rule looks at.
+/// The function of a rule, by what it examines.
 #[derive(Clone, Copy)]
-pub(crate) enum Look {
-    /// The model without its takes.
+pub(crate) enum RuleFunction {
+    /// Examines the model without its takes.
     Model(fn(&ModelData, &mut Findings)),
-    /// One take and the skeleton it moves.
-    Take(fn(&TakeOf<'_>, &mut Findings)),
+    /// Examines one take and the skeleton it moves.
+    Take(fn(&TakeContext<'_>, &mut Findings)),
 }
 
 /// One rule.
@@ -52,11 +52,11 @@ pub(crate) enum Look {
 pub struct Rule {
     /// Short and in capitals: `"KEY_TIMES_FALL"`.
     pub id: &'static str,
-    /// How much breaking it matters.
+    /// Severity of its findings.
     pub severity: Severity,
-    /// What is wrong when it is broken, in a sentence.
+    /// The problem that the rule finds, in one sentence.
     pub meaning: &'static str,
-    look: Look,
+    function: RuleFunction,
 }
 
 impl Rule {
@@ -64,31 +64,31 @@ impl Rule {
         id: &'static str,
         severity: Severity,
         meaning: &'static str,
-        look: fn(&ModelData, &mut Findings),
+        function: fn(&ModelData, &mut Findings),
     ) -> Self {
-        Self { id, severity, meaning, look: Look::Model(look) }
+        Self { id, severity, meaning, function: RuleFunction::Model(function) }
     }
 
     const fn take(
         id: &'static str,
         severity: Severity,
         meaning: &'static str,
-        look: fn(&TakeOf<'_>, &mut Findings),
+        function: fn(&TakeContext<'_>, &mut Findings),
     ) -> Self {
-        Self { id, severity, meaning, look: Look::Take(look) }
+        Self { id, severity, meaning, function: RuleFunction::Take(function) }
     }
 }
 
-/// Something that breaks a rule. Shown as `severity: place: text`.
+/// A violation of a rule. Displayed as `severity: path: text`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// [`Rule::id`].
     pub rule: &'static str,
     /// [`Rule::severity`].
     pub severity: Severity,
-    /// Where.
-    pub place: Place,
-    /// What, with the numbers.
+    /// The violating element.
+    pub path: ModelPath,
+    /// Description of the problem, with the numbers.
     pub text: String,
 }
 
@@ -99,88 +99,88 @@ impl fmt::Display for Finding {
             Severity::Warning => "warning",
             Severity::Note => "note",
         };
-        write!(f, "{severity}: {}: {}", self.place, self.text)
+        write!(f, "{severity}: {}: {}", self.path, self.text)
     }
 }
 
-/// Findings of one rule that are told one by one; the rest of a [`check`] is counted.
-pub const MOST_OF_A_RULE: usize = 100;
+/// Number of findings of one rule that a [`check`] lists one by one; the rest is only counted.
+pub const MAX_PER_RULE: usize = 100;
 
-/// Collects what one rule finds.
+/// Collects the findings of one rule.
 pub(crate) struct Findings {
     rule: &'static Rule,
     list: Vec<Finding>,
-    untold: usize,
+    omitted: usize,
 }
 
 impl Findings {
-    /// Adds a finding; `tell` is only asked while there is room for more.
-    pub(crate) fn add(&mut self, tell: impl FnOnce() -> (Place, String)) {
-        if self.list.len() >= MOST_OF_A_RULE {
-            self.untold += 1;
+    /// Adds a finding; `describe` is only called while the list is not full.
+    pub(crate) fn add(&mut self, describe: impl FnOnce() -> (ModelPath, String)) {
+        if self.list.len() >= MAX_PER_RULE {
+            self.omitted += 1;
             return;
         }
-        let (place, text) = tell();
-        self.list.push(Finding { rule: self.rule.id, severity: self.rule.severity, place, text });
+        let (path, text) = describe();
+        self.list.push(Finding { rule: self.rule.id, severity: self.rule.severity, path, text });
     }
 }
 
-/// A take with what it moves.
-pub(crate) struct TakeOf<'a> {
+/// A take with its context.
+pub(crate) struct TakeContext<'a> {
     pub(crate) take: &'a Take,
     pub(crate) skeleton: &'a Skeleton,
     /// Number of the take in its model.
     pub(crate) number: usize,
-    /// The model, where the take was not given by itself.
+    /// The model; `None` where the take is checked by itself.
     pub(crate) model: Option<&'a ModelData>,
 }
 
-impl TakeOf<'_> {
-    /// The take as a place.
-    pub(crate) fn place(&self) -> Place {
-        Place::of(Kind::Take, self.number, &self.take.name)
+impl TakeContext<'_> {
+    /// Returns the path of the take.
+    pub(crate) fn path(&self) -> ModelPath {
+        ModelPath::of(PathKind::Take, self.number, &self.take.name)
     }
 
-    /// A bone of the skeleton, within the take.
-    pub(crate) fn bone(&self, bone: usize) -> Place {
+    /// Returns the path of a bone of the skeleton, within the take.
+    pub(crate) fn bone(&self, bone: usize) -> ModelPath {
         let name = self.skeleton.bones.get(bone).map_or("", |bone| bone.name.as_str());
-        self.place().then(Kind::Bone, bone, name)
+        self.path().then(PathKind::Bone, bone, name)
     }
 }
 
-/// Everything wrong with `model`, the worst first, then in the order of [`RULES`].
+/// Returns everything wrong with `model`, the worst first, then in the order of [`RULES`].
 pub fn check(model: &ModelData) -> Vec<Finding> {
-    let takes = model.animation.takes.iter().enumerate().map(|(number, take)| TakeOf {
+    let takes = model.animation.takes.iter().enumerate().map(|(number, take)| TakeContext {
         take,
         skeleton: &model.animation.skeleton,
         number,
         model: Some(model),
     });
-    let takes: Vec<TakeOf<'_>> = takes.collect();
-    run(|look, findings| match look {
-        Look::Model(look) => look(model, findings),
-        Look::Take(look) => takes.iter().for_each(|take| look(take, findings)),
+    let takes: Vec<TakeContext<'_>> = takes.collect();
+    run(|function, findings| match function {
+        RuleFunction::Model(function) => function(model, findings),
+        RuleFunction::Take(function) => takes.iter().for_each(|take| function(take, findings)),
     })
 }
 
-/// Everything wrong with `take` as one that moves `skeleton`; places name it as number 0.
+/// Returns everything wrong with `take` as one that moves `skeleton`; in paths it is take number 0.
 pub fn check_take(take: &Take, skeleton: &Skeleton) -> Vec<Finding> {
-    let of = TakeOf { take, skeleton, number: 0, model: None };
-    run(|look, findings| match look {
-        Look::Model(_) => {}
-        Look::Take(look) => look(&of, findings),
+    let of = TakeContext { take, skeleton, number: 0, model: None };
+    run(|function, findings| match function {
+        RuleFunction::Model(_) => {}
+        RuleFunction::Take(function) => function(&of, findings),
     })
 }
 
-fn run(mut look: impl FnMut(Look, &mut Findings)) -> Vec<Finding> {
+fn run(mut call: impl FnMut(RuleFunction, &mut Findings)) -> Vec<Finding> {
     let mut all = Vec::new();
     for rule in RULES {
-        let mut findings = Findings { rule, list: Vec::new(), untold: 0 };
-        look(rule.look, &mut findings);
+        let mut findings = Findings { rule, list: Vec::new(), omitted: 0 };
+        call(rule.function, &mut findings);
         all.append(&mut findings.list);
-        if findings.untold > 0 {
-            let text = format!("and {} more of these", findings.untold);
-            all.push(Finding { rule: rule.id, severity: rule.severity, place: Place::default(), text });
+        if findings.omitted > 0 {
+            let text = format!("and {} more of these", findings.omitted);
+            all.push(Finding { rule: rule.id, severity: rule.severity, path: ModelPath::default(), text });
         }
     }
     all.sort_by_key(|finding| finding.severity);
@@ -189,124 +189,144 @@ fn run(mut look: impl FnMut(Look, &mut Findings)) -> Vec<Finding> {
 
 use Severity::{Error, Note, Warning};
 
-/// Every rule.
+/// All rules, in the order in which findings of equal severity are listed.
 pub static RULES: &[Rule] = &[
-    Rule::model("NOT_FINITE", Error, "A number of the model is NaN or infinite.", rule::not_finite::look),
-    Rule::model(
-        "COLUMN_LENGTH",
-        Error,
-        "A column is not as long as it should be.",
-        rule::column_length::look,
-    ),
-    Rule::model("INDEX", Error, "An index names nothing.", rule::index::look),
-    Rule::model("PARENT_ORDER", Error, "A parent does not come before its child.", rule::parent_order::look),
+    Rule::model("NOT_FINITE", Error, "A number of the model is NaN or infinite.", rule::not_finite::check),
+    Rule::model("COLUMN_LENGTH", Error, "A list has the wrong length.", rule::column_length::check),
+    Rule::model("INDEX", Error, "An index is out of range.", rule::index::check),
+    Rule::model("PARENT_ORDER", Error, "A parent does not come before its child.", rule::parent_order::check),
     Rule::model(
         "JOINT_MISSING",
         Error,
-        "An influence names a joint that the skin lacks.",
-        rule::joint_missing::look,
+        "An influence refers to a joint that the skin does not have.",
+        rule::joint_missing::check,
     ),
     Rule::model(
         "WEIGHT_NEGATIVE",
         Error,
         "The weight of an influence is negative.",
-        rule::weight_negative::look,
+        rule::weight_negative::check,
     ),
-    Rule::model("WEIGHT_SUM", Error, "The weights of a vertex do not sum to 1.", rule::weight_sum::look),
+    Rule::model("WEIGHT_SUM", Error, "The weights of a vertex do not sum to 1.", rule::weight_sum::check),
     Rule::model(
         "REST_NOT_UNIT",
         Error,
         "The rotation of a rest pose is not of unit length.",
-        rule::rest_not_unit::look,
+        rule::rest_not_unit::check,
     ),
-    Rule::model("OFFSET_SINGULAR", Error, "An offset cannot be inverted.", rule::offset_singular::look),
-    Rule::model("NORMAL_NOT_UNIT", Warning, "A normal is not of unit length.", rule::normal_not_unit::look),
+    Rule::model(
+        "OFFSET_SINGULAR",
+        Error,
+        "An offset matrix cannot be inverted.",
+        rule::offset_singular::check,
+    ),
+    Rule::model("NORMAL_NOT_UNIT", Warning, "A normal is not of unit length.", rule::normal_not_unit::check),
     Rule::model(
         "REST_SCALE_ZERO",
         Warning,
-        "A bone rests without extent along an axis.",
-        rule::rest_scale_zero::look,
+        "The rest scale of a bone is zero along an axis.",
+        rule::rest_scale_zero::check,
     ),
-    Rule::model("BONE_NAME_TWICE", Warning, "Two bones have one name.", rule::bone_name_twice::look),
-    Rule::model("REST_MIRRORED", Note, "The rest pose of a bone is mirrored.", rule::rest_mirrored::look),
+    Rule::model("BONE_NAME_TWICE", Warning, "Two bones have the same name.", rule::bone_name_twice::check),
+    Rule::model("REST_MIRRORED", Note, "The rest pose of a bone is mirrored.", rule::rest_mirrored::check),
     Rule::model(
         "REST_NOT_UNIFORM",
         Note,
         "A bone's rest scale differs along its axes.",
-        rule::rest_not_uniform::look,
+        rule::rest_not_uniform::check,
     ),
-    Rule::model("BONE_UNUSED", Note, "A bone and those below it move nothing.", rule::bone_unused::look),
-    Rule::model("TRIANGLE_DEGENERATE", Note, "A triangle has no area.", rule::triangle_degenerate::look),
+    Rule::model("BONE_UNUSED", Note, "A bone and its descendants move nothing.", rule::bone_unused::check),
+    Rule::model("TRIANGLE_DEGENERATE", Note, "A triangle has no area.", rule::triangle_degenerate::check),
     Rule::take(
         "TRACK_OF_NO_BONE",
         Error,
-        "A track is that of a bone that is not there.",
-        rule::track_of_no_bone::look,
+        "The bone of a track does not exist.",
+        rule::track_of_no_bone::check,
     ),
-    Rule::take("TRACK_TWICE", Error, "Two tracks of a take are of one bone.", rule::track_twice::look),
-    Rule::take("TRACK_ORDER", Error, "Tracks are not one a bone in bone order.", rule::track_order::look),
+    Rule::take(
+        "TRACK_TWICE",
+        Error,
+        "Two tracks of a take belong to the same bone.",
+        rule::track_twice::check,
+    ),
+    Rule::take(
+        "TRACK_ORDER",
+        Error,
+        "The tracks of a take are not one per bone in bone order.",
+        rule::track_order::check,
+    ),
     Rule::take(
         "KEY_COUNT",
         Error,
-        "A channel has not as many values as its times need.",
-        rule::key_count::look,
+        "The number of values of a channel does not match its key times.",
+        rule::key_count::check,
     ),
     Rule::take(
         "KEY_NOT_FINITE",
         Error,
         "A key's time, value or tangent is NaN or infinite.",
-        rule::key_not_finite::look,
+        rule::key_not_finite::check,
     ),
-    Rule::take("KEY_TIMES_FALL", Error, "A key comes before its predecessor.", rule::key_times_fall::look),
-    Rule::take("KEY_TIME_TWICE", Error, "Two keys of a channel have one time.", rule::key_time_twice::look),
+    Rule::take(
+        "KEY_TIMES_FALL",
+        Error,
+        "The key times of a channel do not ascend.",
+        rule::key_times_fall::check,
+    ),
+    Rule::take(
+        "KEY_TIME_TWICE",
+        Error,
+        "Two keys of a channel have the same time.",
+        rule::key_time_twice::check,
+    ),
     Rule::take(
         "KEY_NOT_UNIT",
         Error,
         "The rotation of a key is not of unit length.",
-        rule::key_not_unit::look,
+        rule::key_not_unit::check,
     ),
-    Rule::take("MORPH_TRACK", Error, "A morph track does not fit its instance.", rule::morph_track::look),
+    Rule::take("MORPH_TRACK", Error, "A morph track does not fit its instance.", rule::morph_track::check),
     Rule::take(
         "TAKE_RANGE",
         Error,
-        "Start and length of a take are not those of its keys.",
-        rule::take_range::look,
+        "Start and length of a take do not match its keys.",
+        rule::take_range::check,
     ),
     Rule::take(
         "KEY_SCALE_ZERO",
         Warning,
-        "A key leaves a bone without extent along an axis.",
-        rule::key_scale_zero::look,
+        "A key scales a bone to zero along an axis.",
+        rule::key_scale_zero::check,
     ),
     Rule::take(
         "KEY_MIRRORED",
         Warning,
-        "A key mirrors a bone that rests unmirrored, or back.",
-        rule::key_mirrored::look,
+        "A key is mirrored and the rest pose is not, or the reverse.",
+        rule::key_mirrored::check,
     ),
     Rule::take(
         "ROTATION_FLIP",
         Warning,
-        "Neighbouring rotation keys lie in opposite hemispheres.",
-        rule::rotation_flip::look,
+        "Neighboring rotation keys are in opposite hemispheres.",
+        rule::rotation_flip::check,
     ),
     Rule::take(
         "ROTATION_JUMP",
         Warning,
-        "A rotation turns faster than half a turn a frame.",
-        rule::rotation_jump::look,
+        "A rotation turns by more than half a turn per frame.",
+        rule::rotation_jump::check,
     ),
-    Rule::take("KEY_TIME_NEGATIVE", Note, "A key comes before time 0.", rule::key_time_negative::look),
+    Rule::take("KEY_TIME_NEGATIVE", Note, "A key comes before time 0.", rule::key_time_negative::check),
     Rule::take(
         "BONE_STRETCHED",
         Note,
         "A translation track changes the length of a bone.",
-        rule::bone_stretched::look,
+        rule::bone_stretched::check,
     ),
     Rule::take(
         "TAKE_WITHOUT_LENGTH",
         Note,
-        "A take is a single pose, or nothing.",
-        rule::take_without_length::look,
+        "A take has a single pose, or no keys.",
+        rule::take_without_length::check,
     ),
 ];

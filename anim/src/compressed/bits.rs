@@ -1,12 +1,12 @@
-//! Numbers of any width in a row of bits, the lowest bit first.
+//! Numbers of any width in a bit stream, the lowest bit first.
 
 use super::FormatError;
 
-/// Appends numbers to a row of bits.
+/// Appends numbers to a bit stream.
 #[derive(Debug, Default)]
 pub(super) struct BitWriter {
     bytes: Vec<u8>,
-    /// Bits used so far.
+    /// Number of bits written so far.
     bits: usize,
 }
 
@@ -35,43 +35,43 @@ impl BitWriter {
         self.put(value.to_bits(), 32);
     }
 
-    /// Goes on with a whole byte.
+    /// Pads with zeros to a whole byte.
     pub(super) fn fill_byte(&mut self) {
         self.bits = self.bytes.len() * 8;
     }
 
-    /// Bytes begun so far.
+    /// Returns the number of bytes started so far.
     pub(super) fn length(&self) -> usize {
         self.bytes.len()
     }
 
-    /// What was appended, the last byte filled up with zeros.
+    /// Returns the bytes, the last one padded with zeros.
     pub(super) fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }
 }
 
-/// Takes numbers from a row of bits.
+/// Reads numbers from a bit stream.
 #[derive(Clone, Debug)]
 pub(super) struct BitReader<'a> {
     bytes: &'a [u8],
-    /// Bits taken so far, from the first byte of all.
+    /// Number of bits read so far, from the first byte.
     at: usize,
 }
 
 impl<'a> BitReader<'a> {
-    /// Reads `bytes` from byte `offset` on.
+    /// Creates a reader of `bytes` from byte `offset` on.
     pub(super) fn new(bytes: &'a [u8], offset: usize) -> Self {
         Self { bytes, at: offset.saturating_mul(8) }
     }
 
-    /// The same row, from so many bits later on.
+    /// Returns a reader of the same stream, `bits` bits further on.
     pub(super) fn after(mut self, bits: u32) -> Self {
         self.at = self.at.saturating_add(bits as usize);
         self
     }
 
-    /// The next `width` bits, 0..=32.
+    /// Reads the next `width` bits, 0..=32.
     pub(super) fn take(&mut self, width: u32) -> Result<u32, FormatError> {
         let end = self.at.saturating_add(width as usize);
         if end > self.bytes.len() * 8 {
@@ -86,23 +86,23 @@ impl<'a> BitReader<'a> {
         Ok(value as u32)
     }
 
-    /// The next 32 bits as a float that is finite.
+    /// Reads the next 32 bits as a finite float.
     pub(super) fn take_float(&mut self) -> Result<f32, FormatError> {
         let offset = self.offset();
         let value = f32::from_bits(self.take(32)?);
         if value.is_finite() {
             Ok(value)
         } else {
-            Err(FormatError::new(offset, format!("{value} is no number")))
+            Err(FormatError::new(offset, format!("{value} is not a finite number")))
         }
     }
 
-    /// The byte that holds the next bit.
+    /// Returns the byte that contains the next bit.
     pub(super) fn offset(&self) -> usize {
         self.at / 8
     }
 
-    /// The first byte of which nothing was taken.
+    /// Returns the first byte that has not been read from.
     pub(super) fn next_byte(&self) -> usize {
         self.at.div_ceil(8)
     }

@@ -1,51 +1,51 @@
-//! From a take to a compressed one: code, measure, and choose what came out smallest.
+//! Compression of a take: encodes with several choices, measures each, and keeps the smallest.
 
-use super::encode::{Choice, Encoder};
-use super::frames::{Frames, all_to_root};
+use super::encode::{EncodeChoice, Encoder};
+use super::frames::{SampledFrames, all_to_root};
 use super::metric::{LargestError, largest_error};
-use super::plan::Plan;
-use super::settings::{Exactness, Settings};
+use super::plan::TrackPlan;
+use super::settings::{CompressionSettings, Exactness};
 use super::write::write;
 use super::{CompressError, CompressedTake};
 use crate::data::{Skeleton, Take, Transform};
 use crate::fast::Pose;
 
-/// What compression came to.
+/// Results of a compression.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
-    /// Where the bytes went.
-    pub bytes: Bytes,
-    /// Bytes of the same keys as plain floats: 40 a bone and key.
+pub struct CompressionReport {
+    /// Sizes in bytes, by content.
+    pub bytes: ByteSizes,
+    /// Size in bytes of the same keys as plain floats: 40 per bone and key.
     pub raw_bytes: usize,
-    /// The largest error at any key time, measured on the decoded result, and where it is.
+    /// The largest error at any key time, measured on the decoded result, and its position.
     pub largest_error: LargestError,
     /// That error in units of its bone's tolerance; at most 1.
     pub share_of_tolerance: f32,
-    /// Keys of one segment.
+    /// Number of keys in a segment.
     pub keys_per_segment: usize,
-    /// Channels that stand still in the default value, stand still elsewhere, move, and move but are stored whole.
+    /// Number of channels that are constant at the default value, constant at another value, packed, and stored whole.
     pub channels: [usize; 4],
-    /// Morph tracks of the take: these are not part of a compressed take.
+    /// Number of morph tracks of the take: these are not part of a compressed take.
     pub morphs_left_out: usize,
 }
 
-/// Bytes by what they hold.
+/// Sizes in bytes, by content.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Bytes {
-    /// Name, times, sums.
+pub struct ByteSizes {
+    /// Name, times, checksums.
     pub header: usize,
-    /// What stands still.
+    /// Constant channels.
     pub constants: usize,
-    /// Ranges and widths of what moves.
+    /// Ranges and widths of packed channels.
     pub ranges: usize,
     /// Keys stored whole.
     pub whole: usize,
-    /// Keys in few bits.
+    /// Packed keys.
     pub keys: usize,
 }
 
-impl Bytes {
-    /// All of them: the length of [`CompressedTake::as_bytes`].
+impl ByteSizes {
+    /// Returns the sum: the length of [`CompressedTake::as_bytes`].
     pub fn total(&self) -> usize {
         self.header + self.constants + self.ranges + self.whole + self.keys
     }
@@ -54,33 +54,33 @@ impl Bytes {
 /// Shares of the tolerance tried for the first and the last joint of a chain.
 const SHARES: [[f32; 2]; 8] =
     [[0.7, 0.8], [0.5, 0.8], [0.6, 0.7], [0.45, 0.7], [0.5, 0.6], [0.45, 0.6], [0.4, 0.55], [0.3, 0.4]];
-/// Segment sizes tried, as powers of two, beginning in the middle.
+/// Segment sizes tried, as powers of two, beginning with the middle one.
 const SMALLER: [u32; 2] = [5, 4];
 const LARGER: [u32; 2] = [7, 8];
 const MIDDLE: u32 = 6;
 
 /// Compresses `take`, whose bones are those of `skeleton`.
 ///
-/// The take is read at evenly spaced times (its own, where they are; see [`Settings::rate`]). At each of them, each of
-/// the three shell points of each bone is within the tolerance of where the raw take has it, in scene space: that is
-/// measured on the decoded bytes before they are returned.
+/// The take is sampled at evenly spaced times (its own, where they are; see [`CompressionSettings::rate`]). At each of them, each
+/// of the three shell points of each bone is within the tolerance of its position in the raw take, in scene space: that
+/// is measured on the decoded bytes before they are returned.
 ///
 /// # Errors
 ///
-/// Too many bones or keys; or numbers so large that single precision cannot hold the tolerance.
+/// Too many bones or keys; or numbers so large that single precision cannot keep the tolerance.
 pub fn compress(
     take: &Take,
     skeleton: &Skeleton,
-    settings: &Settings,
-) -> Result<(CompressedTake, Report), CompressError> {
-    let frames = Frames::of(take, skeleton, settings)?;
+    settings: &CompressionSettings,
+) -> Result<(CompressedTake, CompressionReport), CompressError> {
+    let frames = SampledFrames::of(take, skeleton, settings)?;
     let exactness = settings.per_bone(skeleton.len());
-    let plan = Plan::new(&frames, skeleton, exactness.clone());
-    let attempt = |choice: Choice| Attempt::new(take, skeleton, &frames, &plan, &exactness, choice);
+    let plan = TrackPlan::new(&frames, skeleton, exactness.clone());
+    let attempt = |choice: EncodeChoice| Attempt::new(take, skeleton, &frames, &plan, &exactness, choice);
     let mut best: Option<Attempt> = None;
     let mut shares = SHARES[0];
     for next in SHARES {
-        let found = attempt(Choice { shift: MIDDLE, shares: next, whole: false })?;
+        let found = attempt(EncodeChoice { shift: MIDDLE, shares: next, whole: false })?;
         let first = best.is_none();
         if better(found, &mut best) {
             shares = next;
@@ -91,20 +91,21 @@ pub fn compress(
     for sizes in [SMALLER, LARGER] {
         for shift in sizes {
             let helps = frames.count() > 1 << shift.min(MIDDLE)
-                && better(attempt(Choice { shift, shares, whole: false })?, &mut best);
+                && better(attempt(EncodeChoice { shift, shares, whole: false })?, &mut best);
             if !helps {
                 break;
             }
         }
     }
     if best.is_none() {
-        better(attempt(Choice { shift: MIDDLE, shares: SHARES[0], whole: true })?, &mut best);
+        better(attempt(EncodeChoice { shift: MIDDLE, shares: SHARES[0], whole: true })?, &mut best);
     }
     match best {
         Some(best) => Ok((best.take, best.report)),
-        None => {
-            Err(out_of_reach(attempt(Choice { shift: MIDDLE, shares: SHARES[0], whole: true })?, &exactness))
-        }
+        None => Err(out_of_reach(
+            attempt(EncodeChoice { shift: MIDDLE, shares: SHARES[0], whole: true })?,
+            &exactness,
+        )),
     }
 }
 
@@ -114,7 +115,7 @@ fn out_of_reach(attempt: Attempt, exactness: &[Exactness]) -> CompressError {
     CompressError::OutOfReach { bone, time, tolerance, reached: distance }
 }
 
-/// Takes the place of `best` where it holds the tolerance and costs less.
+/// Replaces `best` by `attempt` where that keeps the tolerance and costs less. Returns whether it did.
 fn better(attempt: Attempt, best: &mut Option<Attempt>) -> bool {
     let holds = attempt.report.share_of_tolerance <= 1.0;
     let smaller = best.as_ref().is_none_or(|best| attempt.cost() < best.cost());
@@ -124,14 +125,14 @@ fn better(attempt: Attempt, best: &mut Option<Attempt>) -> bool {
     holds && smaller
 }
 
-/// One way to compress a take, and what it came to.
+/// A take compressed with one choice, and its report.
 struct Attempt {
     take: CompressedTake,
-    report: Report,
+    report: CompressionReport,
 }
 
 impl Attempt {
-    /// Bytes, and a quarter of those of the tables: they are needed only while the take is played.
+    /// Returns the bytes, plus a quarter of those of the tables: they are needed only while the take is played.
     fn cost(&self) -> usize {
         self.take.as_bytes().len() * 3 / 4 + self.take.bytes_in_memory() / 4
     }
@@ -139,22 +140,22 @@ impl Attempt {
     fn new(
         take: &Take,
         skeleton: &Skeleton,
-        frames: &Frames,
-        plan: &Plan,
+        frames: &SampledFrames,
+        plan: &TrackPlan,
         exactness: &[Exactness],
-        choice: Choice,
+        choice: EncodeChoice,
     ) -> Result<Self, CompressError> {
         let stored = Encoder::new(frames, skeleton, plan, choice).run(&take.name);
         let (bytes, spent) = write(&stored)?;
         let compressed = match CompressedTake::from_bytes(bytes) {
             Ok(compressed) => compressed,
-            Err(error) => unreachable!("what was written cannot be read: {error}"),
+            Err(error) => unreachable!("the bytes just written cannot be read: {error}"),
         };
         let decoded = all_to_root(skeleton, &poses(&compressed, frames));
         let (share_of_tolerance, largest_error) = largest_error(frames, &decoded, exactness);
         let mut channels = [0; 4];
         stored.bones.iter().flatten().for_each(|part| channels[part.kind() as usize] += 1);
-        let report = Report {
+        let report = CompressionReport {
             bytes: spent,
             raw_bytes: frames.poses.len() * 40,
             largest_error,
@@ -167,8 +168,8 @@ impl Attempt {
     }
 }
 
-/// The decoded poses at every key time, frame after frame.
-fn poses(take: &CompressedTake, frames: &Frames) -> Vec<Transform> {
+/// Returns the decoded poses at every key time, frame after frame.
+fn poses(take: &CompressedTake, frames: &SampledFrames) -> Vec<Transform> {
     let interval = frames.clock.interval();
     let mut pose = Pose::new(frames.bones);
     let mut poses = vec![Transform::IDENTITY; frames.poses.len()];

@@ -1,56 +1,61 @@
-//! From frames to what is stored: bone after bone from the root, each against its parent as it will be decoded.
+//! Encodes frames, bone after bone from the root, each relative to its parent as it will be decoded.
 
-use super::frames::Frames;
+use super::frames::SampledFrames;
 use super::grid::{WHOLE_BITS, rotation_from, rotation_numbers};
-use super::plan::{Plan, mean};
-use super::points::{Point, aimed, shell};
-use super::stored::{Packed, Part, Range, Reference, Stored, rotation_of};
+use super::plan::{TrackPlan, mean};
+use super::points::{RigidPoint, aimed, shell};
+use super::stored::{PackedChannel, Reference, StoredChannel, StoredTake, ValueRange, rotation_of};
 use super::track::{Coded, Wanted, code};
 use crate::animation::to_parent;
 use crate::data::{Skeleton, Transform};
 use glam::{Affine3A, Quat, Vec3, Vec3Swizzles};
 
-/// What the compressor may choose.
+/// Parameters that the compressor may choose.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Choice {
+pub(super) struct EncodeChoice {
     /// A segment has `1 << shift` keys.
     pub(super) shift: u32,
-    /// Shares of the tolerance that the first and the last joint of a chain may be off.
+    /// Shares of the tolerance allowed for the first and the last joint of a chain.
     pub(super) shares: [f32; 2],
-    /// Store what moves as exactly as possible.
+    /// Whether channels that move are stored as exactly as possible.
     pub(super) whole: bool,
 }
 
-/// Share of the tolerance that the shell of a bone may be off.
+/// Share of the tolerance allowed for the shell of a bone.
 const SHELL: f32 = 0.985;
-/// Share of a joint's tolerance that goes into its translation, where that moves.
+/// Share of a joint's tolerance allowed for its translation, where that moves.
 const MOVED: f32 = 0.5;
-/// Share of a bone's tolerance that goes into its scale, where that moves.
+/// Share of a bone's tolerance allowed for its scale, where that moves.
 const SCALED: f32 = 0.3;
-/// The first step tried, in those that would just do for one point.
+/// The first step tried, in units of the step that would just suffice for one point.
 const COARSE: f32 = 4.0;
 /// A rotation whose w relative to the middle one falls below this is stored whole.
 const SMALLEST_W: f32 = 0.3;
 
-/// Everything that coding a bone needs.
+/// Everything needed to encode a bone.
 pub(super) struct Encoder<'a> {
-    pub(super) frames: &'a Frames,
+    pub(super) frames: &'a SampledFrames,
     pub(super) skeleton: &'a Skeleton,
-    pub(super) plan: &'a Plan,
-    pub(super) choice: Choice,
+    pub(super) plan: &'a TrackPlan,
+    pub(super) choice: EncodeChoice,
     /// As decoded, frame after frame: bone space → scene space.
     to_root: Vec<Affine3A>,
 }
 
 impl<'a> Encoder<'a> {
-    pub(super) fn new(frames: &'a Frames, skeleton: &'a Skeleton, plan: &'a Plan, choice: Choice) -> Self {
+    pub(super) fn new(
+        frames: &'a SampledFrames,
+        skeleton: &'a Skeleton,
+        plan: &'a TrackPlan,
+        choice: EncodeChoice,
+    ) -> Self {
         Self { frames, skeleton, plan, choice, to_root: vec![Affine3A::IDENTITY; frames.to_root.len()] }
     }
 
-    /// Codes every bone.
-    pub(super) fn run(mut self, name: &str) -> Stored {
+    /// Encodes every bone.
+    pub(super) fn run(mut self, name: &str) -> StoredTake {
         let bones = (0..self.frames.bones).map(|bone| self.bone(bone)).collect();
-        Stored {
+        StoredTake {
             name: name.to_owned(),
             clock: self.frames.clock,
             shift: self.choice.shift,
@@ -64,7 +69,7 @@ impl<'a> Encoder<'a> {
         parent.map_or(Affine3A::IDENTITY, |parent| self.to_root[frame * self.frames.bones + parent])
     }
 
-    /// Distance that the origin of `bone` may be off.
+    /// Returns the distance by which the origin of `bone` may be off.
     fn joint_limit(&self, bone: usize) -> f32 {
         let (depth, deepest) = self.plan.depth[bone];
         let [first, last] = self.choice.shares;
@@ -72,44 +77,44 @@ impl<'a> Encoder<'a> {
         self.plan.tolerance[bone] * share
     }
 
-    fn bone(&mut self, bone: usize) -> [Part; 3] {
+    fn bone(&mut self, bone: usize) -> [StoredChannel; 3] {
         let count = self.frames.count();
         let mut parts = self.plan.parts[bone].clone();
         let mut poses = vec![self.plan.still_pose(bone); count];
-        if matches!(parts[2], Part::Whole(_)) {
+        if matches!(parts[2], StoredChannel::Whole(_)) {
             parts[2] = self.scale(bone, &mut poses);
         }
-        if matches!(parts[1], Part::Whole(_)) {
+        if matches!(parts[1], StoredChannel::Whole(_)) {
             parts[1] = self.translation(bone, &mut poses);
         }
-        if matches!(parts[0], Part::Whole(_)) {
+        if matches!(parts[0], StoredChannel::Whole(_)) {
             parts[0] = self.rotation(bone, &mut poses);
         }
         let rules = &self.skeleton.bones[bone];
         for (frame, &pose) in poses.iter().enumerate() {
             let to_parent = Affine3A::from_mat4(to_parent(rules, pose));
             let to_root = self.parent(frame, bone) * to_parent;
-            let place = frame * self.frames.bones + bone;
-            self.to_root[place] = if to_root.is_finite() { to_root } else { self.parent(frame, bone) };
+            let index = frame * self.frames.bones + bone;
+            self.to_root[index] = if to_root.is_finite() { to_root } else { self.parent(frame, bone) };
         }
         parts
     }
 
-    fn scale(&self, bone: usize, poses: &mut [Transform]) -> Part {
+    fn scale(&self, bone: usize, poses: &mut [Transform]) -> StoredChannel {
         let wanted: Vec<Vec3> = (0..poses.len()).map(|frame| self.frames.pose(frame, bone).scale).collect();
         let points = self.points(bone);
         let limit = self.plan.tolerance[bone] * SCALED;
         let reach = points.iter().map(|point| point.local.length()).fold(f32::MIN_POSITIVE, f32::max);
         let largest = |frame: usize| self.frames.to_root(frame, bone).matrix3;
         let error = |frame: usize, scale: Vec3| {
-            // Seen from the raw bone: how far its points move, whatever the parents are.
+            // Relative to the raw bone: the movement of its points alone, without that of the parents.
             let unscaled = wanted[frame];
             let ratio = Vec3::select(
                 unscaled.abs().cmpgt(Vec3::splat(1e-3)),
                 (scale - unscaled) / unscaled,
                 scale - unscaled,
             );
-            let far = |point: &Point| (largest(frame) * (ratio * point.local)).length();
+            let far = |point: &RigidPoint| (largest(frame) * (ratio * point.local)).length();
             points.iter().map(far).fold(0.0, f32::max) / limit
         };
         self.vector(&wanted, Vec3::splat(COARSE * limit / reach), error, |frame, scale| {
@@ -117,7 +122,7 @@ impl<'a> Encoder<'a> {
         })
     }
 
-    fn translation(&self, bone: usize, poses: &mut [Transform]) -> Part {
+    fn translation(&self, bone: usize, poses: &mut [Transform]) -> StoredChannel {
         let limit = self.joint_limit(bone) * MOVED;
         let parents: Vec<Affine3A> = (0..poses.len()).map(|frame| self.parent(frame, bone)).collect();
         let raw: Vec<Vec3> =
@@ -139,26 +144,26 @@ impl<'a> Encoder<'a> {
         self.vector(&wanted, Vec3::splat(COARSE * limit), error, put)
     }
 
-    /// Codes a vector that moves.
+    /// Encodes a vector that moves.
     fn vector(
         &self,
         values: &[Vec3],
         step: Vec3,
         error: impl FnMut(usize, Vec3) -> f32,
         mut put: impl FnMut(usize, Vec3),
-    ) -> Part {
+    ) -> StoredChannel {
         let range = vector_range(values).filter(|_| !self.choice.whole);
         let coded =
             range.and_then(|range| code(&Wanted { values, range, shift: self.choice.shift, step }, error));
         let Some(Coded { range, segments, values: decoded }) = coded else {
             values.iter().enumerate().for_each(|(frame, &value)| put(frame, value));
-            return Part::Whole(values.iter().map(|value| value.extend(0.0).to_array()).collect());
+            return StoredChannel::Whole(values.iter().map(|value| value.extend(0.0).to_array()).collect());
         };
         decoded.iter().enumerate().for_each(|(frame, &value)| put(frame, value));
-        Part::Packed(Packed { reference: Reference::NONE, range, segments })
+        StoredChannel::PackedChannel(PackedChannel { reference: Reference::NONE, range, segments })
     }
 
-    fn rotation(&self, bone: usize, poses: &mut [Transform]) -> Part {
+    fn rotation(&self, bone: usize, poses: &mut [Transform]) -> StoredChannel {
         let points = self.points(bone);
         let count = poses.len();
         let parents: Vec<Affine3A> = (0..count).map(|frame| self.parent(frame, bone)).collect();
@@ -172,9 +177,9 @@ impl<'a> Encoder<'a> {
         if !self.choice.whole {
             let share = |frame: usize, rotation: Quat| {
                 let pose = Transform { rotation, ..poses[frame] };
-                Point::share(&points, raw_of(frame), &(parents[frame] * pose.to_affine()))
+                RigidPoint::share(&points, raw_of(frame), &(parents[frame] * pose.to_affine()))
             };
-            // Where the parents left more of an error than a rotation can take back, no number of bits would do.
+            // If the parents left a larger error than a rotation can correct, no number of bits would suffice.
             let reachable: Vec<f32> = wanted
                 .iter()
                 .enumerate()
@@ -184,7 +189,7 @@ impl<'a> Encoder<'a> {
             if let Some((packed, decoded)) = self.pack_rotation(&wanted, self.turn_step(bone, &points), error)
             {
                 poses.iter_mut().zip(decoded).for_each(|(pose, rotation)| pose.rotation = rotation);
-                return Part::Packed(packed);
+                return StoredChannel::PackedChannel(packed);
             }
         }
         let whole = |rotation: Quat| {
@@ -192,15 +197,15 @@ impl<'a> Encoder<'a> {
             rotation_from(dropped, numbers, WHOLE_BITS)
         };
         poses.iter_mut().zip(&wanted).for_each(|(pose, &rotation)| pose.rotation = whole(rotation));
-        Part::Whole(wanted.iter().map(|rotation| rotation.to_array()).collect())
+        StoredChannel::Whole(wanted.iter().map(|rotation| rotation.to_array()).collect())
     }
 
-    /// The rotation that takes back what the parents did wrong.
+    /// Returns the rotation that best corrects the error of the parents.
     fn aim(
         &self,
         bone: usize,
         frame: usize,
-        points: &[Point],
+        points: &[RigidPoint],
         raw: &[Vec3],
         parent: &Affine3A,
         pose: &Transform,
@@ -218,8 +223,8 @@ impl<'a> Encoder<'a> {
         )
     }
 
-    /// A step of each component of a rotation that is too coarse for its points.
-    fn turn_step(&self, bone: usize, points: &[Point]) -> Vec3 {
+    /// Returns a step for each component of a rotation that is too coarse for its points.
+    fn turn_step(&self, bone: usize, points: &[RigidPoint]) -> Vec3 {
         let scale = self.frames.pose(0, bone).scale;
         let mut step = Vec3::splat(1.0);
         for point in points {
@@ -235,7 +240,7 @@ impl<'a> Encoder<'a> {
         wanted: &[Quat],
         step: Vec3,
         mut error: impl FnMut(usize, Quat) -> f32,
-    ) -> Option<(Packed, Vec<Quat>)> {
+    ) -> Option<(PackedChannel, Vec<Quat>)> {
         let reference = Reference::near(mean(wanted.iter().copied()));
         let middle = reference.rotation();
         let back = middle.conjugate();
@@ -251,17 +256,17 @@ impl<'a> Encoder<'a> {
             if xyz.length_squared() <= 1.0 { error(frame, rotation_of(middle, xyz)) } else { f32::INFINITY }
         })?;
         let decoded = coded.values.iter().map(|&xyz| rotation_of(middle, xyz)).collect();
-        Some((Packed { reference, range: coded.range, segments: coded.segments }, decoded))
+        Some((PackedChannel { reference, range: coded.range, segments: coded.segments }, decoded))
     }
 
-    /// The points that only `bone` can bring to their places: its shell, the joints that move on it, and everything
-    /// that hangs on it rigidly.
-    fn points(&self, bone: usize) -> Vec<Point> {
+    /// Returns the points that only `bone` can correct: its shell, the joints that move on it, and everything rigidly
+    /// attached to it.
+    fn points(&self, bone: usize) -> Vec<RigidPoint> {
         let mut points = Vec::new();
         let mut open = vec![(bone, Affine3A::IDENTITY)];
         while let Some((owner, to_bone)) = open.pop() {
             let exactness = &self.plan.exactness[owner];
-            points.extend(shell(exactness).map(|of_owner| Point {
+            points.extend(shell(exactness).map(|of_owner| RigidPoint {
                 local: to_bone.transform_point3(of_owner),
                 owner,
                 of_owner,
@@ -271,8 +276,8 @@ impl<'a> Encoder<'a> {
                 let still = self.plan.still_pose(child);
                 if self.plan.is_rigid(child) {
                     open.push((child, to_bone * still.to_affine()));
-                } else if !matches!(self.plan.parts[child][1], Part::Whole(_)) {
-                    points.push(Point {
+                } else if !matches!(self.plan.parts[child][1], StoredChannel::Whole(_)) {
+                    points.push(RigidPoint {
                         local: to_bone.transform_point3(still.translation),
                         owner: child,
                         of_owner: Vec3::ZERO,
@@ -285,38 +290,38 @@ impl<'a> Encoder<'a> {
     }
 }
 
-/// Can the space of a bone be led back to?
+/// Returns whether the space of a bone can be inverted accurately.
 fn well(to_root: &Affine3A) -> bool {
     let lengths =
         [to_root.matrix3.x_axis, to_root.matrix3.y_axis, to_root.matrix3.z_axis].map(|axis| axis.length());
     let (least, most) =
         lengths.iter().fold((f32::MAX, 0.0_f32), |(least, most), &at| (least.min(at), most.max(at)));
-    // Errors grow on the way back by as much as axes differ; then the raw pose is the better aim.
+    // Inversion amplifies errors by the ratio of the axes; then the raw pose is the better aim.
     let volume = to_root.matrix3.determinant().abs() / (lengths[0] * lengths[1] * lengths[2]);
     most.is_finite() && least > 0.3 * most && volume > 0.3
 }
 
-/// Room on both sides, so that a segment's place can be rounded.
+/// Margin on both sides, so that the position of a segment can be rounded.
 const MARGIN: f32 = 0.006;
 
-/// Where vectors lie; `None` where that leaves the range of numbers.
-fn vector_range(values: &[Vec3]) -> Option<Range> {
+/// Returns the range of vectors; `None` where that leaves the range of numbers.
+fn vector_range(values: &[Vec3]) -> Option<ValueRange> {
     let (low, high) = ends(values);
     let extent = high - low;
-    let range = Range { low: low - extent * MARGIN, extent: extent * (1.0 + 2.0 * MARGIN) };
+    let range = ValueRange { low: low - extent * MARGIN, extent: extent * (1.0 + 2.0 * MARGIN) };
     (range.low.is_finite() && range.extent.is_finite() && range.extent.max_element() < 1e18).then_some(range)
 }
 
-/// Steps of the range of a rotation.
+/// Unit of the range of a rotation.
 pub(super) const TURN_UNIT: f32 = 1.0 / 16_384.0;
 
-/// Where components of rotations lie, in whole [`TURN_UNIT`]s.
-fn turn_range(values: &[Vec3]) -> Range {
+/// Returns the range of components of rotations, in whole [`TURN_UNIT`]s.
+fn turn_range(values: &[Vec3]) -> ValueRange {
     let (low, high) = ends(values);
     let extent = high - low;
     let low = ((low - extent * MARGIN) / TURN_UNIT).floor();
     let high = ((high + extent * MARGIN) / TURN_UNIT).ceil();
-    Range { low: low * TURN_UNIT, extent: (high - low) * TURN_UNIT }
+    ValueRange { low: low * TURN_UNIT, extent: (high - low) * TURN_UNIT }
 }
 
 fn ends(values: &[Vec3]) -> (Vec3, Vec3) {

@@ -1,41 +1,41 @@
-//! What goes wrong when a take is compressed, and when compressed bytes are read.
+//! Errors of compressing a take and of reading compressed bytes.
 
 use thiserror::Error;
 
-/// Why a take could not be compressed.
+/// Reasons why a take cannot be compressed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CompressError {
-    /// More bones, keys or bytes than a compressed take may have.
+    /// More bones, keys or bytes than a compressed take can contain.
     #[error("too many {what}: {count}, at most {limit}")]
     TooLarge {
-        /// What is counted.
+        /// The counted items.
         what: &'static str,
-        /// How many there are.
+        /// The count.
         count: u64,
-        /// How many there may be.
+        /// The largest allowed count.
         limit: u64,
     },
-    /// Single precision cannot hold the error that was asked for: numbers too large for the tolerance.
+    /// Single precision cannot keep the requested tolerance: the numbers are too large for it.
     #[error("bone {bone} at {time} s is off by {reached}, which is more than the tolerance of {tolerance}")]
     OutOfReach {
         /// The bone.
         bone: usize,
-        /// Seconds.
+        /// Time of the error in seconds.
         time: f32,
         /// The tolerance of the bone.
         tolerance: f32,
-        /// The best that was reached; not finite where to-root poses are not.
+        /// The smallest error reached; not finite where to-root poses are not.
         reached: f32,
     },
 }
 
-/// Why bytes are no compressed take.
+/// Error for bytes that are not a compressed take.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("byte {offset}: {reason}")]
 pub struct FormatError {
     /// Offset from the first byte.
     pub offset: usize,
-    /// What is wrong there, with the numbers.
+    /// Description of the problem, with the numbers.
     pub reason: String,
 }
 

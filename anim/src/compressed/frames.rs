@@ -1,39 +1,39 @@
-//! A take at evenly spaced times: what is compressed.
+//! A take sampled at evenly spaced times: the input of the compressor.
 
 use super::stored::LARGEST;
-use super::{CompressError, MAX_BONES, MAX_FRAMES, MAX_VALUES, Settings};
+use super::{CompressError, CompressionSettings, MAX_BONES, MAX_FRAMES, MAX_VALUES};
 use crate::animation::to_root;
 use crate::data::{Channel, Interpolation, Skeleton, Take, Transform};
 use crate::sample::sample_take;
 use glam::{Affine3A, Mat4};
 
-/// Keys a second where the take does not say and the settings neither.
+/// Keys per second where neither the take nor the settings give a rate.
 const USUAL_RATE: f32 = 30.0;
-/// A key this near a frame, in frames, lies on it.
+/// A key this close to a frame, in frames, is on it.
 const ON_FRAME: f64 = 0.01;
 
-/// Parts into which the smallest gap between keys is divided at most, to find a grid that all keys lie on.
+/// Largest number of parts into which the smallest gap between keys is divided to find a grid that contains all keys.
 const FINER: u32 = 8;
 
 /// Evenly spaced times.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Clock {
+pub(super) struct FrameClock {
     /// Seconds.
     pub(super) start: f32,
-    /// Seconds, from the first frame to the last; zero for one frame.
+    /// Seconds from the first frame to the last; zero for one frame.
     pub(super) length: f32,
     /// At least one.
     pub(super) frames: u32,
 }
 
-impl Clock {
-    /// Seconds between two frames; 1 where there is only one.
+impl FrameClock {
+    /// Returns the seconds between two frames; 1 where there is only one.
     pub(super) fn interval(&self) -> f64 {
         let steps = f64::from(self.frames.saturating_sub(1));
         if steps > 0.0 && self.length > 0.0 { f64::from(self.length) / steps } else { 1.0 }
     }
 
-    /// Time of `frame`, seconds.
+    /// Returns the time of `frame` in seconds.
     #[inline(always)]
     pub(super) fn time(&self, frame: u32, interval: f64) -> f32 {
         (f64::from(self.start) + interval * f64::from(frame)) as f32
@@ -42,17 +42,21 @@ impl Clock {
 
 /// The poses of a take at evenly spaced times.
 #[derive(Debug)]
-pub(super) struct Frames {
-    pub(super) clock: Clock,
+pub(super) struct SampledFrames {
+    pub(super) clock: FrameClock,
     pub(super) bones: usize,
-    /// Frame after frame, a pose relative to the parent for each bone.
+    /// Poses relative to the parents, one per bone, frame after frame.
     pub(super) poses: Vec<Transform>,
-    /// Likewise: bone space → scene space.
+    /// Bone space → scene space, one matrix per bone, frame after frame.
     pub(super) to_root: Vec<Affine3A>,
 }
 
-impl Frames {
-    pub(super) fn of(take: &Take, skeleton: &Skeleton, settings: &Settings) -> Result<Self, CompressError> {
+impl SampledFrames {
+    pub(super) fn of(
+        take: &Take,
+        skeleton: &Skeleton,
+        settings: &CompressionSettings,
+    ) -> Result<Self, CompressError> {
         let (clock, bones) = (clock(take, settings)?, skeleton.len());
         limit("bones", bones as u64, MAX_BONES as u64)?;
         limit("poses", u64::from(clock.frames) * bones as u64 * 3, MAX_VALUES as u64)?;
@@ -87,7 +91,7 @@ fn size(pose: &Transform) -> f32 {
     pose.translation.abs().max_element().max(pose.scale.abs().max_element())
 }
 
-/// `to_root` of every bone, frame after frame.
+/// Returns `to_root` of every bone, frame after frame.
 pub(super) fn all_to_root(skeleton: &Skeleton, poses: &[Transform]) -> Vec<Affine3A> {
     let bones = skeleton.len().max(1);
     let mut matrices = vec![Mat4::IDENTITY; skeleton.len()];
@@ -103,11 +107,11 @@ pub(super) fn limit(what: &'static str, count: u64, limit: u64) -> Result<(), Co
     if count <= limit { Ok(()) } else { Err(CompressError::TooLarge { what, count, limit }) }
 }
 
-fn clock(take: &Take, settings: &Settings) -> Result<Clock, CompressError> {
+fn clock(take: &Take, settings: &CompressionSettings) -> Result<FrameClock, CompressError> {
     let start = if take.start.is_finite() { take.start } else { 0.0 };
     let length = if take.length.is_finite() && take.length > 0.0 { take.length } else { 0.0 };
     if length == 0.0 || !(start + length).is_finite() || start + length <= start {
-        return Ok(Clock { start, length: 0.0, frames: 1 });
+        return Ok(FrameClock { start, length: 0.0, frames: 1 });
     }
     let rate = settings.rate.filter(|rate| rate.is_finite() && *rate > 0.0);
     let steps = match rate {
@@ -115,14 +119,14 @@ fn clock(take: &Take, settings: &Settings) -> Result<Clock, CompressError> {
         None => own_steps(take, start, length).unwrap_or_else(|| steps_at(length, USUAL_RATE)),
     };
     limit("keys", steps + 1, MAX_FRAMES as u64)?;
-    Ok(Clock { start, length, frames: steps as u32 + 1 })
+    Ok(FrameClock { start, length, frames: steps as u32 + 1 })
 }
 
 fn steps_at(length: f32, rate: f32) -> u64 {
     ((f64::from(length) * f64::from(rate)).round() as u64).max(1)
 }
 
-/// Intervals of the take's own keys, where they lie evenly and everything between is straight.
+/// Returns the number of intervals of the take's own keys, where these are evenly spaced and interpolated linearly.
 fn own_steps(take: &Take, start: f32, length: f32) -> Option<u64> {
     fn read<T>(channel: &Channel<T>, straight: &mut bool, times: &mut Vec<f32>) {
         *straight &= channel.interpolation == Interpolation::Linear || channel.times.len() < 2;
@@ -147,12 +151,12 @@ fn own_steps(take: &Take, start: f32, length: f32) -> Option<u64> {
         };
         steps >= 1.0 && steps < MAX_FRAMES as f64 && times.iter().all(on_frame)
     };
-    // The gaps may all be multiples of something smaller than the smallest of them.
+    // The gaps may all be multiples of a fraction of the smallest of them.
     let finer = (1..=FINER).map(|finer| (f64::from(length) / smallest * f64::from(finer)).round());
     if straight { finer.into_iter().find(|&steps| fits(steps)).map(|steps| steps as u64) } else { None }
 }
 
-/// Ascending, each time once.
+/// Sorts the times and removes duplicates.
 fn tidy(times: &mut Vec<f32>) {
     times.retain(|time| time.is_finite());
     times.sort_by(f32::total_cmp);

@@ -1,18 +1,18 @@
-//! How values that need no segments are rounded: constants, and rotations stored whole.
+//! Rounding of values outside segments: constants, and rotations stored whole.
 
-use super::stored::Grid;
+use super::stored::RoundingGrid;
 use glam::Quat;
 
 /// Bits of a component of a rotation stored whole: as exact as single precision is after a few products.
 pub(super) const WHOLE_BITS: u32 = 20;
-/// Stands for floats instead of rounded numbers.
+/// Marks floats instead of rounded numbers.
 pub(super) const FLOATS: u32 = 32;
-/// Bits of rounded numbers, at most.
+/// Largest number of bits of rounded numbers.
 pub(super) const MOST_BITS: u32 = 24;
-/// No component but the largest is larger.
+/// Upper bound of every component but the largest.
 const LARGEST: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
-/// A unit quaternion without its largest component: which one that is, and the other three in order, each a number of
+/// Splits a unit quaternion into the index of its largest component and the other three in order, each a number of
 /// `bits` bits (2..=24).
 pub(super) fn rotation_numbers(rotation: Quat, bits: u32) -> (u32, [u32; 3]) {
     let components = rotation.to_array();
@@ -32,7 +32,7 @@ pub(super) fn rotation_numbers(rotation: Quat, bits: u32) -> (u32, [u32; 3]) {
     (dropped as u32, numbers)
 }
 
-/// The rotation that [`rotation_numbers`] took apart; any numbers give some unit quaternion.
+/// Returns the rotation that [`rotation_numbers`] split; any numbers give some unit quaternion.
 pub(super) fn rotation_from(dropped: u32, numbers: [u32; 3], bits: u32) -> Quat {
     let middle = ((1_u32 << (bits - 1)) - 1) as f32;
     let others = numbers.map(|number| ((number as f32 - middle) / middle).clamp(-1.0, 1.0) * LARGEST);
@@ -47,8 +47,8 @@ pub(super) fn rotation_from(dropped: u32, numbers: [u32; 3], bits: u32) -> Quat 
     Quat::from_array(components).normalize()
 }
 
-impl Grid {
-    /// A rotation as a decoder will get it.
+impl RoundingGrid {
+    /// Returns a rotation as it will be decoded.
     pub(super) fn rotation(&self, rotation: Quat) -> Quat {
         if self.rotation_bits == FLOATS {
             return rotation;
@@ -57,13 +57,13 @@ impl Grid {
         rotation_from(dropped, numbers, self.rotation_bits)
     }
 
-    /// Steps from zero; the translation is `step * number`.
+    /// Returns the number of steps from zero; the translation is `step * number`.
     pub(super) fn number(&self, value: f32) -> i32 {
         let most = (1_i32 << (self.translation_bits.clamp(2, MOST_BITS) - 1)) - 1;
         (value / self.step).round().clamp(-most as f32, most as f32) as i32
     }
 
-    /// A component of a translation as a decoder will get it.
+    /// Returns a component of a translation as it will be decoded.
     pub(super) fn component(&self, value: f32) -> f32 {
         if self.translation_bits == FLOATS { value } else { self.number(value) as f32 * self.step }
     }

@@ -1,7 +1,7 @@
-//! What is needed to decode the numbers of eight lanes in one segment.
+//! The data needed to decode the numbers of eight lanes in one segment.
 //!
-//! The three numbers of a lane lie one after the other, those of a lane after those of the one before. Each lane has two
-//! words of four bytes; one begins with the byte of the first bit of x, the other with that of z:
+//! The three numbers of a lane are consecutive, and so are the lanes. Each lane has two words of four bytes; one starts
+//! with the byte of the first bit of x, the other with that of z:
 //!
 //! ```text
 //! first word    | others' bits | x | y | z …           |
@@ -9,46 +9,45 @@
 //! bit           0                                     32
 //! ```
 //!
-//! Numbers are masked where they lie and not moved: the power of two that this makes them too large by is taken out of
-//! the step. That is exact.
+//! Numbers are masked in place and not shifted: the step is divided by the resulting power of two. That is exact.
 
-use super::stored::{Head, Range};
+use super::stored::{SegmentHead, ValueRange};
 use crate::fast::simd::LANES;
 
-/// Bits of a word that numbers may lie in: the sign stays free.
+/// Bits of a word that numbers may occupy: the sign bit stays free.
 const HELD: u32 = 31;
-/// Bits of numbers that four lanes see.
+/// Bits of numbers that four lanes can reach.
 const SEEN: u32 = 128;
-/// Stands for lanes that are read in the other way, see [`WideBlock`].
+/// Marks lanes that are read from a [`WideBlock`].
 const WIDE: u8 = u8::MAX;
 
-/// Where the numbers of eight lanes lie in a key, and what they mean.
+/// Positions and scales of the numbers of eight lanes in a key.
 #[derive(Clone, Debug)]
 #[repr(C)]
 pub(super) struct HeadBlock {
     pub(super) start: [[f32; LANES]; 3],
-    /// Ones where the number of a component lies in its word.
+    /// Ones at the bits of a component's number in its word.
     pub(super) masks: [[u32; LANES]; 3],
-    /// The highest 16 bits of floats: the step, divided by two to the power of the bit where the number begins.
+    /// The highest 16 bits of floats: the step, divided by two to the power of the first bit of the number.
     pub(super) step: [[u16; LANES]; 3],
     /// The first byte of each lane's two words, counted from `at`, or for lanes 4..8 from `second`.
     pub(super) words: [[u8; LANES]; 2],
-    /// Bytes from the begin of the key to the first word of all; of wide lanes, which [`WideBlock`].
+    /// Bytes from the start of the key to the first word of all; for wide lanes, the index of their [`WideBlock`].
     pub(super) at: u32,
     /// Bytes from there to the first word of lanes 4..8, at most 15; or [`WIDE`].
     pub(super) second: u8,
 }
 
-/// Bits from the begin of the key to each number, of lanes whose numbers are too wide for the usual way.
+/// Bits from the start of the key to each number, for lanes whose numbers are too wide for a [`HeadBlock`].
 #[derive(Clone, Debug)]
 pub(super) struct WideBlock {
     pub(super) bits: [[u32; LANES]; 3],
 }
 
-/// One lane, the plain way.
+/// One lane in a plain form.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Lane {
-    /// Bits from the begin of the key to its first number.
+pub(super) struct LaneLayout {
+    /// Bits from the start of the key to its first number.
     pub(super) bit: u32,
     /// Bits of each number.
     pub(super) widths: [u32; 3],
@@ -56,20 +55,20 @@ pub(super) struct Lane {
     pub(super) step: [f32; 3],
 }
 
-impl Lane {
-    pub(super) fn new(bit: u32, range: &Range, head: &Head) -> Self {
+impl LaneLayout {
+    pub(super) fn new(bit: u32, range: &ValueRange, head: &SegmentHead) -> Self {
         let [x, y, z] = [0, 1, 2].map(|axis| head.start_and_step(range, axis));
         let (start, step) = ([x.0, y.0, z.0], [x.1, y.1, z.1]);
         Self { bit, widths: head.bits.map(u32::from), start, step }
     }
 
-    /// Where its numbers begin, in bits from the begin of the key, and where the last ends.
+    /// Returns the first bits of its numbers, from the start of the key, and the end of the last.
     fn edges(&self) -> [u32; 4] {
         let [x, y, z] = self.widths;
         [self.bit, self.bit + x, self.bit + x + y, self.bit + x + y + z]
     }
 
-    /// The first bits of its two words.
+    /// Returns the first bits of its two words.
     fn words(&self) -> [u32; 2] {
         let [x, _, z, _] = self.edges();
         [x / 8 * 8, z / 8 * 8]
@@ -80,12 +79,12 @@ impl Lane {
     }
 }
 
-/// The word of a component.
+/// Index of the word of each component.
 const WORD: [usize; 3] = [0, 0, 1];
 
 impl HeadBlock {
-    /// For lanes in the order of their bits; those without numbers may lie anywhere.
-    pub(super) fn new(lanes: &[Lane; LANES], wide: &mut Vec<WideBlock>) -> Self {
+    /// Creates a block of lanes in the order of their bits; lanes without numbers may be anywhere.
+    pub(super) fn new(lanes: &[LaneLayout; LANES], wide: &mut Vec<WideBlock>) -> Self {
         let mut block = Self {
             start: [0, 1, 2].map(|axis| lanes.map(|lane| lane.start[axis])),
             masks: [[0; LANES]; 3],
@@ -101,7 +100,7 @@ impl HeadBlock {
         });
         let first = halves[0].or(halves[1]).map_or(0, |(begin, _)| begin / 8);
         let second = halves[1].map_or(first, |(begin, _)| begin / 8);
-        let held = |lane: &Lane| {
+        let held = |lane: &LaneLayout| {
             let ([_, _, z, end], [first, second]) = (lane.edges(), lane.words());
             z - first <= HELD && end - second <= HELD
         };
@@ -121,8 +120,8 @@ impl HeadBlock {
         block
     }
 
-    /// Puts in a lane whose words are counted from bit `from` on; `None`: it is wide.
-    fn put(&mut self, index: usize, lane: &Lane, from: Option<u32>) {
+    /// Stores a lane whose words are counted from bit `from` on; `None`: it is wide.
+    fn put(&mut self, index: usize, lane: &LaneLayout, from: Option<u32>) {
         let (edges, words) = (lane.edges(), lane.words());
         if let Some(from) = from {
             (0..2).for_each(|word| self.words[word][index] = ((words[word] - from) / 8) as u8);
@@ -134,14 +133,14 @@ impl HeadBlock {
         }
     }
 
-    /// Are the numbers of the lanes read in the other way?
+    /// Returns whether the numbers of the lanes are read from a [`WideBlock`].
     #[inline(always)]
     pub(super) fn is_wide(&self) -> bool {
         self.second == WIDE
     }
 
-    /// A lane of this block.
-    pub(super) fn lane(&self, index: usize, wide: &[WideBlock]) -> Lane {
+    /// Returns a lane of this block.
+    pub(super) fn lane(&self, index: usize, wide: &[WideBlock]) -> LaneLayout {
         let masks = [0, 1, 2].map(|axis| self.masks[axis][index]);
         let bit = if self.is_wide() {
             wide[self.at as usize].bits[0][index]
@@ -154,7 +153,7 @@ impl HeadBlock {
             let scale = if masks[axis] == 0 { 1.0 } else { (1_u32 << masks[axis].trailing_zeros()) as f32 };
             f32::from_bits(u32::from(self.step[axis][index]) << 16) * scale
         };
-        Lane {
+        LaneLayout {
             bit,
             widths: masks.map(u32::count_ones),
             start: [0, 1, 2].map(|axis| self.start[axis][index]),
@@ -162,14 +161,14 @@ impl HeadBlock {
         }
     }
 
-    /// The bit of the first word of a lane with which its numbers begin, where the first has no bits.
+    /// Returns the first bit of a lane's numbers in its first word, where its first number has no bits.
     fn first_bit(&self, index: usize) -> u32 {
         let [_, y, z] = [0, 1, 2].map(|axis| self.masks[axis][index]);
         if y != 0 { y.trailing_zeros() } else { z.trailing_zeros() % 32 }
     }
 }
 
-/// The highest 16 bits of `step` for numbers that are `1 << edge` times too large.
+/// Returns the highest 16 bits of `step` for numbers that are `1 << edge` times too large.
 fn scaled(step: f32, edge: u32) -> u16 {
     ((step / (1_u32 << edge) as f32).to_bits() >> 16) as u16
 }
@@ -186,11 +185,11 @@ mod tests {
         for round in 0..2000 {
             let most = if round % 2 == 0 { 8.99 } else { 22.99 };
             let mut bit = random.between(0.0, 300.0) as u32;
-            let lanes: [Lane; LANES] = std::array::from_fn(|_| {
+            let lanes: [LaneLayout; LANES] = std::array::from_fn(|_| {
                 let widths = [0; 3]
                     .map(|_: u32| if random.unit() < 0.2 { 0 } else { random.between(0.0, most) as u32 });
                 let step = widths.map(|width| if width == 0 { 0.0 } else { 0.75 });
-                let lane = Lane { bit, widths, start: [1.0, 2.0, 3.0], step };
+                let lane = LaneLayout { bit, widths, start: [1.0, 2.0, 3.0], step };
                 bit += widths.iter().sum::<u32>();
                 lane
             });
@@ -199,7 +198,7 @@ mod tests {
             for (index, lane) in lanes.iter().enumerate() {
                 let back = block.lane(index, &wide);
                 let bit = if lane.widths == [0; 3] { back.bit } else { lane.bit };
-                assert_eq!(back, Lane { bit, ..*lane });
+                assert_eq!(back, LaneLayout { bit, ..*lane });
             }
         }
         assert!(!wide.is_empty());

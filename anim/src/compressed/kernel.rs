@@ -1,22 +1,22 @@
-//! A pose from two keys: eight bones at once, without a step from one time to the next.
+//! Decoding of a pose from two keys: eight bones at once, and independent of the time decoded before.
 //!
-//! Of each lane, each number is masked out of the word that holds it, and makes the component
+//! Each number of each lane is masked out of its word and gives the component
 //!
 //! ```text
 //! value = start + step * number
 //! ```
 //!
-//! Vectors are then mixed; rotations get their w back and are slerped with the weights of [`Slerp`].
+//! Vectors are then interpolated; rotations get their w restored and are slerped with the weights of [`Slerp`].
 
-use super::arrange::Group;
 use super::head::{HeadBlock, WideBlock};
+use super::lane_groups::LaneGroup;
 use super::slerp::Slerp;
 use super::table::{Tables, Turning};
 use crate::fast::PoseBlock;
 use crate::fast::simd::{Float8, Kernel, LANES, Simd, Word8};
 
-/// The same for each of three components. An array's `map` would do, but its closure is not compiled with the
-/// instructions of the level.
+/// Applies an expression to each of three components. An array's `map` would be shorter, but its closure is not
+/// compiled with the instructions of the SIMD level.
 macro_rules! three {
     ($axis:ident => $each:expr) => {
         [
@@ -45,26 +45,26 @@ pub(super) struct Decode<'a> {
     pub(super) out: &'a mut [PoseBlock],
 }
 
-/// Where the two keys lie, and how far the time is on the way from one to the other.
+/// The two keys to decode, and the fraction of the time between them.
 #[derive(Clone, Copy, Debug)]
-struct Keys<'a> {
+struct KeyPair<'a> {
     bytes: &'a [u8],
     wide: &'a [WideBlock],
-    /// The segment of each.
+    /// The segment of each key.
     segments: [usize; 2],
-    /// The first byte of each.
+    /// The first byte of each key.
     rows: [u32; 2],
     mix: f32,
 }
 
-/// The keys around `time`: the one before and how far the time is on the way to the next.
+/// Returns the key before `time`, and the fraction of the way to the next one.
 ///
-/// The same answer as [`crate::sample::find_keys`] gives for the times of the decompressed take.
+/// The same result as [`crate::sample::find_keys`] gives for the times of the decompressed take.
 #[inline(always)]
 fn around(tables: &Tables, time: f32) -> (u32, f32) {
     let (clock, last) = (&tables.clock, tables.clock.frames - 1);
     let at = |key: u32| clock.time(key, tables.interval);
-    // A conversion takes NaN and what is below zero to zero.
+    // The conversion turns NaN and negative numbers into zero.
     let guess = ((f64::from(time) - f64::from(clock.start)) / tables.interval) as u32;
     if guess < last {
         let (before, after) = (at(guess), at(guess + 1));
@@ -72,7 +72,7 @@ fn around(tables: &Tables, time: f32) -> (u32, f32) {
             return (guess, (time - before) / (after - before));
         }
     }
-    // By rounding the key is another; or the time is outside, or no number.
+    // The guess is off by rounding; or the time is outside, or NaN.
     let key = match guess.min(last) {
         key if key > 0 && time < at(key) => key - 1,
         key if key < last && time >= at(key + 1) => key + 1,
@@ -83,14 +83,14 @@ fn around(tables: &Tables, time: f32) -> (u32, f32) {
     }
     let (before, after) = (at(key), at(key + 1));
     let mix = (time - before) / (after - before);
-    // NaN and what is below zero become zero.
+    // NaN and negative numbers become zero.
     (key, if mix > 0.0 { mix.min(1.0) } else { 0.0 })
 }
 
-impl<'a> Keys<'a> {
+impl<'a> KeyPair<'a> {
     #[inline(always)]
     fn new(tables: &'a Tables, bytes: &'a [u8], key: u32, mix: f32) -> Option<Self> {
-        // So that no load need ask.
+        // Checked here so that no load has to check.
         if bytes.len() < super::write::AHEAD {
             return None;
         }
@@ -104,7 +104,7 @@ impl<'a> Keys<'a> {
         Some(Self { bytes, wide: &tables.wide, segments: [segment(key), segment(after)], rows, mix })
     }
 
-    /// Everything that is packed. `ONE`: both keys are of one segment.
+    /// Decodes all packed channels. `ONE`: whether both keys are in one segment.
     #[inline(always)]
     fn put<S: Simd, const ONE: bool>(&self, tables: &Tables, out: &mut [PoseBlock]) {
         let slerp = Slerp::at(self.mix);
@@ -142,7 +142,7 @@ impl<'a> Keys<'a> {
         }
     }
 
-    /// The components of the two keys, and a step on.
+    /// Decodes the components of the two keys, and advances the iterators.
     #[inline(always)]
     fn two<'t, S: Simd, const ONE: bool>(
         &self,
@@ -154,7 +154,7 @@ impl<'a> Keys<'a> {
         Some([self.key::<S>(self.rows[0], head), self.key::<S>(self.rows[1], next)])
     }
 
-    /// The components of the key whose first byte is `row`.
+    /// Decodes the components of the key whose first byte is `row`.
     #[inline(always)]
     fn key<S: Simd>(&self, row: u32, head: &HeadBlock) -> [S::F8; 3] {
         if head.is_wide() {
@@ -166,7 +166,7 @@ impl<'a> Keys<'a> {
         [value::<S>(first, head, 0), value::<S>(first, head, 1), value::<S>(second, head, 2)]
     }
 
-    /// The same, where not all numbers of a lane lie in one word.
+    /// As [`Self::key`], for lanes of which not all numbers are in one word.
     #[inline(always)]
     fn wide_key<S: Simd>(&self, row: u32, head: &HeadBlock) -> [S::F8; 3] {
         let none = WideBlock { bits: [[0; LANES]; 3] };
@@ -179,7 +179,7 @@ impl<'a> Keys<'a> {
     }
 }
 
-/// What the number of a component stands for that lies in `word`.
+/// Returns the component whose number is in `word`.
 #[inline(always)]
 fn value<S: Simd>(word: S::U8, head: &HeadBlock, axis: usize) -> S::F8 {
     let number = word & S::U8::load(&head.masks[axis]);
@@ -187,22 +187,22 @@ fn value<S: Simd>(word: S::U8, head: &HeadBlock, axis: usize) -> S::F8 {
     number.to_float().mul_add(step, S::F8::load(&head.start[axis]))
 }
 
-/// Translations or scales.
+/// Returns the translations or scales.
 #[inline(always)]
 fn vectors(block: &mut PoseBlock, part: usize) -> &mut [[f32; LANES]; 3] {
     if part == 0 { &mut block.translation } else { &mut block.scale }
 }
 
-/// Puts each lane that has a track in its place.
+/// Copies each lane that has a track to its bone.
 #[inline(always)]
 fn scatter<const ROWS: usize>(
-    group: &Group,
+    group: &LaneGroup,
     lanes: &[[f32; LANES]; ROWS],
     out: &mut [PoseBlock],
     rows: impl Fn(&mut PoseBlock) -> &mut [[f32; LANES]; ROWS],
 ) {
     for (lane, bone) in group.bones.iter().enumerate() {
-        // A lane without a bone is of no block.
+        // A lane without a bone is in no block.
         let (block, place) = (*bone as usize / LANES, *bone as usize % LANES);
         if let Some(out) = out.get_mut(block) {
             let rows = rows(out);
@@ -232,7 +232,7 @@ impl Kernel for Decode<'_> {
             }
         }
         let (key, mix) = around(tables, time);
-        if let Some(keys) = Keys::new(tables, bytes, key, mix) {
+        if let Some(keys) = KeyPair::new(tables, bytes, key, mix) {
             if keys.segments[0] == keys.segments[1] {
                 keys.put::<S, true>(tables, out);
             } else {
@@ -245,7 +245,7 @@ impl Kernel for Decode<'_> {
     }
 }
 
-/// The rotations between those whose components are `a` and `b`, which are relative to `reference`.
+/// Returns the rotation between those with components `a` and `b`, which are relative to `reference`.
 #[inline(always)]
 fn rotation<S: Simd>(
     reference: &[[f32; LANES]; 4],
@@ -263,7 +263,7 @@ fn rotation<S: Simd>(
     ]
 }
 
-/// The fourth component of unit quaternions, which is not negative.
+/// Appends the fourth component of unit quaternions, which is not negative.
 #[inline(always)]
 fn with_w<S: Simd>([x, y, z]: [S::F8; 3]) -> [S::F8; 4] {
     let rest = z.neg_mul_add(z, y.neg_mul_add(y, x.neg_mul_add(x, S::F8::splat(1.0))));

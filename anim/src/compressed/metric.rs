@@ -1,31 +1,31 @@
-//! How far a decoded pose is from the raw one: the distance a viewer could see.
+//! The error of a decoded pose compared with the raw one: the largest visible distance.
 //!
-//! Three points stand off each bone, at the shell distance `d` along its axes, and move with it:
+//! Three points are at the shell distance `d` from each bone along its axes, and move with it:
 //!
 //! ```text
 //! error = max over key times, bones and axes a of  | to_root_raw * (d a)  -  to_root_decoded * (d a) |
 //! ```
 //!
-//! All in scene space ("object space", "model space"), after the whole chain, so an error of the hip counts where the
-//! finger shows it. ACL (Animation Compression Library) measures the same three points with its `qvvf` transforms;
-//! here the matrices are those of the open path, so scale and shear of parents count as they are drawn.
+//! All in scene space ("object space", "model space"), after the whole chain, so an error of the hip counts at the
+//! finger, where it is visible. ACL (Animation Compression Library) measures the same three points with its `qvvf`
+//! transforms; here the matrices are those of the open path, so scale and shear of parents count as they are drawn.
 
-use super::frames::Frames;
+use super::frames::SampledFrames;
 use super::settings::Exactness;
 use glam::{Affine3A, Vec3A};
 
-/// The largest error, and where.
+/// The largest error and its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargestError {
-    /// In the length unit of the model; infinite where a decoded pose is not finite.
+    /// Distance in the length unit of the model; infinite where a decoded pose is not finite.
     pub distance: f32,
-    /// The bone whose shell it is on.
+    /// Bone of the shell point.
     pub bone: usize,
-    /// Seconds.
+    /// Time in seconds.
     pub time: f32,
 }
 
-/// Distance of the farthest of the three shell points.
+/// Returns the distance of the farthest of the three shell points.
 pub(super) fn shell_distance(raw: &Affine3A, decoded: &Affine3A, shell: f32) -> f32 {
     let moved = raw.translation - decoded.translation;
     let axes = [
@@ -44,11 +44,11 @@ pub(super) fn shell_distance(raw: &Affine3A, decoded: &Affine3A, shell: f32) -> 
     largest.sqrt()
 }
 
-/// The largest error in units of the tolerance of its bone, and what it is.
+/// Returns the largest error in units of its bone's tolerance, and its details.
 ///
-/// `decoded` is laid out as the matrices of `frames`.
+/// `decoded` has the layout of the matrices of `frames`.
 pub(super) fn largest_error(
-    frames: &Frames,
+    frames: &SampledFrames,
     decoded: &[Affine3A],
     exactness: &[Exactness],
 ) -> (f32, LargestError) {

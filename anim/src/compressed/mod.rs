@@ -1,89 +1,92 @@
 //! Compressed takes: a take in few bytes, from which any time can be sampled directly.
 //!
-//! [`compress`] makes one from a take, with a [`Report`]; [`CompressedTake`] plays it, reads and writes its bytes, and
-//! gives an ordinary take back.
+//! [`compress`] makes one from a take, with a [`CompressionReport`]; [`CompressedTake`] plays it, reads and writes its
+//! bytes, and decompresses it to an ordinary take.
 //!
 //! ```
-//! use dragonfly_anim::compressed::{CompressedTake, Exactness, Settings, compress};
+//! use dragonfly_anim::compressed::{CompressedTake, Exactness, CompressionSettings, compress};
 //! use dragonfly_anim::fast::Pose;
 //! # use dragonfly_anim::data::{Skeleton, Take};
 //! # let (take, skeleton) = (Take::default(), Skeleton::default());
 //!
-//! // No point 10 cm off a bone may be farther than 1 mm from where it was.
-//! let settings = Settings { everywhere: Exactness::COARSE, ..Settings::default() };
+//! // No point 10 cm from a bone may move by more than 1 mm.
+//! let settings = CompressionSettings { everywhere: Exactness::COARSE, ..CompressionSettings::default() };
 //! let (compressed, report) = compress(&take, &skeleton, &settings)?;
 //! assert!(report.share_of_tolerance <= 1.0);
 //!
-//! let back = CompressedTake::from_bytes(compressed.as_bytes())?;
-//! let mut pose = Pose::new(back.bones());
-//! back.sample(0.7, &mut pose);
+//! let copy = CompressedTake::from_bytes(compressed.as_bytes())?;
+//! let mut pose = Pose::new(copy.bones());
+//! copy.sample(0.7, &mut pose);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # The error that is kept
+//! # The error bound
 //!
-//! Three points stand off each bone, at the shell distance `d` along its axes. At every key time:
+//! Three points are at the shell distance `d` from each bone along its axes. At every key time:
 //!
 //! ```text
 //! | to_root_raw * (d a)  -  to_root_decoded * (d a) |  <=  tolerance        a = x, y, z;  every bone
 //! ```
 //!
 //! Measured in scene space on the decoded bytes before they are returned. ACL (Animation Compression Library) measures
-//! the same three points. Between keys both takes are sampled alike: rotations slerped, the rest mixed.
+//! the same three points. Between keys both takes are sampled in the same way: rotations by slerp, the rest linearly.
 //!
-//! A rotation is coded against the parents as they will be *decoded*: it aims the points of its bone to where the raw
-//! take has them, so what a parent did wrong is taken back at the next joint and errors do not add up down the chain.
-//! The poses of single bones relative to their parents therefore differ a little more than to-root poses do.
+//! A rotation is encoded relative to the parents as they will be *decoded*: it moves the points of its bone towards
+//! their positions in the raw take, so the next joint corrects the error of its parent and errors do not add up down
+//! the chain. The poses of single bones relative to their parents therefore differ a little more than to-root poses do.
 //!
-//! # How the bytes become few
+//! # How the size is reduced
 //!
-//! * What stands still within a tenth of the tolerance is stored once; what stands still in the default, not at all.
+//! * A channel that is constant within a tenth of the tolerance is stored once; one that is constant at the default,
+//!   not at
+//!   all.
 //! * A rotation is stored relative to the middle one of its bone, without w, which then is never near zero. So none of
-//!   the other three is singled out, and the one about the bone's own axis can have fewer bits.
+//!   the other three is special, and the one about the bone's own axis can have fewer bits.
 //! * The range of each component is reduced for the take and again for each segment of 16 to 256 keys.
-//! * Each component has its own number of bits in each segment: the fewest with which all points of the bone are near
-//!   enough. Where the nearest number is not, its neighbours are tried.
-//! * Segment size and the shares of the tolerance that joints may use up are tried. The result with the fewest bytes is
+//! * Each component has its own number of bits in each segment: the smallest with which all points of the bone are
+//!   within
+//!   the tolerance. Where the nearest number is not, its neighbors are tried.
+//! * Several segment sizes and shares of the tolerance for joints are tried. The result with the fewest bytes is
 //!   kept, where a byte of tables counts a quarter.
 //!
-//! What cannot be had this way (a bone that turns all the way round, a range too large for 22 bits) is stored whole: 8
-//! bytes a key for a rotation, 12 for a vector.
+//! Channels that cannot be packed like this (a bone that turns all the way round, a range too large for 22 bits) are
+//! stored whole: 8 bytes per key for a rotation, 12 for a vector.
 //!
-//! # How a pose is made
+//! # How a pose is decoded
 //!
-//! Every key stands for itself, so any time needs two keys and no other. Eight tracks are decoded at once. Each of their
-//! numbers lies in one of two words of four bytes; a shuffle brings the words of eight lanes into place, a mask takes a
-//! number out, a conversion and a fused multiplication make the component of it. Each lane has its own widths; where its
-//! numbers lie is looked up in tables, which are made when the bytes are read: start, step and masks for each segment. A
-//! whole character costs one lookup of the keys and no search.
+//! Every key is independent of the others, so any time needs only two keys. Eight tracks are decoded at once. Each of
+//! their numbers is in one of two words of four bytes; a shuffle moves the words of eight lanes into place, a mask
+//! extracts a number, a conversion and a fused multiply-add make the component from it. Each lane has its own widths;
+//! the positions of its numbers are in tables that are built when the bytes are read: start, step and masks for each
+//! segment. A whole character needs one lookup of the keys and no search.
 //!
-//! Numbers so wide that eight lanes see more than sixteen bytes in a half, or two of them more than 31 bits, are gathered
-//! one by one: about 45 instructions more for eight bones.
+//! Numbers so wide that the numbers of eight lanes occupy more than sixteen bytes per half, or that two of them occupy
+//! more than 31 bits, are gathered one by one: about 45 additional instructions for eight bones.
 //!
 //! # Layout, version 2
 //!
 //! Little-endian; bits from the lowest on.
 //!
-//! | what | size |
+//! | content | size |
 //! |---|---|
 //! | `DfCt`, version, zero | 4 + 2 + 2 bytes |
-//! | length of all, CRC-32 of all from byte 16 on | 4 + 4 bytes |
-//! | byte after the last key, where the description begins | 4 bytes |
+//! | total length, CRC-32 of everything from byte 16 on | 4 + 4 bytes |
+//! | byte after the last key, where the description starts | 4 bytes |
 //! | whole tracks, key after key | 8 or 12 bytes a key |
-//! | of each segment, of each key: all packed tracks, x, y, z | as wide as they must be, then to a whole byte |
+//! | of each segment, of each key: all packed tracks, x, y, z | their widths, then padded to a whole byte |
 //! | *description:* start, length (s), keys, bones | 4 × 32 bits |
 //! | segment size as a power of two, widths of constants | 3 × 8 bits |
 //! | step of constant translations | 32 bits |
 //! | name: length, bytes | 8 + 8 n bits |
-//! | kinds: default 0, constant 1, packed 2, whole 3; rotation, translation, scale | 6 bits a bone |
-//! | constants, bone after bone | as wide as they must be |
+//! | storage: default 0, constant 1, packed 2, whole 3; rotation, translation, scale | 6 bits a bone |
+//! | constants, bone after bone | their widths |
 //! | of each packed track: middle rotation (32 bits) and range (96 bits), or range (192 bits) | |
 //! | of each segment and packed track, for x, y, z: place, extent, bits; of the only segment: bits | 8 + 8 + 5 bits |
 //! | *next whole byte* zeros, until 32 bytes follow the last key | |
 //!
-//! Whole tracks: all rotations in bone order, then translations, then scales. Packed tracks likewise, but the tracks of
-//! some blocks (bones 8 i to 8 i + 7) come last of their part, again in bone order: those of the `k` blocks with fewest
-//! packed tracks (of equals the first), where `k` is the smallest number that makes this smallest:
+//! Whole tracks: all rotations in bone order, then translations, then scales. Packed tracks have the same order, but
+//! the tracks of some blocks (bones 8 i to 8 i + 7) come last among those of their property, again in bone order: those
+//! of the `k` blocks with fewest packed tracks (of equals the first), where `k` is the smallest number that minimizes
 //!
 //! ```text
 //! g (other blocks with packed tracks + tracks of the k blocks / 8, rounded up) + l (tracks of the k blocks)
@@ -101,29 +104,15 @@
 //!
 //! # Figures
 //!
-//! The rig of the bench (67 bones), bytes and largest error; ACL 2.1 at the same settings. Raw: 40 bytes a bone and key.
+//! `README.md` of this crate has bytes and errors next to those of ACL and ozz-animation, and the time and instructions
+//! per bone; its tables are made from what `cargo bench -p dragonfly-anim -- --record` measured.
+//! [`CompressedTake::bytes_in_memory`] includes the tables that decoding needs. Any time costs the same.
 //!
-//! | take (raw) | ACL, 0.1 mm at 3 cm | here | ACL, 1 mm at 10 cm | here |
-//! |---|---|---|---|---|
-//! | walk (109,880) | 7,385 · 0.097 mm | 3,834 · 0.098 mm | 6,050 · 0.95 mm | 2,775 · 0.99 mm |
-//! | jog (67,000) | 5,438 · 0.135 mm | 2,838 · 0.098 mm | 4,360 · 0.87 mm | 2,139 · 0.99 mm |
-//! | run (56,280) | 5,002 · 0.095 mm | 2,688 · 0.098 mm | 4,143 · 0.70 mm | 2,087 · 0.98 mm |
-//! | atlas (1,208,680) | 92,773 · 0.127 mm | 59,177 · 0.099 mm | 64,145 · 1.11 mm | 40,645 · 0.998 mm |
+//! A version that stored every second key as its difference to the middle of its neighbors needed slightly fewer bytes,
+//! but three keys per pose, and about twice the instructions per bone.
 //!
-//! In memory, tables included ([`CompressedTake::bytes_in_memory`]), a short take has 6 to 8 KB, atlas 83,309 and 62,529
-//! bytes.
-//!
-//! On an AMD EPYC with AVX2 (two cores), release build: a pose cost 1.3 to 1.5 ns a bone (21 instructions, by
-//! callgrind) for the short takes and 1.9 ns (30 and 29 instructions) for atlas, where nearly every bone moves; any time
-//! costs the same. Compression took 1 to 5 ms for the short takes and 0.21 to 0.23 s for atlas (ACL: 2 s).
-//! `cargo bench -p dragonfly-anim -- compressed` prints bytes, errors and times.
-//!
-//! A version that stored every second key as what it differs by from half way between its neighbours had 1 to 16 % fewer
-//! bytes, but needed three keys a pose, and 44 to 73 instructions a bone.
-//!
-//! Not kept: morph weights ([`Report::morphs_left_out`]).
+//! Morph weights are not included ([`CompressionReport::morphs_left_out`]).
 
-mod arrange;
 mod bits;
 mod compress;
 mod encode;
@@ -132,6 +121,7 @@ mod frames;
 mod grid;
 mod head;
 mod kernel;
+mod lane_groups;
 mod metric;
 mod plan;
 mod points;
@@ -145,21 +135,22 @@ mod track;
 mod whole;
 mod write;
 
-pub use compress::{Bytes, Report, compress};
+pub use compress::{ByteSizes, CompressionReport, compress};
 pub use error::{CompressError, FormatError};
 pub use metric::LargestError;
-pub use settings::{Exactness, Settings};
+pub use settings::{CompressionSettings, Exactness};
 pub use take::CompressedTake;
 
-/// The first bytes of a compressed take.
+/// Magic number: the first bytes of a compressed take.
 pub const MAGIC: [u8; 4] = *b"DfCt";
-/// The version that is written, and the only one that is read.
+/// Version that is written, and the only one that is read.
 pub const VERSION: u16 = 2;
-/// Most bones of a compressed take.
+/// Largest number of bones of a compressed take.
 pub const MAX_BONES: usize = 1 << 16;
-/// Most keys of a compressed take: nine hours at thirty a second.
+/// Largest number of keys of a compressed take: nine hours at thirty per second.
 pub const MAX_FRAMES: usize = 1 << 20;
-/// Most values of a compressed take: keys times channels that move; and, when one is made, keys times all channels.
+/// Largest number of values of a compressed take: keys times channels that move; and, during compression, keys times
+/// all channels.
 pub const MAX_VALUES: usize = 1 << 26;
-/// Most bytes of a compressed take.
+/// Largest size of a compressed take in bytes.
 pub const MAX_BYTES: usize = 1 << 28;

@@ -1,34 +1,34 @@
-//! What stands still and what moves, and how far an error of a bone reaches.
+//! Analysis of a take: which channels are constant and which move, and how far an error of a bone reaches.
 
-use super::frames::Frames;
+use super::frames::SampledFrames;
 use super::grid::{FLOATS, MOST_BITS};
 use super::settings::Exactness;
-use super::stored::{Grid, Part, constant};
+use super::stored::{RoundingGrid, StoredChannel, constant};
 use crate::data::{Skeleton, Transform};
 use glam::{Quat, Vec3, Vec4};
 
-/// Share of the tolerance that may go into treating as still what moves a little.
+/// Share of the tolerance allowed for treating small movements as constant.
 const STILL: f32 = 0.1;
-/// Share of the tolerance that may go into rounding constants.
+/// Share of the tolerance allowed for rounding constants.
 const ROUNDING: f32 = 0.05;
 
-/// The bones of a take, seen from their tolerances.
+/// The bones of a take, with their tolerances.
 #[derive(Debug)]
-pub(super) struct Plan {
+pub(super) struct TrackPlan {
     pub(super) exactness: Vec<Exactness>,
     pub(super) parents: Vec<Option<usize>>,
     pub(super) children: Vec<Vec<usize>>,
-    /// The smallest tolerance of a bone and all below it.
+    /// The smallest tolerance of a bone and its descendants.
     pub(super) tolerance: Vec<f32>,
-    /// Bones from the root to a bone, and to the farthest below it.
+    /// Number of bones from the root to a bone, and to the farthest below it.
     pub(super) depth: Vec<(f32, f32)>,
-    /// What is still, rounded; [`Part::Whole`] without values stands for what moves.
-    pub(super) parts: Vec<[Part; 3]>,
-    pub(super) grid: Grid,
+    /// Constant channels, rounded; [`StoredChannel::Whole`] without values for the channels that move.
+    pub(super) parts: Vec<[StoredChannel; 3]>,
+    pub(super) grid: RoundingGrid,
 }
 
-impl Plan {
-    pub(super) fn new(frames: &Frames, skeleton: &Skeleton, exactness: Vec<Exactness>) -> Self {
+impl TrackPlan {
+    pub(super) fn new(frames: &SampledFrames, skeleton: &Skeleton, exactness: Vec<Exactness>) -> Self {
         let count = skeleton.len();
         let earlier = |bone: usize| skeleton.bones[bone].parent.map(|at| at as usize).filter(|&at| at < bone);
         let parents: Vec<Option<usize>> = (0..count).map(earlier).collect();
@@ -49,7 +49,7 @@ impl Plan {
         }
         let (parts, mut grid) = still(frames, &exactness, &tolerance, &children);
         if skeleton.bones.iter().any(|bone| bone.rest_matrix.is_some()) {
-            // A sheared rest pose holds only while the pose is the rest pose, bit for bit.
+            // A sheared rest matrix is used only while the pose is the rest pose, bit for bit.
             (grid.rotation_bits, grid.translation_bits) = (FLOATS, FLOATS);
         }
         let mut plan = Self { exactness, parents, children, tolerance, depth, parts, grid };
@@ -57,12 +57,12 @@ impl Plan {
         plan
     }
 
-    /// Does every part of `bone` stand still?
+    /// Returns whether every channel of `bone` is constant.
     pub(super) fn is_rigid(&self, bone: usize) -> bool {
-        self.parts[bone].iter().all(|part| !matches!(part, Part::Whole(_)))
+        self.parts[bone].iter().all(|part| !matches!(part, StoredChannel::Whole(_)))
     }
 
-    /// The pose of a bone that is rigid.
+    /// Returns the pose of a rigid bone.
     pub(super) fn still_pose(&self, bone: usize) -> Transform {
         constant(&self.parts[bone])
     }
@@ -70,41 +70,43 @@ impl Plan {
     /// Rounds the constants, and drops those that are the default.
     fn round(&mut self) {
         for parts in &mut self.parts {
-            if let Part::Constant(value) = &mut parts[0] {
+            if let StoredChannel::Constant(value) = &mut parts[0] {
                 *value = self.grid.rotation(Quat::from_array(*value)).to_array();
             }
-            if let Part::Constant(value) = &mut parts[1] {
+            if let StoredChannel::Constant(value) = &mut parts[1] {
                 *value = value.map(|component| self.grid.component(component));
             }
             for (part, default) in
                 parts.iter_mut().zip([[0.0, 0.0, 0.0, 1.0], [0.0; 4], [1.0, 1.0, 1.0, 0.0]])
             {
-                if matches!(part, Part::Constant(value) if *value == default) {
-                    *part = Part::Default;
+                if matches!(part, StoredChannel::Constant(value) if *value == default) {
+                    *part = StoredChannel::Default;
                 }
             }
         }
     }
 }
 
-/// What stands still, and how it is to be rounded.
+/// Returns the constant channels, and how they are to be rounded.
 fn still(
-    frames: &Frames,
+    frames: &SampledFrames,
     exactness: &[Exactness],
     tolerance: &[f32],
     children: &[Vec<usize>],
-) -> (Vec<[Part; 3]>, Grid) {
+) -> (Vec<[StoredChannel; 3]>, RoundingGrid) {
     let count = frames.bones;
-    let moves = || [Part::Whole(Vec::new()), Part::Whole(Vec::new()), Part::Whole(Vec::new())];
-    let mut parts: Vec<[Part; 3]> = (0..count).map(|_| moves()).collect();
-    // How far from the bone's origin are the points that it alone must bring to their places.
+    let moves = || {
+        [StoredChannel::Whole(Vec::new()), StoredChannel::Whole(Vec::new()), StoredChannel::Whole(Vec::new())]
+    };
+    let mut parts: Vec<[StoredChannel; 3]> = (0..count).map(|_| moves()).collect();
+    // Distance from the bone's origin of the points that it alone must correct.
     let mut reach: Vec<f32> = exactness.iter().map(|of| of.shell).collect();
     let (mut finest_turn, mut finest_step, mut farthest) = (f32::MAX, f32::MAX, 0.0_f32);
     for bone in (0..count).rev() {
         let pose = |frame: usize| frames.pose(frame, bone);
         for &child in &children[bone] {
             let away = (0..frames.count()).map(|frame| frames.pose(frame, child).translation.length());
-            let hangs = parts[child].iter().all(|part| !matches!(part, Part::Whole(_)));
+            let hangs = parts[child].iter().all(|part| !matches!(part, StoredChannel::Whole(_)));
             reach[bone] = reach[bone].max(away.fold(0.0, f32::max) + if hangs { reach[child] } else { 0.0 });
         }
         let largest =
@@ -112,32 +114,32 @@ fn still(
         let allowed = tolerance[bone] * STILL;
         if let Some(scale) = middle(frames.count(), |frame| pose(frame).scale, allowed / reach[bone]) {
             parts[bone][2] =
-                Part::Constant(rounded_scale(scale, allowed / reach[bone]).extend(0.0).to_array());
+                StoredChannel::Constant(rounded_scale(scale, allowed / reach[bone]).extend(0.0).to_array());
         }
         reach[bone] *= largest;
         if let Some(translation) = middle(frames.count(), |frame| pose(frame).translation, allowed) {
-            parts[bone][1] = Part::Constant(translation.extend(0.0).to_array());
+            parts[bone][1] = StoredChannel::Constant(translation.extend(0.0).to_array());
             finest_step = finest_step.min(tolerance[bone] * ROUNDING);
             farthest = farthest.max(translation.abs().max_element());
         }
         if let Some(rotation) =
             middle_turn(frames.count(), |frame| pose(frame).rotation, allowed / reach[bone])
         {
-            parts[bone][0] = Part::Constant(rotation.to_array());
+            parts[bone][0] = StoredChannel::Constant(rotation.to_array());
             finest_turn = finest_turn.min(tolerance[bone] * ROUNDING / reach[bone]);
         }
     }
     (parts, grid(finest_turn, finest_step, farthest))
 }
 
-/// Bits for rotations exact to `turn` radians, and for translations to `step` up to `farthest`.
-fn grid(turn: f32, step: f32, farthest: f32) -> Grid {
+/// Returns the bits for rotations exact to `turn` radians, and for translations to `step` up to `farthest`.
+fn grid(turn: f32, step: f32, farthest: f32) -> RoundingGrid {
     let bits = |numbers: f32| {
         let bits = numbers.log2().ceil();
         if bits <= MOST_BITS as f32 { (bits as u32).max(4) } else { FLOATS }
     };
     let translation_bits = if farthest > 0.0 { bits(2.0 * farthest / step + 4.0) } else { 4 };
-    Grid {
+    RoundingGrid {
         // Half a step in each of three components, and a rotation turns twice as far as its quaternion.
         rotation_bits: bits(2.5 / turn + 2.0),
         step: if step.is_normal() && step < 1e18 { step } else { 1.0 },
@@ -145,7 +147,7 @@ fn grid(turn: f32, step: f32, farthest: f32) -> Grid {
     }
 }
 
-/// The middle of a vector's values, where none is farther than `allowed` from it.
+/// Returns the middle of a vector's values if none is farther than `allowed` from it.
 fn middle(count: usize, value: impl Fn(usize) -> Vec3, allowed: f32) -> Option<Vec3> {
     let first = value(0);
     let (low, high) =
@@ -154,7 +156,7 @@ fn middle(count: usize, value: impl Fn(usize) -> Vec3, allowed: f32) -> Option<V
     (low == high || (high - low).length() * 0.5 <= allowed).then_some(middle)
 }
 
-/// The middle of a bone's rotations, where none turns farther than `allowed` radians from it.
+/// Returns the middle of a bone's rotations if none turns farther than `allowed` radians from it.
 fn middle_turn(count: usize, rotation: impl Fn(usize) -> Quat, allowed: f32) -> Option<Quat> {
     let first = rotation(0);
     if (1..count).all(|frame| rotation(frame) == first) {
@@ -162,16 +164,16 @@ fn middle_turn(count: usize, rotation: impl Fn(usize) -> Quat, allowed: f32) -> 
     }
     let middle = mean((0..count).map(&rotation));
     let farthest = (0..count).map(|frame| chord(rotation(frame), middle)).fold(0.0, f32::max);
-    // Also where the middle is no number: then the comparison fails.
+    // Also fails where the middle is NaN.
     (farthest * 2.0 <= allowed).then_some(middle)
 }
 
-/// Distance of two rotations as quaternions: about half the angle between them.
+/// Returns the distance of two rotations as quaternions: about half the angle between them.
 fn chord(a: Quat, b: Quat) -> f32 {
     (a - b).length().min((a + b).length())
 }
 
-/// The rotation in the middle, whatever signs the quaternions have.
+/// Returns the middle rotation, whatever signs the quaternions have.
 pub(super) fn mean(rotations: impl Iterator<Item = Quat>) -> Quat {
     let sum = rotations.fold(Vec4::ZERO, |sum, rotation| {
         let rotation = Vec4::from(rotation);
@@ -180,7 +182,7 @@ pub(super) fn mean(rotations: impl Iterator<Item = Quat>) -> Quat {
     if sum.length_squared() > 0.0 { Quat::from_vec4(sum.normalize()) } else { Quat::IDENTITY }
 }
 
-/// Factors so near 1 or -1 that nobody can tell are 1 or -1: those cost nothing.
+/// Rounds factors invisibly close to 1 or -1 to 1 or -1: those cost nothing.
 fn rounded_scale(scale: Vec3, allowed: f32) -> Vec3 {
     let round = |factor: f32| if (factor.abs() - 1.0).abs() <= allowed { factor.signum() } else { factor };
     Vec3::new(round(scale.x), round(scale.y), round(scale.z))

@@ -1,21 +1,22 @@
-//! From bytes to the tables that decoding needs; every number is checked before it is used.
+//! Reading of bytes into the tables that decoding needs; every number is checked before it is used.
 
 use super::bits::BitReader;
 use super::encode::TURN_UNIT;
-use super::frames::Clock;
+use super::frames::FrameClock;
 use super::grid::{FLOATS, MOST_BITS, rotation_from};
-use super::stored::{CONSTANT, Grid, Head, LARGEST, MAX_BITS, PACKED, Range, Reference, SHIFTS, WHOLE};
+use super::stored::{
+    CONSTANT, LARGEST, MAX_BITS, PACKED, Reference, RoundingGrid, SHIFTS, SegmentHead, ValueRange, WHOLE,
+};
 use super::table::{SegmentPlace, Tables};
 use super::whole::WholeTrack;
 use super::write::{AHEAD, PREFACE, SUMMED};
 use super::{FormatError, MAGIC, MAX_BONES, MAX_BYTES, MAX_FRAMES, MAX_VALUES, VERSION};
-use crate::checksum::Checksum;
 use crate::data::Transform;
 use glam::{Quat, Vec3};
 
 type Result<T> = std::result::Result<T, FormatError>;
 
-/// Checks `bytes` and makes the tables.
+/// Checks `bytes` and builds the tables.
 pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
     let end_of_keys = check_preface(bytes)?;
     let mut bits = BitReader::new(bytes, end_of_keys);
@@ -24,7 +25,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
     let constants = constants(&mut bits, &header, &kinds)?;
     let mut tables = Tables::new(header.clock, header.shift, name, &kinds, &constants);
     let mut tracks = Vec::new();
-    for place in tables.places() {
+    for place in tables.slots() {
         let (reference, range) = track(&mut bits, place.part)?;
         if place.part == 0 {
             tables.refer(&place, reference);
@@ -41,7 +42,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
     for segment in 0..segments {
         let heads = tracks.iter().map(|_| head(&mut bits, segments == 1)).collect::<Result<Vec<_>>>()?;
         let stride = tables.add_segment(&tracks, &heads).div_ceil(8);
-        // Where this is too large for 32 bits, so is the whole, which is found out before it is used.
+        // If this exceeds 32 bits, so does the total, which is checked before it is used.
         tables.segments.push(SegmentPlace { at: at as u32, stride });
         at += stride as usize
             * (header.clock.frames - (segment << header.shift)).min(1 << header.shift) as usize;
@@ -52,10 +53,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Tables> {
     Ok(tables)
 }
 
-/// After the last bit come only the zeros that reading ahead needs.
+/// Checks that after the last bit only the zeros follow that reading ahead needs.
 fn check_end(bytes: &[u8], end: usize, end_of_keys: usize) -> Result<()> {
     if bytes.len() != end.max(end_of_keys + AHEAD) {
-        return Err(FormatError::new(end, format!("{} bytes are here, and not needed", bytes.len() - end)));
+        return Err(FormatError::new(end, format!("{} unexpected bytes at the end", bytes.len() - end)));
     }
     match bytes[end..].iter().position(|&byte| byte != 0) {
         Some(place) => Err(FormatError::new(end + place, "the last bytes are not zero")),
@@ -63,42 +64,48 @@ fn check_end(bytes: &[u8], end: usize, end_of_keys: usize) -> Result<()> {
     }
 }
 
-/// The byte after the last key, where the description begins.
+/// Returns the byte after the last key, where the description starts.
 fn check_preface(bytes: &[u8]) -> Result<usize> {
     if bytes.len() < PREFACE + AHEAD {
-        return Err(FormatError::new(bytes.len(), format!("{} bytes are too few", bytes.len())));
+        return Err(FormatError::new(
+            bytes.len(),
+            format!("{} bytes are too few for a compressed take", bytes.len()),
+        ));
     }
     let word = |at: usize| u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
     if bytes[..4] != MAGIC {
-        return Err(FormatError::new(0, "this is no compressed take"));
+        return Err(FormatError::new(0, "not a compressed take: the magic number is wrong"));
     }
     if word(4) != u32::from(VERSION) {
-        return Err(FormatError::new(4, format!("version {} is not known", word(4))));
+        return Err(FormatError::new(4, format!("version {} is not supported", word(4))));
     }
     if word(8) as usize != bytes.len() || bytes.len() > MAX_BYTES {
-        return Err(FormatError::new(8, format!("{} bytes were written, {} are here", word(8), bytes.len())));
+        return Err(FormatError::new(
+            8,
+            format!("the stored length is {} bytes, but there are {}", word(8), bytes.len()),
+        ));
     }
-    if word(12) != Checksum::START.with(&bytes[SUMMED..]).value() {
-        return Err(FormatError::new(12, "the bytes were altered: their sum is another"));
+    if word(12) != crc32fast::hash(&bytes[SUMMED..]) {
+        return Err(FormatError::new(12, "the checksum does not match: the bytes were changed"));
     }
     let end_of_keys = word(16) as usize;
     let right = (PREFACE..=bytes.len() - AHEAD).contains(&end_of_keys);
     check(16, "the end of the keys", end_of_keys, right)
 }
 
-struct Header {
-    clock: Clock,
+struct TakeHeader {
+    clock: FrameClock,
     bones: usize,
     shift: u32,
-    grid: Grid,
+    grid: RoundingGrid,
 }
 
-/// `value`, when it is `right`.
+/// Returns `value` if `right`, and an error otherwise.
 fn check<T: Copy + std::fmt::Display>(offset: usize, what: &str, value: T, right: bool) -> Result<T> {
-    if right { Ok(value) } else { Err(FormatError::new(offset, format!("{what} is {value}"))) }
+    if right { Ok(value) } else { Err(FormatError::new(offset, format!("{what} is invalid: {value}"))) }
 }
 
-fn header(bits: &mut BitReader<'_>) -> Result<(Header, String)> {
+fn header(bits: &mut BitReader<'_>) -> Result<(TakeHeader, String)> {
     let at = bits.offset();
     let start = bits.take_float()?;
     let length = bits.take_float()?;
@@ -119,13 +126,13 @@ fn header(bits: &mut BitReader<'_>) -> Result<(Header, String)> {
     let length_of_name = bits.take(8)?;
     let place = bits.offset();
     let name: Vec<u8> = (0..length_of_name).map(|_| Ok(bits.take(8)? as u8)).collect::<Result<_>>()?;
-    let name = String::from_utf8(name).map_err(|_| FormatError::new(place, "the name is no text"))?;
-    let grid = Grid { rotation_bits, step, translation_bits };
-    Ok((Header { clock: Clock { start, length, frames }, bones, shift, grid }, name))
+    let name = String::from_utf8(name).map_err(|_| FormatError::new(place, "the name is not UTF-8"))?;
+    let grid = RoundingGrid { rotation_bits, step, translation_bits };
+    Ok((TakeHeader { clock: FrameClock { start, length, frames }, bones, shift, grid }, name))
 }
 
-/// Three numbers a bone.
-fn kinds(bits: &mut BitReader<'_>, header: &Header) -> Result<Vec<[u32; 3]>> {
+/// Reads the storage of three channels per bone.
+fn kinds(bits: &mut BitReader<'_>, header: &TakeHeader) -> Result<Vec<[u32; 3]>> {
     let at = bits.offset();
     let mut kinds = Vec::new();
     for _ in 0..header.bones {
@@ -137,13 +144,13 @@ fn kinds(bits: &mut BitReader<'_>, header: &Header) -> Result<Vec<[u32; 3]>> {
     Ok(kinds)
 }
 
-/// The bones and parts of a kind: all rotations, then translations, then scales.
+/// Returns the bones and channels with one storage: all rotations, then translations, then scales.
 fn of_kind(kinds: &[[u32; 3]], kind: u32) -> Vec<(usize, usize)> {
     let of = |part: usize| kinds.iter().enumerate().filter(move |(_, kinds)| kinds[part] == kind);
     (0..3).flat_map(|part| of(part).map(move |(bone, _)| (bone, part))).collect()
 }
 
-fn constants(bits: &mut BitReader<'_>, header: &Header, kinds: &[[u32; 3]]) -> Result<Vec<Transform>> {
+fn constants(bits: &mut BitReader<'_>, header: &TakeHeader, kinds: &[[u32; 3]]) -> Result<Vec<Transform>> {
     let mut poses = Vec::new();
     for &[rotation, translation, scale] in kinds {
         let mut pose = Transform::IDENTITY;
@@ -177,7 +184,7 @@ fn constant_rotation(bits: &mut BitReader<'_>, width: u32) -> Result<Quat> {
     }
 }
 
-fn constant_length(bits: &mut BitReader<'_>, grid: &Grid) -> Result<f32> {
+fn constant_length(bits: &mut BitReader<'_>, grid: &RoundingGrid) -> Result<f32> {
     let width = grid.translation_bits;
     if width == FLOATS {
         return number(bits);
@@ -188,7 +195,7 @@ fn constant_length(bits: &mut BitReader<'_>, grid: &Grid) -> Result<f32> {
     Ok((bits.take(width)? as i32 - (1 << (width - 1))) as f32 * grid.step)
 }
 
-/// A float that is not too large.
+/// Reads a float and checks its size.
 fn number(bits: &mut BitReader<'_>) -> Result<f32> {
     let at = bits.offset();
     let number = bits.take_float()?;
@@ -201,11 +208,11 @@ fn constant_factor(bits: &mut BitReader<'_>) -> Result<f32> {
         0 => Ok(1.0),
         1 => Ok(-1.0),
         2 => number(bits),
-        other => Err(FormatError::new(at, format!("a factor is of kind {other}"))),
+        other => Err(FormatError::new(at, format!("unknown code {other} of a constant factor"))),
     }
 }
 
-fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, Range)> {
+fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, ValueRange)> {
     if part == 0 {
         let mut reference = [0; 4];
         for number in &mut reference {
@@ -213,7 +220,7 @@ fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, Range)> {
         }
         let low = three(|| Ok(f32::from(bits.take(16)? as u16 as i16) * TURN_UNIT))?;
         let extent = three(|| Ok(bits.take(16)? as f32 * TURN_UNIT))?;
-        return Ok((Reference(reference), Range { low, extent }));
+        return Ok((Reference(reference), ValueRange { low, extent }));
     }
     let low = three(|| bits.take_float())?;
     let at = bits.offset();
@@ -222,11 +229,11 @@ fn track(bits: &mut BitReader<'_>, part: usize) -> Result<(Reference, Range)> {
         && extent.max_element() < 2e18
         && low.abs().max_element() <= 2.0 * LARGEST;
     check(at, "the extent of a track", extent, right)?;
-    Ok((Reference::NONE, Range { low, extent }))
+    Ok((Reference::NONE, ValueRange { low, extent }))
 }
 
-fn head(bits: &mut BitReader<'_>, only: bool) -> Result<Head> {
-    let mut head = Head::default();
+fn head(bits: &mut BitReader<'_>, only: bool) -> Result<SegmentHead> {
+    let mut head = SegmentHead::default();
     for axis in 0..3 {
         if !only {
             head.place[axis] = bits.take(8)? as u8;
@@ -236,7 +243,7 @@ fn head(bits: &mut BitReader<'_>, only: bool) -> Result<Head> {
         let width = bits.take(5)?;
         head.bits[axis] = check(at, "the width of keys", width, width <= MAX_BITS)? as u8;
     }
-    Ok(if only { Head::only(head.bits) } else { head })
+    Ok(if only { SegmentHead::only(head.bits) } else { head })
 }
 
 fn check_whole(bytes: &[u8], tables: &Tables) -> Result<()> {

@@ -1,48 +1,49 @@
-//! How exact a compressed take is to be, and where.
+//! Accuracy settings of compression.
 
 use crate::data::BoneIndex;
 
-/// How exact one bone is to be.
+/// Required accuracy of one bone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exactness {
-    /// Largest distance allowed between a raw and a decoded point, in the length unit of the model (metres). More than
+    /// Largest allowed distance between a raw and a decoded point, in the length unit of the model (meters). More than
     /// zero; anything else counts as the smallest positive number.
     pub tolerance: f32,
-    /// Distance of the measured points from the bone, same unit: how far the skin reaches out. More than zero;
-    /// anything else counts as the smallest positive number.
+    /// Distance of the measured points from the bone, same unit: how far the skin reaches. More than zero; anything
+    /// else counts as the smallest positive number.
     pub shell: f32,
 }
 
-/// What [`super::compress()`] aims for.
+/// Settings of [`super::compress()`].
 ///
 /// ```
-/// use dragonfly_anim::compressed::{Exactness, Settings};
+/// use dragonfly_anim::compressed::{Exactness, CompressionSettings};
 ///
 /// let coarse = Exactness { tolerance: 0.001, shell: 0.10 };
 /// let hand = Exactness { tolerance: 0.000_1, shell: 0.03 };
-/// let settings = Settings { everywhere: coarse, bones: vec![(12, hand)], ..Settings::default() };
+/// let settings = CompressionSettings { everywhere: coarse, bones: vec![(12, hand)], ..CompressionSettings::default() };
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
-    /// Holds for every bone that `bones` does not name. By default 0.1 mm at 3 cm, where a unit is a metre.
+pub struct CompressionSettings {
+    /// Accuracy of every bone that is not in `bones`. By default 0.1 mm at 3 cm, where a unit is a meter.
     pub everywhere: Exactness,
-    /// Bones that need more, or less. The last entry of a bone counts; a bone past the skeleton's end is ignored.
+    /// Bones with another accuracy. The last entry of a bone counts; a bone past the skeleton's end is ignored.
     pub bones: Vec<(BoneIndex, Exactness)>,
-    /// Keys a second. `None`, the usual: those of the take where they lie evenly and all channels are linear, else 30.
+    /// Keys per second. `None`, the default: those of the take where they are evenly spaced and all channels are
+    /// linear, else 30.
     ///
-    /// A take that is resampled takes straight ways between the new keys: a step becomes a ramp as long as one key
-    /// interval, a spline a row of chords.
+    /// A take that is resampled is linear between the new keys: a step becomes a ramp as long as one key interval, a
+    /// spline a sequence of chords.
     pub rate: Option<f32>,
 }
 
-impl Default for Settings {
+impl Default for CompressionSettings {
     fn default() -> Self {
         Self { everywhere: Exactness::FINE, bones: Vec::new(), rate: None }
     }
 }
 
-impl Settings {
-    /// The exactness of each of `count` bones, every number positive and finite.
+impl CompressionSettings {
+    /// Returns the accuracy of each of `count` bones, every number positive and finite.
     pub(super) fn per_bone(&self, count: usize) -> Vec<Exactness> {
         let mut bones = vec![self.everywhere.healed(); count];
         for &(bone, exactness) in &self.bones {
@@ -55,9 +56,9 @@ impl Settings {
 }
 
 impl Exactness {
-    /// 0.1 mm at 3 cm, for a model in metres: what cannot be seen from near.
+    /// 0.1 mm at 3 cm, for a model in meters: invisible even from near.
     pub const FINE: Self = Self { tolerance: 0.000_1, shell: 0.03 };
-    /// 1 mm at 10 cm, for a model in metres.
+    /// 1 mm at 10 cm, for a model in meters.
     pub const COARSE: Self = Self { tolerance: 0.001, shell: 0.1 };
 
     fn healed(self) -> Self {

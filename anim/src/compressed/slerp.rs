@@ -9,7 +9,7 @@
 //!
 //! # How many terms
 //!
-//! Keys are near each other: at thirty a second, a bone that turns once in half a second turns by 24° from one to the
+//! Keys are near each other: at thirty per second, a bone that turns once in half a second turns by 24° from one to the
 //! next. For `-0.03 ≤ d ≤ 0` (rotations up to 28° apart) two terms are enough:
 //!
 //! ```text
@@ -25,13 +25,13 @@ use crate::fast::simd::{Float8, Simd};
 
 /// Below this `d` two terms are not enough.
 const FAR: f32 = -0.03;
-/// Enough down to [`FARTHER`]: rotations up to 91° apart, below 2e-7.
+/// Number of terms for `d` down to [`FARTHER`]: rotations up to 91° apart, below 2e-7.
 const SOME: usize = 8;
 const FARTHER: f32 = -0.3;
-/// Enough for any two rotations: up to 180° apart, 1e-6.
+/// Number of terms for any two rotations: up to 180° apart, 1e-6.
 const MANY: usize = 20;
 
-/// The factors of one mix.
+/// The factors for one mix.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slerp {
     /// `t`, `c₁` and `c₂` of the first rotation and of the second.
@@ -39,7 +39,7 @@ pub(super) struct Slerp {
     to: [f32; 3],
 }
 
-/// `bᵢ` for `t`, without the sign of the series.
+/// Returns `bᵢ` for `t`, without the sign of the series.
 #[inline(always)]
 fn factor(t: f32, index: usize) -> f32 {
     let i = (index + 1) as f32;
@@ -47,18 +47,18 @@ fn factor(t: f32, index: usize) -> f32 {
 }
 
 impl Slerp {
-    /// 0 ≤ `mix` ≤ 1.
+    /// Computes the factors for a mix of 0..=1.
     #[inline(always)]
     pub(super) fn at(mix: f32) -> Self {
         Self { from: factors(1.0 - mix), to: factors(mix) }
     }
 
-    /// From `a` to `b` the short way; both of unit length.
+    /// Interpolates from `a` to `b` the short way; both of unit length.
     #[inline(always)]
     pub(super) fn mix<S: Simd>(&self, a: [S::F8; 4], b: [S::F8; 4]) -> [S::F8; 4] {
         let minus = S::F8::splat(-1.0);
         let d = a[3].mul_add(b[3], a[2].mul_add(b[2], a[1].mul_add(b[1], a[0].mul_add(b[0], minus))));
-        // Rotations that are more than half a turn apart are farther than this too.
+        // True also for rotations more than half a turn apart.
         let [from, to] = if d.less(S::F8::splat(FAR)).any() {
             self.far::<S>(d)
         } else {
@@ -72,12 +72,12 @@ impl Slerp {
         ]
     }
 
-    /// The weights for `cosine_less_one`, whatever that is.
+    /// Returns the weights for any `cosine_less_one`.
     #[inline(always)]
     fn far<S: Simd>(&self, cosine_less_one: S::F8) -> [S::F8; 2] {
         let one = S::F8::splat(1.0);
         let cosine = cosine_less_one + one;
-        // Rounding, and bytes that nobody wrote in earnest, can make it more than 1.
+        // Rounding, and invalid bytes, can make it more than 1.
         let d = cosine.abs().min(one) - one;
         let terms = if d.less(S::F8::splat(FARTHER)).any() { MANY } else { SOME };
         let (mut from, mut to) = (one, one);
@@ -105,7 +105,7 @@ fn near<S: Simd>(factors: &[f32; 3], d: S::F8) -> S::F8 {
 mod tests {
     use super::*;
 
-    /// `sin(t θ) / sin θ` in double precision.
+    /// Returns `sin(t θ) / sin θ` in double precision.
     fn weight(t: f64, d: f64) -> f64 {
         let angle = (1.0 + d).acos();
         if angle < 1e-6 { t } else { (t * angle).sin() / angle.sin() }
@@ -122,7 +122,7 @@ mod tests {
                 largest = largest.max((t + d * (first + d * second) - weight(t, d)).abs());
             }
         }
-        // The bound of the top of this file, and the rounding of three factors.
+        // The bound from the top of this file, and the rounding of three factors.
         assert!((3e-7..6e-7 + 1e-7).contains(&largest), "{largest}");
     }
 }

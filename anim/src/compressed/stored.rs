@@ -1,66 +1,66 @@
-//! What a compressed take holds, before it is bytes.
+//! The content of a compressed take before it is written as bytes.
 
-use super::frames::Clock;
+use super::frames::FrameClock;
 use crate::data::{Interpolation, Transform};
 use glam::{Quat, Vec3};
 
-/// Rotation, translation, scale: the order in which parts are stored.
+/// Rotation, translation, scale: the order in which channels are stored.
 pub(super) const PARTS: usize = 3;
-/// Bits of a number, at most: whole numbers up to 2²⁴ are exact as `f32`.
+/// Largest number of bits of a number: whole numbers up to 2²⁴ are exact as `f32`.
 pub(super) const MAX_BITS: u32 = 22;
-/// The largest translation or factor: sums of a few of them are still numbers.
+/// The largest translation or factor: sums of a few of them are still finite.
 pub(super) const LARGEST: f32 = 1e30;
-/// Keys of a segment as a power of two.
+/// Number of keys of a segment as a power of two.
 pub(super) const SHIFTS: std::ops::RangeInclusive<u32> = 1..=16;
 
-/// A take as it will be stored.
+/// The content of a compressed take.
 #[derive(Clone, Debug)]
-pub(super) struct Stored {
+pub(super) struct StoredTake {
     pub(super) name: String,
-    pub(super) clock: Clock,
+    pub(super) clock: FrameClock,
     /// A segment has `1 << shift` keys.
     pub(super) shift: u32,
-    pub(super) grid: Grid,
-    /// Of each bone: rotation, translation, scale.
-    pub(super) bones: Vec<[Part; PARTS]>,
+    pub(super) grid: RoundingGrid,
+    /// For each bone: rotation, translation, scale.
+    pub(super) bones: Vec<[StoredChannel; PARTS]>,
 }
 
-/// How constants are rounded.
+/// Rounding of constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Grid {
-    /// Bits of each of three components of a rotation; 32 stands for four whole floats.
+pub(super) struct RoundingGrid {
+    /// Bits of each of three components of a rotation; 32 means four whole floats.
     pub(super) rotation_bits: u32,
     /// Length of one step of a translation.
     pub(super) step: f32,
-    /// Bits of a number of steps, sign included; 32 stands for a whole float.
+    /// Bits of a number of steps, sign included; 32 means a whole float.
     pub(super) translation_bits: u32,
 }
 
 /// Rotation, translation or scale of one bone.
 #[derive(Clone, Debug)]
-pub(super) enum Part {
-    /// No turn, no distance, scale 1.
+pub(super) enum StoredChannel {
+    /// Identity: no rotation, no translation, scale 1.
     Default,
-    /// The same all the time; a vector's fourth number is 0.
+    /// One value at all times; a vector's fourth number is 0.
     Constant([f32; 4]),
     /// Numbers of few bits.
-    Packed(Packed),
-    /// A value a key, as exact as single precision.
+    PackedChannel(PackedChannel),
+    /// One value per key, in single precision.
     Whole(Vec<[f32; 4]>),
 }
 
-impl Part {
-    /// Its numbers of few bits, where it has those.
-    pub(super) fn packed(&self) -> Option<&Packed> {
-        if let Self::Packed(packed) = self { Some(packed) } else { None }
+impl StoredChannel {
+    /// Returns the packed numbers, if it is packed.
+    pub(super) fn packed(&self) -> Option<&PackedChannel> {
+        if let Self::PackedChannel(packed) = self { Some(packed) } else { None }
     }
 
-    /// The number that stands for it.
+    /// Returns the code of the storage in the bytes.
     pub(super) fn kind(&self) -> u32 {
         match self {
             Self::Default => DEFAULT,
             Self::Constant(_) => CONSTANT,
-            Self::Packed(_) => PACKED,
+            Self::PackedChannel(_) => PACKED,
             Self::Whole(_) => WHOLE,
         }
     }
@@ -73,11 +73,11 @@ pub(super) const WHOLE: u32 = 3;
 
 /// Three components in few bits.
 #[derive(Clone, Debug)]
-pub(super) struct Packed {
-    /// Of a rotation: the rotation that the components are relative to.
+pub(super) struct PackedChannel {
+    /// For a rotation: the rotation that the components are relative to.
     pub(super) reference: Reference,
-    pub(super) range: Range,
-    pub(super) segments: Vec<Segment>,
+    pub(super) range: ValueRange,
+    pub(super) segments: Vec<TrackSegment>,
 }
 
 /// A rotation near all those of a track, in 32 bits.
@@ -91,7 +91,7 @@ impl Reference {
         Self(rotation.to_array().map(|number| (number * 127.0).round() as i8))
     }
 
-    /// The rotation; the identity where all numbers are zero.
+    /// Returns the rotation; the identity where all numbers are zero.
     pub(super) fn rotation(self) -> Quat {
         let [x, y, z, w] = self.0.map(f32::from);
         let rotation = Quat::from_xyzw(x, y, z, w);
@@ -99,42 +99,42 @@ impl Reference {
     }
 }
 
-/// Where the components of a track lie, over the whole take.
+/// Range of the components of a track over the whole take.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Range {
+pub(super) struct ValueRange {
     pub(super) low: Vec3,
     pub(super) extent: Vec3,
 }
 
 /// One track in one segment.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Segment {
-    pub(super) head: Head,
+pub(super) struct TrackSegment {
+    pub(super) head: SegmentHead,
     /// The numbers of each key.
     pub(super) keys: Vec<[u32; 3]>,
 }
 
-/// Where the components lie in one segment, and how many bits each has; `[x, y, z]`.
+/// Range of the components in one segment, and the bits of each; `[x, y, z]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Head {
-    /// Start, in parts of the take's range.
+pub(super) struct SegmentHead {
+    /// Start, as a fraction of the take's range.
     pub(super) place: [u8; 3],
-    /// Extent, in parts of the take's range.
+    /// Extent, as a fraction of the take's range.
     pub(super) extent: [u8; 3],
     pub(super) bits: [u8; 3],
 }
 
-impl Head {
-    /// The head in a take of one segment, where it lies in the whole range: nothing but the bits is stored then.
+impl SegmentHead {
+    /// Returns the head in a take of one segment, which spans the whole range: only the bits are stored then.
     pub(super) fn only(bits: [u8; 3]) -> Self {
         let (place, extent) = (bits.map(|bits| if bits == 0 { 127 } else { 0 }), [255; 3]);
         Self { place, extent, bits }
     }
 
-    /// Start and step of component `axis`: a key with the number `n` is `start + step n`.
+    /// Returns start and step of component `axis`: the value of a key with the number `n` is `start + step n`.
     ///
-    /// The step is rounded up to the 16 highest bits of a float, so that tables can hold it in those.
-    pub(super) fn start_and_step(&self, range: &Range, axis: usize) -> (f32, f32) {
+    /// The step is rounded up to the 16 highest bits of a float, so that tables can store it in those.
+    pub(super) fn start_and_step(&self, range: &ValueRange, axis: usize) -> (f32, f32) {
         let together = f32::from(u16::from(self.place[axis]) << 8 | u16::from(self.extent[axis]));
         let start = range.low[axis] + range.extent[axis] * (together * PER_PLACE);
         if self.bits[axis] == 0 {
@@ -145,18 +145,18 @@ impl Head {
         (start, f32::from_bits((step.to_bits() + 0xffff) & 0xffff_0000))
     }
 
-    /// Bits of all three components.
+    /// Returns the bits of all three components.
     pub(super) fn width(&self) -> u32 {
         self.bits.iter().map(|&bits| u32::from(bits)).sum()
     }
 }
 
-/// One of the parts into which [`Head::place`] and [`Head::extent`], read as one number, divide a range.
+/// Unit of [`SegmentHead::place`] and [`SegmentHead::extent`], read as one number, as a fraction of a range.
 pub(super) const PER_PLACE: f32 = 1.0 / 65_535.0;
-/// One of the parts into which [`Head::extent`] divides a range.
+/// Unit of [`SegmentHead::extent`] as a fraction of a range.
 pub(super) const PER_EXTENT: f32 = 1.0 / 255.0;
 
-/// The rotation whose components relative to `reference` are `xyz`; its w is not negative there.
+/// Returns the rotation whose components relative to `reference` are `xyz`; its w is not negative there.
 pub(super) fn rotation_of(reference: Quat, xyz: Vec3) -> Quat {
     reference * xyz.extend_to_unit()
 }
@@ -171,9 +171,11 @@ impl ToUnit for Vec3 {
     }
 }
 
-/// Value of a part that is the same all the time; what moves gives the default.
-pub(super) fn constant(parts: &[Part; PARTS]) -> Transform {
-    let of = |part: &Part, default: [f32; 4]| if let Part::Constant(value) = part { *value } else { default };
+/// Returns the pose of a bone's constant channels; channels that move give the default.
+pub(super) fn constant(parts: &[StoredChannel; PARTS]) -> Transform {
+    let of = |part: &StoredChannel, default: [f32; 4]| {
+        if let StoredChannel::Constant(value) = part { *value } else { default }
+    };
     let three = |[x, y, z, _]: [f32; 4]| Vec3::new(x, y, z);
     Transform {
         rotation: Quat::from_array(of(&parts[0], [0.0, 0.0, 0.0, 1.0])),
@@ -182,5 +184,5 @@ pub(super) fn constant(parts: &[Part; PARTS]) -> Transform {
     }
 }
 
-/// How what lies between two keys is found, for takes made of decoded keys.
+/// Interpolation of takes made from decoded keys.
 pub(super) const BETWEEN: Interpolation = Interpolation::Linear;

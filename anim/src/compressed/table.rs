@@ -1,10 +1,10 @@
-//! What decoding needs beside the bytes: one set of tables a take, shared by all characters that play it.
+//! The tables that decoding needs in addition to the bytes: one set per take, shared by all characters that play it.
 
-use super::arrange::{Group, Place, groups, places};
 use super::bits::BitReader;
-use super::frames::Clock;
-use super::head::{HeadBlock, Lane, WideBlock};
-use super::stored::{Head, PARTS, Range, Reference, rotation_of};
+use super::frames::FrameClock;
+use super::head::{HeadBlock, LaneLayout, WideBlock};
+use super::lane_groups::{LaneGroup, TrackSlot, groups, slots};
+use super::stored::{PARTS, Reference, SegmentHead, ValueRange, rotation_of};
 use super::whole::WholeTrack;
 use crate::data::Transform;
 use crate::fast::PoseBlock;
@@ -15,25 +15,25 @@ use glam::{Quat, Vec3};
 #[derive(Clone, Debug)]
 pub(super) struct Tables {
     pub(super) name: String,
-    pub(super) clock: Clock,
-    /// Seconds.
+    pub(super) clock: FrameClock,
+    /// Seconds between two keys.
     pub(super) interval: f64,
     pub(super) shift: u32,
     pub(super) bones: usize,
-    /// Translations that stand still, of every block.
+    /// Constant translations of every block.
     pub(super) still: Vec<[[f32; LANES]; 3]>,
     /// Scales of the blocks in which not all are 1.
     pub(super) still_scales: Vec<(u32, [[f32; LANES]; 3])>,
-    /// Rotations of the blocks of which none moves, or few do.
+    /// Rotations of the blocks in which none moves, or few do.
     pub(super) still_rotations: Vec<(u32, [[f32; LANES]; 4])>,
     /// Rotations that move.
     pub(super) turning: Vec<Turning>,
     /// Translations and scales that move.
-    pub(super) moving: [Vec<Group>; 2],
-    /// Segment after segment, one a group: of rotations, then translations, then scales.
+    pub(super) moving: [Vec<LaneGroup>; 2],
+    /// Segment after segment, one per group: of rotations, then translations, then scales.
     heads: Vec<HeadBlock>,
     pub(super) segments: Vec<SegmentPlace>,
-    /// Where the numbers of a group lie that are too wide for the usual way.
+    /// Positions of the numbers of groups that are too wide for a [`HeadBlock`].
     pub(super) wide: Vec<WideBlock>,
     pub(super) whole: Vec<WholeTrack>,
 }
@@ -41,12 +41,12 @@ pub(super) struct Tables {
 /// Eight rotations that move.
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
-    /// What their components are relative to.
+    /// Rotations that the components are relative to.
     pub(super) reference: [[f32; LANES]; 4],
-    pub(super) group: Group,
+    pub(super) group: LaneGroup,
 }
 
-/// Where the keys of a segment lie, in bytes from the first.
+/// Position of the keys of a segment, in bytes from the first key.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SegmentPlace {
     pub(super) at: u32,
@@ -55,9 +55,9 @@ pub(super) struct SegmentPlace {
 }
 
 impl Tables {
-    /// The tables of a take without keys, whose bones are of these kinds and stand still like this.
+    /// Creates the tables of a take without keys, from the storage of its bones' channels and their constant poses.
     pub(super) fn new(
-        clock: Clock,
+        clock: FrameClock,
         shift: u32,
         name: String,
         kinds: &[[u32; PARTS]],
@@ -68,7 +68,7 @@ impl Tables {
             base[bone / LANES].set(bone, pose);
         }
         let [turning, translations, scales] = groups(kinds);
-        let reference = |group: &Group| match group.block {
+        let reference = |group: &LaneGroup| match group.block {
             Some(block) => base[block as usize].rotation,
             None => PoseBlock::IDENTITY.rotation,
         };
@@ -97,7 +97,7 @@ impl Tables {
         }
     }
 
-    /// The pose of `bone` while nothing moves.
+    /// Returns the constant pose of `bone`.
     pub(super) fn still_pose(&self, bone: usize) -> Transform {
         let (block, mut pose) = (bone / LANES, PoseBlock::IDENTITY);
         pose.translation = self.still[block];
@@ -115,44 +115,44 @@ impl Tables {
         still.map_or(PoseBlock::IDENTITY.scale, |still| still.1)
     }
 
-    /// Every packed track, in the order in which tracks are stored.
-    pub(super) fn places(&self) -> Vec<Place> {
+    /// Returns every packed track, in the order in which tracks are stored.
+    pub(super) fn slots(&self) -> Vec<TrackSlot> {
         let [translations, scales] = &self.moving;
         let turning = self.turning.iter().map(|turning| turning.group.clone()).collect();
-        places(&[turning, translations.clone(), scales.clone()])
+        slots(&[turning, translations.clone(), scales.clone()])
     }
 
-    /// Says what the components of the rotations of a track are relative to.
-    pub(super) fn refer(&mut self, place: &Place, reference: Reference) {
+    /// Sets the rotation that the components of a track are relative to.
+    pub(super) fn refer(&mut self, slot: &TrackSlot, reference: Reference) {
         let rotation = reference.rotation().to_array();
-        (0..4).for_each(|axis| self.turning[place.group].reference[axis][place.lane] = rotation[axis]);
+        (0..4).for_each(|axis| self.turning[slot.group].reference[axis][slot.lane] = rotation[axis]);
     }
 
-    /// The heads of all groups in a segment, and then those of the next ones; none past the end.
+    /// Returns the heads of all groups in a segment and in those after it; none past the end.
     #[inline(always)]
     pub(super) fn heads_of(&self, segment: usize) -> &[HeadBlock] {
         let count = self.turning.len() + self.moving[0].len() + self.moving[1].len();
         self.heads.get(segment * count..).unwrap_or(&[])
     }
 
-    /// The head of a track in a segment.
-    fn head(&self, place: &Place, segment: usize) -> &HeadBlock {
+    /// Returns the head of a track in a segment.
+    fn head(&self, slot: &TrackSlot, segment: usize) -> &HeadBlock {
         let before = [0, self.turning.len(), self.turning.len() + self.moving[0].len()];
-        &self.heads_of(segment)[before[place.part] + place.group]
+        &self.heads_of(segment)[before[slot.part] + slot.group]
     }
 
     /// Adds a segment: the range and the head of every track. Returns the bits of one key.
-    pub(super) fn add_segment(&mut self, tracks: &[(Place, Range)], heads: &[Head]) -> u32 {
+    pub(super) fn add_segment(&mut self, tracks: &[(TrackSlot, ValueRange)], heads: &[SegmentHead]) -> u32 {
         let mut tracks = tracks.iter().zip(heads).peekable();
         let mut bit = 0;
         let counts = [self.turning.len(), self.moving[0].len(), self.moving[1].len()];
         let groups = (0..PARTS).flat_map(|part| (0..counts[part]).map(move |group| (part, group)));
         for (part, group) in groups {
             let mut lanes = self.still_lanes(part, group);
-            while let Some(((place, range), head)) =
-                tracks.next_if(|((place, _), _)| (place.part, place.group) == (part, group))
+            while let Some(((slot, range), head)) =
+                tracks.next_if(|((slot, _), _)| (slot.part, slot.group) == (part, group))
             {
-                lanes[place.lane] = Lane::new(bit, range, head);
+                lanes[slot.lane] = LaneLayout::new(bit, range, head);
                 bit += head.width();
             }
             self.heads.push(HeadBlock::new(&lanes, &mut self.wide));
@@ -160,18 +160,18 @@ impl Tables {
         bit
     }
 
-    /// Lanes without numbers: what stands still in the group.
-    fn still_lanes(&self, part: usize, group: usize) -> [Lane; LANES] {
+    /// Returns lanes without numbers: the constants of the group.
+    fn still_lanes(&self, part: usize, group: usize) -> [LaneLayout; LANES] {
         let block = part.checked_sub(1).and_then(|vector| self.moving[vector][group].block);
         let rows = match block {
             Some(block) if part == 1 => self.still[block as usize],
             Some(block) => self.still_scale(block as usize),
             None => [[0.0; LANES]; 3],
         };
-        std::array::from_fn(|lane| Lane { start: rows.map(|row| row[lane]), ..Lane::default() })
+        std::array::from_fn(|lane| LaneLayout { start: rows.map(|row| row[lane]), ..LaneLayout::default() })
     }
 
-    /// Bytes that the tables take.
+    /// Returns the size of the tables in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.still.as_slice())
             + size_of_val(self.still_scales.as_slice())
@@ -185,21 +185,21 @@ impl Tables {
             + size_of_val(self.whole.as_slice())
     }
 
-    /// The value of a key of a packed track, the plain way, which the fast one must agree with; of a vector the fourth
-    /// number is 0.
-    pub(super) fn value(&self, bytes: &[u8], place: &Place, key: u32) -> [f32; 4] {
+    /// Returns the value of a key of a packed track by the plain formula, with which the fast one must agree; the
+    /// fourth number of a vector is 0.
+    pub(super) fn value(&self, bytes: &[u8], slot: &TrackSlot, key: u32) -> [f32; 4] {
         let segment = (key >> self.shift) as usize;
         let SegmentPlace { at, stride } = self.segments[segment];
         let row = at + stride * (key & ((1 << self.shift) - 1));
-        let lane = self.head(place, segment).lane(place.lane, &self.wide);
+        let lane = self.head(slot, segment).lane(slot.lane, &self.wide);
         let mut bits = BitReader::new(bytes, row as usize).after(lane.bit);
         let value = Vec3::from_array([0, 1, 2].map(|axis| {
             let number = bits.take(lane.widths[axis]).unwrap_or(0);
             lane.start[axis] + lane.step[axis] * number as f32
         }));
-        if place.part == 0 {
-            let reference = &self.turning[place.group].reference;
-            let reference = Quat::from_array([0, 1, 2, 3].map(|axis| reference[axis][place.lane]));
+        if slot.part == 0 {
+            let reference = &self.turning[slot.group].reference;
+            let reference = Quat::from_array([0, 1, 2, 3].map(|axis| reference[axis][slot.lane]));
             return rotation_of(reference, value).to_array();
         }
         value.extend(0.0).to_array()

@@ -1,4 +1,4 @@
-//! A compressed take: bytes, and what it takes to play them.
+//! A compressed take: its bytes, and the tables to play them.
 
 use super::FormatError;
 use super::kernel::Decode;
@@ -6,92 +6,92 @@ use super::read::read;
 use super::stored::BETWEEN;
 use super::table::Tables;
 use crate::data::{Channel, Take, Track};
-use crate::fast::simd::{Kernel, Level, Simd};
+use crate::fast::simd::{Kernel, Simd, SimdLevel};
 use crate::fast::{Playable, Pose, PoseBlock};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
 /// A take in few bytes that can be sampled at any time.
 ///
-/// Holds the bytes, checked, and tables ([`Self::bytes_in_memory`]); nothing is kept for a character that plays it, so one
+/// Contains the bytes, checked, and tables ([`Self::bytes_in_memory`]); there is no state per character, so one take
 /// can be shared by any number of them.
 #[derive(Clone, Debug)]
 pub struct CompressedTake {
     bytes: Arc<[u8]>,
     tables: Tables,
-    level: Level,
+    level: SimdLevel,
 }
 
 impl CompressedTake {
-    /// The take in `bytes`, which [`Self::as_bytes`] gave.
+    /// Reads the take in `bytes`, as returned by [`Self::as_bytes`].
     ///
-    /// Every number is checked. Bytes that are cut short, altered or made up give an error with the offset of the first
-    /// thing that cannot be; what passes can be sampled without a panic and gives finite numbers.
+    /// Every number is checked. Bytes that are truncated, altered or made up give an error with the offset of the first
+    /// invalid item; an accepted take can be sampled without a panic and gives finite numbers.
     pub fn from_bytes(bytes: impl Into<Arc<[u8]>>) -> Result<Self, FormatError> {
         let bytes = bytes.into();
         let tables = read(&bytes)?;
-        Ok(Self { bytes, tables, level: Level::best() })
+        Ok(Self { bytes, tables, level: SimdLevel::best() })
     }
 
-    /// The bytes: little-endian, complete, of a known version; see [`super`] for the layout.
+    /// Returns the bytes: little-endian, complete, with a version; see [`super`] for the layout.
     pub fn as_bytes(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// The same take, sampled with other instructions.
-    pub fn with_level(mut self, level: Level) -> Self {
+    /// Returns the take, to be sampled with the instructions of `level`.
+    pub fn with_level(mut self, level: SimdLevel) -> Self {
         self.level = level;
         self
     }
 
-    /// As the take was called; the first 255 bytes of that.
+    /// Returns the name of the take, at most 255 bytes of it.
     pub fn name(&self) -> &str {
         &self.tables.name
     }
 
-    /// Seconds: the first key.
+    /// Returns the time of the first key in seconds.
     pub fn start(&self) -> f32 {
         self.tables.clock.start
     }
 
-    /// Seconds from the first key to the last.
+    /// Returns the seconds from the first key to the last.
     pub fn length(&self) -> f32 {
         self.tables.clock.length
     }
 
-    /// Number of keys, evenly spaced from the start to the end; at least one.
+    /// Returns the number of keys, evenly spaced from the start to the end; at least one.
     pub fn keys(&self) -> usize {
         self.tables.clock.frames as usize
     }
 
-    /// Number of bones.
+    /// Returns the number of bones.
     pub fn bones(&self) -> usize {
         self.tables.bones
     }
 
-    /// Bytes in memory: [`Self::as_bytes`] and the tables.
+    /// Returns the size in memory in bytes: [`Self::as_bytes`] and the tables.
     pub fn bytes_in_memory(&self) -> usize {
         self.bytes.len() + self.tables.bytes()
     }
 
     /// Writes the pose of every bone at `time` seconds, each relative to its parent.
     ///
-    /// Any time costs the same. Times outside the take, and times that are no number, give the first or the last key,
-    /// as [`crate::sample`] does. Rotations are slerped, translations and scales mixed. Bones that `pose` has no room
-    /// for are left out, those that it has beyond the take's stay as they are, up to the next multiple of eight.
-    /// Allocates nothing.
+    /// Any time costs the same. Times outside the take, and NaN, give the first or the last key, as [`crate::sample`]
+    /// does. Rotations are slerped, translations and scales interpolated linearly. Bones past the end of `pose` are
+    /// left out; bones of `pose` past the take's stay as they are, from the next multiple of eight on. Allocates
+    /// nothing.
     pub fn sample(&self, time: f32, pose: &mut Pose) {
         self.level.run(Decode { tables: &self.tables, bytes: &self.bytes, time, out: pose.blocks_mut() });
     }
 
-    /// An ordinary take with the decoded keys, to be edited, shown or sampled on the open path.
+    /// Returns an ordinary take with the decoded keys, to be edited, shown or sampled on the open path.
     ///
     /// Each bone has all three channels: with a key at each key time where it moves, else with one.
     pub fn decompress(&self) -> Take {
         let clock = &self.tables.clock;
         let times: Arc<[f32]> = (0..clock.frames).map(|key| clock.time(key, self.tables.interval)).collect();
         let mut tracks: Vec<Track> = (0..self.tables.bones).map(|bone| self.still(bone)).collect();
-        for place in self.tables.places() {
+        for place in self.tables.slots() {
             let value = |key| self.tables.value(&self.bytes, &place, key);
             put(&mut tracks[place.bone], place.part, &times, value);
         }
@@ -107,7 +107,7 @@ impl CompressedTake {
         }
     }
 
-    /// The track of a bone that stands still.
+    /// Returns the track of a bone that does not move.
     fn still(&self, bone: usize) -> Track {
         let pose = self.tables.still_pose(bone);
         let start: Arc<[f32]> = Arc::new([self.tables.clock.start]);
@@ -121,13 +121,13 @@ impl CompressedTake {
 }
 
 impl PartialEq for CompressedTake {
-    /// Are the bytes the same?
+    /// Returns whether the bytes are equal.
     fn eq(&self, other: &Self) -> bool {
         self.bytes == other.bytes
     }
 }
 
-/// Fills a part of a track with a value for each of `times`.
+/// Fills a channel of a track with a value for each of `times`.
 fn put(track: &mut Track, part: usize, times: &Arc<[f32]>, value: impl Fn(u32) -> [f32; 4]) {
     let values = (0..times.len() as u32).map(value);
     let three = |[x, y, z, _]: [f32; 4]| Vec3::new(x, y, z);

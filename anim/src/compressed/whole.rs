@@ -1,4 +1,4 @@
-//! Tracks whose keys are stored whole: few, and mixed one bone at a time.
+//! Tracks whose keys are stored whole: few, and interpolated one bone at a time.
 
 use super::grid::{WHOLE_BITS, rotation_from};
 use super::table::Tables;
@@ -12,7 +12,7 @@ use glam::{Quat, Vec3};
 pub(super) struct WholeTrack {
     pub(super) bone: usize,
     pub(super) part: usize,
-    /// Of the first key, in bytes.
+    /// Offset of the first key in bytes.
     pub(super) offset: usize,
 }
 
@@ -21,7 +21,7 @@ impl WholeTrack {
         if self.part == 0 { 8 } else { 12 }
     }
 
-    /// The value of a key; of a vector the fourth number is 0. Zero where the bytes end.
+    /// Returns the value of a key; the fourth number of a vector is 0. Zero past the end of the bytes.
     pub(super) fn value(&self, bytes: &[u8], key: u32) -> [f32; 4] {
         let at = self.offset + self.bytes_per_key() * key as usize;
         let rest = bytes.get(at..).unwrap_or(&[]);
@@ -36,7 +36,7 @@ impl WholeTrack {
     }
 }
 
-/// Puts the values between `key` and the one after it into a pose.
+/// Writes the values between `key` and the one after it into a pose.
 pub(super) fn put(tables: &Tables, bytes: &[u8], key: u32, mix: f32, out: &mut [PoseBlock]) {
     let after = (key + 1).min(tables.clock.frames - 1);
     for track in &tables.whole {

@@ -1,26 +1,25 @@
-//! From what is stored to bytes; the layout is written down in [`super`].
+//! Writes the stored take as bytes; the layout is documented in [`super`].
 
-use super::arrange::{Place, groups, places};
 use super::bits::BitWriter;
 use super::encode::TURN_UNIT;
 use super::frames::limit;
 use super::grid::{FLOATS, WHOLE_BITS, rotation_numbers};
-use super::stored::{PARTS, Packed, Part, Stored};
-use super::{Bytes, CompressError, MAGIC, MAX_BYTES, VERSION};
-use crate::checksum::Checksum;
+use super::lane_groups::{TrackSlot, groups, slots};
+use super::stored::{PARTS, PackedChannel, StoredChannel, StoredTake};
+use super::{ByteSizes, CompressError, MAGIC, MAX_BYTES, VERSION};
 use glam::Quat;
 
-/// Bytes before the keys begin: what they are, the version, the length, the sum, and where the keys end.
+/// Bytes before the keys: magic number, version, length, checksum, and the end of the keys.
 pub(super) const PREFACE: usize = 20;
-/// The first byte that the sum is of.
+/// The first byte that the checksum covers.
 pub(super) const SUMMED: usize = 16;
-/// Bytes after the keys at least, so that the numbers of eight lanes can be read at once wherever they begin.
+/// Smallest number of bytes after the keys, so that the numbers of eight lanes can be read at once from any position.
 pub(super) const AHEAD: usize = 32;
 
-/// The bytes of `stored`, and what they were spent on.
-pub(super) fn write(stored: &Stored) -> Result<(Vec<u8>, Bytes), CompressError> {
+/// Returns the bytes of `stored`, and their sizes by content.
+pub(super) fn write(stored: &StoredTake) -> Result<(Vec<u8>, ByteSizes), CompressError> {
     let tracks = packed(stored);
-    let mut spent = Bytes::default();
+    let mut spent = ByteSizes::default();
     let mut bytes = vec![0; PREFACE];
     whole(stored, &mut bytes);
     spent.whole = bytes.len() - PREFACE;
@@ -50,9 +49,9 @@ pub(super) fn write(stored: &Stored) -> Result<(Vec<u8>, Bytes), CompressError> 
     Ok((bytes, spent))
 }
 
-/// Fills in the first bytes, when all others are there.
+/// Fills in the first bytes, after all others are written.
 fn preface(bytes: &mut [u8]) {
-    let (length, sum) = (bytes.len() as u32, Checksum::START.with(&bytes[SUMMED..]).value());
+    let (length, sum) = (bytes.len() as u32, crc32fast::hash(&bytes[SUMMED..]));
     bytes[..4].copy_from_slice(&MAGIC);
     bytes[4..6].copy_from_slice(&VERSION.to_le_bytes());
     bytes[6..8].copy_from_slice(&[0; 2]);
@@ -60,7 +59,7 @@ fn preface(bytes: &mut [u8]) {
     bytes[12..16].copy_from_slice(&sum.to_le_bytes());
 }
 
-fn header(stored: &Stored, bits: &mut BitWriter) {
+fn header(stored: &StoredTake, bits: &mut BitWriter) {
     bits.put_float(stored.clock.start);
     bits.put_float(stored.clock.length);
     bits.put(stored.clock.frames, 32);
@@ -74,24 +73,24 @@ fn header(stored: &Stored, bits: &mut BitWriter) {
     name.bytes().for_each(|byte| bits.put(u32::from(byte), 8));
 }
 
-/// As much of a name as fits: 255 bytes.
+/// Truncates a name to 255 bytes.
 fn name(name: &str) -> &str {
     let end = (0..=name.len().min(255)).rev().find(|&end| name.is_char_boundary(end)).unwrap_or(0);
     &name[..end]
 }
 
-fn kinds_and_constants(stored: &Stored, bits: &mut BitWriter) {
+fn kinds_and_constants(stored: &StoredTake, bits: &mut BitWriter) {
     for part in stored.bones.iter().flatten() {
         bits.put(part.kind(), 2);
     }
     for parts in &stored.bones {
         for (which, part) in parts.iter().enumerate() {
             match (which, part) {
-                (0, Part::Constant(rotation)) => constant_rotation(stored, *rotation, bits),
-                (1, Part::Constant([x, y, z, _])) => {
+                (0, StoredChannel::Constant(rotation)) => constant_rotation(stored, *rotation, bits),
+                (1, StoredChannel::Constant([x, y, z, _])) => {
                     [x, y, z].into_iter().for_each(|value| constant_length(stored, *value, bits));
                 }
-                (_, Part::Constant([x, y, z, _])) => {
+                (_, StoredChannel::Constant([x, y, z, _])) => {
                     [x, y, z].into_iter().for_each(|value| constant_factor(*value, bits));
                 }
                 _ => {}
@@ -100,7 +99,7 @@ fn kinds_and_constants(stored: &Stored, bits: &mut BitWriter) {
     }
 }
 
-fn constant_rotation(stored: &Stored, rotation: [f32; 4], bits: &mut BitWriter) {
+fn constant_rotation(stored: &StoredTake, rotation: [f32; 4], bits: &mut BitWriter) {
     let width = stored.grid.rotation_bits;
     if width == FLOATS {
         return rotation.into_iter().for_each(|number| bits.put_float(number));
@@ -110,7 +109,7 @@ fn constant_rotation(stored: &Stored, rotation: [f32; 4], bits: &mut BitWriter) 
     numbers.into_iter().for_each(|number| bits.put(number, width));
 }
 
-fn constant_length(stored: &Stored, value: f32, bits: &mut BitWriter) {
+fn constant_length(stored: &StoredTake, value: f32, bits: &mut BitWriter) {
     let width = stored.grid.translation_bits;
     if width == FLOATS {
         return bits.put_float(value);
@@ -133,21 +132,22 @@ fn constant_factor(value: f32, bits: &mut BitWriter) {
     }
 }
 
-/// The parts that `pick` finds something in, with their bones: all rotations, then translations, then scales.
-fn of_all<'a, T>(stored: &'a Stored, pick: impl Fn(&'a Part) -> Option<T>) -> Vec<(usize, T)> {
+/// Returns the channels for which `pick` returns a value, with their bones: all rotations, then translations, then
+/// scales.
+fn of_all<'a, T>(stored: &'a StoredTake, pick: impl Fn(&'a StoredChannel) -> Option<T>) -> Vec<(usize, T)> {
     let of = |which: usize| stored.bones.iter().map(move |parts| (which, &parts[which]));
     (0..3).flat_map(of).filter_map(|(which, part)| Some((which, pick(part)?))).collect()
 }
 
-/// The packed tracks with their parts, in the order in which they are stored.
-fn packed(stored: &Stored) -> Vec<(usize, &Packed)> {
+/// Returns the packed tracks with their properties, in the order in which they are stored.
+fn packed(stored: &StoredTake) -> Vec<(usize, &PackedChannel)> {
     let kinds: Vec<[u32; PARTS]> =
         stored.bones.iter().map(|parts| [0, 1, 2].map(|part| parts[part].kind())).collect();
-    let packed = |place: Place| Some((place.part, stored.bones[place.bone][place.part].packed()?));
-    places(&groups(&kinds)).into_iter().filter_map(packed).collect()
+    let packed = |slot: TrackSlot| Some((slot.part, stored.bones[slot.bone][slot.part].packed()?));
+    slots(&groups(&kinds)).into_iter().filter_map(packed).collect()
 }
 
-fn ranges(tracks: &[(usize, &Packed)], bits: &mut BitWriter) {
+fn ranges(tracks: &[(usize, &PackedChannel)], bits: &mut BitWriter) {
     for (part, track) in tracks {
         let (low, extent) = (track.range.low.to_array(), track.range.extent.to_array());
         if *part == 0 {
@@ -160,7 +160,7 @@ fn ranges(tracks: &[(usize, &Packed)], bits: &mut BitWriter) {
     }
 }
 
-fn heads(tracks: &[(usize, &Packed)], bits: &mut BitWriter) {
+fn heads(tracks: &[(usize, &PackedChannel)], bits: &mut BitWriter) {
     let segments = tracks.first().map_or(0, |(_, track)| track.segments.len());
     for segment in 0..segments {
         for (_, track) in tracks {
@@ -176,8 +176,10 @@ fn heads(tracks: &[(usize, &Packed)], bits: &mut BitWriter) {
     }
 }
 
-fn whole(stored: &Stored, bytes: &mut Vec<u8>) {
-    let values = |part: &'_ Part| if let Part::Whole(values) = part { Some(values.clone()) } else { None };
+fn whole(stored: &StoredTake, bytes: &mut Vec<u8>) {
+    let values = |part: &'_ StoredChannel| {
+        if let StoredChannel::Whole(values) = part { Some(values.clone()) } else { None }
+    };
     for (which, values) in of_all(stored, values) {
         for value in values {
             if which == 0 {
@@ -192,7 +194,7 @@ fn whole(stored: &Stored, bytes: &mut Vec<u8>) {
     }
 }
 
-fn keys(tracks: &[(usize, &Packed)]) -> Vec<u8> {
+fn keys(tracks: &[(usize, &PackedChannel)]) -> Vec<u8> {
     let mut bits = BitWriter::default();
     let segments = tracks.first().map_or(0, |(_, track)| track.segments.len());
     for segment in 0..segments {

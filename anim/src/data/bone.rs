@@ -6,22 +6,24 @@ use glam::Mat4;
 /// Position of a bone in [`Skeleton::bones`].
 pub type BoneIndex = u32;
 
-/// A bone (joint): its parent by index, its rest pose, its binding pose (thesis §2.1.2.2, §3.1.2).
+/// A bone (joint): its parent by index, its rest pose, its bind pose (thesis §2.1.2.2, §3.1.2).
 ///
 /// Any scene node that moves is a bone: joints of skins, animated nodes, and the ancestors of both.
 #[derive(Clone, Debug, PartialEq)]
+#[doc(alias = "joint")]
 pub struct Bone {
     /// As in the file; need not be unique, may be empty.
     pub name: String,
-    /// Always smaller than the bone's own index, so one forward pass meets parents first; `None` for a root.
+    /// Always smaller than the bone's own index, so one forward pass visits parents first; `None` for a root.
     pub parent: Option<BoneIndex>,
     /// Pose relative to the parent when nothing animates it.
     pub rest: Transform,
     /// The exact rest matrix, kept only where it is sheared and `rest` cannot express it; used while no channel
     /// animates the bone.
     pub rest_matrix: Option<Mat4>,
-    /// Offset: bind space → bone space, never modified. That of the first skin that uses the bone; for bones of no
-    /// skin the inverse of the rest pose's to-root.
+    /// Offset (inverse bind matrix): bind space → bone space, never modified. That of the first skin that uses the
+    /// bone; for bones of no skin the inverse of the rest pose's to-root.
+    #[doc(alias = "inverse bind matrix")]
     pub offset: Mat4,
     /// Index of the node in a glTF file; `None` for other formats.
     pub node: Option<u32>,
@@ -29,42 +31,44 @@ pub struct Bone {
 
 /// All bones, parents before children.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[doc(alias("rig", "armature"))]
 pub struct Skeleton {
-    /// Parents before children.
+    /// The bones; every parent comes before its children.
     pub bones: Vec<Bone>,
 }
 
 impl Skeleton {
-    /// Index of the first bone called `name`.
+    /// Returns the index of the first bone called `name`.
     pub fn find(&self, name: &str) -> Option<BoneIndex> {
         self.bones.iter().position(|bone| bone.name == name).map(|index| index as BoneIndex)
     }
 
-    /// Children of `bone` in index order; of `None`: the roots.
+    /// Returns the children of `bone` in index order; of `None`: the roots.
     pub fn children(&self, bone: Option<BoneIndex>) -> impl Iterator<Item = BoneIndex> + '_ {
         (0..self.bones.len() as BoneIndex).filter(move |&index| self.bones[index as usize].parent == bone)
     }
 
-    /// Number of bones.
+    /// Returns the number of bones.
     pub fn len(&self) -> usize {
         self.bones.len()
     }
 
-    /// Has it no bone?
+    /// Returns whether there is no bone.
     pub fn is_empty(&self) -> bool {
         self.bones.is_empty()
     }
 }
 
-/// Which bones move a mesh, and the offset of each.
+/// The bones that move a mesh, and the offset of each.
 ///
-/// Vertices name positions in `bones`, not bones, so several skins can share a skeleton.
+/// Vertices refer to positions in `bones`, not to bones, so several skins can share a skeleton.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Skin {
     /// As in the file; may be empty.
     pub name: String,
     /// The joints, in the skin's order.
     pub bones: Vec<BoneIndex>,
-    /// Bind space → bone space, one a joint (inverse bind matrices).
+    /// Bind space → bone space, one per joint (inverse bind matrices).
+    #[doc(alias = "inverse bind matrices")]
     pub offsets: Vec<Mat4>,
 }

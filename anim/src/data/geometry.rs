@@ -3,15 +3,15 @@
 use super::BoneIndex;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
-/// Most influences a vertex may have; files with more keep the strongest.
+/// Largest number of influences of a vertex; of files with more, the strongest are kept.
 pub const MAX_INFLUENCES: usize = 8;
 
-/// One bone's share in a vertex.
+/// Influence of one bone on a vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Influence {
     /// Position in the skin's list of bones.
     pub joint: u16,
-    /// 0..1; those of a vertex sum to 1.
+    /// 0..1; the weights of a vertex sum to 1.
     pub weight: f32,
 }
 
@@ -30,62 +30,63 @@ pub struct Vertex {
     pub material: Option<u32>,
 }
 
-/// Vertices as columns. `positions` sets the count; every other column is empty or as long.
+/// Vertices as columns. `positions` determines the number of vertices; every other column is empty or as long.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Vertices {
     /// Mesh space.
     pub positions: Vec<Vec3>,
-    /// Mesh space, unit length. Never empty after import: made from the triangles where the file has none.
+    /// Mesh space, unit length. Never empty after import: computed from the triangles where the file has none.
     pub normals: Vec<Vec3>,
     /// xyz along +u in mesh space, w = ±1 the side of the bitangent.
     pub tangents: Vec<Vec4>,
-    /// Two texture coordinate sets, either may be empty.
+    /// Two texture coordinate sets; either may be empty.
     pub texture_coordinates: [Vec<Vec2>; 2],
     /// Linear RGBA.
     pub colors: Vec<Vec4>,
-    /// `influences_per_vertex` values a vertex, strongest first, padded with weight 0.
+    /// `influences_per_vertex` values per vertex, strongest first, padded with weight 0.
     pub influences: Vec<Influence>,
     /// 0 (no skin), 4 or 8.
     pub influences_per_vertex: usize,
 }
 
 impl Vertices {
-    /// Number of vertices.
+    /// Returns the number of vertices.
     pub fn len(&self) -> usize {
         self.positions.len()
     }
 
-    /// Is there no vertex?
+    /// Returns whether there is no vertex.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }
 
-    /// Influences of vertex `index`, strongest first; empty without skin.
+    /// Returns the influences of vertex `index`, strongest first; empty without skin.
     pub fn influences_of(&self, index: usize) -> &[Influence] {
         let count = self.influences_per_vertex;
         self.influences.get(index * count..(index + 1) * count).unwrap_or(&[])
     }
 }
 
-/// Differences that a morph target adds to the vertices, times its weight.
+/// Differences that a morph target (blend shape) adds to the vertices, times its weight.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[doc(alias("blend shape", "shape key"))]
 pub struct MorphTarget {
     /// As in the file; may be empty.
     pub name: String,
-    /// Added to positions; empty or one a vertex.
+    /// Added to positions; empty or one per vertex.
     pub positions: Vec<Vec3>,
-    /// Added to normals; empty or one a vertex.
+    /// Added to normals; empty or one per vertex.
     pub normals: Vec<Vec3>,
-    /// Added to the xyz of tangents; empty or one a vertex.
+    /// Added to the xyz of tangents; empty or one per vertex.
     pub tangents: Vec<Vec3>,
 }
 
 /// Triangles of one material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Primitive {
-    /// The columns.
+    /// The vertices as columns.
     pub vertices: Vertices,
-    /// Three a triangle, counter-clockwise seen from the front; each below the vertex count.
+    /// Three per triangle, counter-clockwise seen from the front; each below the vertex count.
     pub indices: Vec<u32>,
     /// Position in [`super::ModelData::materials`]; `None` for the default material.
     pub material: Option<u32>,
@@ -94,7 +95,7 @@ pub struct Primitive {
 }
 
 impl Primitive {
-    /// Vertex `index` in one piece; `None` past the end.
+    /// Returns vertex `index` in one piece; `None` past the end.
     pub fn vertex(&self, index: usize) -> Option<Vertex> {
         let vertices = &self.vertices;
         Some(Vertex {
@@ -113,13 +114,13 @@ impl Primitive {
 pub struct Mesh {
     /// As in the file; may be empty.
     pub name: String,
-    /// One a material.
+    /// One per material.
     pub primitives: Vec<Primitive>,
-    /// Default weights of the morph targets; as many as targets.
+    /// Default weights of the morph targets; one per target.
     pub morph_weights: Vec<f32>,
 }
 
-/// A mesh placed in the scene: moved by a skin, or carried by a bone, or standing still.
+/// A mesh placed in the scene: moved by a skin, carried by a bone, or static.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshInstance {
     /// Position in [`super::ModelData::meshes`].
@@ -128,10 +129,10 @@ pub struct MeshInstance {
     pub node: Option<u32>,
     /// Position in [`super::ModelData::skins`]; a skinned mesh ignores `bone` and `to_bone`.
     pub skin: Option<u32>,
-    /// The bone that carries it, `None` when nothing moves it.
+    /// The bone that carries it; `None` when nothing moves it.
     pub bone: Option<BoneIndex>,
     /// Mesh space → space of `bone`, or scene space without one.
     pub to_bone: Mat4,
-    /// Morph weights where nothing animates them; as many as targets.
+    /// Morph weights where nothing animates them; one per target.
     pub morph_weights: Vec<f32>,
 }

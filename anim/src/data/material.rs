@@ -1,14 +1,14 @@
-//! What a surface looks like: the thesis's Phong values beside glTF's metallic-roughness ones, and images.
+//! Surface properties: the thesis's Phong values, glTF's metallic-roughness values, and images.
 
 use glam::{Mat3, Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
-/// Phong lighting (thesis §2.1.6.2): what a file without physically based values gives, or what stands in for them.
+/// Phong lighting (thesis §2.1.6.2): for files without physically based values, or as a replacement for them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phong {
-    /// Linear RGB, reflected from light that comes from everywhere.
+    /// Linear RGB, reflected from light from all directions.
     pub ambient: Vec3,
-    /// Linear RGB.
+    /// Linear RGB, reflected evenly in all directions.
     pub diffuse: Vec3,
     /// Linear RGB of the highlight.
     pub specular: Vec3,
@@ -33,33 +33,33 @@ pub enum AlphaMode {
     Opaque,
     /// Drawn where alpha is at least this.
     Mask(f32),
-    /// Blended over what is behind.
+    /// Blended with the background.
     Blend,
 }
 
-/// What happens outside 0..1.
+/// Treatment of texture coordinates outside 0..1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Wrap {
     /// The image repeats.
     #[default]
     Repeat,
-    /// Repeats, every second time mirrored.
+    /// The image repeats, mirrored every second time.
     MirroredRepeat,
-    /// The edge goes on.
+    /// The edge texels are extended.
     ClampToEdge,
 }
 
-/// How texels between and below are chosen.
+/// How texels are chosen between texel centers and mip levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Filter {
     /// The nearest texel.
     Nearest,
-    /// A mix of neighbours.
+    /// A linear interpolation of the neighboring texels.
     #[default]
     Linear,
 }
 
-/// KHR_texture_transform: moves, turns and scales texture coordinates.
+/// KHR_texture_transform: translates, rotates and scales texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureTransform {
     /// Added last.
@@ -71,10 +71,10 @@ pub struct TextureTransform {
 }
 
 impl TextureTransform {
-    /// Changes nothing.
+    /// The identity.
     pub const IDENTITY: Self = Self { offset: Vec2::ZERO, rotation: 0.0, scale: Vec2::ONE };
 
-    /// The 3×3 matrix `translation · rotation · scale` of the extension's text.
+    /// Returns the 3×3 matrix `translation · rotation · scale` as specified by the extension.
     pub fn to_matrix(self) -> Mat3 {
         let (sin, cos) = self.rotation.sin_cos();
         let rotation =
@@ -88,17 +88,17 @@ impl TextureTransform {
 pub struct TextureRef {
     /// Position in [`super::ModelData::images`].
     pub image: u32,
-    /// Which texture coordinates, 0 or 1.
+    /// Set of texture coordinates, 0 or 1.
     pub set: u32,
-    /// Horizontally and vertically.
+    /// Wrapping, horizontally and vertically.
     pub wrap: [Wrap; 2],
-    /// When magnified.
+    /// Filter when magnified.
     pub magnify: Filter,
-    /// When shrunk, and between mip levels.
+    /// Filter when minified, and between mip levels.
     pub minify: Filter,
-    /// Are mip levels used?
+    /// Whether mip levels are used.
     pub mip: bool,
-    /// Coordinates are moved by this first.
+    /// Transform that is applied to the coordinates first.
     pub transform: TextureTransform,
 }
 
@@ -107,7 +107,7 @@ pub struct TextureRef {
 pub struct Material {
     /// As in the file; may be empty.
     pub name: String,
-    /// Linear RGBA, times the texture, times vertex colours.
+    /// Linear RGBA, multiplied by the texture and by vertex colors.
     pub base_color: Vec4,
     /// sRGB image.
     pub base_color_texture: Option<TextureRef>,
@@ -117,30 +117,30 @@ pub struct Material {
     pub metallic_roughness_texture: Option<TextureRef>,
     /// Phong values.
     pub phong: Phong,
-    /// Light with [`Self::phong`] rather than [`Self::metallic`]?
+    /// Whether to light with [`Self::phong`] rather than [`Self::metallic`].
     pub use_phong: bool,
     /// Tangent space, +Y up (OpenGL).
     pub normal_texture: Option<TextureRef>,
-    /// Strength of the normal map, 1 = as painted.
+    /// Strength of the normal map, 1 = as stored.
     pub normal_scale: f32,
-    /// R = how much ambient light arrives.
+    /// R = fraction of the ambient light that arrives.
     pub occlusion_texture: Option<TextureRef>,
-    /// 0..1.
+    /// Strength of the occlusion, 0..1.
     pub occlusion_strength: f32,
-    /// Linear RGB that shines by itself.
+    /// Linear RGB of emitted light.
     pub emissive: Vec3,
     /// sRGB image.
     pub emissive_texture: Option<TextureRef>,
-    /// What alpha means.
+    /// How alpha is used.
     pub alpha_mode: AlphaMode,
-    /// Are back faces drawn?
+    /// Whether back faces are drawn.
     pub double_sided: bool,
-    /// KHR_materials_unlit: base colour only, no light.
+    /// KHR_materials_unlit: base color only, no lighting.
     pub unlit: bool,
 }
 
 impl Default for Material {
-    /// glTF's default material: white, fully metallic and rough.
+    /// Returns glTF's default material: white, fully metallic and rough.
     fn default() -> Self {
         Self {
             name: String::new(),
@@ -168,19 +168,19 @@ impl Default for Material {
     }
 }
 
-/// Encoded image data (thesis §2.1.6.3); whoever draws decodes it.
+/// Encoded image data (thesis §2.1.6.3), to be decoded by the renderer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Image {
     /// As in the file; may be empty.
     pub name: String,
     /// The relative path when the image is a file of its own, so that it can be stored separately.
     pub file_name: Option<String>,
-    /// As declared or told by the first bytes: "image/png" or "image/jpeg"; empty when unknown.
+    /// As declared or detected from the first bytes: "image/png" or "image/jpeg"; empty when unknown.
     pub mime: String,
-    /// Encoded bytes; empty when the image could not be read (a warning says why).
+    /// Encoded bytes; empty when the image could not be read (a warning gives the reason).
     pub bytes: Arc<[u8]>,
-    /// Pixels, as the header of the encoded data says; zero when unknown.
+    /// Width in pixels, from the header of the encoded data; zero when unknown.
     pub width: u32,
-    /// Pixels, likewise.
+    /// Height in pixels, from the header of the encoded data; zero when unknown.
     pub height: u32,
 }

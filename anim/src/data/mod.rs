@@ -1,6 +1,6 @@
-//! Everything a model is made of: plain structures, no behaviour beyond assembling a view of themselves.
+//! The data of a model: plain structures, no behavior beyond assembling views of themselves.
 //!
-//! Big arrays are `Arc<[T]>`, so that an editor can share what it did not change and threads can read them without a copy.
+//! Big arrays are `Arc<[T]>`, so that an editor can share unchanged ones and threads can read them without a copy.
 
 mod bone;
 mod channel;

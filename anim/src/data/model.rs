@@ -1,14 +1,14 @@
-//! A whole model: geometry, skins, materials, images, and animation data.
+//! A complete model: geometry, skins, materials, images, and animation data.
 
 use super::{Image, Material, Mesh, MeshInstance, Skeleton, Skin, Take};
 use std::sync::Arc;
 
-/// The moving part: a skeleton and the takes that move it (thesis §3.1.2, `AnimationBase`).
+/// The animated part: a skeleton and the takes that move it (thesis §3.1.2, `AnimationBase`).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnimationData {
-    /// Shared: takes of an edited copy keep it.
+    /// Shared by edited copies, whose takes refer to it.
     pub skeleton: Arc<Skeleton>,
-    /// In file order; each has one track a bone.
+    /// In file order; each has one track per bone.
     pub takes: Vec<Arc<Take>>,
 }
 
@@ -17,16 +17,16 @@ pub struct AnimationData {
 pub struct ModelData {
     /// As in the file; may be empty.
     pub name: String,
-    /// Geometry.
+    /// Geometry of the model.
     pub meshes: Vec<Mesh>,
-    /// Where and how the meshes stand in the scene.
+    /// Placements of the meshes in the scene.
     pub instances: Vec<MeshInstance>,
     /// Links between geometry and skeleton.
     pub skins: Vec<Skin>,
-    /// Surfaces.
+    /// Surface properties.
     pub materials: Vec<Material>,
-    /// Pictures used by materials.
+    /// Images used by materials.
     pub images: Vec<Image>,
-    /// Skeleton and takes.
+    /// The skeleton and the takes.
     pub animation: AnimationData,
 }

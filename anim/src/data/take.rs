@@ -1,10 +1,11 @@
-//! Takes: named pieces of animation, a track a bone.
+//! Takes: named animations, with one track per bone.
 
 use super::{BoneIndex, Channel, Transform};
 use glam::{Quat, Vec3};
 
 /// The pose of one bone at one time, assembled from a track's columns (thesis §3.1.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias = "key")]
 pub struct Keyframe {
     /// Seconds.
     pub time: f32,
@@ -15,28 +16,28 @@ pub struct Keyframe {
 /// All keys of one bone in one take.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Track {
-    /// Which bone it moves.
+    /// The bone that it moves.
     pub bone: BoneIndex,
-    /// Metres, parent space.
+    /// Meters, parent space.
     pub translation: Channel<Vec3>,
-    /// Unit quaternions, parent space; neighbours lie in one hemisphere.
+    /// Unit quaternions, parent space; neighboring ones are in one hemisphere.
     pub rotation: Channel<Quat>,
     /// Factors per axis.
     pub scale: Channel<Vec3>,
 }
 
 impl Track {
-    /// Does it animate nothing?
+    /// Returns whether it animates nothing.
     pub fn is_empty(&self) -> bool {
         self.translation.is_empty() && self.rotation.is_empty() && self.scale.is_empty()
     }
 
-    /// Key times summed over channels.
+    /// Returns the number of keys summed over channels.
     pub fn keys(&self) -> usize {
         self.translation.len() + self.rotation.len() + self.scale.len()
     }
 
-    /// Every time at which any channel has a key, ascending, each once.
+    /// Returns every time at which any channel has a key, ascending, each once.
     pub fn key_times(&self) -> Vec<f32> {
         let mut times: Vec<f32> = [&self.translation.times, &self.rotation.times, &self.scale.times]
             .into_iter()
@@ -53,39 +54,41 @@ impl Track {
 pub struct MorphTrack {
     /// Position in [`super::ModelData::instances`].
     pub instance: u32,
-    /// Number of targets; `weights` holds this many values a key (three times as many for a cubic spline:
-    /// all in-tangents, all values, all out-tangents).
+    /// Number of targets; `weights` has this many values per key (three times this for a cubic spline: all in-tangents,
+    /// all values, all out-tangents).
     pub targets: u32,
     /// Seconds, strictly ascending.
     pub times: std::sync::Arc<[f32]>,
     /// Target weights, usually 0..1.
     pub weights: std::sync::Arc<[f32]>,
-    /// How to find what lies between.
+    /// How values between keys are computed.
     pub interpolation: super::Interpolation,
 }
 
-/// A take (clip, glTF animation): one track a bone, a start and a length (thesis §3.1.2).
+/// A take (clip, glTF animation): one track per bone, a start and a length (thesis §3.1.2).
 #[derive(Clone, Debug, Default, PartialEq)]
+#[doc(alias("clip", "animation", "action"))]
 pub struct Take {
     /// As in the file; may be empty.
     pub name: String,
-    /// Seconds: the first key of any channel.
+    /// Time of the first key of any channel, in seconds.
     pub start: f32,
     /// Seconds from the first to the last key of any channel; zero for a single pose.
     pub length: f32,
-    /// One a bone, in bone order; a bone that does not move has an empty track.
+    /// One per bone, in bone order; a bone that does not move has an empty track.
     pub tracks: Vec<Track>,
-    /// Morph weights, only for meshes that change.
+    /// Morph weights, only for meshes with animated weights.
     pub morphs: Vec<MorphTrack>,
 }
 
 impl Take {
-    /// Seconds: the last key of any channel.
+    /// Returns the time of the last key of any channel, in seconds.
     pub fn end(&self) -> f32 {
         self.start + self.length
     }
 
-    /// Seconds: the first and the last key of any channel, morph weights included; `None` without keys.
+    /// Returns the times of the first and the last key of any channel in seconds, morph weights included; `None`
+    /// without keys.
     pub fn range_of_keys(&self) -> Option<(f32, f32)> {
         let of_bones = self.tracks.iter().flat_map(|track| {
             [track.translation.range(), track.rotation.range(), track.scale.range()].into_iter().flatten()
@@ -95,13 +98,13 @@ impl Take {
         of_bones.chain(of_morphs).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
-    /// Key times summed over all channels.
+    /// Returns the number of keys summed over all channels.
     pub fn keys(&self) -> usize {
         self.tracks.iter().map(Track::keys).sum::<usize>()
             + self.morphs.iter().map(|morph| morph.times.len()).sum::<usize>()
     }
 
-    /// Tracks that animate something, morph weights included.
+    /// Returns the number of tracks that animate something, morph weights included.
     pub fn moving_tracks(&self) -> usize {
         self.tracks.iter().filter(|track| !track.is_empty()).count() + self.morphs.len()
     }

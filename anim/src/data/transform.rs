@@ -1,4 +1,4 @@
-//! A transformation taken apart into what an animator edits: translation, rotation, scale.
+//! A transformation as an animator edits it: translation, rotation, scale.
 
 use glam::{Affine3A, Mat4, Quat, Vec3};
 
@@ -6,8 +6,9 @@ use glam::{Affine3A, Mat4, Quat, Vec3};
 ///
 /// As a matrix: scale first, then rotation, then translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias("local transform", "TRS"))]
 pub struct Transform {
-    /// Metres, or whatever length unit the file uses.
+    /// Meters, or the length unit of the file.
     pub translation: Vec3,
     /// Unit quaternion, `xyzw`.
     pub rotation: Quat,
@@ -16,23 +17,24 @@ pub struct Transform {
 }
 
 impl Transform {
-    /// Changes nothing.
+    /// The identity.
     pub const IDENTITY: Self = Self { translation: Vec3::ZERO, rotation: Quat::IDENTITY, scale: Vec3::ONE };
 
-    /// The affine matrix `T · R · S` for column vectors: bone space → parent space.
+    /// Returns the affine matrix `T · R · S` for column vectors: bone space → parent space.
     pub fn to_matrix(self) -> Mat4 {
         Mat4::from_scale_rotation_translation(self.scale, self.rotation, self.translation)
     }
 
-    /// The same as an affine transform.
+    /// Returns the same as an affine transform.
     pub fn to_affine(self) -> Affine3A {
         Affine3A::from_scale_rotation_translation(self.scale, self.rotation, self.translation)
     }
 
-    /// The nearest transform to `matrix`.
+    /// Returns the transform nearest to `matrix`.
     ///
-    /// A mirrored matrix gets a negative x scale. Where an axis has no length the rotation cannot be read off and is
-    /// the identity. A sheared matrix has no exact answer: compare [`Self::to_matrix`] with the input to notice.
+    /// A mirrored matrix gets a negative x scale. Where an axis has no length, the rotation cannot be computed and is
+    /// the identity. A sheared matrix has no exact decomposition: compare [`Self::to_matrix`] with the input to detect
+    /// it.
     pub fn from_matrix(matrix: Mat4) -> Self {
         let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
         if scale.is_finite() && rotation.is_finite() && scale.min_element().abs() > 0.0 {
@@ -47,7 +49,7 @@ impl Transform {
         }
     }
 
-    /// Is every number finite?
+    /// Returns whether every number is finite.
     pub fn is_finite(&self) -> bool {
         self.translation.is_finite() && self.rotation.is_finite() && self.scale.is_finite()
     }

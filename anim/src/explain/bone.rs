@@ -1,58 +1,58 @@
-//! From keys to `to_root`: one step a bone of the chain.
+//! The steps from keys to `to_root`, for every bone of a chain.
 
-use super::{ExplainError, Posed, Subject};
+use super::{ExplainError, SampledPose, Subject};
 use crate::animation::{final_pose, to_parent};
 use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Track, Transform};
 use crate::sample::{Value, find_keys, in_tangent, key_value, out_tangent, rest_pose, sample_channel};
 use glam::{Mat4, Quat, Vec3};
 
-/// One bone on the way from the root.
+/// One bone of the chain from the root.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoneStep {
     /// Position in [`Skeleton::bones`].
     pub bone: BoneIndex,
     /// As in the file; may be empty.
     pub name: String,
-    /// Its parent, whose step stands before this one; `None` for a root.
+    /// Its parent, whose step precedes this one; `None` for a root.
     pub parent: Option<BoneIndex>,
-    /// How its translation was found, parent space.
+    /// Computation of its translation, parent space.
     pub translation: ChannelStep<Vec3>,
-    /// How its rotation was found, parent space.
+    /// Computation of its rotation, parent space.
     pub rotation: ChannelStep<Quat>,
-    /// How its scale was found.
+    /// Computation of its scale.
     pub scale: ChannelStep<Vec3>,
     /// The temporary key-frame (§2.1.5.2): the three values together, relative to the parent.
     pub pose: Transform,
-    /// `T · R · S` of the pose: bone space → parent space (§2.1.5.1). For a bone that rests in a sheared matrix, that
-    /// matrix.
+    /// `T · R · S` of the pose: bone space → parent space (§2.1.5.1). For a bone whose rest pose is a sheared matrix,
+    /// that matrix.
     pub to_parent: Mat4,
     /// `to_root of the parent * to_parent`: bone space → scene space (§2.1.5.1).
     pub to_root: Mat4,
 }
 
-/// How one property of a bone was found at the time.
+/// Computation of one property of a bone at the time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelStep<T> {
-    /// What the bone has when nothing animates it.
+    /// Value when nothing animates the bone.
     pub rest: T,
-    /// The keys that were used; `None` when the channel has none, so that `rest` holds.
+    /// The keys that were used; `None` when the channel has none, so that `rest` is used.
     pub keys: Option<KeysStep<T>>,
-    /// What came out.
+    /// The result.
     pub value: T,
 }
 
 /// The keys around the time (§2.1.5.2).
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeysStep<T> {
-    /// How many keys the channel has.
+    /// Number of keys of the channel.
     pub count: usize,
-    /// How the two are combined.
+    /// How the two keys are combined.
     pub interpolation: Interpolation,
-    /// The last key at or before the time; the first, when the time lies before all.
+    /// The last key at or before the time; the first, when the time is before all.
     pub before: KeyStep<T>,
-    /// The next one; the same one outside the keys.
+    /// The next key; the same one outside the keys.
     pub after: KeyStep<T>,
-    /// How far the time is from `before` towards `after`, 0..=1.
+    /// Fraction of the time from `before` to `after`, 0..=1.
     pub mix: f32,
 }
 
@@ -63,17 +63,17 @@ pub struct KeyStep<T> {
     pub index: usize,
     /// Seconds.
     pub time: f32,
-    /// As sampling uses it: the stored one, bit for bit, unless that is no usable number.
+    /// Value used by sampling: the stored one, bit for bit, unless that is not usable.
     pub value: T,
-    /// For a cubic spline the tangent that is used on this side, per second: of `before` the one it is left with, of
-    /// `after` the one it is reached with.
+    /// For a cubic spline, the tangent used on this side, per second: the out-tangent of `before`, the in-tangent of
+    /// `after`.
     pub tangent: Option<T>,
 }
 
 /// The last step of a bone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoneResult {
-    /// The bone that was asked for; its other steps are the last of [`super::Explanation::bones`].
+    /// The requested bone; its other steps are the last of [`super::Explanation::bones`].
     pub bone: BoneIndex,
     /// Bind space → bone space, as stored with the bone: that of the first skin that uses it (§2.1.2.2).
     pub offset: Mat4,
@@ -81,16 +81,19 @@ pub struct BoneResult {
     pub final_pose: Mat4,
 }
 
-/// The result of a bone, and the bones its chain has to reach.
-pub(super) fn result(pose: &Posed<'_>, index: BoneIndex) -> Result<(Vec<BoneIndex>, Subject), ExplainError> {
+/// Returns the result of a bone, and the bones whose chains it needs.
+pub(super) fn result(
+    pose: &SampledPose<'_>,
+    index: BoneIndex,
+) -> Result<(Vec<BoneIndex>, Subject), ExplainError> {
     let missing = ExplainError::NoBone { bone: index, bones: pose.skeleton.len() };
     let bone = pose.skeleton.bones.get(index as usize).ok_or(missing)?;
     let final_pose = final_pose(pose.to_root[index as usize], bone.offset);
     Ok((vec![index], Subject::Bone(BoneResult { bone: index, offset: bone.offset, final_pose })))
 }
 
-/// The steps of `ends` and of all their ancestors, parents first.
-pub(super) fn chain(pose: &Posed<'_>, ends: &[BoneIndex]) -> Vec<BoneStep> {
+/// Returns the steps of `ends` and of all their ancestors, parents first.
+pub(super) fn chain(pose: &SampledPose<'_>, ends: &[BoneIndex]) -> Vec<BoneStep> {
     let mut wanted = vec![false; pose.skeleton.len()];
     for &end in ends {
         let mut at = Some(end);
@@ -105,12 +108,12 @@ pub(super) fn chain(pose: &Posed<'_>, ends: &[BoneIndex]) -> Vec<BoneStep> {
     wanted.map(|(bone, _)| step(pose, bone)).collect()
 }
 
-/// The parent as the formulas see it: one that does not come before its child counts as none.
+/// Returns the parent as the formulas use it: one that does not come before its child is ignored.
 fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
     skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
 }
 
-fn step(pose: &Posed<'_>, index: usize) -> BoneStep {
+fn step(pose: &SampledPose<'_>, index: usize) -> BoneStep {
     let bone = &pose.skeleton.bones[index];
     let rest = rest_pose(bone);
     let none = Track::default();

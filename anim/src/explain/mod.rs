@@ -1,4 +1,4 @@
-//! Every value on the way from keys to a bone or a vertex, as plain data, to look at and to check by hand.
+//! Every intermediate value from keys to a bone or a vertex, as plain data, to inspect and to check by hand.
 //!
 //! | step | formula | thesis |
 //! |---|---|---|
@@ -10,10 +10,10 @@
 //! | skin | `position = Σ final_i * stored * weight_i` | §2.1.4 |
 //!
 //! Nothing is computed here: [`explain`] calls the functions of [`crate::sample`], [`crate::animation`] and
-//! [`crate::skin`] that play the model, and writes down what they take and what they give. So the numbers are those
-//! that are played, bit for bit.
+//! [`crate::skin`] that play the model, and records their inputs and outputs. So the numbers are those that are played,
+//! bit for bit.
 //!
-//! An [`Explanation`] prints itself (`println!("{explanation}")`) as a worked example.
+//! An [`Explanation`] displays itself (`println!("{explanation}")`) as a worked example.
 
 mod bone;
 mod text;
@@ -27,9 +27,9 @@ use crate::data::{BoneIndex, ModelData, Skeleton, Take, Transform};
 use crate::sample::sample_take;
 use glam::Mat4;
 
-/// What is to be explained.
+/// The bone or vertex to explain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum What {
+pub enum ExplainTarget {
     /// A bone, by its position in [`Skeleton::bones`].
     Bone(BoneIndex),
     /// A vertex of a placed mesh.
@@ -46,109 +46,109 @@ pub enum What {
 /// All the steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
-    /// The take that was asked for; `None` for the rest pose.
+    /// The requested take; `None` for the rest pose.
     pub take: Option<TakeStep>,
-    /// Seconds, as asked for. Keys clamp it: before the first key the first holds, after the last the last.
+    /// The requested time in seconds. It is clamped to the keys.
     pub time: f32,
-    /// Every bone that has a part in the result and all its ancestors, parents before children, each once.
+    /// Every bone that contributes to the result and all its ancestors, parents before children, each once.
     pub bones: Vec<BoneStep>,
-    /// What comes out.
+    /// The result.
     pub subject: Subject,
 }
 
 impl Explanation {
-    /// The steps of bone number `bone`; `None` when it has no part in the result.
+    /// Returns the steps of bone number `bone`; `None` when it does not contribute to the result.
     pub fn bone(&self, bone: BoneIndex) -> Option<&BoneStep> {
         self.bones.iter().find(|step| step.bone == bone)
     }
 }
 
-/// Which take is sampled.
+/// The take that is sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TakeStep {
     /// Position in [`crate::data::AnimationData::takes`].
     pub index: usize,
     /// As in the file; may be empty.
     pub name: String,
-    /// Seconds: the first key.
+    /// Time of the first key, in seconds.
     pub start: f32,
-    /// Seconds: the last key.
+    /// Time of the last key, in seconds.
     pub end: f32,
 }
 
 /// The last steps, which differ for a bone and for a vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Subject {
-    /// Of a bone.
+    /// Result of a bone.
     Bone(BoneResult),
-    /// Of a vertex.
+    /// Result of a vertex.
     Vertex(Box<VertexResult>),
 }
 
-/// Why there is nothing to explain.
+/// Reasons why there is nothing to explain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ExplainError {
-    /// There are fewer takes.
+    /// The model has no such take.
     #[error("there is no take {take}; the model has {takes}")]
     NoTake {
-        /// The number asked for, from 0.
+        /// The requested number, from 0.
         take: usize,
-        /// How many there are.
+        /// Number of takes.
         takes: usize,
     },
-    /// There are fewer bones.
+    /// The model has no such bone.
     #[error("there is no bone {bone}; the model has {bones}")]
     NoBone {
-        /// The number asked for, from 0.
+        /// The requested number, from 0.
         bone: BoneIndex,
-        /// How many there are.
+        /// Number of bones.
         bones: usize,
     },
-    /// There are fewer mesh instances.
+    /// The model has no such mesh instance.
     #[error("there is no instance {instance}; the model has {instances}")]
     NoInstance {
-        /// The number asked for, from 0.
+        /// The requested number, from 0.
         instance: u32,
-        /// How many there are.
+        /// Number of instances.
         instances: usize,
     },
-    /// The instance's mesh has fewer primitives.
+    /// The instance's mesh has no such primitive.
     #[error("instance {instance} has no primitive {primitive}; it has {primitives}")]
     NoPrimitive {
-        /// The instance.
+        /// The requested instance.
         instance: u32,
-        /// The number asked for, from 0.
+        /// The requested number, from 0.
         primitive: u32,
-        /// How many there are; 0 also where the instance names no mesh.
+        /// Number of primitives; 0 also where the instance has no mesh.
         primitives: usize,
     },
-    /// The primitive has fewer vertices.
+    /// The primitive has no such vertex.
     #[error("primitive {primitive} of instance {instance} has no vertex {vertex}; it has {vertices}")]
     NoVertex {
-        /// The instance.
+        /// The requested instance.
         instance: u32,
-        /// The primitive.
+        /// The requested primitive.
         primitive: u32,
-        /// The number asked for, from 0.
+        /// The requested number, from 0.
         vertex: u32,
-        /// How many there are.
+        /// Number of vertices.
         vertices: usize,
     },
 }
 
-/// Every value on the way to `what`, in take number `take` at `time` seconds; `None` is the rest pose.
+/// Returns every intermediate value of `target`, in take number `take` at `time` seconds; `None` is the rest pose.
 ///
-/// Total for every time: NaN counts as before the first key. Costs one pose of the whole skeleton. An error says which
-/// number is out of range; a take that was asked for must be there.
+/// Total for every time: NaN counts as before the first key. Costs one pose of the whole skeleton. An error contains
+/// the number that is out of range; a requested take has to exist.
 ///
 /// ```
-/// use dragonfly_anim::explain::{What, explain};
+/// use dragonfly_anim::explain::{ExplainTarget, explain};
 /// # let mut model = dragonfly_anim::data::ModelData::default();
 /// # let bone = dragonfly_anim::data::Bone {
 /// #     name: "hip".into(), parent: None, rest: Default::default(), rest_matrix: None,
 /// #     offset: glam::Mat4::IDENTITY, node: None };
 /// # std::sync::Arc::make_mut(&mut model.animation.skeleton).bones.push(bone);
-/// let explanation = explain(&model, None, 0.0, What::Bone(0))?;
+/// let explanation = explain(&model, None, 0.0, ExplainTarget::Bone(0))?;
 /// println!("{explanation}");
 /// # Ok::<(), dragonfly_anim::explain::ExplainError>(())
 /// ```
@@ -156,7 +156,7 @@ pub fn explain(
     model: &ModelData,
     take: Option<usize>,
     time: f32,
-    what: What,
+    target: ExplainTarget,
 ) -> Result<Explanation, ExplainError> {
     let takes = &model.animation.takes;
     let chosen = match take {
@@ -165,10 +165,10 @@ pub fn explain(
             Some(takes.get(take).ok_or(ExplainError::NoTake { take, takes: takes.len() })?.as_ref())
         }
     };
-    let pose = Posed::new(&model.animation.skeleton, chosen, time);
-    let (ends, subject) = match what {
-        What::Bone(bone) => bone::result(&pose, bone)?,
-        What::Vertex { instance, primitive, vertex } => {
+    let pose = SampledPose::new(&model.animation.skeleton, chosen, time);
+    let (ends, subject) = match target {
+        ExplainTarget::Bone(bone) => bone::result(&pose, bone)?,
+        ExplainTarget::Vertex { instance, primitive, vertex } => {
             vertex::result(model, &pose, [instance, primitive, vertex])?
         }
     };
@@ -182,7 +182,7 @@ pub fn explain(
 }
 
 /// The skeleton at one time.
-struct Posed<'a> {
+struct SampledPose<'a> {
     skeleton: &'a Skeleton,
     take: Option<&'a Take>,
     time: f32,
@@ -190,7 +190,7 @@ struct Posed<'a> {
     to_root: Vec<Mat4>,
 }
 
-impl<'a> Posed<'a> {
+impl<'a> SampledPose<'a> {
     fn new(skeleton: &'a Skeleton, take: Option<&'a Take>, time: f32) -> Self {
         let mut posed = Self {
             skeleton,

@@ -1,4 +1,4 @@
-//! An explanation as a worked example: each step with its formula, its numbers, and the thesis's section.
+//! Text of an explanation as a worked example: each step with its formula, its numbers, and the thesis's section.
 
 use super::{
     BoneStep, ChannelStep, Explanation, InfluenceStep, KeysStep, MovementStep, Subject, VertexResult,
@@ -11,7 +11,7 @@ impl Display for Explanation {
     fn fmt(&self, out: &mut Formatter<'_>) -> Result {
         title(self, out)?;
         for (number, step) in self.bones.iter().enumerate() {
-            writeln!(out, "\nBone {} {:?}{}", step.bone, step.name, place(step, number))?;
+            writeln!(out, "\nBone {} {:?}{}", step.bone, step.name, parent_text(step, number))?;
             keys(step, out)?;
             matrices(self, step, out)?;
         }
@@ -57,10 +57,13 @@ fn title(explanation: &Explanation, out: &mut Formatter<'_>) -> Result {
     if matches!(explanation.subject, Subject::Vertex(_)) {
         writeln!(out, "  position  = sum of final_i * stored position * weight_i  §2.1.4")?;
     }
-    writeln!(out, "Matrices are for column vectors; the thesis writes row vectors and the other way round.")
+    writeln!(
+        out,
+        "Matrices are for column vectors; the thesis uses row vectors, with the factors in the opposite order."
+    )
 }
 
-fn place(step: &BoneStep, number: usize) -> String {
+fn parent_text(step: &BoneStep, number: usize) -> String {
     match step.parent {
         Some(parent) => format!(", child of bone {parent}"),
         None if number == 0 => ", the root".to_owned(),
@@ -134,15 +137,14 @@ fn vertex(explanation: &Explanation, vertex: &VertexResult, out: &mut Formatter<
             for influence in influences {
                 final_of(explanation, influence, out)?;
             }
-            writeln!(out, "\nSkin {skin}: what each bone adds (§2.1.4)")?;
+            writeln!(out, "\nSkin {skin}: contribution of each bone (§2.1.4)")?;
             for influence in influences {
                 contribution(explanation, influence, out)?;
             }
             writeln!(out, "  {:<30}sum     {}", "", vector(vertex.final_position))?;
         }
         MovementStep::Rigid { bone, to_bone } => {
-            let name =
-                bone.map_or_else(|| "nothing: it stands still".to_owned(), |bone| named(explanation, bone));
+            let name = bone.map_or_else(|| "nothing (static)".to_owned(), |bone| named(explanation, bone));
             writeln!(out, "\nCarried by {name}: matrix = to_root * to_bone")?;
             side_by_side(out, "to_bone", *to_bone, "matrix", vertex.matrix)?;
         }
@@ -192,7 +194,7 @@ fn named(explanation: &Explanation, bone: BoneIndex) -> String {
     format!("bone {bone} {name:?}")
 }
 
-/// Two matrices under their names, row by row.
+/// Writes two matrices with their names, row by row.
 fn side_by_side(out: &mut Formatter<'_>, left: &str, a: Mat4, right: &str, b: Mat4) -> Result {
     writeln!(out, "    {left:<47}{right}")?;
     for row in 0..4 {
@@ -206,12 +208,12 @@ fn vector(vector: Vec3) -> String {
     format!("({} )", vector.to_array().map(number).join(""))
 }
 
-/// As `xyzw`.
+/// Formats as `xyzw`.
 fn rotation(rotation: Quat) -> String {
     format!("({} )", rotation.to_array().map(number).join(""))
 }
 
-/// Ten characters wide: as many digits after the point as fit, and an exponent where none would.
+/// Formats in ten characters, with the decimals that fit, and an exponent where none would.
 fn number(number: f32) -> String {
     let size = number.abs();
     if number == 0.0 {

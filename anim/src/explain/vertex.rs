@@ -1,6 +1,6 @@
 //! The last steps of a vertex: morph targets, then the skin or the bone that carries it.
 
-use super::{ExplainError, Posed, Subject};
+use super::{ExplainError, SampledPose, Subject};
 use crate::animation::final_poses;
 use crate::data::{BoneIndex, Influence, Interpolation, MeshInstance, ModelData, Primitive};
 use crate::sample::{find_keys, sample_morph_weights};
@@ -22,19 +22,19 @@ pub struct VertexResult {
     pub position: Vec3,
     /// As stored, mesh space, unit length; `None` where the primitive has none.
     pub normal: Option<Vec3>,
-    /// Where the weights of the morph targets come from; `None` when no track animates them.
+    /// Keys of the morph weights; `None` when no track animates them.
     pub morph_keys: Option<MorphKeys>,
-    /// What each morph target with a weight adds, in the targets' order.
+    /// Contribution of each morph target with a weight, in the targets' order.
     pub morphs: Vec<MorphStep>,
     /// `position + Σ weight * difference`, mesh space.
     pub morphed_position: Vec3,
-    /// The same for the normal, not yet of unit length.
+    /// The morphed normal, not yet of unit length.
     pub morphed_normal: Option<Vec3>,
-    /// What moves it.
+    /// The bones or the matrix that move the vertex.
     pub movement: MovementStep,
     /// The one matrix that moves the normal's surroundings: `Σ final_i * weight_i`, or that of a mesh without skin.
     pub matrix: Mat4,
-    /// What the normal is multiplied by before it is made unit: the transposed inverse of the matrix, up to a factor.
+    /// Matrix that multiplies the normal before it is normalized: the transposed inverse of `matrix`, up to a factor.
     pub normal_matrix: Mat3,
     /// Scene space.
     pub final_position: Vec3,
@@ -45,7 +45,7 @@ pub struct VertexResult {
 /// The keys of the track that animates morph weights; one time column serves all targets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MorphKeys {
-    /// How many keys the track has.
+    /// Number of keys of the track.
     pub count: usize,
     /// How two keys are combined.
     pub interpolation: Interpolation,
@@ -53,18 +53,18 @@ pub struct MorphKeys {
     pub before: (usize, f32),
     /// Number and time in seconds of the key after.
     pub after: (usize, f32),
-    /// How far the time is from one to the other, 0..=1.
+    /// Fraction of the time from one to the other, 0..=1.
     pub mix: f32,
 }
 
-/// One morph target's share.
+/// Contribution of one morph target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MorphStep {
     /// Position in [`Primitive::morph_targets`].
     pub target: usize,
     /// As in the file; may be empty.
     pub name: String,
-    /// At the time; usually 0..1.
+    /// Weight at the time; usually 0..1.
     pub weight: f32,
     /// The stored difference, mesh space; zero where the target does not move positions.
     pub difference: Vec3,
@@ -72,31 +72,31 @@ pub struct MorphStep {
     pub contribution: Vec3,
 }
 
-/// What moves a vertex.
+/// The movement of a vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MovementStep {
     /// The bones of a skin (§2.1.4).
     Skin {
         /// Position in [`ModelData::skins`].
         skin: u32,
-        /// Those with a weight, strongest first.
+        /// Influences with a weight, strongest first.
         influences: Vec<InfluenceStep>,
     },
     /// One matrix: `to_root * to_bone`.
     Rigid {
-        /// The bone that carries the mesh; `None` when it stands still.
+        /// The bone that carries the mesh; `None` when nothing moves it.
         bone: Option<BoneIndex>,
         /// Mesh space → bone space.
         to_bone: Mat4,
     },
 }
 
-/// One bone's share in a vertex.
+/// Influence of one bone on a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InfluenceStep {
     /// Position in the skin's list of bones.
     pub joint: u16,
-    /// Which bone that is; `None` where the skin has no such joint, which counts as the identity.
+    /// The bone of that joint; `None` where the skin has no such joint, which counts as the identity.
     pub bone: Option<BoneIndex>,
     /// 0..1.
     pub weight: f32,
@@ -104,16 +104,16 @@ pub struct InfluenceStep {
     pub offset: Mat4,
     /// `to_root * offset`: bind space → scene space.
     pub final_pose: Mat4,
-    /// `final_pose * morphed position`, scene space: where this bone alone would put the vertex.
+    /// `final_pose * morphed position`, scene space: the position if this bone alone moved the vertex.
     pub moved: Vec3,
     /// `moved * weight`. The contributions sum to the final position.
     pub contribution: Vec3,
 }
 
-/// The result of a vertex, and the bones that have a part in it.
+/// Returns the result of a vertex, and the bones that contribute to it.
 pub(super) fn result(
     model: &ModelData,
-    pose: &Posed<'_>,
+    pose: &SampledPose<'_>,
     [instance, primitive, vertex]: [u32; 3],
 ) -> Result<(Vec<BoneIndex>, Subject), ExplainError> {
     let (placed, part) = find(model, [instance, primitive, vertex])?;
@@ -149,7 +149,7 @@ pub(super) fn result(
     Ok((bones, Subject::Vertex(Box::new(result))))
 }
 
-/// The instance and its primitive, when they have the vertex.
+/// Returns the instance and its primitive, if they have the vertex.
 fn find(
     model: &ModelData,
     [instance, primitive, vertex]: [u32; 3],
@@ -167,8 +167,8 @@ fn find(
     Ok((placed, part))
 }
 
-/// The final poses of the instance's skin; none without a skin.
-fn finals(model: &ModelData, placed: &MeshInstance, pose: &Posed<'_>) -> Vec<Mat4> {
+/// Returns the final poses of the instance's skin; none without a skin.
+fn finals(model: &ModelData, placed: &MeshInstance, pose: &SampledPose<'_>) -> Vec<Mat4> {
     let Some(skin) = placed.skin.and_then(|skin| model.skins.get(skin as usize)) else { return Vec::new() };
     let mut finals = vec![Mat4::IDENTITY; skin.bones.len()];
     final_poses(skin, &pose.to_root, &mut finals);
@@ -206,7 +206,7 @@ fn explain_movement(
     (bones, MovementStep::Skin { skin, influences })
 }
 
-fn morph_keys(pose: &Posed<'_>, instance: u32) -> Option<MorphKeys> {
+fn morph_keys(pose: &SampledPose<'_>, instance: u32) -> Option<MorphKeys> {
     let track = pose.take?.morphs.iter().find(|track| track.instance == instance)?;
     let keys = find_keys(&track.times, pose.time)?;
     let key = |index: usize| (index, track.times[index]);

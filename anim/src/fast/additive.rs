@@ -1,13 +1,12 @@
-//! A movement on top of another: what one pose has more than a reference, added to any pose, eight bones at once.
+//! Additive animation: the difference between a pose and a reference, added to any pose, eight bones at once.
 //!
 //! ```text
 //! difference(p, r):  translation p - r      rotation p * r⁻¹      scale p / r
 //! add(b, d, w):      translation b + w * d  rotation d^w * b      scale b * (1 + w * (d - 1))
 //! ```
 //!
-//! Rotations are differences in the parent's space, applied from the left. `d^w` turns about `d`'s axis by `w` times its
-//! angle, the short way; it is `d` itself at weight 1, and the straight line from no turn at all, walked at slerp's
-//! pace, for weights between:
+//! Rotations are differences in the parent's space, applied from the left. `d^w` turns about `d`'s axis by `w` times
+//! its angle, the short way; it is `d` itself at weight 1, and for weights between, slerp from the identity:
 //!
 //! ```text
 //! d^w = (xyz * sin(w h) / sin h, cos(w h))      h: half the angle, 0..=π/2
@@ -15,21 +14,22 @@
 
 use super::mask::{LaneMask, usable};
 use super::pose::PoseBlock;
-use super::simd::{Float8, Kernel, Level, Simd};
+use super::simd::{Float8, Kernel, Simd, SimdLevel};
 
-/// What `pose` has more than `reference`, as many blocks as all three have.
+/// Computes the difference of `pose` from `reference`, for the blocks that all three have.
 ///
-/// Added to `reference` with weight 1 it gives `pose` back. Where the reference scales by 0 the factor is 1. Allocates
+/// Added to `reference` with weight 1 it gives `pose` again. Where the reference scales by 0 the factor is 1. Allocates
 /// nothing.
-pub fn difference(level: Level, pose: &[PoseBlock], reference: &[PoseBlock], out: &mut [PoseBlock]) {
+pub fn difference(level: SimdLevel, pose: &[PoseBlock], reference: &[PoseBlock], out: &mut [PoseBlock]) {
     level.run(Difference { pose, reference, out });
 }
 
-/// Adds `difference` to `base`, each bone as far as `weight` × `mask` says, as many blocks as all three have.
+/// Adds `difference` to `base`, each bone scaled by `weight` × `mask`, for the blocks that all three have.
 ///
-/// Weight 0 (also a negative one and NaN) gives the base, 1 adds all; more is held at 1. Allocates nothing.
+/// Weight 0 (also a negative one and NaN) gives the base, 1 adds the full difference; more is clamped to 1. Allocates
+/// nothing.
 pub fn add(
-    level: Level,
+    level: SimdLevel,
     base: &[PoseBlock],
     difference: &[PoseBlock],
     weight: f32,
@@ -69,11 +69,11 @@ impl Kernel for Difference<'_> {
     }
 }
 
-/// `a / b`; 1 where that is no finite number.
+/// Returns `a / b`; 1 where that is not finite.
 #[inline(always)]
 fn quotient<S: Simd>(a: S::F8, b: S::F8, zero: S::F8, one: S::F8) -> S::F8 {
     let quotient = a / b;
-    // Times zero it is zero, unless it is not finite.
+    // The product is zero, unless the quotient is not finite.
     let finite = (quotient * zero).abs().less(one);
     finite.select(quotient, one)
 }
@@ -104,7 +104,7 @@ impl Kernel for AddTo<'_> {
                 turn = power::<S>(turn, weight);
             }
             let turned = product::<S>(turn, S::F8::load_four(&base.rotation));
-            S::F8::store_four(super::between::unit::<S>(turned), &mut out.rotation);
+            S::F8::store_four(super::slerp::unit::<S>(turned), &mut out.rotation);
             let ([a, b, c], [x, y, z]) =
                 (S::F8::load_three(&base.translation), S::F8::load_three(&more.translation));
             let moved = [x.mul_add(weight, a), y.mul_add(weight, b), z.mul_add(weight, c)];
@@ -120,7 +120,7 @@ impl Kernel for AddTo<'_> {
     }
 }
 
-/// The product of quaternions `a * b`: first `b`, then `a`.
+/// Returns the product of quaternions `a * b`: first `b`, then `a`.
 #[inline(always)]
 fn product<S: Simd>([ax, ay, az, aw]: [S::F8; 4], [bx, by, bz, bw]: [S::F8; 4]) -> [S::F8; 4] {
     let x = az.neg_mul_add(by, ay.mul_add(bz, ax.mul_add(bw, aw * bx)));
@@ -130,13 +130,13 @@ fn product<S: Simd>([ax, ay, az, aw]: [S::F8; 4], [bx, by, bz, bw]: [S::F8; 4]) 
     [x, y, z, w]
 }
 
-/// `turn` about the same axis by `weight` (0..=1) times its angle, the short way.
+/// Returns the rotation about the same axis by `weight` (0..=1) times the angle of `turn`, the short way.
 ///
-/// Half the angle is `h = atan2(|xyz|, w)`, by the arc tangent's polynomial on 0..=tan(π/8) after two halvings; sine and
-/// cosine of `w h` by theirs on 0..=π/2. Within 3e-7.
+/// Half the angle is `h = atan2(|xyz|, w)`, by the arc tangent's polynomial on 0..=tan(π/8) after two halvings; sine
+/// and cosine of `w h` by their polynomials on 0..=π/2. Within 3e-7.
 #[inline(always)]
 fn power<S: Simd>([x, y, z, w]: [S::F8; 4], weight: S::F8) -> [S::F8; 4] {
-    // In the hemisphere of no turn.
+    // Moves the rotation to the hemisphere of the identity.
     let sign = w.sign();
     let (x, y, z, w) = (x.flipped_by(sign), y.flipped_by(sign), z.flipped_by(sign), w.flipped_by(sign));
     let square = x.mul_add(x, y.mul_add(y, z * z));
@@ -150,12 +150,12 @@ fn power<S: Simd>([x, y, z, w]: [S::F8; 4], weight: S::F8) -> [S::F8; 4] {
     let angle2 = angle * angle;
     let sine = angle * sine_over::<S>(angle2);
     let cosine = cosine::<S>(angle2);
-    // Where there is no axis there is no turn either.
+    // Without an axis there is no rotation either.
     let along = sine / length.max(S::F8::splat(1e-30));
     [x * along, y * along, z * along, cosine]
 }
 
-/// atan(t) for 0 ≤ t ≤ tan(π/8), Taylor's series as far as f32 sees it.
+/// Returns atan(t) for 0 ≤ t ≤ tan(π/8), by Taylor's series up to the precision of f32.
 #[inline(always)]
 fn arc_tangent<S: Simd>(t: S::F8) -> S::F8 {
     let t2 = t * t;
@@ -166,7 +166,7 @@ fn arc_tangent<S: Simd>(t: S::F8) -> S::F8 {
     sum * t
 }
 
-/// sin(a) / a for a² given, 0 ≤ a ≤ π/2.
+/// Returns sin(a) / a for a² given, 0 ≤ a ≤ π/2.
 #[inline(always)]
 fn sine_over<S: Simd>(square: S::F8) -> S::F8 {
     let mut sum = S::F8::splat(-1.0 / 39_916_800.0);
@@ -176,7 +176,7 @@ fn sine_over<S: Simd>(square: S::F8) -> S::F8 {
     sum
 }
 
-/// cos(a) for a² given, 0 ≤ a ≤ π/2.
+/// Returns cos(a) for a² given, 0 ≤ a ≤ π/2.
 #[inline(always)]
 fn cosine<S: Simd>(square: S::F8) -> S::F8 {
     let mut sum = S::F8::splat(1.0 / 479_001_600.0);

@@ -1,70 +1,70 @@
-//! Any number of poses made into one, eight bones at once (thesis §2.1.4.1: per bone, before skinning).
+//! Blending of any number of poses, eight bones at once (thesis §2.1.4.1: per bone, before skinning).
 //!
 //! For each bone, over all layers:
 //!
 //! ```text
 //! w_i         = weight of layer i * its mask at this bone          W = Σ w_i
 //! share_i     = w_i / max(W, 1)        share of the base = 1 - Σ share_i      (blend)
-//! share_i     = w_i / W                the base only where W = 0              (blend_normalised)
+//! share_i     = w_i / W                the base only where W = 0              (blend_normalized)
 //! translation = Σ share_i * translation_i
 //! scale       = Σ share_i * scale_i
 //! rotation    = Σ share_i * ±rotation_i, divided by its length
 //! ```
 //!
-//! `q` and `-q` are the same rotation: each is taken in the hemisphere of the one with the largest share, of equal ones
+//! `q` and `-q` are the same rotation: each is moved to the hemisphere of the one with the largest share, of equal ones
 //! the first, the base before all. So the sum cannot vanish.
 
-use super::between::{dot, unit};
 use super::mask::{LaneMask, usable};
 use super::pose::PoseBlock;
-use super::simd::{Float8, Kernel, Level, Simd};
+use super::simd::{Float8, Kernel, Simd, SimdLevel};
+use super::slerp::{dot, unit};
 
-/// Weights whose sum reaches this are whole: what is missing is rounding.
+/// Sum of weights from which a bone counts as fully weighted: the remainder is rounding.
 const WHOLE: f32 = 1.0 - 1e-6;
 
-/// One pose among several.
+/// One of several poses to blend.
 #[derive(Clone, Copy, Debug)]
 pub struct PoseLayer<'a> {
-    /// As many blocks as the others.
+    /// Blocks of the pose; every layer has the same number.
     pub pose: &'a [PoseBlock],
-    /// 0 or more; negative and NaN count as 0. Beside the other layers' weights, not a percentage.
+    /// Weight relative to the other layers' weights, 0 or more (no percentage); negative and NaN count as 0.
     pub weight: f32,
-    /// How much each bone takes part; `None`: all of them wholly.
+    /// Weight of each bone; `None`: 1 for all.
     pub mask: Option<&'a LaneMask>,
 }
 
 impl<'a> PoseLayer<'a> {
-    /// A layer of all bones.
+    /// Creates a layer of all bones.
     pub fn new(pose: &'a [PoseBlock], weight: f32) -> Self {
         Self { pose, weight, mask: None }
     }
 
-    /// The same as far as `mask` says.
+    /// Returns the layer with weights per bone.
     pub fn masked(self, mask: &'a LaneMask) -> Self {
         Self { mask: Some(mask), ..self }
     }
 }
 
-/// Blends `layers`; where the weights of a bone sum to less than 1, `base` takes the rest.
+/// Blends `layers`; where the weights of a bone sum to less than 1, `base` gets the remainder.
 ///
-/// `base` is usually the rest pose ([`super::Rig::rest`]). Writes as many blocks as `base` and `out` both have; a layer
-/// that is shorter has no say in the bones it lacks. Unit rotations and finite numbers in give the same out. Allocates
-/// nothing.
-pub fn blend(level: Level, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
-    level.run(Blend { base, layers, out, normalised: false });
+/// `base` is usually the rest pose ([`super::Rig::rest`]). Writes the blocks that `base` and `out` both have; a layer
+/// that is shorter does not affect the bones it lacks. Unit rotations and finite numbers in give the same out.
+/// Allocates nothing.
+pub fn blend(level: SimdLevel, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
+    level.run(Blend { base, layers, out, normalized: false });
 }
 
-/// Blends `layers` with their weights divided by their sum, however small; `base` stands in only where a bone has no
+/// Blends `layers` with their weights divided by their sum, however small; `base` is used only where a bone has no
 /// weight at all. Otherwise as [`blend`].
-pub fn blend_normalised(level: Level, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
-    level.run(Blend { base, layers, out, normalised: true });
+pub fn blend_normalized(level: SimdLevel, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
+    level.run(Blend { base, layers, out, normalized: true });
 }
 
 struct Blend<'a> {
     base: &'a [PoseBlock],
     layers: &'a [PoseLayer<'a>],
     out: &'a mut [PoseBlock],
-    normalised: bool,
+    normalized: bool,
 }
 
 impl Kernel for Blend<'_> {
@@ -72,46 +72,46 @@ impl Kernel for Blend<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self) {
-        blend_with::<S>(self.base, self.layers, self.out, self.normalised);
+        blend_with::<S>(self.base, self.layers, self.out, self.normalized);
     }
 }
 
-/// The same, part of a larger kernel.
+/// As [`blend`], as part of a larger kernel.
 #[inline(always)]
 pub(super) fn blend_with<S: Simd>(
     base: &[PoseBlock],
     layers: &[PoseLayer],
     out: &mut [PoseBlock],
-    normalised: bool,
+    normalized: bool,
 ) {
     let blocks = base.len().min(out.len());
     let (base, out) = (&base[..blocks], &mut out[..blocks]);
-    if !evenly::<S>(base, layers, out, normalised) {
-        by_lane::<S>(base, layers, out, normalised);
+    if !evenly::<S>(base, layers, out, normalized) {
+        by_lane::<S>(base, layers, out, normalized);
     }
 }
 
-/// The base's weight when the layers' weights sum to `sum`.
+/// Returns the base's weight when the layers' weights sum to `sum`.
 #[inline(always)]
-fn base_weight(sum: f32, normalised: bool) -> f32 {
-    let whole = if normalised { sum > 0.0 } else { sum >= WHOLE };
-    match (whole, normalised) {
+fn base_weight(sum: f32, normalized: bool) -> f32 {
+    let whole = if normalized { sum > 0.0 } else { sum >= WHOLE };
+    match (whole, normalized) {
         (true, _) => 0.0,
         (false, true) => 1.0,
         (false, false) => 1.0 - sum,
     }
 }
 
-/// Without masks every bone has the same shares: the poses that have one are collected, the one that leads first. No if
-/// one of them has a mask or is too short, or they are too many.
+/// Blends without masks: every bone has the same shares, so the poses with a share are collected, the leading one
+/// first. Returns false if a layer has a mask or is too short, or there are too many.
 #[inline(always)]
 fn evenly<S: Simd>(
     base: &[PoseBlock],
     layers: &[PoseLayer],
     out: &mut [PoseBlock],
-    normalised: bool,
+    normalized: bool,
 ) -> bool {
-    // The base has the first place, whether it takes part or not.
+    // The base is the first, whether it contributes or not.
     let (mut poses, mut weights) = ([base; 1 + MOST], [0.0; 1 + MOST]);
     let (mut count, mut sum, mut most, mut leader) = (1, 0.0, 0.0, 1);
     for layer in layers {
@@ -131,7 +131,7 @@ fn evenly<S: Simd>(
             count += 1;
         }
     }
-    let base_weight = base_weight(sum, normalised);
+    let base_weight = base_weight(sum, normalized);
     weights[0] = base_weight;
     let first = usize::from(base_weight <= 0.0);
     let leader = if most > base_weight { leader } else { 0 };
@@ -151,15 +151,15 @@ fn evenly<S: Simd>(
     true
 }
 
-/// A pose, and its share.
-type Part<'a> = (&'a [PoseBlock], f32);
+/// A pose and its share.
+type WeightedPose<'a> = (&'a [PoseBlock], f32);
 
-/// More layers than these are blended lane by lane.
+/// Above this number, layers are blended lane by lane.
 const MOST: usize = 4;
 
-/// The sums of the formulas above, with the same shares for all bones; the first part leads.
+/// Computes the sums of the formulas above, with the same shares for all bones; the first pose leads.
 #[inline(always)]
-fn mix<S: Simd, const N: usize>(parts: [Part; N], out: &mut [PoseBlock]) {
+fn mix<S: Simd, const N: usize>(parts: [WeightedPose; N], out: &mut [PoseBlock]) {
     let count = parts.iter().map(|part| part.0.len()).fold(out.len(), usize::min);
     let parts = parts.map(|(pose, share)| (&pose[..count], share));
     for (block, out) in out[..count].iter_mut().enumerate() {
@@ -191,16 +191,16 @@ fn mix<S: Simd, const N: usize>(parts: [Part; N], out: &mut [PoseBlock]) {
     }
 }
 
-/// With masks: every bone has its own shares, and its own layer that leads.
+/// Blends with masks: every bone has its own shares, and its own leading layer.
 #[inline(always)]
-fn by_lane<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock], normalised: bool) {
+fn by_lane<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock], normalized: bool) {
     let (zero, one) = (S::F8::splat(0.0), S::F8::splat(1.0));
     for (block, (out, base)) in out.iter_mut().zip(base).enumerate() {
         let mut sum = zero;
         for layer in layers {
             sum = sum + weights::<S>(layer, block);
         }
-        let (short, missing) = if normalised {
+        let (short, missing) = if normalized {
             (sum.less(S::F8::splat(f32::MIN_POSITIVE)), one)
         } else {
             (sum.less(S::F8::splat(WHOLE)), one - sum)
@@ -231,7 +231,7 @@ fn by_lane<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlo
     }
 }
 
-/// The weights of `layer` in a block; 0 where it has none.
+/// Returns the weights of `layer` in a block; 0 where it has none.
 #[inline(always)]
 fn weights<S: Simd>(layer: &PoseLayer, block: usize) -> S::F8 {
     let weight = if block < layer.pose.len() { usable(layer.weight) } else { 0.0 };

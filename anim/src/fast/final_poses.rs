@@ -4,24 +4,24 @@
 //! final_j = to_root_bone(j) * offset_j      for column vectors; two rows in one register
 //! ```
 
-use super::matrix::{Matrix34, Rows, doubled, mat4, matrix34};
+use super::matrix::{Matrix34, MatrixRows, doubled, mat4, matrix34};
 use super::rig::Rig;
-use super::simd::{Float4, Float8, Kernel, Level, Simd};
+use super::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
 use super::tiny::{flushed, largest};
 use super::to_root::{NARROW, RootPoses};
 use crate::animation::final_pose;
 use crate::data::Skin;
 use glam::Mat4;
 
-/// A skin brought to the layout of the fast path: which bone moves each joint, and its offset.
+/// A skin in the layout of the fast path: the bone of each joint, and its offset.
 #[derive(Clone, Debug)]
-pub struct Binding {
+pub struct SkinBinding {
     joints: Vec<Joint>,
-    /// Can a byte name every bone of the rig?
+    /// Whether a byte can index every bone of the rig.
     is_near: bool,
 }
 
-/// Which bone, and how it is bound.
+/// A joint's bone and offset.
 #[derive(Clone, Copy, Debug)]
 struct Joint {
     /// 1 + the bone; 0, the identity, for a bone that the rig does not have.
@@ -30,9 +30,9 @@ struct Joint {
     offset: Matrix34,
 }
 
-impl Binding {
-    /// The binding of `skin` to `rig`. An offset that is missing or not finite is the identity; tiny numbers are made
-    /// zero.
+impl SkinBinding {
+    /// Creates the binding of `skin` to `rig`. An offset that is missing or not finite is the identity; tiny numbers
+    /// become zero.
     pub fn new(rig: &Rig, skin: &Skin) -> Self {
         let offset = |joint: usize| {
             let offset = skin.offsets.get(joint).copied().unwrap_or(Mat4::IDENTITY);
@@ -53,21 +53,22 @@ impl Binding {
         Self { joints: joints.collect(), is_near: rig.bones() < NARROW }
     }
 
-    /// Number of joints.
+    /// Returns the number of joints.
     pub fn joints(&self) -> usize {
         self.joints.len()
     }
 }
 
-/// Computes `final_pose` of every joint of `binding`, in the skin's order, as many as `out` has room for.
+/// Computes `final_pose` of every joint of `binding`, in the skin's order, up to the length of `out`.
 ///
 /// Where a product is not finite: the bone's `to_root` alone, as on the open path. Allocates nothing.
-pub fn final_poses(level: Level, binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
+#[doc(alias = "skinning matrices")]
+pub fn final_poses(level: SimdLevel, binding: &SkinBinding, to_root: &RootPoses, out: &mut [Matrix34]) {
     level.run(FinalPoses { binding, to_root, out });
 }
 
 struct FinalPoses<'a> {
-    binding: &'a Binding,
+    binding: &'a SkinBinding,
     to_root: &'a RootPoses,
     out: &'a mut [Matrix34],
 }
@@ -81,9 +82,9 @@ impl Kernel for FinalPoses<'_> {
     }
 }
 
-/// The same, part of a larger kernel.
+/// As [`final_poses`], as part of a larger kernel.
 #[inline(always)]
-pub(super) fn final_poses_with<S: Simd>(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
+pub(super) fn final_poses_with<S: Simd>(binding: &SkinBinding, to_root: &RootPoses, out: &mut [Matrix34]) {
     let is_finite = if binding.is_near {
         products::<S, true>(binding, to_root, out)
     } else {
@@ -94,9 +95,14 @@ pub(super) fn final_poses_with<S: Simd>(binding: &Binding, to_root: &RootPoses, 
     }
 }
 
-/// All products; are they finite? `NEAR`: a byte names every bone, and cannot lead out of the matrices.
+/// Computes all products and returns whether they are finite. `NEAR`: a byte indexes every bone, so no index can be out
+/// of range.
 #[inline(always)]
-fn products<S: Simd, const NEAR: bool>(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) -> bool {
+fn products<S: Simd, const NEAR: bool>(
+    binding: &SkinBinding,
+    to_root: &RootPoses,
+    out: &mut [Matrix34],
+) -> bool {
     let zero = S::F8::splat(0.0);
     let (mut upper, mut lower) = (zero, zero.low());
     let Some(first) = to_root.matrices.first_chunk::<NARROW>() else { return false };
@@ -106,8 +112,8 @@ fn products<S: Simd, const NEAR: bool>(binding: &Binding, to_root: &RootPoses, o
         } else {
             to_root.matrices.get(joint.slot as usize).unwrap_or(&first[0])
         };
-        let product = Rows::<S>::load(to_root).times(doubled::<S>(&joint.offset));
-        // Stays zero as long as everything is finite.
+        let product = MatrixRows::<S>::load(to_root).times(doubled::<S>(&joint.offset));
+        // Stays zero while everything is finite.
         upper = product.0.mul_add(zero, upper);
         lower = product.1.mul_add(zero.low(), lower);
         product.store(out);
@@ -118,9 +124,9 @@ fn products<S: Simd, const NEAR: bool>(binding: &Binding, to_root: &RootPoses, o
     (upper + S::F8::twice(&four)).less(S::F8::splat(1.0)).all()
 }
 
-/// The open path's way, for products that leave what f32 can hold.
+/// Computes as the open path does, for products that leave the range of f32.
 #[cold]
-fn carefully(binding: &Binding, to_root: &RootPoses, out: &mut [Matrix34]) {
+fn carefully(binding: &SkinBinding, to_root: &RootPoses, out: &mut [Matrix34]) {
     for (joint, out) in binding.joints.iter().zip(out) {
         let to_root = to_root.matrices.get(joint.slot as usize).map_or(Mat4::IDENTITY, mat4);
         *out = matrix34(final_pose(to_root, mat4(&joint.offset)));

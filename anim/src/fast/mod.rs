@@ -1,16 +1,15 @@
 //! The fast path: the same poses as [`crate::sample`] and [`crate::animation`], many bones at once.
 //!
-//! The open path follows the formulas one bone at a time, for study, for edits and as the reference. This one keeps
+//! The open path follows the formulas one bone at a time, for study, for edits and as the reference. This one stores
 //! bones as a structure of arrays ([`Pose`]) and computes eight of them in one step with the instructions that the
-//! machine has ([`simd::Level`]). Both agree within 1e-5 of the largest number.
+//! machine has ([`simd::SimdLevel`]). Both agree within 1e-5 of the largest number.
 //!
-//! Nothing here allocates after set-up, and no character keeps a cache: any time of a take costs the same.
+//! Nothing here allocates after set-up, and no character has a cache: any time of a take costs the same.
 
 mod additive;
-mod between;
 mod blend;
 mod final_poses;
-mod grid;
+mod key_table;
 mod keyed;
 mod mask;
 pub mod matrix;
@@ -20,14 +19,15 @@ mod playable;
 mod pose;
 mod rig;
 pub mod simd;
+mod slerp;
 mod tiny;
 mod to_root;
 mod two_bone;
 mod vertices;
 
 pub use additive::{add, difference};
-pub use blend::{PoseLayer, blend, blend_normalised};
-pub use final_poses::{Binding, final_poses};
+pub use blend::{PoseLayer, blend, blend_normalized};
+pub use final_poses::{SkinBinding, final_poses};
 pub use keyed::KeyedTake;
 pub use mask::LaneMask;
 pub use matrix::Matrix34;
@@ -36,5 +36,5 @@ pub use playable::{Playable, sample};
 pub use pose::{Pose, PoseBlock};
 pub use rig::Rig;
 pub use to_root::{RootPoses, to_root};
-pub use two_bone::{TwoBone, distance_left, two_bone};
+pub use two_bone::{FastTwoBone, distance_left, two_bone};
 pub use vertices::{SkinnedVertices, skin_morphed_vertices, skin_vertices};

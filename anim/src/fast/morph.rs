@@ -1,25 +1,25 @@
-//! Morph targets: what they add to eight vertices at once.
+//! Morph targets of eight vertices at once.
 //!
 //! ```text
-//! morphed = stored + Σ weight_t * difference_t      positions and normals alike, before the skin
+//! morphed = stored + Σ weight_t * difference_t      for positions and normals, before the skin
 //! ```
 //!
-//! The differences of one block of eight vertices lie side by side, target after target, so that a block is read in one
+//! The differences of one block of eight vertices are contiguous, target after target, so that a block is read in one
 //! go.
 
 use super::simd::{Float8, LANES, Simd};
 use crate::data::Primitive;
 use glam::Vec3;
 
-/// Positions and normals of eight vertices, or what is added to them.
+/// Positions and normals of eight vertices, or differences of them.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(32))]
-pub(super) struct Shape {
+pub(super) struct ShapeBlock {
     pub(super) positions: [[f32; LANES]; 3],
     pub(super) normals: [[f32; LANES]; 3],
 }
 
-impl Shape {
+impl ShapeBlock {
     pub(super) fn set(&mut self, lane: usize, position: Vec3, normal: Vec3) {
         for at in 0..3 {
             (self.positions[at][lane], self.normals[at][lane]) = (position[at], normal[at]);
@@ -36,19 +36,19 @@ impl Shape {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Differences {
     targets: usize,
-    /// Those of the first block, one a target; then those of the second.
-    shapes: Vec<Shape>,
+    /// Differences of the first block, one per target; then those of the second.
+    shapes: Vec<ShapeBlock>,
 }
 
 impl Differences {
-    /// Those of `primitive`; zero where a target has none for a vertex.
+    /// Collects the differences of `primitive`; zero where a target has none for a vertex.
     pub(super) fn new(primitive: &Primitive) -> Self {
         let count = primitive.vertices.len();
         let targets = &primitive.morph_targets;
         let mut shapes = Vec::with_capacity(targets.len() * count.div_ceil(LANES));
         for first in (0..count).step_by(LANES) {
             for target in targets {
-                let mut shape = Shape::default();
+                let mut shape = ShapeBlock::default();
                 for (lane, index) in (first..count).enumerate().take(LANES) {
                     let of = |column: &[Vec3]| column.get(index).copied().unwrap_or(Vec3::ZERO);
                     shape.set(lane, of(&target.positions), of(&target.normals));
@@ -59,20 +59,20 @@ impl Differences {
         Self { targets: targets.len(), shapes }
     }
 
-    /// Is there anything that `weights` add?
+    /// Returns whether `weights` add anything.
     pub(super) fn are_added(&self, weights: &[f32]) -> bool {
         weights.iter().take(self.targets).any(|&weight| weight != 0.0)
     }
 
-    /// `stored`, block `block`, with all differences times their `weights`.
+    /// Returns `stored`, block `block`, with all differences times their `weights` added.
     #[inline(always)]
-    pub(super) fn added<S: Simd>(&self, block: usize, stored: &Shape, weights: &[f32]) -> Shape {
+    pub(super) fn added<S: Simd>(&self, block: usize, stored: &ShapeBlock, weights: &[f32]) -> ShapeBlock {
         let [mut x, mut y, mut z] = S::F8::load_three(&stored.positions);
         let [mut a, mut b, mut c] = S::F8::load_three(&stored.normals);
         let first = block * self.targets;
         let shapes = self.shapes.get(first..first + self.targets).unwrap_or(&[]);
         for (shape, &weight) in shapes.iter().zip(weights) {
-            // Not for speed alone: zero times what is not finite would be NaN.
+            // Required for correctness, too: zero times a number that is not finite would be NaN.
             if weight != 0.0 {
                 let weight = S::F8::splat(weight);
                 let [dx, dy, dz] = S::F8::load_three(&shape.positions);
@@ -81,7 +81,7 @@ impl Differences {
                 (a, b, c) = (da.mul_add(weight, a), db.mul_add(weight, b), dc.mul_add(weight, c));
             }
         }
-        let mut morphed = Shape::default();
+        let mut morphed = ShapeBlock::default();
         S::F8::store_three([x, y, z], &mut morphed.positions);
         S::F8::store_three([a, b, c], &mut morphed.normals);
         morphed

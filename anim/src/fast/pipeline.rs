@@ -4,45 +4,45 @@
 //! for each character:  sample each of its layers → blend → to_root → final_pose of every joint
 //! ```
 //!
-//! All steps of one character run before the next one's, so poses and to-root matrices stay in the nearest memory
+//! All steps of one character run before the next one's, so poses and to-root matrices stay in the nearest cache
 //! ([`Scratch`], shared by all); a character itself is only its takes, times and weights.
 
 use super::blend::{PoseLayer, blend_with};
-use super::final_poses::{Binding, final_poses_with};
+use super::final_poses::{SkinBinding, final_poses_with};
 use super::mask::{LaneMask, usable};
 use super::matrix::Matrix34;
 use super::playable::Playable;
 use super::pose::Pose;
 use super::rig::Rig;
-use super::simd::{Kernel, Level, Simd};
+use super::simd::{Kernel, Simd, SimdLevel};
 use super::to_root::{RootPoses, to_root_with};
 
-/// A take that a character plays, among others.
+/// A take that a character plays, possibly with others.
 #[derive(Debug)]
 pub struct Playing<'a, T> {
-    /// What is played.
+    /// The take to play.
     pub take: &'a T,
     /// Seconds, inside the take: see [`crate::sample::loop_time`].
     pub time: f32,
-    /// 0 or more, beside the weights of the character's other layers; what they miss of 1, the rest pose takes.
+    /// Weight relative to the character's other layers, 0 or more; the rest pose gets the remainder up to 1.
     pub weight: f32,
-    /// How much each bone takes part; `None`: all of them wholly.
+    /// Weight of each bone; `None`: 1 for all.
     pub mask: Option<&'a LaneMask>,
 }
 
 impl<'a, T> Playing<'a, T> {
-    /// All of `take`, at `time` seconds.
+    /// Plays all bones of `take`, at `time` seconds.
     pub fn new(take: &'a T, time: f32) -> Self {
         Self { take, time, weight: 1.0, mask: None }
     }
 
-    /// Does it alone decide the whole pose?
+    /// Returns whether it alone determines the whole pose.
     fn is_all(&self) -> bool {
         self.weight >= 1.0 && self.mask.is_none()
     }
 }
 
-// Derived, they would ask the same of `T`.
+// Deriving them would require the same traits of `T`.
 impl<T> Clone for Playing<'_, T> {
     fn clone(&self) -> Self {
         *self
@@ -59,32 +59,32 @@ pub struct Scratch {
     to_root: RootPoses,
 }
 
-/// Layers of one character that are blended without more memory than a [`Scratch`] has from the beginning. Those past
-/// them are left out.
+/// Number of layers of one character that are blended within a [`Scratch`], without more memory. Further layers are
+/// left out.
 pub const MAX_LAYERS: usize = 8;
 
 impl Scratch {
-    /// For characters of `rig`.
+    /// Allocates memory for characters of `rig`.
     pub fn new(rig: &Rig) -> Self {
         let pose = rig.rest().clone();
         Self { sampled: vec![pose.clone(); MAX_LAYERS], blended: pose, to_root: RootPoses::new(rig) }
     }
 
-    /// `to_root` of the character that was computed last.
+    /// Returns `to_root` of the most recently computed character.
     pub fn to_root(&self) -> &RootPoses {
         &self.to_root
     }
 }
 
-/// Computes the final poses of a character that plays `layers`: one matrix a joint of `binding`, as many as `out` has
-/// room for.
+/// Computes the final poses of a character that plays `layers`: one matrix per joint of `binding`, up to the length of
+/// `out`.
 ///
-/// Of several layers as [`super::blend()`]; without any the rest pose. `scratch` has to be made for `rig`. Allocates
-/// nothing.
+/// Several layers are blended as by [`super::blend()`]; without any the result is the rest pose. `scratch` has to be
+/// made for `rig`. Allocates nothing.
 pub fn pose_character<T: Playable>(
-    level: Level,
+    level: SimdLevel,
     rig: &Rig,
-    binding: &Binding,
+    binding: &SkinBinding,
     layers: &[Playing<T>],
     scratch: &mut Scratch,
     out: &mut [Matrix34],
@@ -94,12 +94,12 @@ pub fn pose_character<T: Playable>(
 
 /// Computes the final poses of many characters of one rig: those of character `c` from `c * binding.joints()` on.
 ///
-/// Each of `characters` is the layers that one of them plays. Characters that `out` has no room for are left out.
-/// Otherwise as [`pose_character`]. Allocates nothing.
+/// Each of `characters` is the layers that one of them plays. Characters past the end of `out` are left out. Otherwise
+/// as [`pose_character`]. Allocates nothing.
 pub fn pose_crowd<'a, T: Playable + 'a>(
-    level: Level,
+    level: SimdLevel,
     rig: &Rig,
-    binding: &Binding,
+    binding: &SkinBinding,
     characters: impl IntoIterator<Item = &'a [Playing<'a, T>]>,
     scratch: &mut Scratch,
     out: &mut [Matrix34],
@@ -109,7 +109,7 @@ pub fn pose_crowd<'a, T: Playable + 'a>(
 
 struct Crowd<'a, I> {
     rig: &'a Rig,
-    binding: &'a Binding,
+    binding: &'a SkinBinding,
     characters: I,
     scratch: &'a mut Scratch,
     out: &'a mut [Matrix34],
@@ -129,7 +129,7 @@ impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for 
     }
 }
 
-/// The to-root matrices of one character.
+/// Computes the to-root matrices of one character.
 #[inline(always)]
 fn character<S: Simd, T: Playable>(rig: &Rig, layers: &[Playing<T>], scratch: &mut Scratch) {
     let Scratch { sampled, blended, to_root } = scratch;

@@ -1,4 +1,4 @@
-//! A pose as a structure of arrays: eight bones a block, each coordinate of the eight side by side.
+//! A pose as a structure of arrays: eight bones per block, each coordinate of the eight contiguous.
 //!
 //! ```text
 //! block b, lane l = bone 8 b + l
@@ -8,7 +8,7 @@
 //! scale        x x x x x x x x | y … | z …             96 bytes
 //! ```
 //!
-//! One instruction then works on the same coordinate of eight bones. Lanes past the last bone hold the identity.
+//! One instruction then works on the same coordinate of eight bones. Lanes past the last bone contain the identity.
 
 use super::simd::LANES;
 use crate::data::Transform;
@@ -20,21 +20,21 @@ use glam::{Quat, Vec3};
 pub struct PoseBlock {
     /// Unit quaternions: x, y, z, w of eight bones each.
     pub rotation: [[f32; LANES]; 4],
-    /// Metres: x, y, z of eight bones each.
+    /// Meters: x, y, z of eight bones each.
     pub translation: [[f32; LANES]; 3],
     /// Factors: x, y, z of eight bones each.
     pub scale: [[f32; LANES]; 3],
 }
 
 impl PoseBlock {
-    /// Eight bones that change nothing.
+    /// Eight bones with the identity.
     pub const IDENTITY: Self = Self {
         rotation: [[0.0; LANES], [0.0; LANES], [0.0; LANES], [1.0; LANES]],
         translation: [[0.0; LANES]; 3],
         scale: [[1.0; LANES]; 3],
     };
 
-    /// The bone in `lane`; lanes repeat from 8 on.
+    /// Returns the bone in `lane`; lanes repeat from 8 on.
     pub fn get(&self, lane: usize) -> Transform {
         let lane = lane % LANES;
         let three = |rows: &[[f32; LANES]; 3]| Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane]);
@@ -46,7 +46,7 @@ impl PoseBlock {
         }
     }
 
-    /// Puts `pose` in `lane`; lanes repeat from 8 on.
+    /// Sets `lane` to `pose`; lanes repeat from 8 on.
     pub fn set(&mut self, lane: usize, pose: Transform) {
         let lane = lane % LANES;
         for (row, value) in self.rotation.iter_mut().zip(pose.rotation.to_array()) {
@@ -75,12 +75,12 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// `bones` bones that change nothing.
+    /// Creates a pose of `bones` bones with the identity.
     pub fn new(bones: usize) -> Self {
         Self { bones, blocks: vec![PoseBlock::IDENTITY; blocks_of(bones)] }
     }
 
-    /// The poses of a list, in its order.
+    /// Creates a pose from a list, in its order.
     pub fn from_transforms(poses: &[Transform]) -> Self {
         let mut pose = Self::new(poses.len());
         for (bone, &transform) in poses.iter().enumerate() {
@@ -89,27 +89,27 @@ impl Pose {
         pose
     }
 
-    /// Number of bones.
+    /// Returns the number of bones.
     pub fn bones(&self) -> usize {
         self.bones
     }
 
-    /// The blocks: as many as the bones need, the last one padded.
+    /// Returns the blocks, the last one padded.
     pub fn blocks(&self) -> &[PoseBlock] {
         &self.blocks
     }
 
-    /// The blocks, to be written to.
+    /// Returns the blocks for writing.
     pub fn blocks_mut(&mut self) -> &mut [PoseBlock] {
         &mut self.blocks
     }
 
-    /// The pose of `bone`; `None` past the end.
+    /// Returns the pose of `bone`; `None` past the end.
     pub fn get(&self, bone: usize) -> Option<Transform> {
         (bone < self.bones).then(|| self.blocks[bone / LANES].get(bone))
     }
 
-    /// Puts `pose` at `bone`; past the end nothing happens. The caller has made the rotation unit and every number
+    /// Sets the pose of `bone`; does nothing past the end. The caller has normalized the rotation and made every number
     /// finite ([`crate::sample::healthy`]).
     pub fn set(&mut self, bone: usize, pose: Transform) {
         if bone < self.bones {
@@ -117,7 +117,7 @@ impl Pose {
         }
     }
 
-    /// Writes the poses to a list, as many as `out` has room for.
+    /// Writes the poses to a list, up to the length of `out`.
     pub fn write_to(&self, out: &mut [Transform]) {
         for (bone, out) in out.iter_mut().enumerate().take(self.bones) {
             *out = self.blocks[bone / LANES].get(bone);
@@ -125,7 +125,7 @@ impl Pose {
     }
 }
 
-/// Blocks that `bones` bones need.
+/// Returns the number of blocks for `bones` bones.
 pub(super) fn blocks_of(bones: usize) -> usize {
     bones.div_ceil(LANES)
 }

@@ -1,4 +1,4 @@
-//! A skeleton brought to the layout of the fast path.
+//! A skeleton in the layout of the fast path.
 
 use super::pose::{Pose, blocks_of};
 use super::tiny::{flushed, largest};
@@ -7,20 +7,21 @@ use crate::data::{Skeleton, Transform};
 use crate::sample::rest_pose;
 use glam::Mat4;
 
-/// What the fast path keeps of a skeleton: who is whose parent, the rest pose, and what is out of the ordinary.
+/// The fast path's copy of a skeleton: the parents, the rest pose, and the exceptional bones.
 ///
 /// Built once; unlike the skeleton it never changes. Bones keep their order.
 #[derive(Clone, Debug)]
 pub struct Rig {
     pub(super) bones: usize,
-    /// One a lane, the padding too: 0 for a root, else 1 + the parent, so that it is never above the lane itself.
+    /// One per lane, the padding included: 0 for a root, else 1 + the parent, so that it is never above the lane
+    /// itself.
     pub(super) parents: Vec<[u32; 8]>,
-    /// 1 + each bone that is nobody's parent: a number that is not finite reaches at least one of them.
+    /// 1 + each bone without children: a number that is not finite reaches at least one of them.
     pub(super) leaves: Vec<u32>,
-    /// The same in bytes, where they can name all bones; else empty.
+    /// The same as bytes, where those can index all bones; else empty.
     pub(super) near_parents: Vec<[u8; 8]>,
     pub(super) near_leaves: Vec<u8>,
-    /// Bones whose rest no pose can express, in order.
+    /// Bones whose rest pose is a sheared matrix, in order.
     pub(super) sheared: Vec<Sheared>,
     rest: Pose,
 }
@@ -29,13 +30,13 @@ pub struct Rig {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sheared {
     pub(super) bone: usize,
-    /// The pose that stands for it.
+    /// The approximate pose that represents the matrix.
     pub(super) rest: Transform,
     pub(super) matrix: Mat4,
 }
 
 impl Rig {
-    /// The rig of `skeleton`. A parent that does not come before its child counts as none.
+    /// Creates the rig of `skeleton`. A parent that does not come before its child is ignored.
     pub fn new(skeleton: &Skeleton) -> Self {
         let bones = skeleton.len();
         let mut parents = vec![[0; 8]; blocks_of(bones)];
@@ -67,24 +68,24 @@ impl Rig {
         }
     }
 
-    /// Number of bones.
+    /// Returns the number of bones.
     pub fn bones(&self) -> usize {
         self.bones
     }
 
-    /// The rest pose of every bone, as [`rest_pose`] has it, tiny numbers made zero.
+    /// Returns the rest pose of every bone, as from [`rest_pose`], with tiny numbers set to zero.
     pub fn rest(&self) -> &Pose {
         &self.rest
     }
 
-    /// The parent of `bone`; `None` for a root and past the end.
+    /// Returns the parent of `bone`; `None` for a root and past the end.
     pub fn parent(&self, bone: usize) -> Option<usize> {
         let parent = self.parents.get(bone / 8)?[bone % 8];
         parent.checked_sub(1).map(|parent| parent as usize)
     }
 }
 
-/// `poses` with the numbers that cannot matter made zero.
+/// Returns `poses` with insignificant numbers set to zero.
 pub(super) fn flushed_poses(mut poses: Vec<Transform>) -> Vec<Transform> {
     let size = largest(poses.iter().flat_map(|pose| pose.translation.to_array()));
     for pose in &mut poses {

@@ -1,20 +1,20 @@
-//! Numbers too small to matter, made zero once and for all when the data of the fast path is built.
+//! Flushing of insignificant numbers to zero, once, when the data of the fast path is built.
 //!
-//! Real files hold them: inverse binding matrices with 1e-39 where a zero was meant, translations that went through
-//! half floats. Processors compute with numbers below 1.2e-38 many times slower, and products of numbers far above
-//! that fall there.
+//! Real files contain them: inverse bind matrices with 1e-39 where a zero was meant, translations that went through
+//! half floats. Processors compute with numbers below 1.2e-38 many times slower, and products of much larger numbers
+//! fall there.
 
-/// What is smaller than this part of the largest number beside it is zero. Far below what `f32` can add to it.
-const NOTHING: f32 = 1e-12;
+/// Relative threshold below which a number is flushed to zero; far below the precision of `f32`.
+const RELATIVE_THRESHOLD: f32 = 1e-12;
 
-/// The largest magnitude of `values`; 0 without any.
+/// Returns the largest magnitude of `values`; 0 without any.
 pub(super) fn largest(values: impl IntoIterator<Item = f32>) -> f32 {
     values.into_iter().map(f32::abs).fold(0.0, f32::max)
 }
 
-/// `value`; zero where it is nothing beside `largest`, or subnormal.
+/// Returns `value`; zero where it is insignificant relative to `largest`, or subnormal.
 pub(super) fn flushed(value: f32, largest: f32) -> f32 {
-    if value.abs() < largest * NOTHING || value.is_subnormal() { 0.0 } else { value }
+    if value.abs() < largest * RELATIVE_THRESHOLD || value.is_subnormal() { 0.0 } else { value }
 }
 
 #[cfg(test)]

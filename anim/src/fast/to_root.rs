@@ -5,8 +5,8 @@
 //! to_root_i   = to_root_parent * to_parent_i    one after the other, parents first, two rows in one register
 //! ```
 //!
-//! Two passes, one for each line: with both in one the matrices of eight bones would have to stay in more registers than
-//! there are, and that costs more than to write them down and read them again.
+//! Two passes, one for each line: with both in one the matrices of eight bones would need more registers than there
+//! are, and that costs more than storing them and loading them again.
 //!
 //! With the unit quaternion (x y z w), the scale (a b c) and the translation t:
 //!
@@ -16,43 +16,44 @@
 //!             └ a (2xz - 2yw)       b (2yz + 2xw)       c (1 - 2x² - 2y²)  tz ┘
 //! ```
 
-use super::matrix::{IDENTITY, Matrix34, Rows, mat4, matrix34};
+use super::matrix::{IDENTITY, Matrix34, MatrixRows, mat4, matrix34};
 use super::pose::PoseBlock;
 use super::rig::Rig;
-use super::simd::{Float4, Float8, Kernel, Level, Simd};
+use super::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
 use glam::Mat4;
 use std::cell::Cell;
 
 /// `to_root` of every bone of one character.
 #[derive(Clone, Debug)]
 pub struct RootPoses {
-    /// The identity, where roots find their parent; then one a lane; at least as many as a byte can name.
+    /// The identity, used as the parent of roots; then one per lane; padded to the number of matrices that a byte can
+    /// index.
     pub(super) matrices: Vec<Matrix34>,
-    /// What the first of two passes leaves for the second.
-    local: Vec<Local>,
+    /// Results of the first pass, for the second.
+    local: Vec<LocalMatrices>,
     bones: usize,
-    /// What limbs are solved with ([`super::two_bone()`]).
-    pub(super) level: Level,
+    /// Instructions with which limbs are solved ([`super::two_bone()`]).
+    pub(super) level: SimdLevel,
 }
 
 impl RootPoses {
-    /// Room for the bones of `rig`, all in the origin.
+    /// Allocates matrices for the bones of `rig`, all the identity.
     pub fn new(rig: &Rig) -> Self {
         let blocks = rig.parents.len();
         Self {
             matrices: vec![IDENTITY; (1 + blocks * 8).max(NARROW)],
             local: vec![[[[0.0; 8]; 4]; 3]; blocks],
             bones: rig.bones,
-            level: Level::best(),
+            level: SimdLevel::best(),
         }
     }
 
-    /// One a bone: bone space → scene space.
+    /// Returns one matrix per bone: bone space → scene space.
     pub fn matrices(&self) -> &[Matrix34] {
         &self.matrices[1..=self.bones]
     }
 
-    /// That of `bone`; the identity past the end.
+    /// Returns the matrix of `bone`; the identity past the end.
     pub fn get(&self, bone: usize) -> &Matrix34 {
         self.matrices().get(bone).unwrap_or(&IDENTITY)
     }
@@ -60,9 +61,10 @@ impl RootPoses {
 
 /// Computes `to_root` of every bone from `pose`, the blocks of a pose of `rig`'s bones.
 ///
-/// Where `pose` has fewer blocks than the rig the rest poses stand in. A bone whose product is not finite stands where
-/// its parent stands, as on the open path. Allocates nothing, unless `out` was made for another rig.
-pub fn to_root(level: Level, rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
+/// Where `pose` has fewer blocks than the rig, rest poses are used. A bone whose product is not finite gets its
+/// parent's `to_root`, as on the open path. Allocates nothing, unless `out` was made for another rig.
+#[doc(alias = "model space")]
+pub fn to_root(level: SimdLevel, rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     level.run(ToRoot { rig, pose, out });
 }
 
@@ -81,7 +83,7 @@ impl Kernel for ToRoot<'_> {
     }
 }
 
-/// The same, part of a larger kernel.
+/// As [`to_root`], as part of a larger kernel.
 #[inline(always)]
 pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     fit(rig, out);
@@ -107,31 +109,31 @@ pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut Roo
     }
 }
 
-/// Matrices that a byte can name.
+/// Number of matrices that a byte can index.
 pub(super) const NARROW: usize = 256;
 
-/// The number of a matrix.
-trait Slot: Copy {
-    /// What it names among `all`, of which `first` are the first.
+/// The index of a matrix.
+trait MatrixIndex: Copy {
+    /// Returns the element of `all` with this index; `first` are the first elements of `all`.
     fn of<'a, T>(self, first: &'a [T; NARROW], all: &'a [T]) -> Option<&'a T>;
 }
 
-impl Slot for u8 {
-    // Without a check: a byte cannot lead out of `first`.
+impl MatrixIndex for u8 {
+    // Without a bounds check: a byte is always within `first`.
     #[inline(always)]
     fn of<'a, T>(self, first: &'a [T; NARROW], _: &'a [T]) -> Option<&'a T> {
         Some(&first[usize::from(self)])
     }
 }
 
-impl Slot for u32 {
+impl MatrixIndex for u32 {
     #[inline(always)]
     fn of<'a, T>(self, _: &'a [T; NARROW], all: &'a [T]) -> Option<&'a T> {
         all.get(self as usize)
     }
 }
 
-/// Makes room, where `out` was made for another rig.
+/// Resizes `out`, if it was made for another rig.
 #[inline(always)]
 fn fit(rig: &Rig, out: &mut RootPoses) {
     if out.bones != rig.bones {
@@ -140,11 +142,11 @@ fn fit(rig: &Rig, out: &mut RootPoses) {
 }
 
 /// `to_parent` of eight bones: rows of bone `k` in the low halves and of bone `k + 4` in the high halves of `[row][k]`.
-type Local = [[[f32; 8]; 4]; 3];
+type LocalMatrices = [[[f32; 8]; 4]; 3];
 
-/// `T · R · S` of eight bones.
+/// Computes `T · R · S` of eight bones.
 #[inline(always)]
-fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
+fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut LocalMatrices) {
     let [x, y, z, w] = S::F8::load_four(&pose.rotation);
     let [a, b, c] = S::F8::load_three(&pose.scale);
     let [tx, ty, tz] = S::F8::load_three(&pose.translation);
@@ -159,16 +161,21 @@ fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut Local) {
     S::F8::store_four(S::F8::transpose(lower), &mut local[2]);
 }
 
-/// `to_root` of every bone, parents first.
+/// Computes `to_root` of every bone, parents first.
 #[inline(always)]
-fn chain<S: Simd, P: Slot>(bones: usize, parents: &[[P; 8]], local: &[Local], out: &mut [Matrix34]) {
+fn chain<S: Simd, P: MatrixIndex>(
+    bones: usize,
+    parents: &[[P; 8]],
+    local: &[LocalMatrices],
+    out: &mut [Matrix34],
+) {
     // Cells, because a block is written while its own first bones are read as parents of the others.
     let out = Cell::from_mut(out).as_slice_of_cells();
     let (Some(first), Some(own)) = (out.first_chunk(), out.get(1..)) else { return };
     let mut left = bones;
     for ((parents, local), block) in parents.iter().zip(local).zip(own.as_chunks::<8>().0) {
-        // Written out, so that every place is known when it is compiled.
-        let link = Link { parents, local, first, out, block };
+        // Unrolled, so that every index is known at compile time.
+        let link = BlockLinks { parents, local, first, out, block };
         if left < 8 {
             link.some::<S>(left);
             return;
@@ -185,17 +192,17 @@ fn chain<S: Simd, P: Slot>(bones: usize, parents: &[[P; 8]], local: &[Local], ou
     }
 }
 
-/// What is needed for a block of bones.
-struct Link<'a, P> {
+/// The data needed for a block of bones.
+struct BlockLinks<'a, P> {
     parents: &'a [P; 8],
-    local: &'a Local,
+    local: &'a LocalMatrices,
     first: &'a [Cell<Matrix34>; NARROW],
     out: &'a [Cell<Matrix34>],
     block: &'a [Cell<Matrix34>; 8],
 }
 
-impl<P: Slot> Link<'_, P> {
-    /// `to_root` of bone `at` of the block.
+impl<P: MatrixIndex> BlockLinks<'_, P> {
+    /// Computes `to_root` of bone `at` of the block.
     #[inline(always)]
     fn bone<S: Simd>(&self, at: usize) {
         let Some(parent) = self.parents[at % 8].of(self.first, self.out) else { return };
@@ -207,11 +214,11 @@ impl<P: Slot> Link<'_, P> {
             S::F8::twice(&z[two].as_chunks::<4>().0[half]),
         ];
         let mut product = IDENTITY;
-        Rows::<S>::load(&parent.get()).times(rows).store(&mut product);
+        MatrixRows::<S>::load(&parent.get()).times(rows).store(&mut product);
         self.block[at % 8].set(product);
     }
 
-    /// The first `count` of them, fewer than eight.
+    /// Computes `to_root` of the first `count` bones of the block, fewer than eight.
     #[inline(always)]
     fn some<S: Simd>(&self, count: usize) {
         if count > 0 {
@@ -238,9 +245,9 @@ impl<P: Slot> Link<'_, P> {
     }
 }
 
-/// Puts the matrices of sheared bones in the place of those that their poses give, where they rest.
+/// Replaces the matrices of sheared bones in their rest pose by the exact rest matrices.
 #[cold]
-fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [Local]) {
+fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [LocalMatrices]) {
     for sheared in &rig.sheared {
         let (block, at) = (sheared.bone / 8, sheared.bone % 8);
         let posed = pose.get(block).or(rig.rest().blocks().get(block));
@@ -254,15 +261,16 @@ fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [Local]) {
     }
 }
 
-/// A number that is not finite reaches the leaves: it spreads along its row from parent to child.
+/// Returns whether all leaves are finite. A number that is not spreads along its row from parent to child, and so
+/// reaches the leaves.
 #[inline(always)]
-fn leaves_are_finite<S: Simd, P: Slot>(leaves: &[P], matrices: &[Matrix34]) -> bool {
+fn leaves_are_finite<S: Simd, P: MatrixIndex>(leaves: &[P], matrices: &[Matrix34]) -> bool {
     let Some(first) = matrices.first_chunk() else { return false };
     let zero = S::F8::splat(0.0);
     let (mut upper, mut lower) = (zero, zero.low());
     for leaf in leaves {
         if let Some(leaf) = leaf.of(first, matrices) {
-            // Stays zero as long as everything is finite.
+            // Stays zero while everything is finite.
             upper = S::F8::load(super::matrix::upper(leaf)).mul_add(zero, upper);
             lower = S::F4::load(super::matrix::lower(leaf)).mul_add(zero.low(), lower);
         }
@@ -273,7 +281,7 @@ fn leaves_are_finite<S: Simd, P: Slot>(leaves: &[P], matrices: &[Matrix34]) -> b
     (upper + S::F8::twice(&four)).less(S::F8::splat(1.0)).all()
 }
 
-/// The open path's way, for poses that lead out of what f32 can hold.
+/// Computes as the open path does, for poses whose products leave the range of f32.
 #[cold]
 fn carefully(rig: &Rig, pose: &[PoseBlock], out: &mut [Matrix34]) {
     for bone in 0..rig.bones {

@@ -1,16 +1,16 @@
-//! A limb of two parts that reaches for a point: shoulder, elbow, hand; or hip, knee, ankle.
+//! Two-bone IK of one limb: shoulder, elbow, hand; or hip, knee, ankle.
 //!
 //! With `a` and `b` the lengths of the parts and `d` the distance from root to target, the law of cosines gives the
 //! angle θ between the parts (0 is straight):
 //!
 //! ```text
-//! d'    = d kept within |a - b| ..= a + b, softened near a + b
+//! d'    = d clamped to |a - b| ..= a + b, softened near a + b
 //! cos θ = (d'² - a² - b²) / (2 a b)
 //! ```
 //!
-//! The middle turns by the difference Δ to the angle it has, about the axis n that it is bent about; then the root turns the
-//! end onto the line to the target the short way; then, with a pole, about that line. All is computed from places in to-root
-//! space with square roots only, and quaternions keep any length until they are applied:
+//! The middle turns by the difference Δ to its current angle, about the axis n of its current bend; then the root turns
+//! the end onto the line to the target the short way; then, with a pole, about that line. All is computed from
+//! positions in to-root space with square roots only, and quaternions have any length until they are applied:
 //!
 //! ```text
 //! 2ab sin θ = √(((a + b)² - d'²) (d'² - (a - b)²))
@@ -20,10 +20,10 @@
 //! root      = q - n' q n                             with a pole: n' = pole×target / |pole×target|, n and n' as (vector, 0)
 //! ```
 //!
-//! The last line: `q n q⁻¹` is where the limb's plane faces after q, and `1 - n' (q n q⁻¹)` turns that to n'. Where both are
-//! nearly opposite the sum is nearly zero; then `target (q + n' q n)` is taken, which turns to -n' and half a turn further.
-//! Each turn is told in its bone's own space, where it is applied from the right, so nobody's rotation has to be read off a
-//! matrix.
+//! The last line: `q n q⁻¹` is the direction of the limb's plane after q, and `1 - n' (q n q⁻¹)` turns that to n'.
+//! Where both are nearly opposite the sum is nearly zero; then `target (q + n' q n)` is used, which turns to -n' and
+//! half a turn further. Each rotation is expressed in its bone's own space, where it is applied from the right, so no
+//! rotation has to be computed from a matrix.
 
 use super::matrix::{Matrix34, transform_point};
 use super::pose::Pose;
@@ -32,44 +32,44 @@ use super::simd::{Kernel, LANES, Simd};
 use super::to_root::RootPoses;
 use glam::{Quat, Vec3, Vec3A, Vec4};
 
-/// A limb.
+/// A limb of two parts, and how to move it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TwoBone {
-    /// Shoulder or hip: turns.
+pub struct FastTwoBone {
+    /// Shoulder or hip; it is turned.
     pub root: u32,
-    /// Elbow or knee, below `root`: turns.
+    /// Elbow or knee, below `root`; it is turned.
     pub middle: u32,
-    /// Hand or ankle, below `middle`: meets the target.
+    /// Hand or ankle, below `middle`; it is moved to the target.
     pub end: u32,
-    /// The middle bends towards this direction, to-root space; zero: as the pose bends it.
+    /// Direction in which the middle bends, to-root space; zero: as in the pose.
     pub pole: Vec3,
     /// Share of the limb's length over which it slows down before it is straight, 0..=1; 0 is a hard stop.
     pub softness: f32,
-    /// 0 (and NaN) keeps the pose bit for bit, 1 is the full solution; between, the turns are shortened.
+    /// 0 (and NaN) leaves the pose unchanged bit for bit, 1 is the full solution; between, the rotations are shortened.
     pub weight: f32,
 }
 
-impl TwoBone {
-    /// A limb that bends as posed, stops hard and is solved at full weight.
+impl FastTwoBone {
+    /// Creates a limb that bends as posed, stops hard and is solved at full weight.
     pub fn new(root: u32, middle: u32, end: u32) -> Self {
         Self { root, middle, end, pole: Vec3::ZERO, softness: 0.0, weight: 1.0 }
     }
 }
 
-/// Turns `limb` in `pose` so that its end comes to `target` (to-root space), or as near as it can; was there anything
-/// to turn?
+/// Turns `limb` in `pose` so that its end reaches `target` (to-root space), or comes as close as it can. Returns
+/// whether anything was turned.
 ///
-/// `to_root` is that of `pose` ([`super::to_root()`]) and has to be computed again afterwards. Exact where the scales of
-/// the limb and above it are the same along all axes, mirrored or not. Nothing is changed where a bone is missing, a part has no length, or
-/// a number is not finite. Allocates nothing.
-pub fn two_bone(limb: &TwoBone, target: Vec3, to_root: &RootPoses, pose: &mut Pose) -> bool {
+/// `to_root` is that of `pose` ([`super::to_root()`]) and has to be computed again afterwards. Exact where the scales
+/// of the limb and above it are the same along all axes, mirrored or not. Nothing is changed where a bone is missing, a
+/// part has no length, or a number is not finite. Allocates nothing.
+pub fn two_bone(limb: &FastTwoBone, target: Vec3, to_root: &RootPoses, pose: &mut Pose) -> bool {
     to_root.level.run(Solve { limb, target, to_root, pose })
 }
 
-/// Run at a level only for the shorter code that its compiler makes of the same operations: results are the same bit for
-/// bit at all of them.
+/// A kernel only for the shorter code that its compiler makes of the same operations: results are the same bit for bit
+/// at all levels.
 struct Solve<'a> {
-    limb: &'a TwoBone,
+    limb: &'a FastTwoBone,
     target: Vec3,
     to_root: &'a RootPoses,
     pose: &'a mut Pose,
@@ -86,7 +86,7 @@ impl Kernel for Solve<'_> {
         let Some(middle) = matrices.get(limb.middle as usize) else { return false };
         let Some(end) = matrices.get(limb.end as usize) else { return false };
         let mut turns = solve(limb, target.into(), [root, middle, end]);
-        // Written so that NaN is none.
+        // Written so that NaN counts as not full.
         let is_whole = limb.weight >= 1.0;
         if !is_whole {
             turns = turns.map(|turn| shortened(turn, limb.weight));
@@ -121,11 +121,12 @@ fn set_rotation(blocks: &mut [PoseBlock], bone: u32, rotation: Quat) {
     }
 }
 
-/// The turns of root and middle, each in its own space and of any length; not finite, or zero, where there is none.
+/// Returns the rotations of root and middle, each in its own space and of any length; not finite, or zero, where there
+/// is none.
 #[inline(always)]
-fn solve(limb: &TwoBone, target: Vec3A, [root, middle, end]: [&Matrix34; 3]) -> [Quat; 2] {
-    let (origin, elbow) = (place(root), place(middle));
-    let (upper, lower, wanted) = (elbow - origin, place(end) - elbow, target - origin);
+fn solve(limb: &FastTwoBone, target: Vec3A, [root, middle, end]: [&Matrix34; 3]) -> [Quat; 2] {
+    let (origin, elbow) = (origin_of(root), origin_of(middle));
+    let (upper, lower, wanted) = (elbow - origin, origin_of(end) - elbow, target - origin);
     let (a2, b2, d2) = (upper.length_squared(), lower.length_squared(), wanted.length_squared());
     let (a, b) = (a2.sqrt(), b2.sqrt());
     let (sum, difference) = (a + b, a - b);
@@ -161,44 +162,44 @@ fn solve(limb: &TwoBone, target: Vec3A, [root, middle, end]: [&Matrix34; 3]) -> 
     [local(root, turn), local(middle, quat(axis * bend.0, bend.1))]
 }
 
-/// `(vector, w)`.
+/// Returns `(vector, w)`.
 #[inline(always)]
 fn quat(vector: Vec3A, w: f32) -> Quat {
     Quat::from_vec4(vector.extend(w))
 }
 
-/// Where a bone's origin is.
+/// Returns the position of a bone's origin.
 #[inline(always)]
-fn place(matrix: &Matrix34) -> Vec3A {
+fn origin_of(matrix: &Matrix34) -> Vec3A {
     Vec3A::new(matrix[3], matrix[7], matrix[11])
 }
 
-/// A turn in to-root space as one in a bone's space, of another length. Scales are the same along all axes.
+/// Converts a rotation in to-root space to a bone's space, with another length. Scales are the same along all axes.
 ///
-/// A turn's axis is a vector like any other, but for mirrored bones: seen from there it turns the other way.
+/// A rotation's axis is transformed like any vector, except for mirrored bones: there the rotation is reversed.
 #[inline(always)]
 fn local(matrix: &Matrix34, turn: Quat) -> Quat {
     let (x, y, z) =
         (Vec4::from_slice(matrix), Vec4::from_slice(&matrix[4..]), Vec4::from_slice(&matrix[8..]));
     let (first, second, third) = (Vec3A::from_vec4(x), Vec3A::from_vec4(y), Vec3A::from_vec4(z));
-    // The determinant is the scale three times, with the side.
+    // The determinant is the cubed scale, with the sign of mirroring.
     let scale = first.cross(second).dot(third) / first.length_squared();
     quat(Vec3A::from_vec4(x * turn.x + y * turn.y + z * turn.z), turn.w * scale)
 }
 
-/// The larger; `other` where either is NaN. One instruction.
+/// Returns the larger; `other` where either is NaN. One instruction.
 #[inline(always)]
 fn most(one: f32, other: f32) -> f32 {
     if one > other { one } else { other }
 }
 
-/// The smaller, likewise.
+/// Returns the smaller; `other` where either is NaN. One instruction.
 #[inline(always)]
 fn least(one: f32, other: f32) -> f32 {
     if one < other { one } else { other }
 }
 
-/// Nears `length` without meeting it, over a share of it: `hard + soft (1 - e^(-(d - hard) / soft))`.
+/// Approaches `length` without reaching it, over a share of it: `hard + soft (1 - e^(-(d - hard) / soft))`.
 #[inline(always)]
 fn softened(distance: f32, length: f32, softness: f32) -> f32 {
     if softness > 0.0 {
@@ -211,25 +212,25 @@ fn softened(distance: f32, length: f32, softness: f32) -> f32 {
     distance
 }
 
-/// A unit vector about which a limb can bend whose parts lie on one line, `along`: towards the pole, or any.
+/// Returns a unit vector about which a limb can bend whose parts are on one line, `along`: towards the pole, or any.
 #[cold]
 fn any_axis(along: Vec3A, wanted: Vec3A, pole: Vec3) -> Vec3A {
     let along = along.normalize_or_zero();
     let across = |vector: Vec3A| {
         let axis = vector.cross(along);
-        // Of a vector on the line only rounding is left, and that lies anywhere.
+        // Of a vector on the line only rounding is left, and its direction is random.
         let is_sure = axis.length_squared() > 1e-8 * vector.length_squared();
         axis.try_normalize().filter(|_| is_sure)
     };
     across(pole.into()).or_else(|| across(wanted)).unwrap_or_else(|| along.any_orthonormal_vector())
 }
 
-/// The short turn that takes the direction of `from` to that of `to`, its opposite but for a little; about `axis` where
-/// nothing is missing.
+/// Returns the short rotation from the direction of `from` to that of `to`, which are nearly opposite; about `axis`
+/// where they are exactly opposite.
 #[cold]
 fn nearly_opposite(from: Vec3A, to: Vec3A, axis: Vec3A) -> Quat {
     let turn = arc(from, to, axis);
-    // The axis of nearly half a turn is not exact; what is left of the way is short.
+    // The axis of nearly half a turn is not exact; the remaining angle is small.
     arc(turn.mul_vec3a(from), to, axis) * turn
 }
 
@@ -239,8 +240,8 @@ fn arc(from: Vec3A, to: Vec3A, axis: Vec3A) -> Quat {
     if sum > 1e-6 * lengths { quat(from.cross(to), sum).normalize() } else { quat(axis, 0.0) }
 }
 
-/// `turn`, and then about `line`, whose length has the square `square`, until `axis` has become `facing`; both are unit
-/// vectors.
+/// Returns `turn`, followed by the rotation about `line`, whose length has the square `square`, that turns `axis` to
+/// `facing`; both are unit vectors.
 #[inline(always)]
 fn twisted(turn: Quat, axis: Vec3A, facing: Vec3A, line: Vec3A, square: f32) -> Quat {
     let other = quat(facing, 0.0) * (turn * quat(axis, 0.0));
@@ -251,14 +252,14 @@ fn twisted(turn: Quat, axis: Vec3A, facing: Vec3A, line: Vec3A, square: f32) -> 
     }
 }
 
-/// `weight` of a turn of any length, the short way.
+/// Returns `weight` of a rotation of any length, the short way.
 #[cold]
 fn shortened(turn: Quat, weight: f32) -> Quat {
     let weight = if weight > 0.0 { weight } else { 0.0 };
     crate::sample::mix::slerp(Quat::IDENTITY, turn.normalize(), weight)
 }
 
-/// How far the end of `limb` is from `target`, from the to-root matrices.
-pub fn distance_left(limb: &TwoBone, target: Vec3, to_root: &RootPoses) -> f32 {
+/// Returns the distance of the end of `limb` from `target`, from the to-root matrices.
+pub fn distance_left(limb: &FastTwoBone, target: Vec3, to_root: &RootPoses) -> f32 {
     (transform_point(to_root.get(limb.end as usize), Vec3::ZERO) - target).length()
 }

@@ -1,58 +1,59 @@
-//! Positions and normals moved by bones on the CPU, eight vertices at once (thesis §2.1.4).
+//! Skinning on the CPU: positions and normals moved by bones, eight vertices at once (thesis §2.1.4).
 //!
 //! ```text
 //! M        = Σ weight_i * final[joint_i]                    one vertex after the other, two rows in one register
 //! morphed  = stored + Σ weight_t * difference_t             from here on eight vertices at once
 //! position = M * position
-//! normal   = normalise(sign(determinant) * cofactors(M) * normal)
+//! normal   = normalize(sign(determinant) * cofactors(M) * normal)
 //! ```
 //!
-//! The sum of matrices and the sum of moved positions are the same; the matrix serves the normal too. Its cofactors, the
-//! transposed inverse but for its length, keep normals at right angles to the surface under any scale; see
-//! [`crate::skin`].
+//! The sum of matrices and the sum of moved positions are the same; the matrix is used for the normal too. Its
+//! cofactors, the transposed inverse but for its length, keep normals at right angles to the surface under any scale;
+//! see [`crate::skin`].
 
 use super::matrix::{IDENTITY, Matrix34, lower, mat4, upper};
-use super::morph::{Differences, Shape};
-use super::simd::{Float8, Kernel, LANES, Level, Simd};
+use super::morph::{Differences, ShapeBlock};
+use super::simd::{Float8, Kernel, LANES, Simd, SimdLevel};
 use crate::data::{Primitive, Vertices};
 use crate::skin::{first_direction, near_one, normal_matrix};
 use glam::{Mat3, Mat4, Vec3};
 use std::hint::black_box;
 
-/// Vertices of a primitive brought to the layout of the fast path: eight a block, in file order.
+/// Vertices of a primitive in the layout of the fast path: eight per block, in file order.
 #[derive(Clone, Debug, Default)]
 pub struct SkinnedVertices {
     count: usize,
-    blocks: Vec<Block>,
-    influences: Vec<Influences>,
+    blocks: Vec<VertexBlock>,
+    influences: Vec<InfluenceBlock>,
     differences: Differences,
-    /// Does it name no joint past the first 256?
+    /// Whether it has no joint past the first 256.
     is_narrow: bool,
 }
 
-/// Joints that a byte can name.
+/// Number of joints that a byte can index.
 const NARROW: usize = 256;
 
-/// So many vertices are worth a table that costs about as much as forty of them.
-const MANY: usize = 128;
+/// Number of vertices from which a table pays off; building it costs about as much as skinning forty of them.
+const TABLE_THRESHOLD: usize = 128;
 
-/// A matrix on a boundary of its own, so that a number shifted is its place.
+/// A matrix aligned to its size, so that a shifted index is its offset.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
-struct Row([f32; 16]);
+struct PaddedMatrix([f32; 16]);
 
-/// Matrices for each name that a byte can be, so that none has to be checked.
-type Table = [Row; NARROW];
+/// A matrix for each value of a byte, so that no index has to be checked.
+type MatrixTable = [PaddedMatrix; NARROW];
 
-/// The identity, and what fills its row of the table.
-const NOTHING: Row = Row([1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
+/// The identity, and padding.
+const PADDED_IDENTITY: PaddedMatrix =
+    PaddedMatrix([1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
 
-/// Eight vertices; those past the end are the first of the eight once more.
+/// Eight vertices; those past the end repeat the first of the eight.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-struct Block {
-    shape: Shape,
-    /// Where its influences begin, and how many each of its vertices has: 1, 2, 4 or 8.
+struct VertexBlock {
+    shape: ShapeBlock,
+    /// First of its influences, and number of influences of each of its vertices: 1, 2, 4 or 8.
     first: u32,
     each: u32,
 }
@@ -60,15 +61,16 @@ struct Block {
 /// The `k`-th influence of eight vertices.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-struct Influences {
+struct InfluenceBlock {
     joints: [u16; LANES],
     weights: [f32; LANES],
 }
 
 impl SkinnedVertices {
-    /// The vertices of `primitive` and their morph targets. Normals that are missing are +Y.
+    /// Converts the vertices of `primitive` and their morph targets. Missing normals are +Y.
     ///
-    /// Each block works with as many influences as the vertex in it that has most: 1, 2, 4 or 8.
+    /// All vertices of a block have the same number of influences, 1, 2, 4 or 8: the largest number that one of them
+    /// needs.
     pub fn new(primitive: &Primitive) -> Self {
         let vertices = &primitive.vertices;
         let (count, differences) = (vertices.len(), Differences::new(primitive));
@@ -86,8 +88,8 @@ impl SkinnedVertices {
             |index: usize| vertices.influences_of(index).iter().filter(|influence| influence.weight != 0.0);
         let most = lanes.iter().map(|&index| used(index).count()).max().unwrap_or(0);
         let each = most.next_power_of_two().clamp(1, 8);
-        let mut shape = Shape::default();
-        let nothing = Influences { joints: [0; LANES], weights: [0.0; LANES] };
+        let mut shape = ShapeBlock::default();
+        let nothing = InfluenceBlock { joints: [0; LANES], weights: [0.0; LANES] };
         let mut influences = [nothing; 8];
         for (lane, index) in lanes.into_iter().enumerate() {
             let position = vertices.positions.get(index).copied().unwrap_or(Vec3::ZERO);
@@ -99,33 +101,33 @@ impl SkinnedVertices {
                 self.is_narrow &= usize::from(influence.joint) < NARROW;
             }
         }
-        self.blocks.push(Block { shape, first: self.influences.len() as u32, each: each as u32 });
+        self.blocks.push(VertexBlock { shape, first: self.influences.len() as u32, each: each as u32 });
         self.influences.extend_from_slice(&influences[..each]);
     }
 
-    /// Number of vertices.
+    /// Returns the number of vertices.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Is there no vertex?
+    /// Returns whether there is no vertex.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    fn influences_of(&self, block: &Block) -> &[Influences] {
+    fn influences_of(&self, block: &VertexBlock) -> &[InfluenceBlock] {
         let first = block.first as usize;
         self.influences.get(first..first + block.each as usize).unwrap_or(&[])
     }
 }
 
-/// Moves the first vertices, as many as both outputs have room for, to scene space; normals have unit length.
+/// Moves vertices to scene space, up to the length of the shorter output; normals have unit length.
 ///
-/// `finals` are those of the skin ([`super::final_poses()`]); a joint that they lack counts as the identity. Where a
-/// vertex or a result is not finite, or a normal has no direction, what [`crate::skin`] says. Returns how many were
-/// written. Allocates nothing.
+/// `finals` are those of the skin ([`super::final_poses()`]); a missing joint counts as the identity. Where a vertex or
+/// a result is not finite, or a normal has no direction, the result is as documented in [`crate::skin`]. Returns the
+/// number of vertices written. Allocates nothing.
 pub fn skin_vertices(
-    level: Level,
+    level: SimdLevel,
     vertices: &SkinnedVertices,
     finals: &[Matrix34],
     positions: &mut [[f32; 3]],
@@ -133,17 +135,17 @@ pub fn skin_vertices(
 ) -> usize {
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
-    level.run(Skin::<false> { vertices, morph_weights: &[], finals, positions, normals });
+    level.run(SkinKernel::<false> { vertices, morph_weights: &[], finals, positions, normals });
     count
 }
 
-/// The same with morph targets: to each vertex their differences are added first, each times its weight.
+/// As [`skin_vertices`], with morph targets: first their differences are added to each vertex, each times its weight.
 ///
-/// `morph_weights`: one a morph target; missing ones count as 0 ([`crate::sample::sample_morph_weights`] gives those of a
-/// take). What is not finite after that counts as not morphed, and otherwise ends as [`crate::skin`] says. Allocates
-/// nothing.
+/// `morph_weights`: one per morph target; missing ones count as 0 ([`crate::sample::sample_morph_weights`] gives those
+/// of a take). A vertex that is not finite after that counts as not morphed; otherwise the results are as documented in
+/// [`crate::skin`]. Allocates nothing.
 pub fn skin_morphed_vertices(
-    level: Level,
+    level: SimdLevel,
     vertices: &SkinnedVertices,
     morph_weights: &[f32],
     finals: &[Matrix34],
@@ -153,14 +155,14 @@ pub fn skin_morphed_vertices(
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
     if vertices.differences.are_added(morph_weights) {
-        level.run(Skin::<true> { vertices, morph_weights, finals, positions, normals });
+        level.run(SkinKernel::<true> { vertices, morph_weights, finals, positions, normals });
     } else {
-        level.run(Skin::<false> { vertices, morph_weights, finals, positions, normals });
+        level.run(SkinKernel::<false> { vertices, morph_weights, finals, positions, normals });
     }
     count
 }
 
-struct Skin<'a, const MORPHED: bool> {
+struct SkinKernel<'a, const MORPHED: bool> {
     vertices: &'a SkinnedVertices,
     morph_weights: &'a [f32],
     finals: &'a [Matrix34],
@@ -168,14 +170,14 @@ struct Skin<'a, const MORPHED: bool> {
     normals: &'a mut [[f32; 3]],
 }
 
-impl<const MORPHED: bool> Kernel for Skin<'_, MORPHED> {
+impl<const MORPHED: bool> Kernel for SkinKernel<'_, MORPHED> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self) {
-        if self.vertices.is_narrow && self.positions.len() >= MANY {
-            // Unknown to the compiler, so that rows are written whole and not by a call, byte by byte.
-            let mut table = [black_box(NOTHING); NARROW];
+        if self.vertices.is_narrow && self.positions.len() >= TABLE_THRESHOLD {
+            // Opaque to the compiler, so that rows are written whole and not byte by byte through a call.
+            let mut table = [black_box(PADDED_IDENTITY); NARROW];
             for (row, matrix) in table.iter_mut().zip(self.finals) {
                 row.0[..12].copy_from_slice(matrix);
             }
@@ -188,16 +190,16 @@ impl<const MORPHED: bool> Kernel for Skin<'_, MORPHED> {
 }
 
 /// Eight points, one after the other.
-type Points = [f32; 3 * LANES];
+type PointBlock = [f32; 3 * LANES];
 
-impl<const MORPHED: bool> Skin<'_, MORPHED> {
+impl<const MORPHED: bool> SkinKernel<'_, MORPHED> {
     #[inline(always)]
     fn with<S: Simd>(self, finals: &(impl Finals + ?Sized)) {
         let Self { vertices, morph_weights, positions, normals, .. } = self;
         let (points, last_points) = positions.as_flattened_mut().as_chunks_mut();
         let (directions, last_directions) = normals.as_flattened_mut().as_chunks_mut();
         let mut blocks = vertices.blocks.iter().enumerate();
-        let mut matrices = [NOTHING; LANES];
+        let mut matrices = [PADDED_IDENTITY; LANES];
         for ((moved, turned), (at, block)) in points.iter_mut().zip(directions).zip(&mut blocks) {
             weigh_block::<S>(vertices.influences_of(block), finals, &mut matrices);
             if MORPHED {
@@ -223,11 +225,11 @@ impl<const MORPHED: bool> Skin<'_, MORPHED> {
     }
 }
 
-/// Where matrices are looked up.
+/// A list of final poses.
 trait Finals {
-    /// Rows 0 and 1.
+    /// Returns rows 0 and 1.
     fn upper<S: Simd>(&self, joint: u16) -> S::F8;
-    /// Row 2, and four numbers without meaning.
+    /// Returns row 2, and four meaningless numbers.
     fn lower<S: Simd>(&self, joint: u16) -> S::F8;
 }
 
@@ -243,7 +245,7 @@ impl Finals for [Matrix34] {
     }
 }
 
-impl Finals for Table {
+impl Finals for MatrixTable {
     #[inline(always)]
     fn upper<S: Simd>(&self, joint: u16) -> S::F8 {
         S::F8::load(&self[usize::from(joint as u8)].0.as_chunks().0[0])
@@ -255,9 +257,13 @@ impl Finals for Table {
     }
 }
 
-/// The weighted sum of the matrices of each of eight vertices, with as many influences as they have.
+/// Computes the weighted sum of the matrices of each of eight vertices, for the block's number of influences.
 #[inline(always)]
-fn weigh_block<S: Simd>(influences: &[Influences], finals: &(impl Finals + ?Sized), out: &mut [Row; LANES]) {
+fn weigh_block<S: Simd>(
+    influences: &[InfluenceBlock],
+    finals: &(impl Finals + ?Sized),
+    out: &mut [PaddedMatrix; LANES],
+) {
     match influences {
         [a] => weigh::<S, 1>([a], finals, out),
         [a, b] => weigh::<S, 2>([a, b], finals, out),
@@ -267,14 +273,14 @@ fn weigh_block<S: Simd>(influences: &[Influences], finals: &(impl Finals + ?Size
     }
 }
 
-/// The same, the number known to the compiler.
+/// Computes the sums with the number of influences known at compile time.
 #[inline(always)]
 fn weigh<S: Simd, const N: usize>(
-    influences: [&Influences; N],
+    influences: [&InfluenceBlock; N],
     finals: &(impl Finals + ?Sized),
-    out: &mut [Row; LANES],
+    out: &mut [PaddedMatrix; LANES],
 ) {
-    // Written out, so that every place is known when it is compiled.
+    // Unrolled, so that every index is known at compile time.
     weigh_one::<S, N>(influences, finals, out, 0);
     weigh_one::<S, N>(influences, finals, out, 1);
     weigh_one::<S, N>(influences, finals, out, 2);
@@ -287,14 +293,14 @@ fn weigh<S: Simd, const N: usize>(
 
 #[inline(always)]
 fn weigh_one<S: Simd, const N: usize>(
-    influences: [&Influences; N],
+    influences: [&InfluenceBlock; N],
     finals: &(impl Finals + ?Sized),
-    out: &mut [Row; LANES],
+    out: &mut [PaddedMatrix; LANES],
     lane: usize,
 ) {
     let joint = influences[0].joints[lane];
     let weight = S::F8::splat(influences[0].weights[lane]);
-    // Row 2 in a wide register too, all of which is kept: for narrow ones the weight would be spread once more.
+    // Row 2 is also in a wide register, of which all is kept: for narrow ones the weight would be broadcast once more.
     let (mut two, mut one) = (finals.upper::<S>(joint) * weight, finals.lower::<S>(joint) * weight);
     for influence in &influences[1..] {
         let (joint, weight) = (influence.joints[lane], S::F8::splat(influence.weights[lane]));
@@ -307,9 +313,9 @@ fn weigh_one<S: Simd, const N: usize>(
     }
 }
 
-/// Row `row` of eight matrices: four vectors, one a column.
+/// Returns row `row` of eight matrices: four vectors, one per column.
 #[inline(always)]
-fn columns<S: Simd>(matrices: &[Row; LANES], row: usize) -> [S::F8; 4] {
+fn columns<S: Simd>(matrices: &[PaddedMatrix; LANES], row: usize) -> [S::F8; 4] {
     let [a, b, c, d, e, f, g, h] = matrices;
     let [a, b, c, d] = [a, b, c, d].map(|matrix| &matrix.0.as_chunks::<4>().0[row]);
     let [e, f, g, h] = [e, f, g, h].map(|matrix| &matrix.0.as_chunks::<4>().0[row]);
@@ -321,14 +327,14 @@ fn columns<S: Simd>(matrices: &[Row; LANES], row: usize) -> [S::F8; 4] {
     ])
 }
 
-/// Moves eight vertices of shape `shape`; `stored` is that before morphing.
+/// Moves eight vertices; `stored` are their values before morphing.
 #[inline(always)]
 fn move_block<S: Simd>(
-    shape: &Shape,
-    stored: &Shape,
-    matrices: &[Row; LANES],
-    moved: &mut Points,
-    turned: &mut Points,
+    shape: &ShapeBlock,
+    stored: &ShapeBlock,
+    matrices: &[PaddedMatrix; LANES],
+    moved: &mut PointBlock,
+    turned: &mut PointBlock,
 ) {
     let ([ax, bx, cx, tx], [ay, by, cy, ty]) = (columns::<S>(matrices, 0), columns::<S>(matrices, 1));
     let [az, bz, cz, tz] = columns::<S>(matrices, 2);
@@ -350,7 +356,7 @@ fn move_block<S: Simd>(
     let square = nx.mul_add(nx, ny.mul_add(ny, nz * nz));
     let shrink = (S::F8::splat(1.0) / square.sqrt()).flipped_by(determinant.sign());
     S::F8::store_points([nx * shrink, ny * shrink, nz * shrink], turned);
-    // A position that is not finite makes NaN of it, which is neither more nor less than anything.
+    // A position that is not finite makes it NaN, which fails every comparison.
     let square = (px + py + pz).mul_add(zero, square);
     let enough = S::F8::splat(1e-24).less(square);
     if !enough.select(square.less(S::F8::splat(1e24)), zero).all() {
@@ -363,14 +369,14 @@ fn cross<S: Simd>([ax, ay, az]: [S::F8; 3], [bx, by, bz]: [S::F8; 3]) -> [S::F8;
     [az.neg_mul_add(by, ay * bz), ax.neg_mul_add(bz, az * bx), ay.neg_mul_add(bx, ax * by)]
 }
 
-/// The open path's way, one by one.
+/// Computes as the open path does, one vertex at a time.
 #[cold]
 fn carefully(
-    shape: &Shape,
-    stored: &Shape,
-    matrices: &[Row; LANES],
-    moved: &mut Points,
-    turned: &mut Points,
+    shape: &ShapeBlock,
+    stored: &ShapeBlock,
+    matrices: &[PaddedMatrix; LANES],
+    moved: &mut PointBlock,
+    turned: &mut PointBlock,
 ) {
     for (lane, matrix) in matrices.iter().enumerate() {
         let matrix = matrix.0.first_chunk().map_or(Mat4::IDENTITY, mat4);

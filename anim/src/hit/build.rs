@@ -1,32 +1,32 @@
-//! Which triangles share a leaf, and which leaves a node.
+//! Construction of the tree: the triangles of each leaf, and the leaves of each node.
 
-use super::tree::{HitLeaf, HitNode, HitTreeParts, is_sound};
+use super::tree::{HitLeaf, HitNode, HitTreeParts, is_valid};
 use crate::data::{MAX_INFLUENCES, MeshInstance, ModelData, Primitive};
 use crate::evaluator::Evaluator;
 use glam::Vec3;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Triangles of a leaf, at most. Small, because reaching a leaf means skinning it.
+/// Largest number of triangles of a leaf. Small, because reaching a leaf means skinning it.
 const MOST: usize = 8;
 
-/// Comes after every bone: what no bone moves.
+/// Key of triangles that no bone moves; sorts after every bone.
 const NO_BONE: u32 = u32::MAX;
 
-/// A triangle to be placed.
+/// A triangle to be inserted.
 #[derive(Clone, Copy)]
 struct Item {
-    /// Bone, instance and primitive: triangles of one key make a subtree of their own.
+    /// Bone, instance and primitive: triangles with equal keys form a subtree of their own.
     key: (u32, u32, u32),
     triangle: u32,
-    /// Of the corners, in the rest pose.
+    /// Center of the corners in the rest pose.
     center: Vec3,
 }
 
-/// The lists of a tree over every sound triangle of every instance.
+/// Returns the lists of a tree over every valid triangle of every instance.
 ///
-/// Triangles are grouped by the bone that moves them most; a group is halved along the longest side of its centres, in
-/// the rest pose, until few are left; above the groups the same is done with the groups.
+/// Triangles are grouped by the bone that moves them most; a group is halved along the longest extent of its centers,
+/// in the rest pose, until few are left; above the groups the same is done with the groups.
 pub(super) fn parts(model: &ModelData) -> HitTreeParts {
     let mut items = items(model);
     items.sort_unstable_by_key(|item| (item.key, item.triangle));
@@ -45,7 +45,7 @@ pub(super) fn parts(model: &ModelData) -> HitTreeParts {
     parts
 }
 
-/// Every sound triangle, with its key and its centre.
+/// Returns every valid triangle, with its key and its center.
 fn items(model: &ModelData) -> Vec<Item> {
     let evaluator = Evaluator::new(Arc::new(model.clone()));
     let (mut items, mut positions) = (Vec::new(), Vec::new());
@@ -53,7 +53,7 @@ fn items(model: &ModelData) -> Vec<Item> {
         for (index, primitive) in evaluator.primitives(instance).iter().enumerate() {
             positions.resize(primitive.vertices.len(), Vec3::ZERO);
             evaluator.positions(instance, index, &mut positions);
-            for triangle in (0..primitive.indices.len() / 3).filter(|&triangle| is_sound(primitive, triangle))
+            for triangle in (0..primitive.indices.len() / 3).filter(|&triangle| is_valid(primitive, triangle))
             {
                 let corners = &primitive.indices[triangle * 3..triangle * 3 + 3];
                 let center = corners.iter().map(|&corner| positions[corner as usize] / 3.0).sum();
@@ -69,7 +69,7 @@ fn items(model: &ModelData) -> Vec<Item> {
     items
 }
 
-/// The bone with the greatest sum of weights over the corners.
+/// Returns the bone with the greatest sum of weights over the corners.
 fn greatest_bone(model: &ModelData, instance: &MeshInstance, primitive: &Primitive, corners: &[u32]) -> u32 {
     let Some(skin) = instance.skin else { return instance.bone.unwrap_or(NO_BONE) };
     let of_corner =
@@ -87,7 +87,7 @@ fn greatest_bone(model: &ModelData, instance: &MeshInstance, primitive: &Primiti
     greatest.0
 }
 
-/// Adds the nodes above and of `groups`, which is not empty; the position of the highest.
+/// Adds the nodes of `groups`, which is not empty, and those above them; returns the position of the highest.
 fn over_groups(groups: &mut [(Vec3, Range<usize>)], items: &mut [Item], parts: &mut HitTreeParts) -> u32 {
     if let [(_, range)] = groups {
         return over_items(&mut items[range.clone()], parts);
@@ -104,7 +104,7 @@ fn over_groups(groups: &mut [(Vec3, Range<usize>)], items: &mut [Item], parts: &
     node as u32
 }
 
-/// Adds the nodes of `items`, which is not empty and of one key; the position of the highest.
+/// Adds the nodes of `items`, which is not empty and has one key; returns the position of the highest.
 fn over_items(items: &mut [Item], parts: &mut HitTreeParts) -> u32 {
     let node = placeholder(parts);
     if items.len() <= MOST {
@@ -126,13 +126,13 @@ fn over_items(items: &mut [Item], parts: &mut HitTreeParts) -> u32 {
     node as u32
 }
 
-/// A node to be filled in when those below are known.
+/// Adds a node to be filled in when its children are known.
 fn placeholder(parts: &mut HitTreeParts) -> usize {
     parts.nodes.push(HitNode::Leaf(0));
     parts.nodes.len() - 1
 }
 
-/// The axis along which `points` spread most.
+/// Returns the axis along which `points` spread most.
 fn longest(points: impl Iterator<Item = Vec3>) -> usize {
     let (min, max) =
         points.fold((Vec3::MAX, Vec3::MIN), |(min, max), point| (min.min(point), max.max(point)));

@@ -1,8 +1,8 @@
-//! The hierarchy in a pose: its boxes refitted, and the ways down through them.
+//! The tree in a pose: its boxes refitted, and the traversal for queries.
 
-use super::place::{Found, RaySearch, SphereSearch, Which, complete};
+use super::candidate::{Candidate, RaySearch, SphereSearch, TriangleAddress, complete};
 use super::tree::MIXED;
-use super::triangle::Line;
+use super::triangle::UnitRay;
 use super::{Hit, HitNode, HitSettings, HitTree, Ray, TREE_DEPTH};
 use crate::bounds::AxisBox;
 use crate::data::Primitive;
@@ -11,38 +11,38 @@ use crate::skin::{Movement, skin_position};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
-/// How much wider than it is a box counts for a question, relative to the numbers in it: a hundred roundings of `f64`,
-/// so that no triangle is passed over that the formulas would hit by rounding.
+/// Relative widening of boxes in a query: a hundred roundings of `f64`, so that no triangle is skipped that the
+/// formulas would hit by rounding.
 const PAD: f64 = 1e-14;
 
-/// A box this much further away than the best, relative to that, is still looked at: the distance to a triangle that a
-/// ray all but lies in is known to no more digits.
+/// Relative margin by which a box may be further away than the best hit and is still visited: the distance to a
+/// triangle nearly parallel to the ray is known to no more digits.
 const NEAR_TIE: f64 = 1.0 + 1e-9;
 
-/// A [`HitTree`] with its boxes around one pose, and room to work in.
+/// A [`HitTree`] with its boxes fitted to one pose, and working memory.
 ///
-/// [`Self::refit`] after each new pose, then any number of questions; each takes the evaluator that was refitted from,
-/// in the same pose. (With another pose or another model the answer is of no use, but there is one.) Neither
-/// allocates. A box is fitted when a question first comes by it, from the final poses of its joints, and the vertices
-/// of a leaf are skinned when a question first reaches it; both are kept until the next refit. That is why questions
-/// need `&mut self`, and why the first after a refit takes longer than those that follow.
+/// Call [`Self::refit`] after each new pose, then any number of queries; each takes the evaluator of the refit, in the
+/// same pose. (With another pose or another model the result is finite but meaningless.) Neither allocates. A box is
+/// fitted when a query first visits it, from the final poses of its joints, and the vertices of a leaf are skinned when
+/// a query first reaches it; both are cached until the next refit. Therefore queries need `&mut self`, and the first
+/// after a refit takes longer than those that follow.
 #[derive(Clone, Debug)]
 pub struct HitPose {
     tree: Arc<HitTree>,
-    /// Counts refits; what has another number is out of date.
+    /// Number of refits; entries with another number are out of date.
     now: u32,
-    /// One a node, and when it was fitted.
+    /// One box per node, and the refit for which it was fitted.
     boxes: Vec<(AxisBox, u32)>,
-    /// Beside the tree's vertices: scene space.
+    /// Positions of the tree's vertices: scene space.
     positions: Vec<Vec3>,
-    /// Of each leaf: when it was skinned.
+    /// For each leaf, the refit for which it was skinned.
     skinned: Vec<u32>,
     /// Nodes still to visit, and the distance at which each begins.
     stack: Vec<(u32, f64)>,
 }
 
 impl HitPose {
-    /// In no pose: meets nothing until [`Self::refit`].
+    /// Creates the tree in no pose: nothing is hit until [`Self::refit`].
     pub fn new(tree: Arc<HitTree>) -> Self {
         let parts = tree.parts();
         Self {
@@ -55,17 +55,17 @@ impl HitPose {
         }
     }
 
-    /// The hierarchy.
+    /// Returns the tree.
     pub fn tree(&self) -> &Arc<HitTree> {
         &self.tree
     }
 
-    /// Forgets the last pose and puts the highest boxes around that of `evaluator`, from the final poses of the joints:
-    /// O(joints of all instances). Looks at no vertex. Allocates nothing.
+    /// Discards the last pose and fits the highest boxes to that of `evaluator`, from the final poses of the joints:
+    /// O(joints of all instances). Reads no vertex. Allocates nothing.
     pub fn refit(&mut self, evaluator: &Evaluator) {
         self.now = self.now.wrapping_add(1);
         if self.now == 0 {
-            // Once in four thousand million poses: numbers begin anew, so none may be left of before.
+            // After 2³² poses the numbers start again, so all old ones are cleared.
             self.now = 1;
             self.boxes.iter_mut().for_each(|(_, when)| *when = 0);
             self.skinned.fill(0);
@@ -75,55 +75,56 @@ impl HitPose {
         }
     }
 
-    /// The box of a node in the pose.
+    /// Returns the box of a node in the pose, and fits it if needed.
     fn fit(&mut self, evaluator: &Evaluator, node: u32) -> AxisBox {
-        let (held, when) = self.boxes[node as usize];
+        let (bounds, when) = self.boxes[node as usize];
         if when == self.now {
-            return held;
+            return bounds;
         }
         let (part, instance, primitive) = self.tree.parts_of[node as usize];
-        let held = if part != MIXED {
+        let bounds = if part != MIXED {
             let movement = evaluator.movement(instance as usize, primitive as usize);
             let weights = evaluator.morph_weights(instance as usize);
             movement
                 .map_or(AxisBox::EMPTY, |movement| self.tree.reaches.fit(part as usize, movement, weights))
         } else if let HitNode::Inner([left, right]) = self.tree.parts().nodes[node as usize] {
-            // No deeper than the tree.
+            // The depth of recursion is that of the tree.
             self.fit(evaluator, left).union(self.fit(evaluator, right))
         } else {
             AxisBox::EMPTY
         };
-        self.boxes[node as usize] = (held, self.now);
-        held
+        self.boxes[node as usize] = (bounds, self.now);
+        bounds
     }
 
-    /// A box around everything in the pose; empty before the first refit and without triangles.
+    /// Returns a box around everything in the pose; empty before the first refit and without triangles.
     pub fn whole(&self) -> AxisBox {
-        self.boxes.first().map_or(AxisBox::EMPTY, |(held, _)| *held)
+        self.boxes.first().map_or(AxisBox::EMPTY, |(bounds, _)| *bounds)
     }
 
-    /// The nearest place where `ray` meets the mesh; of two as near the first in the file. The same answer as
-    /// [`super::ray_open`]. `None` when nothing is met. Allocates nothing.
+    /// Returns the nearest hit of `ray` on the mesh; of two equally near the first in the file. The same result as
+    /// [`super::ray_open`]. `None` when nothing is hit. Allocates nothing.
+    #[doc(alias = "raycast")]
     pub fn ray(&mut self, evaluator: &Evaluator, ray: &Ray, settings: &HitSettings) -> Option<Hit> {
         let best = self.search_ray(evaluator, ray, settings, false)?;
         Some(complete(evaluator, &best))
     }
 
-    /// Does `ray` meet the mesh anywhere? Stops at the first hit it finds, so it is quicker than [`Self::ray`].
-    /// Allocates nothing.
+    /// Returns whether `ray` hits the mesh anywhere. Stops at the first hit it finds, so it is faster than
+    /// [`Self::ray`]. Allocates nothing.
     pub fn any(&mut self, evaluator: &Evaluator, ray: &Ray, settings: &HitSettings) -> bool {
         self.search_ray(evaluator, ray, settings, true).is_some()
     }
 
-    /// The place of the mesh nearest to `center`, at most `radius` scene units away; of two as near the first in the
-    /// file. The same answer as [`super::sphere_open`]. `None` when nothing is within. Allocates nothing.
+    /// Returns the point of the mesh nearest to `center`, at most `radius` scene units away; of two equally near the
+    /// first in the file. The same result as [`super::sphere_open`]. `None` when nothing is within. Allocates nothing.
     pub fn sphere(&mut self, evaluator: &Evaluator, center: Vec3, radius: f32) -> Option<Hit> {
         let best = self.search_sphere(evaluator, SphereSearch::of(center, radius)?, None)?;
         Some(complete(evaluator, &best))
     }
 
-    /// Distance from `center` to the nearest place of instance number `instance`, triangles without area counted as
-    /// the lines and points that they are. `None` where the instance has no triangle.
+    /// Returns the distance from `center` to the nearest point of instance number `instance`, where triangles without
+    /// area count as the lines and points that they are. `None` where the instance has no triangle.
     pub(crate) fn distance_to_instance(
         &mut self,
         evaluator: &Evaluator,
@@ -134,28 +135,28 @@ impl HitPose {
         self.search_sphere(evaluator, search, Some(instance)).map(|best| best.distance)
     }
 
-    /// The nearest place, of one instance or of all.
+    /// Returns the nearest point, of one instance or of all.
     fn search_sphere(
         &mut self,
         evaluator: &Evaluator,
         mut search: SphereSearch,
         instance: Option<u32>,
-    ) -> Option<Found> {
+    ) -> Option<Candidate> {
         let pad = self.pad(search.center);
-        self.start(|held| distance_to(search.center, held));
-        while let Some((node, begin)) = self.stack.pop() {
+        self.start(|bounds| distance_to(search.center, bounds));
+        while let Some((node, distance)) = self.stack.pop() {
             let (part, of, _) = self.tree.parts_of[node as usize];
             let other = instance.is_some_and(|instance| part != MIXED && instance != of);
-            if other || begin > search.limit() * NEAR_TIE + pad {
+            if other || distance > search.limit() * NEAR_TIE + pad {
                 continue;
             }
             match self.tree.parts().nodes[node as usize] {
                 HitNode::Inner(children) => {
-                    self.push(evaluator, node, children, |held| distance_to(search.center, held))
+                    self.push(evaluator, node, children, |bounds| distance_to(search.center, bounds))
                 }
                 HitNode::Leaf(leaf) => {
-                    self.for_each_triangle(evaluator, leaf, |primitive, movement, which, corners| {
-                        search.test(primitive, movement, which, corners);
+                    self.for_each_triangle(evaluator, leaf, |primitive, movement, address, corners| {
+                        search.test(primitive, movement, address, corners);
                         true
                     });
                 }
@@ -164,29 +165,31 @@ impl HitPose {
         search.best
     }
 
-    /// The nearest hit, or with `any` the first one met.
+    /// Returns the nearest hit, or with `any` the first one found.
     fn search_ray(
         &mut self,
         evaluator: &Evaluator,
         ray: &Ray,
         settings: &HitSettings,
         any: bool,
-    ) -> Option<Found> {
-        let line = Line::of(ray)?;
+    ) -> Option<Candidate> {
+        let line = UnitRay::of(ray)?;
         let slabs = Slabs { line, inverse: inverse(line.direction), pad: self.pad(line.origin) };
         let mut search = RaySearch { line, settings: *settings, best: None };
-        self.start(|held| slabs.entry(held));
-        while let Some((node, begin)) = self.stack.pop() {
-            // Equal ones are looked at: the earlier in the file may be there. False where the limit is NaN.
-            let within = begin <= search.limit() * NEAR_TIE;
+        self.start(|bounds| slabs.entry(bounds));
+        while let Some((node, distance)) = self.stack.pop() {
+            // Equal distances are visited: the triangle earlier in the file may be there. False where the limit is NaN.
+            let within = distance <= search.limit() * NEAR_TIE;
             if !within {
                 continue;
             }
             match self.tree.parts().nodes[node as usize] {
-                HitNode::Inner(children) => self.push(evaluator, node, children, |held| slabs.entry(held)),
+                HitNode::Inner(children) => {
+                    self.push(evaluator, node, children, |bounds| slabs.entry(bounds))
+                }
                 HitNode::Leaf(leaf) => {
-                    self.for_each_triangle(evaluator, leaf, |primitive, movement, which, corners| {
-                        !(search.test(primitive, movement, which, corners) && any)
+                    self.for_each_triangle(evaluator, leaf, |primitive, movement, address, corners| {
+                        !(search.test(primitive, movement, address, corners) && any)
                     });
                     if any && search.best.is_some() {
                         break;
@@ -197,35 +200,35 @@ impl HitPose {
         search.best
     }
 
-    /// [`PAD`] times the largest number of the question and of the boxes.
+    /// Returns [`PAD`] times the largest number of the query and of the boxes.
     fn pad(&self, point: DVec3) -> f64 {
         let whole = self.whole();
         let largest = if whole.is_empty() { 0.0 } else { whole.min.abs().max(whole.max.abs()).max_element() };
         (f64::from(largest) + point.abs().max_element()) * PAD
     }
 
-    /// Begins at the root, where `begin` says how far away it begins, or that it is not met.
-    fn start(&mut self, begin: impl Fn(&AxisBox) -> Option<f64>) {
+    /// Starts at the root, unless `measure` returns `None` for its box.
+    fn start(&mut self, measure: impl Fn(&AxisBox) -> Option<f64>) {
         self.stack.clear();
-        if let Some(distance) = self.boxes.first().and_then(|(held, _)| begin(held)) {
+        if let Some(distance) = self.boxes.first().and_then(|(bounds, _)| measure(bounds)) {
             self.stack.push((0, distance));
         }
     }
 
-    /// Adds those of the two nodes below `node` that are met, the nearer to be visited first.
+    /// Pushes those of the two children of `node` that are met, the nearer to be visited first.
     fn push(
         &mut self,
         evaluator: &Evaluator,
         node: u32,
         [left, right]: [u32; 2],
-        begin: impl Fn(&AxisBox) -> Option<f64>,
+        measure: impl Fn(&AxisBox) -> Option<f64>,
     ) {
         let (of_left, of_right) = (self.fit(evaluator, left), self.fit(evaluator, right));
-        // Seen from below a box is often smaller: the next question gains by it.
+        // The union of the children is often smaller than the box, which helps the next query.
         let below = of_left.union(of_right);
         let own = &mut self.boxes[node as usize].0;
         *own = AxisBox { min: own.min.max(below.min), max: own.max.min(below.max) };
-        match (begin(&of_left), begin(&of_right)) {
+        match (measure(&of_left), measure(&of_right)) {
             (Some(a), Some(b)) if a <= b => self.stack.extend([(right, b), (left, a)]),
             (Some(a), Some(b)) => self.stack.extend([(left, a), (right, b)]),
             (Some(a), None) => self.stack.push((left, a)),
@@ -234,12 +237,12 @@ impl HitPose {
         }
     }
 
-    /// Calls `look` with the triangles of a leaf, skinned, until it says `false`.
+    /// Calls `visit` with the triangles of a leaf, skinned, until it returns `false`.
     fn for_each_triangle(
         &mut self,
         evaluator: &Evaluator,
         leaf: u32,
-        mut look: impl FnMut(&Primitive, Movement<'_>, Which, [Vec3; 3]) -> bool,
+        mut visit: impl FnMut(&Primitive, Movement<'_>, TriangleAddress, [Vec3; 3]) -> bool,
     ) {
         let of = self.tree.parts().leaves[leaf as usize];
         let (instance, index) = (of.instance as usize, of.primitive as usize);
@@ -259,44 +262,45 @@ impl HitPose {
         for at in of.first as usize..(of.first + of.count) as usize {
             let corners = self.tree.corners[at].map(|corner| self.positions[first + usize::from(corner)]);
             let triangle = self.tree.parts().triangles[at];
-            let which = Which { instance: of.instance, primitive: of.primitive, triangle };
-            if !look(primitive, movement, which, corners) {
+            let address = TriangleAddress { instance: of.instance, primitive: of.primitive, triangle };
+            if !visit(primitive, movement, address, corners) {
                 return;
             }
         }
     }
 }
 
-/// One over each number; of zero a number so large that only a place on the very plane gives none.
+/// Returns the reciprocal of each number; of zero a number so large that only a point exactly on the plane gives none.
 fn inverse(direction: DVec3) -> DVec3 {
-    // Not infinite: zero times it must stay zero.
+    // Not infinite: its product with zero must stay zero.
     const LARGEST: f64 = 1e300;
     (1.0 / direction).clamp(DVec3::splat(-LARGEST), DVec3::splat(LARGEST))
 }
 
-/// A ray ready to be held against many boxes.
+/// A ray prepared for tests against many boxes.
 struct Slabs {
-    line: Line,
+    line: UnitRay,
     inverse: DVec3,
     pad: f64,
 }
 
 impl Slabs {
-    /// Where the ray enters the box, not negative; `None` where it does not (the slab test, Kay and Kajiya 1986).
-    fn entry(&self, held: &AxisBox) -> Option<f64> {
-        if held.is_empty() {
+    /// Returns the distance at which the ray enters the box, not negative; `None` where it misses (the slab test, Kay
+    /// and Kajiya 1986).
+    fn entry(&self, bounds: &AxisBox) -> Option<f64> {
+        if bounds.is_empty() {
             return None;
         }
-        let a = (held.min.as_dvec3() - self.pad - self.line.origin) * self.inverse;
-        let b = (held.max.as_dvec3() + self.pad - self.line.origin) * self.inverse;
+        let a = (bounds.min.as_dvec3() - self.pad - self.line.origin) * self.inverse;
+        let b = (bounds.max.as_dvec3() + self.pad - self.line.origin) * self.inverse;
         let near = a.min(b).max_element().max(0.0);
         let far = a.max(b).min_element();
         (near <= far * NEAR_TIE).then_some(near)
     }
 }
 
-/// Distance from `point` to the box, zero within; `None` for an empty one.
-fn distance_to(point: DVec3, held: &AxisBox) -> Option<f64> {
-    let nearest = point.max(held.min.as_dvec3()).min(held.max.as_dvec3());
-    (!held.is_empty()).then(|| point.distance(nearest))
+/// Returns the distance from `point` to the box, zero within; `None` for an empty one.
+fn distance_to(point: DVec3, bounds: &AxisBox) -> Option<f64> {
+    let nearest = point.max(bounds.min.as_dvec3()).min(bounds.max.as_dvec3());
+    (!bounds.is_empty()).then(|| point.distance(nearest))
 }

@@ -1,33 +1,32 @@
-//! The hierarchy: what is kept with a model, how it is stored and taken back (thesis §2.1.7.2: functions to create and
-//! to store it).
+//! The tree: its data, and how it is stored and restored (thesis §2.1.7.2: functions to create and to store it).
 
 use super::build;
 use crate::bounds::reach::Reaches;
 use crate::bounds::reach_builder::{ReachBuilder, moving_targets};
 use crate::data::{ModelData, Primitive};
 
-/// Most triangles of a leaf; a tree that is made has far fewer.
+/// Largest number of triangles of a leaf; a tree built here has far fewer.
 pub const LEAF_TRIANGLES: usize = 64;
 
-/// Most triangles of a tree, those of every instance counted; a tree takes a few hundred bytes for each.
+/// Largest number of triangles of a tree, summed over instances; a tree takes a few hundred bytes for each.
 pub const TREE_TRIANGLES: u64 = 1 << 24;
 
-/// Most nodes on a way down; a tree that is made has fewer than 70.
+/// Largest depth in nodes; a tree built here has fewer than 70.
 pub const TREE_DEPTH: usize = 128;
 
-/// No part: of a node above several primitives.
+/// Marks a node above several primitives, which has no part.
 pub(super) const MIXED: u32 = u32::MAX;
 
-/// A place in the hierarchy.
+/// A node of the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HitNode {
-    /// Two nodes below, by position in [`HitTreeParts::nodes`]; both after this one.
+    /// Two children, by position in [`HitTreeParts::nodes`]; both after this one.
     Inner([u32; 2]),
-    /// A handful of triangles, by position in [`HitTreeParts::leaves`].
+    /// A leaf, by position in [`HitTreeParts::leaves`].
     Leaf(u32),
 }
 
-/// A handful of triangles that lie near each other and are moved by much the same bones.
+/// A few neighboring triangles that are moved by mostly the same bones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HitLeaf {
     /// Position in [`ModelData::instances`].
@@ -36,14 +35,14 @@ pub struct HitLeaf {
     pub primitive: u32,
     /// The first of [`HitTreeParts::triangles`]; leaves follow each other without a gap.
     pub first: u32,
-    /// How many; 1..=[`LEAF_TRIANGLES`].
+    /// Number of triangles; 1..=[`LEAF_TRIANGLES`].
     pub count: u32,
 }
 
-/// A hierarchy as plain lists: all that has to be stored.
+/// A tree as plain lists: all that has to be stored.
 ///
-/// The boxes are not among it: [`HitTree::from_parts`] makes them from the model anew, in one pass, so stored boxes
-/// can neither be too small nor belong to an older version of the model.
+/// The boxes are not included: [`HitTree::from_parts`] computes them from the model, in one pass, so stored boxes can
+/// neither be too small nor belong to an older version of the model.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HitTreeParts {
     /// A tree; the first is the root. Empty without triangles.
@@ -54,76 +53,76 @@ pub struct HitTreeParts {
     pub triangles: Vec<u32>,
 }
 
-/// Why lists are no hierarchy of a model.
+/// Reasons why lists are not a tree of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum HitTreeError {
-    /// More triangles than fit, those of every instance counted.
-    #[error("{triangles} triangles in all instances; at most {TREE_TRIANGLES}")]
+    /// More triangles than [`TREE_TRIANGLES`], summed over instances.
+    #[error("{triangles} triangles in all instances are too many; at most {TREE_TRIANGLES} are possible")]
     TooLarge {
-        /// Counted in the model.
+        /// Number of triangles in the model.
         triangles: u64,
     },
-    /// A node that names what is not there or lies before it, or that no other node or several name.
-    #[error("node {node} of the hierarchy is not part of a tree")]
+    /// A node whose child is missing or does not come after it, or a node with no parent or several.
+    #[error("node {node} of the hit tree is not part of a tree")]
     Node {
         /// Position in [`HitTreeParts::nodes`].
         node: usize,
     },
-    /// A leaf that names what is not there, or that does not begin where the one before ends, or that no node or
-    /// several name.
-    #[error("leaf {leaf} of the hierarchy does not fit the model")]
+    /// A leaf whose primitive is missing, that does not begin at the end of the one before, or that belongs to no node
+    /// or several.
+    #[error("leaf {leaf} of the hit tree does not fit the model")]
     Leaf {
         /// Position in [`HitTreeParts::leaves`].
         leaf: usize,
     },
-    /// A triangle that the primitive does not have, or that came before.
-    #[error("triangle {position} of leaf {leaf} of the hierarchy does not fit the model")]
+    /// A triangle that the primitive does not have, or a duplicate.
+    #[error("triangle {position} of leaf {leaf} of the hit tree does not fit the model")]
     Triangle {
         /// Position in [`HitTreeParts::leaves`].
         leaf: usize,
         /// Position in [`HitTreeParts::triangles`].
         position: usize,
     },
-    /// A way down that is longer than that of any tree that is made.
-    #[error("the hierarchy is {depth} nodes deep; at most {TREE_DEPTH}")]
+    /// The tree is deeper than any that is built here.
+    #[error("the hit tree is {depth} nodes deep; at most {TREE_DEPTH} are possible")]
     Deep {
-        /// Nodes on the longest way down.
+        /// Number of nodes on the longest path.
         depth: usize,
     },
-    /// Triangles of the model that no leaf names.
-    #[error("the hierarchy holds {found} triangles of {expected}")]
+    /// Triangles of the model that are in no leaf.
+    #[error("the hit tree contains {found} of {expected} triangles")]
     Missing {
-        /// Named by leaves.
+        /// Number of triangles in leaves.
         found: usize,
-        /// Of the model.
+        /// Number of triangles of the model.
         expected: usize,
     },
 }
 
-/// A hierarchy of boxes over the triangles of a model, for any pose (thesis §2.1.7.2).
+/// A hierarchy of boxes (BVH) over the triangles of a model, for any pose (thesis §2.1.7.2).
 ///
-/// Made once, or taken from stored [`HitTreeParts`]; nobody changes it, so it is shared as an `Arc`. A [`super::HitPose`]
-/// puts it in a pose and answers.
+/// Built once, or restored from stored [`HitTreeParts`]; it never changes, so it is shared as an `Arc`. A
+/// [`super::HitPose`] fits it to a pose and answers queries.
 #[derive(Clone, Debug)]
+#[doc(alias = "BVH")]
 pub struct HitTree {
     parts: HitTreeParts,
-    /// One part a node, but for those that are mixed.
+    /// One part per node, except for mixed ones.
     pub(super) reaches: Reaches,
-    /// Of each node: its part or [`MIXED`], and the instance and primitive.
+    /// For each node: its part or [`MIXED`], and the instance and primitive.
     pub(super) parts_of: Vec<(u32, u32, u32)>,
-    /// Of each leaf: the first of its vertices in `vertices`; one more at the end.
+    /// For each leaf: the first of its vertices in `vertices`; one more at the end.
     pub(super) first_vertex: Vec<u32>,
-    /// Vertices of the primitives, grouped by leaf, each once a leaf.
+    /// Vertices of the primitives, grouped by leaf, each once per leaf.
     pub(super) vertices: Vec<u32>,
-    /// Beside the triangles: their corners among the vertices of the leaf.
+    /// For each triangle: its corners among the vertices of the leaf.
     pub(super) corners: Vec<[u8; 3]>,
 }
 
 impl HitTree {
-    /// The hierarchy of `model`. O(n log n) in the triangles of all instances; the same model gives the same tree.
+    /// Builds the tree of `model`. O(n log n) in the triangles of all instances; the same model gives the same tree.
     ///
-    /// A triangle that names a vertex which is not there is left out. Fails where a model has more than
-    /// [`TREE_TRIANGLES`].
+    /// A triangle with a missing vertex is left out. Fails where a model has more than [`TREE_TRIANGLES`].
     pub fn of(model: &ModelData) -> Result<Self, HitTreeError> {
         let triangles = count(model);
         if triangles > TREE_TRIANGLES {
@@ -132,10 +131,10 @@ impl HitTree {
         Ok(Self::bind(build::parts(model), model))
     }
 
-    /// The hierarchy from stored `parts`, which must be of `model` or of one with the same triangles.
+    /// Restores the tree from stored `parts`, which must be of `model` or of one with the same triangles.
     ///
-    /// Everything is checked, so that a hierarchy taken from a file answers as one just made would: it misses nothing,
-    /// and comes to an end. O(triangles).
+    /// Everything is checked, so that a tree from a file gives the same results as a new one: it misses nothing, and
+    /// every query ends. O(triangles).
     pub fn from_parts(parts: HitTreeParts, model: &ModelData) -> Result<Self, HitTreeError> {
         check_nodes(&parts)?;
         let depth = depth(&parts);
@@ -146,17 +145,17 @@ impl HitTree {
         Ok(Self::bind(parts, model))
     }
 
-    /// What has to be stored to have the tree again.
+    /// Returns the lists that have to be stored to restore the tree.
     pub fn parts(&self) -> &HitTreeParts {
         &self.parts
     }
 
-    /// Takes the lists out.
+    /// Returns the lists and drops the rest.
     pub fn into_parts(self) -> HitTreeParts {
         self.parts
     }
 
-    /// Makes what follows from sound parts and the model.
+    /// Computes the derived data from valid parts and the model.
     fn bind(parts: HitTreeParts, model: &ModelData) -> Self {
         let mut builder = ReachBuilder::new();
         let mut tree = Self {
@@ -184,7 +183,7 @@ impl HitTree {
                     }) as u8
                 }));
             }
-            // Leaves of a primitive mostly follow each other, so one list is remembered.
+            // Leaves of a primitive mostly follow each other, so one list is cached.
             let key = (instance.mesh, leaf.primitive);
             if targets.as_ref().is_none_or(|(other, _)| *other != key) {
                 targets = Some((key, moving_targets(primitive)));
@@ -200,7 +199,7 @@ impl HitTree {
         tree
     }
 
-    /// Adds the parts of the nodes; those of the leaves are there.
+    /// Adds the parts of the inner nodes; those of the leaves exist.
     fn add_inner(&mut self, builder: &mut ReachBuilder) {
         self.parts_of = vec![(MIXED, 0, 0); self.parts.nodes.len()];
         // Children come after their parents.
@@ -225,7 +224,7 @@ impl HitTree {
     }
 }
 
-/// Triangles of all instances.
+/// Returns the number of triangles of all instances.
 fn count(model: &ModelData) -> u64 {
     let of_mesh: Vec<u64> = model
         .meshes
@@ -238,13 +237,13 @@ fn count(model: &ModelData) -> u64 {
         .fold(0, |sum, n| sum.saturating_add(*n))
 }
 
-/// Are all three corners of the triangle there?
-pub(super) fn is_sound(primitive: &Primitive, triangle: usize) -> bool {
+/// Returns whether all three corners of the triangle exist.
+pub(super) fn is_valid(primitive: &Primitive, triangle: usize) -> bool {
     let corners = primitive.indices.get(triangle * 3..triangle * 3 + 3);
     corners.is_some_and(|corners| corners.iter().all(|&corner| (corner as usize) < primitive.vertices.len()))
 }
 
-/// Most nodes on a way down. Children come after their parents.
+/// Returns the largest depth in nodes. Children come after their parents.
 fn depth(parts: &HitTreeParts) -> usize {
     let mut depths = vec![1_u32; parts.nodes.len()];
     for (index, node) in parts.nodes.iter().enumerate() {
@@ -257,7 +256,7 @@ fn depth(parts: &HitTreeParts) -> usize {
     depths.into_iter().max().unwrap_or(0) as usize
 }
 
-/// Is each node but the first named once, by one before it, and each leaf once?
+/// Checks that each node but the first has one parent, which precedes it, and each leaf belongs to one node.
 fn check_nodes(parts: &HitTreeParts) -> Result<(), HitTreeError> {
     let mut named = vec![false; parts.nodes.len()];
     let mut leaves = vec![false; parts.leaves.len()];
@@ -269,16 +268,16 @@ fn check_nodes(parts: &HitTreeParts) -> Result<(), HitTreeError> {
         match node {
             HitNode::Inner(children) => {
                 for &child in children {
-                    let place =
+                    let seen =
                         named.get_mut(child as usize).filter(|_| child as usize > index).ok_or(wrong)?;
-                    if std::mem::replace(place, true) {
+                    if std::mem::replace(seen, true) {
                         return Err(HitTreeError::Node { node: child as usize });
                     }
                 }
             }
             HitNode::Leaf(leaf) => {
-                let place = leaves.get_mut(*leaf as usize).ok_or(wrong)?;
-                if std::mem::replace(place, true) {
+                let seen = leaves.get_mut(*leaf as usize).ok_or(wrong)?;
+                if std::mem::replace(seen, true) {
                     return Err(HitTreeError::Leaf { leaf: *leaf as usize });
                 }
             }
@@ -290,13 +289,13 @@ fn check_nodes(parts: &HitTreeParts) -> Result<(), HitTreeError> {
     leaves.iter().position(|named| !named).map_or(Ok(()), |leaf| Err(HitTreeError::Leaf { leaf }))
 }
 
-/// Do the leaves name every sound triangle of every instance once?
+/// Checks that the leaves contain every valid triangle of every instance once.
 fn check_leaves(parts: &HitTreeParts, model: &ModelData) -> Result<(), HitTreeError> {
     let triangles = count(model);
     if triangles > TREE_TRIANGLES {
         return Err(HitTreeError::TooLarge { triangles });
     }
-    // Of each instance and primitive: where its triangles begin among all.
+    // For each instance and primitive, the position of its first triangle among all.
     let (mut starts, mut expected, mut all) = (Vec::new(), 0, 0);
     for instance in &model.instances {
         let mesh = model.meshes.get(instance.mesh as usize);
@@ -305,7 +304,7 @@ fn check_leaves(parts: &HitTreeParts, model: &ModelData) -> Result<(), HitTreeEr
         for primitive in primitives {
             of_instance.push((primitive, all));
             let count = primitive.indices.len() / 3;
-            expected += (0..count).filter(|&triangle| is_sound(primitive, triangle)).count();
+            expected += (0..count).filter(|&triangle| is_valid(primitive, triangle)).count();
             all += count;
         }
         starts.push(of_instance);
@@ -320,7 +319,7 @@ fn check_leaves(parts: &HitTreeParts, model: &ModelData) -> Result<(), HitTreeEr
             return Err(wrong);
         }
         for (at, &triangle) in parts.triangles.get(next..next + count).ok_or(wrong)?.iter().enumerate() {
-            let fits = is_sound(primitive, triangle as usize);
+            let fits = is_valid(primitive, triangle as usize);
             if !fits || std::mem::replace(&mut seen[start + triangle as usize], true) {
                 return Err(HitTreeError::Triangle { leaf: index, position: next + at });
             }

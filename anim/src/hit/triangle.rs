@@ -3,42 +3,42 @@
 use super::Ray;
 use glam::{DVec3, Vec3};
 
-/// A triangle whose edges enclose an angle with a smaller sine has no area.
+/// A triangle whose edges enclose an angle with a smaller sine counts as without area.
 const DEGENERATE: f64 = 1e-12;
 
-/// A ray that rises less over a plane, per unit of its length, lies in it. With less the distance would not be known to
-/// more than a few digits.
+/// A ray that rises less over a plane, per unit of its length, counts as parallel. With less, the distance would not be
+/// known to more than a few digits.
 const PARALLEL: f64 = 1e-6;
 
-/// Where a ray meets a triangle.
+/// The intersection of a ray with a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Scene units from the ray's origin, not negative.
     pub distance: f64,
-    /// Shares of the three corners, not negative, together 1.
+    /// Barycentric coordinates: shares of the three corners, not negative, together 1.
     pub barycentric: DVec3,
-    /// Does the ray meet the side from which the corners run counter-clockwise?
+    /// Whether the ray meets the side from which the corners run counter-clockwise.
     pub counter_clockwise: bool,
 }
 
 /// A ray in `f64` whose direction has unit length.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct UnitRay {
     pub(super) origin: DVec3,
     pub(super) direction: DVec3,
 }
 
-impl Line {
-    /// `None` where the ray has no direction, or a number is not finite.
+impl UnitRay {
+    /// Converts a ray. `None` where it has no direction, or a number is not finite.
     pub(super) fn of(ray: &Ray) -> Option<Self> {
         let direction = ray.direction.as_dvec3();
         let length = direction.length();
-        let sound = ray.origin.is_finite() && length.is_finite() && length > 0.0;
-        sound.then(|| Self { origin: ray.origin.as_dvec3(), direction: direction / length })
+        let valid = ray.origin.is_finite() && length.is_finite() && length > 0.0;
+        valid.then(|| Self { origin: ray.origin.as_dvec3(), direction: direction / length })
     }
 }
 
-/// Where `ray` meets the triangle of `corners` (Möller and Trumbore 1997).
+/// Returns the intersection of `ray` with the triangle of `corners` (Möller and Trumbore 1997).
 ///
 /// ```text
 /// origin + t * direction = a + u * (b - a) + v * (c - a)            three equations, solved by Cramer's rule
@@ -48,20 +48,21 @@ impl Line {
 /// a hit where  0 ≤ u,  0 ≤ v,  u + v ≤ 1,  0 ≤ t
 /// ```
 ///
-/// The edges count. `None` also where the triangle has no area, the ray lies in its plane, or a number is not finite.
+/// The edges are included. `None` also where the triangle has no area, the ray is in its plane, or a number is not
+/// finite.
 pub fn crossing(ray: &Ray, corners: [Vec3; 3]) -> Option<Crossing> {
-    meet(&Line::of(ray)?, corners)
+    meet(&UnitRay::of(ray)?, corners)
 }
 
-/// [`crossing`] with the ray made ready.
-pub(super) fn meet(line: &Line, corners: [Vec3; 3]) -> Option<Crossing> {
+/// As [`crossing`], for a prepared ray.
+pub(super) fn meet(line: &UnitRay, corners: [Vec3; 3]) -> Option<Crossing> {
     let [a, b, c] = corners.map(|corner| corner.as_dvec3());
     let (e1, e2) = (b - a, c - a);
     let p = line.direction.cross(e2);
     let det = e1.dot(p);
     let s = line.origin - a;
     let u = s.dot(p) / det;
-    // Most triangles end here; a NaN does too.
+    // Most triangles are rejected here, and NaN too.
     if !(0.0..=1.0).contains(&u) {
         return None;
     }
@@ -77,27 +78,28 @@ pub(super) fn meet(line: &Line, corners: [Vec3; 3]) -> Option<Crossing> {
     steep.then_some(Crossing { distance, barycentric, counter_clockwise: det > 0.0 })
 }
 
-/// The unit normal of two edges, and the length before it had unit length (twice the area); `None` without area.
+/// Returns the unit normal of two edges, and its length before normalization (twice the area); `None` without area.
 fn normal(e1: DVec3, e2: DVec3) -> Option<(DVec3, f64)> {
     let normal = e1.cross(e2);
     let length = normal.length();
     // False where a number is NaN.
-    let sound = length > DEGENERATE * (e1.length() * e2.length()) && length.is_finite();
-    sound.then(|| (normal / length, length))
+    let valid = length > DEGENERATE * (e1.length() * e2.length()) && length.is_finite();
+    valid.then(|| (normal / length, length))
 }
 
-/// The unit normal of a triangle, on the side from which its corners run counter-clockwise; `None` without area.
+/// Returns the unit normal of a triangle, on the side from which its corners run counter-clockwise; `None` without
+/// area.
 pub(super) fn normal_of(corners: [Vec3; 3]) -> Option<DVec3> {
     let [a, b, c] = corners.map(|corner| corner.as_dvec3());
     normal(b - a, c - a).map(|(normal, _)| normal)
 }
 
-/// The place of the triangle of `corners` that is nearest to `point`: shares of the corners, and the distance
-/// (Ericson 2005, §5.1.5).
+/// Returns the point of the triangle of `corners` that is nearest to `point`: its barycentric coordinates, and the
+/// distance (Ericson 2005, §5.1.5).
 ///
-/// The plane around the triangle falls into seven regions, which the signs of dot products tell apart: over a corner
-/// the corner is nearest, over an edge the foot on it, over the inside the foot on the plane. `None` where the triangle
-/// has no area or a number is not finite.
+/// The plane around the triangle has seven regions, which the signs of dot products distinguish: over a corner the
+/// corner is nearest, over an edge the foot on it, over the inside the foot on the plane. `None` where the triangle has
+/// no area or a number is not finite.
 pub fn nearest_on_triangle(point: DVec3, corners: [Vec3; 3]) -> Option<(DVec3, f64)> {
     let [a, b, c] = corners.map(|corner| corner.as_dvec3());
     normal(b - a, c - a)?;
@@ -106,7 +108,7 @@ pub fn nearest_on_triangle(point: DVec3, corners: [Vec3; 3]) -> Option<(DVec3, f
     distance.is_finite().then_some((shares, distance))
 }
 
-/// The same for a triangle without area, which is a line or a point: the nearest of its three edges.
+/// As [`nearest_on_triangle`] for a triangle without area, which is a line or a point: the nearest of its three edges.
 pub(super) fn nearest_on_flat(point: DVec3, corners: [Vec3; 3]) -> Option<(DVec3, f64)> {
     let corners = corners.map(|corner| corner.as_dvec3());
     let mut nearest: Option<(DVec3, f64)> = None;
@@ -175,7 +177,7 @@ mod tests {
         assert!(hit.counter_clockwise);
         let [a, b, c] = CORNERS;
         assert!(!crossing(&down(0.25, 0.5), [a, c, b]).unwrap().counter_clockwise);
-        // Edges and corners count, behind and beside do not.
+        // Edges and corners are included, points outside are not.
         assert!(crossing(&down(0.5, 0.5), CORNERS).is_some() && crossing(&down(0.0, 0.0), CORNERS).is_some());
         assert_eq!(crossing(&down(0.6, 0.6), CORNERS), None);
         assert_eq!(crossing(&Ray { direction: Vec3::Z, ..down(0.2, 0.2) }, CORNERS), None);

@@ -1,17 +1,18 @@
-//! Any number of bones in a row: a tail, a spine, a tentacle, an arm with a clavicle.
+//! IK of any number of consecutive bones: a tail, a spine, a tentacle, an arm with a clavicle.
 //!
-//! FABRIK rather than CCD (cyclic coordinate descent): it bends all bones alike where CCD curls the end up first, it
-//! needs fewer sweeps, and it does not depend on the order of the joints. What FABRIK is slow at, targets close to full
-//! reach, is finished in closed form. It works on points, so the rotations are found afterwards, from the first bone to
-//! the last: each turns the short way from where it points to where the next joint shall be. A bone thereby keeps its
-//! twist, and a joint limit is asked for every new rotation; what it takes away is made up for in the next sweep.
+//! FABRIK rather than CCD (cyclic coordinate descent): it bends all bones evenly where CCD curls the end up first, it
+//! needs fewer sweeps, and it does not depend on the order of the joints. FABRIK converges slowly for targets close to
+//! full reach, so those are finished in closed form. It works on points, so the rotations are computed afterwards, from
+//! the first bone to the last: each turns the short way from its direction to that of the next joint. A bone thereby
+//! keeps its twist, and the joint limit is applied to every new rotation; the next sweep compensates for the part that
+//! it removes.
 //!
 //! # With joint limits
 //!
-//! Where sweeps stop short, all joints are moved together on what their limits leave free (damped least squares), from
-//! the pose that the sweeps have reached and, where that does not help, from up to eleven others. Of 1000 targets that a
-//! pose within the limits reaches, so many are met within a hundredth of the chain's length (in brackets: by sweeps and
-//! CCD, which had this place before):
+//! Where sweeps stop short, all joints are moved together within the freedom that their limits leave (damped least
+//! squares), from the pose that the sweeps have reached and, where that does not help, from up to eleven others. Of
+//! 1000 targets that a pose within the limits reaches, this number is met within a hundredth of the chain's length (in
+//! brackets: by sweeps and CCD, which were used before):
 //!
 //! | chain | found |
 //! |---|---|
@@ -21,10 +22,10 @@
 //! | an arm: shoulder, elbow, wrist | 1000 (814) |
 //! | a finger or a tail: 2 to 6 hinges that bend one way | 1000 (992) |
 //!
-//! The work is bounded: a limit is asked at most `iterations` + 2,028 times for each bone, and comes near that only for
-//! targets that cannot be reached. For less than a thousandth of the length no other pose is looked for or taken; but
-//! where a target can only be met from another pose than the sweeps lead to, the figure jumps to it, and from frame to
-//! frame with a target that moves it may jump back.
+//! The work is bounded: a limit is applied at most `iterations` + 2,028 times for each bone, and comes near that only
+//! for targets that cannot be reached. For a gain of less than a thousandth of the length no other pose is searched or
+//! used; but where a target can only be met from another pose than the sweeps lead to, the figure jumps to it, and from
+//! frame to frame with a moving target it may jump again.
 
 use super::fabrik::Points;
 use super::limited::{Freedom, limited};
@@ -35,27 +36,29 @@ use crate::data::{BoneIndex, Skeleton, Transform};
 use crate::sample::mix::slerp;
 use glam::{DMat3, DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
 
-/// A joint limit: given a bone and the rotation relative to its parent that the solver would like, gives the rotation it
-/// gets. One that is not finite counts as no objection.
+/// A joint limit: gets a bone and the rotation relative to its parent that the solver proposes, and returns the
+/// rotation to use. A result that is not finite leaves the proposed rotation as it is.
 pub type Limit<'a> = &'a mut dyn FnMut(BoneIndex, Quat) -> Quat;
 
-/// A row of bones and how to move it.
+/// A chain of bones and how to move it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chain {
     /// First bone that turns.
     pub root: BoneIndex,
-    /// Its origin meets the target; below `root`. Does not turn itself. All bones between turn.
+    /// Last bone, below `root`; its origin is moved to the target. It is not turned itself. All bones between are
+    /// turned.
     pub end: BoneIndex,
-    /// Good enough: distance to the target as a share of the chain's length.
+    /// Distance to the target at which the solve ends, as a share of the chain's length.
     pub tolerance: f32,
-    /// Most sweeps, 1..=1000. Without limits the target is met anyway; more sweeps bend more evenly.
+    /// Largest number of sweeps, 1..=1000. Without limits the target is met anyway; more sweeps bend more evenly.
     pub iterations: u32,
-    /// 0 keeps the poses bit for bit, 1 is the full solution; between, each rotation is slerped.
+    /// 0 leaves the poses unchanged bit for bit, 1 is the full solution; between, each rotation is slerped.
     pub weight: f32,
 }
 
 impl Chain {
-    /// From `root` to `end`, within a hundred-thousandth of its length, in at most 32 sweeps, at full weight.
+    /// Creates a chain from `root` to `end`, solved within a hundred-thousandth of its length, in at most 32 sweeps, at
+    /// full weight.
     pub fn new(root: BoneIndex, end: BoneIndex) -> Self {
         Self { root, end, tolerance: 1e-5, iterations: 32, weight: 1.0 }
     }
@@ -64,36 +67,37 @@ impl Chain {
 /// Working memory of [`chain()`], kept between calls so that they allocate nothing.
 #[derive(Clone, Debug, Default)]
 pub struct ChainScratch {
-    pub(super) links: Vec<Link>,
+    pub(super) links: Vec<ChainLink>,
     pub(super) joints: Vec<DVec3>,
     pub(super) lengths: Vec<f64>,
-    /// Of the turning links, where there are limits.
+    /// Freedoms of the turning links, where there are limits.
     pub(super) freedoms: Vec<Freedom>,
 }
 
-/// One bone of the row.
+/// One bone of the chain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Link {
+pub(super) struct ChainLink {
     pub(super) bone: BoneIndex,
     pub(super) posed: Transform,
     pub(super) rotation: DQuat,
-    /// The rotation that came nearest to the target so far.
+    /// The rotation with the smallest distance to the target so far.
     pub(super) best: DQuat,
-    /// The rotation before a step that may have to be taken back.
-    pub(super) kept: DQuat,
+    /// The rotation before a step that may have to be undone.
+    pub(super) previous: DQuat,
 }
 
-/// Turns the bones of `settings` so that the end meets `target` (to-root space), or comes as near as they can.
+/// Turns the bones of `settings` so that the end reaches `target` (to-root space), or comes as close as it can.
 ///
-/// Out of reach, the chain is straight and points at the target; too near (one bone longer than all others together), it
-/// is folded and points at it. A straight chain bends to a side that is always the same. Bones without length do not
-/// turn. Where bones of the row are scaled differently per axis, their lengths depend on their directions and the sweeps
-/// begin anew, at most `iterations` times in all.
+/// Out of reach, the chain is straight and points at the target; too near (one bone longer than all others together),
+/// it is folded and points at it. A straight chain bends to a side that is always the same. Bones without length do not
+/// turn. Where bones of the chain are scaled differently per axis, their lengths depend on their directions and the
+/// sweeps start again, at most `iterations` times in all.
 ///
-/// With a `limit` the search may end early (see the module). The result is the best that was met, and no farther from the
-/// target than the pose was: a pose beyond its limits stays as it is where nothing within them is nearer.
+/// With a `limit` the search may end early (see the module). The result is the best that was found, and no farther from
+/// the target than the pose was: a pose beyond its limits stays as it is where nothing within them is nearer.
 ///
-/// `to_root` is read at the root's parent only. Returns the distance left at full weight, and the sweeps made.
+/// `to_root` is read at the root's parent only. Returns the distance left at full weight, and the number of sweeps.
+#[doc(alias = "FABRIK")]
 pub fn chain(
     skeleton: &Skeleton,
     to_root: &[Mat4],
@@ -128,14 +132,14 @@ pub fn chain(
     Ok(Reach { distance, iterations })
 }
 
-/// From the last joint to the goal, in to-root space.
+/// Returns the distance from the last joint to the goal, in to-root space.
 fn distance(joints: &[DVec3], parent: &DMat4, goal: DVec3) -> f32 {
     let last = joints.last().copied().unwrap_or(goal);
     parent.transform_vector3(goal - last).length() as f32
 }
 
 impl ChainScratch {
-    /// Room for chains of `bones` bones, so that not even the first call allocates.
+    /// Allocates memory for chains of `bones` bones, so that not even the first call allocates.
     pub fn with_capacity(bones: usize) -> Self {
         Self {
             links: Vec::with_capacity(bones),
@@ -145,14 +149,14 @@ impl ChainScratch {
         }
     }
 
-    /// The row of bones, from the poses.
+    /// Reads the bones of the chain from the poses.
     fn load(&mut self, skeleton: &Skeleton, poses: &[Transform], settings: &Chain) -> Result<(), IkError> {
         self.links.clear();
         let mut bone = settings.end;
         loop {
             let posed = pose_of(skeleton, poses, bone)?;
             let rotation = posed.rotation.as_dquat().normalize();
-            self.links.push(Link { bone, posed, rotation, best: rotation, kept: rotation });
+            self.links.push(ChainLink { bone, posed, rotation, best: rotation, previous: rotation });
             if bone == settings.root && self.links.len() > 1 {
                 break;
             }
@@ -169,9 +173,9 @@ impl ChainScratch {
         Ok(())
     }
 
-    /// Sweeps until the goal is met or nothing helps; leaves the best rotations and the joints that belong to them.
+    /// Sweeps until the goal is met or nothing helps; leaves the best rotations and their joints in the links.
     fn solve(&mut self, settings: &Chain, goal: DVec3, limit: &mut Option<Limit<'_>>) -> u32 {
-        self.place();
+        self.update_joints();
         let mut nearest = self.gap(goal);
         let total: f64 = self.lengths.iter().sum();
         let tolerance = f64::from(settings.tolerance.max(1e-7)) * total;
@@ -194,7 +198,7 @@ impl ChainScratch {
             }
         }
         self.links.iter_mut().for_each(|link| link.rotation = link.best);
-        self.place();
+        self.update_joints();
         if let Some(limit) = limit {
             self.search(goal, tolerance, limit);
         }
@@ -205,8 +209,8 @@ impl ChainScratch {
         self.joints.last().map_or(0.0, |last| last.distance(goal))
     }
 
-    /// Joints and lengths from the rotations.
-    pub(super) fn place(&mut self) {
+    /// Computes joints and lengths from the rotations.
+    pub(super) fn update_joints(&mut self) {
         let mut linear = DMat3::IDENTITY;
         for index in 0..self.links.len() {
             let link = self.links[index];
@@ -221,7 +225,7 @@ impl ChainScratch {
         }
     }
 
-    /// Rotations from the joints, first to last; then joints and lengths from the rotations.
+    /// Computes rotations from the joints, first to last; then joints and lengths from the rotations.
     fn turn(&mut self, limit: &mut Option<Limit<'_>>) {
         let mut linear = DMat3::IDENTITY;
         let mut position = self.joints[0];
@@ -241,11 +245,11 @@ impl ChainScratch {
             linear *= link.linear();
             position += linear * arm;
         }
-        self.place();
+        self.update_joints();
     }
 }
 
-impl Link {
+impl ChainLink {
     pub(super) fn linear(&self) -> DMat3 {
         DMat3::from_quat(self.rotation) * DMat3::from_diagonal(self.posed.scale.as_dvec3())
     }

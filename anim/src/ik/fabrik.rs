@@ -13,25 +13,25 @@
 use super::turn::arc_between;
 use glam::DVec3;
 
-/// Joints and the lengths between them; `lengths[i]` lies between joints i and i+1.
+/// Joints and the lengths between them; `lengths[i]` is between joints i and i+1.
 pub(super) struct Points<'a> {
     pub(super) joints: &'a mut [DVec3],
     pub(super) lengths: &'a [f64],
 }
 
 impl Points<'_> {
-    /// Length of the whole.
+    /// Returns the total length.
     fn total(&self) -> f64 {
         self.lengths.iter().sum()
     }
 
-    /// Distance from the last joint to `target`.
+    /// Returns the distance from the last joint to `target`.
     fn error(&self, target: DVec3) -> f64 {
         self.joints.last().map_or(0.0, |last| last.distance(target))
     }
 
-    /// Moves the joints so that the last one meets `target`, or comes as near as the lengths allow, in at most `sweeps`
-    /// sweeps; the first one stays. Returns how many were made.
+    /// Moves the joints so that the last one reaches `target`, or comes as near as the lengths allow, in at most
+    /// `sweeps` sweeps; the first one stays. Returns the number of sweeps.
     pub(super) fn reach(&mut self, target: DVec3, sweeps: u32, tolerance: f64) -> u32 {
         let Some(&base) = self.joints.first() else { return 0 };
         let total = self.total();
@@ -50,25 +50,25 @@ impl Points<'_> {
         made
     }
 
-    /// The point nearest to `target` that the last joint can reach.
+    /// Returns the point nearest to `target` that the last joint can reach.
     fn nearest_to(&self, target: DVec3) -> DVec3 {
         let (base, total) = (self.joints[0], self.total());
         let longest = self.lengths.iter().copied().fold(0.0, f64::max);
         // One link longer than all others together keeps the end away from the base.
         let least = (2.0 * longest - total).max(0.0);
         let distance = target.distance(base);
-        let kept = distance.max(least).min(total);
-        if kept == distance { target } else { base + self.way(target) * kept }
+        let clamped = distance.max(least).min(total);
+        if clamped == distance { target } else { base + self.direction(target) * clamped }
     }
 
-    /// Direction from the base to `target`; where they coincide, to the last joint.
-    fn way(&self, target: DVec3) -> DVec3 {
+    /// Returns the direction from the base to `target`; where they coincide, to the last joint.
+    fn direction(&self, target: DVec3) -> DVec3 {
         let (base, last) = (self.joints[0], self.joints[self.joints.len() - 1]);
-        let way = (target - base).try_normalize().or_else(|| (last - base).try_normalize());
-        way.unwrap_or(DVec3::X)
+        let direction = (target - base).try_normalize().or_else(|| (last - base).try_normalize());
+        direction.unwrap_or(DVec3::X)
     }
 
-    /// All in one line along unit vector `direction`; where it is none, as it is.
+    /// Puts all joints on one line along unit vector `direction`; does nothing where it is not finite.
     fn straighten(&mut self, direction: DVec3) {
         if direction != DVec3::ZERO {
             for (index, &length) in self.lengths.iter().enumerate() {
@@ -77,9 +77,9 @@ impl Points<'_> {
         }
     }
 
-    /// Bows joints that lie on the line to the target: a sweep would leave them there.
+    /// Bends joints that are on the line to the target: a sweep would leave them there.
     fn unalign(&mut self, target: DVec3) {
-        let (base, along, total) = (self.joints[0], self.way(target), self.total());
+        let (base, along, total) = (self.joints[0], self.direction(target), self.total());
         let (mut bow, mut largest) = (DVec3::ZERO, 0.0);
         for joint in self.joints.iter() {
             let side = (*joint - base).reject_from_normalized(along);
@@ -91,44 +91,43 @@ impl Points<'_> {
             return;
         }
         let bow = if largest > 1e-9 * total { bow / largest } else { along.any_orthonormal_vector() };
-        let mut way = 0.0;
+        let mut distance = 0.0;
         for (joint, length) in self.joints.iter_mut().skip(1).zip(self.lengths) {
-            way += length;
-            *joint += bow * (0.3 * total * (std::f64::consts::PI * way / total).sin());
+            distance += length;
+            *joint += bow * (0.3 * total * (std::f64::consts::PI * distance / total).sin());
         }
     }
 
-    /// One backward and one forward pass.
+    /// Makes one backward and one forward pass.
     fn sweep(&mut self, base: DVec3, target: DVec3) {
         let last = self.joints.len() - 1;
         self.joints[last] = target;
         for index in (0..last).rev() {
             let next = self.joints[index + 1];
-            let way = (self.joints[index] - next).try_normalize().unwrap_or(DVec3::X);
-            self.joints[index] = next + way * self.lengths[index];
+            let direction = (self.joints[index] - next).try_normalize().unwrap_or(DVec3::X);
+            self.joints[index] = next + direction * self.lengths[index];
         }
         self.joints[0] = base;
         for index in 0..last {
-            let way = (self.joints[index + 1] - self.joints[index]).try_normalize().unwrap_or(DVec3::X);
-            self.joints[index + 1] = self.joints[index] + way * self.lengths[index];
+            let direction = (self.joints[index + 1] - self.joints[index]).try_normalize().unwrap_or(DVec3::X);
+            self.joints[index + 1] = self.joints[index] + direction * self.lengths[index];
         }
     }
 
-    /// Closes the gap that is left when sweeps converge slowly, which they do near full reach and near the nearest
-    /// point.
+    /// Closes the remaining gap when sweeps converge slowly, which they do near full reach and near the nearest point.
     ///
-    /// Near full reach every link's direction u is turned towards the direction d to the target,
-    /// `u' = normalize((1 - λ) u + λ d)`; λ = 1 is straight, so some λ between 0 and 1 has the right distance. It is found
-    /// by bisection. Near the nearest point the joints are laid on the circle in which the links and the line to the
-    /// target are chords: such a circle exists for every distance that can be reached.
+    /// Near full reach every link's direction u is turned towards the direction d to the target, `u' = normalize((1 -
+    /// λ) u + λ d)`; λ = 1 is straight, so some λ between 0 and 1 has the right distance. It is found by bisection.
+    /// Near the nearest point the joints are placed on the circle in which the links and the line to the target are
+    /// chords: such a circle exists for every distance that can be reached.
     pub(super) fn finish(&mut self, target: DVec3) {
         let target = self.nearest_to(target);
         let (base, last) = (self.joints[0], self.joints.len() - 1);
         let wanted = target.distance(base);
         if self.joints[last].distance(base) <= wanted {
-            self.unfold(wanted, self.way(target));
+            self.unfold(wanted, self.direction(target));
         } else {
-            self.lay_on_circle(wanted, self.way(target));
+            self.place_on_circle(wanted, self.direction(target));
         }
         let turn = arc_between(self.joints[last] - base, target - base);
         for joint in self.joints.iter_mut().skip(1) {
@@ -152,15 +151,15 @@ impl Points<'_> {
         }
         let mut old = self.joints[0];
         for (index, &length) in self.lengths.iter().enumerate() {
-            // The joint is overwritten, but the next link's direction needs its old place.
+            // The joint is overwritten, but the next link's direction needs its old position.
             let own = (self.joints[index + 1] - old).normalize_or_zero();
             old = self.joints[index + 1];
-            let way = (own * (1.0 - high) + towards * high).try_normalize().unwrap_or(towards);
-            self.joints[index + 1] = self.joints[index] + way * length;
+            let direction = (own * (1.0 - high) + towards * high).try_normalize().unwrap_or(towards);
+            self.joints[index + 1] = self.joints[index] + direction * length;
         }
     }
 
-    fn lay_on_circle(&mut self, wanted: f64, towards: DVec3) {
+    fn place_on_circle(&mut self, wanted: f64, towards: DVec3) {
         let base = self.joints[0];
         let side = self.joints.iter().map(|joint| (*joint - base).reject_from_normalized(towards));
         let side = side.fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a });
@@ -176,7 +175,7 @@ impl Points<'_> {
             return;
         }
         let pi = std::f64::consts::PI;
-        // Is the centre inside the polygon of chords?
+        // Whether the center is inside the polygon of chords.
         let inside = rest(smallest) >= 0.5 * pi;
         let open = |radius: f64| {
             let own = half(longest, radius);

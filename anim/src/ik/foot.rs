@@ -1,4 +1,4 @@
-//! Feet on the ground: stairs, slopes, stones.
+//! Foot placement on the ground: stairs, slopes, stones.
 //!
 //! The caller knows the ground; for each leg it gives a point and a normal below the foot, or nothing. With `u` the up
 //! direction, `n` the normal, `A` the ankle as posed and `G` the point of the ground plane straight below or above it:
@@ -7,12 +7,12 @@
 //! lift    = max(0, A·u - floor - ankle height)          how far the take itself lifts the foot
 //! target  = G + u (ankle height / (n·u) + lift)         so that the ankle is its height away from the plane
 //! turn    = the shortest rotation of u onto n, at most `tilt`, applied to the foot as posed
-//! lower   = max over the legs of (A - target)·u, kept within 0 ..= `lower`
+//! lower   = max over the legs of (A - target)·u, clamped to 0 ..= `lower`
 //! ```
 //!
-//! The hips go down by `lower`, so that the leg whose ground is deepest can reach it, and [`two_bone`](super::two_bone())
-//! brings every ankle to its target. The scheme is the usual one of games; ozz-animation's sample on foot placement
-//! describes the same steps.
+//! The hips are lowered by `lower`, so that the leg with the deepest ground can reach it, and
+//! [`two_bone`](super::two_bone()) moves every ankle to its target. The scheme is the usual one of games;
+//! ozz-animation's sample on foot placement describes the same steps.
 
 use super::path::{parent_of, parent_to_root, pose_of};
 use super::turn::{arc, share};
@@ -27,7 +27,7 @@ use glam::{Mat3, Mat4, Quat, Vec3};
 pub struct Ground {
     /// Any point of the plane.
     pub point: Vec3,
-    /// Any length; a plane that is steeper than 89° or faces down counts as none.
+    /// Normal of any length; a plane that is steeper than 89° or faces down is ignored.
     pub normal: Vec3,
 }
 
@@ -42,38 +42,39 @@ pub struct Leg {
     pub foot: BoneIndex,
     /// Distance of the ankle from the ground when the sole is flat on it, to-root units.
     pub ankle_height: f32,
-    /// Which way the knee bends.
+    /// The direction in which the knee bends.
     pub pole: Pole,
 }
 
-/// Hips, legs, and how far they may go.
+/// Hips, legs, and the limits of their movement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feet<'a> {
-    /// The bone that is lowered; every leg lies below it.
+    /// The bone that is lowered, an ancestor of every leg.
     pub hips: BoneIndex,
-    /// Any number; no two share a bone.
+    /// The legs, any number; no two share a bone.
     pub legs: &'a [Leg],
     /// To-root space, any length; usually +Y.
     pub up: Vec3,
     /// Height along `up` of the flat ground that the take was made for; usually 0.
     pub floor: f32,
-    /// Most that the hips are lowered, to-root units; not below 0.
+    /// Largest distance by which the hips are lowered, to-root units; not below 0.
     pub lower: f32,
-    /// Radians: most that a foot is turned to the ground.
+    /// Largest angle by which a foot is turned to the ground, in radians.
     pub tilt: f32,
     /// As in [`TwoBone::softness`].
     pub softness: f32,
-    /// 0 keeps the poses bit for bit, 1 is the full solution.
+    /// 0 leaves the poses unchanged bit for bit, 1 is the full solution.
     pub weight: f32,
 }
 
-/// Puts the feet on the ground and lowers the hips; returns how far these were lowered.
+/// Puts the feet on the ground and lowers the hips; returns the distance by which these were lowered.
 ///
-/// `grounds` goes with the legs in order; where there is none (missing, `None`, too steep) the foot keeps the place it
-/// has in the pose, though the hips may be lowered. A foot that is lifted by the take stays lifted by as much.
-/// `to_root` are the matrices of the poses as they come in; it is read at the parents of the hips and of the thighs and
-/// at the feet. On an error nothing has moved, except where the poses of one leg hold numbers that are not finite: the
-/// legs before it may have.
+/// `grounds` corresponds to the legs in order; where there is none (missing, `None`, too steep) the foot keeps its
+/// position in the pose, though the hips may be lowered. A foot that is lifted by the take stays lifted by as much.
+/// `to_root` are the matrices of the given poses; it is read at the parents of the hips and of the thighs and at the
+/// feet. On an error nothing has moved, except where the poses of one leg contain numbers that are not finite: the legs
+/// before it may have.
+#[doc(alias("foot placement", "foot IK"))]
 pub fn place_feet(
     skeleton: &Skeleton,
     to_root: &[Mat4],
@@ -89,8 +90,8 @@ pub fn place_feet(
     let mut lowered = 0.0_f32;
     for (index, leg) in feet.legs.iter().enumerate() {
         let ankle = check(skeleton, to_root, feet, leg, poses)?;
-        let stand = stand(feet, leg, ground(grounds, index), ankle, up);
-        lowered = lowered.max((ankle - stand.ankle).dot(up));
+        let foot_target = foot_target(feet, leg, ground(grounds, index), ankle, up);
+        lowered = lowered.max((ankle - foot_target.ankle).dot(up));
     }
     let most = if feet.lower >= 0.0 { feet.lower } else { 0.0 };
     let lowered = lowered.min(most) * weight;
@@ -106,29 +107,29 @@ pub fn place_feet(
     }
     for (index, leg) in feet.legs.iter().enumerate() {
         let ankle = to_root[leg.foot as usize].w_axis.truncate();
-        let stand = stand(feet, leg, ground(grounds, index), ankle, up);
+        let foot_target = foot_target(feet, leg, ground(grounds, index), ankle, up);
         let thigh = parent_to_root(skeleton, to_root, leg.thigh)?;
-        solve(skeleton, Mat4::from_translation(-up * lowered) * thigh, feet, leg, stand, poses)?;
+        solve(skeleton, Mat4::from_translation(-up * lowered) * thigh, feet, leg, foot_target, poses)?;
     }
     Ok(lowered)
 }
 
-/// Where an ankle shall be, and how its foot is turned.
+/// Target of an ankle, and rotation of its foot.
 #[derive(Clone, Copy)]
-struct Stand {
+struct FootTarget {
     ankle: Vec3,
     turn: Quat,
 }
 
-/// The ground of leg `index`, its normal of unit length; `None` where there is none or it is too steep.
+/// Returns the ground of leg `index`, its normal of unit length; `None` where there is none or it is too steep.
 fn ground(grounds: &[Option<Ground>], index: usize) -> Option<Ground> {
     let ground = grounds.get(index).copied().flatten()?;
     let normal = ground.normal.try_normalize()?;
     ground.point.is_finite().then_some(Ground { normal, ..ground })
 }
 
-fn stand(feet: &Feet<'_>, leg: &Leg, ground: Option<Ground>, ankle: Vec3, up: Vec3) -> Stand {
-    let posed = Stand { ankle, turn: Quat::IDENTITY };
+fn foot_target(feet: &Feet<'_>, leg: &Leg, ground: Option<Ground>, ankle: Vec3, up: Vec3) -> FootTarget {
+    let posed = FootTarget { ankle, turn: Quat::IDENTITY };
     // cos 89°
     let Some(ground) = ground.filter(|ground| ground.normal.dot(up) > 0.017_45) else { return posed };
     let slope = ground.normal.dot(up);
@@ -140,10 +141,10 @@ fn stand(feet: &Feet<'_>, leg: &Leg, ground: Option<Ground>, ankle: Vec3, up: Ve
     let tilt = if feet.tilt >= 0.0 { feet.tilt } else { 0.0 };
     let axis = full.xyz().try_normalize();
     let turn = axis.map_or(Quat::IDENTITY, |axis| Quat::from_axis_angle(axis, angle.min(tilt)));
-    if target.is_finite() { Stand { ankle: target, turn } } else { posed }
+    if target.is_finite() { FootTarget { ankle: target, turn } } else { posed }
 }
 
-/// Is the leg a leg? Where its ankle is.
+/// Checks the bones of a leg and returns the position of its ankle.
 fn check(
     skeleton: &Skeleton,
     to_root: &[Mat4],
@@ -175,15 +176,15 @@ fn solve(
     parent: Mat4,
     feet: &Feet<'_>,
     leg: &Leg,
-    stand: Stand,
+    foot_target: FootTarget,
     poses: &mut [Transform],
 ) -> Result<Reach, IkError> {
     let limb = TwoBone {
         pole: leg.pole,
         softness: feet.softness,
-        end_orientation: EndOrientation::TurnToRoot(stand.turn),
+        end_orientation: EndOrientation::TurnToRoot(foot_target.turn),
         weight: feet.weight,
         ..TwoBone::new(leg.thigh, leg.shin, leg.foot)
     };
-    two_bone_below(skeleton, parent, &limb, stand.ankle, poses)
+    two_bone_below(skeleton, parent, &limb, foot_target.ankle, poses)
 }

@@ -1,26 +1,26 @@
-//! A chain whose joints have limits: from a pose that is as near as sweeps have brought it to one that meets the goal.
+//! IK of a chain whose joints have limits: from the pose that the sweeps have reached to one that meets the goal.
 //!
-//! A sweep works on points. It does not see that a joint stands at its limit, nor how those that are free could make up
-//! for it, so it stops short of targets that can be reached. Here all joints move together, damped least squares on what
-//! the limits leave free:
+//! A sweep works on points. It does not consider that a joint is at its limit, nor how free joints could compensate for
+//! that, so it stops short of targets that can be reached. Here all joints move together, by damped least squares
+//! within the freedom that the limits leave:
 //!
 //! ```text
-//! d_k  = what is left of a small turn about axis k once the limit has had its say, divided by the size of the turn
+//! d_k  = the part of a small turn about axis k that the limit allows, divided by the size of the turn
 //! a_k  = linear part of to-root above the joint * (d_k × (end - joint))            how d_k moves the end
 //! x_k  = a_k · (A Aᵀ + μ I)⁻¹ (goal - end)                                         A has the columns a_k
 //! q   ← limit(turn by Σ x_k d_k, then q)                                           Σ over the axes of the joint
 //! ```
 //!
-//! Every joint has two axes, across the line to the end. The limit is a function of which nothing is known, so it is asked
-//! what it leaves of a small turn, once to the side to which the step would go if there were no limits. A joint that may
-//! go to one side only takes part when the step goes there (`x_k > 0`), and the step is found again without those that
-//! would go the other way. A step that does not bring the end nearer is halved, and the damping μ grows.
+//! Every joint has two axes, across the line to the end. The limit is an opaque function, so it is probed with a small
+//! turn, once to the side to which the step would go if there were no limits. A joint that can turn to one side only
+//! contributes when the step goes there (`x_k > 0`), and the step is computed again without those that would go the
+//! other way. A step that does not bring the end nearer is halved, and the damping μ grows.
 //!
 //! (C. W. Wampler: "Manipulator inverse kinematic solutions based on vector formulations and damped least-squares
 //! methods", IEEE Transactions on Systems, Man and Cybernetics 16, 1986.)
 //!
-//! Limits make hollows from which no small step leads out. So a search that does not meet the goal begins anew from other
-//! poses, always the same ones, until one does.
+//! Limits cause local minima from which no small step leads out. So a search that does not meet the goal starts again
+//! from other poses, always the same ones, until one does.
 
 use super::chain::{ChainScratch, Limit};
 use crate::data::BoneIndex;
@@ -28,39 +28,39 @@ use crate::joint::rotation_vector;
 use crate::sample::Value;
 use glam::{DMat3, DQuat, DVec3};
 
-/// Poses from which the search begins, the one that the sweeps have left counted.
+/// Number of poses from which the search starts, including the one of the sweeps.
 pub(super) const STARTS: u32 = 12;
 
-/// Steps from one pose.
+/// Largest number of steps from one pose.
 pub(super) const STEPS: u32 = 24;
 
-/// Share of the chain's length: for less than this no other pose is looked for or taken, so that a figure does not jump
-/// from one to another for nothing.
+/// Smallest improvement, as a share of the chain's length, for which another pose is searched or used, so that a figure
+/// does not jump from one to another without need.
 const WORTH: f64 = 1e-3;
 
-/// Radians: how far a joint is turned to see what its limit leaves of it. Well above the slack of a limit.
+/// Angle by which a joint is turned to probe its limit, in radians. Well above the slack of a limit.
 const PROBE: f64 = 5e-3;
 
-/// Radians: no joint turns further in one step, because beyond that a turn is no longer what its beginning says.
+/// Largest turn of a joint in one step, in radians; beyond it the linear approximation is too inaccurate.
 const STRIDE: f64 = 0.6;
 
-/// How often a step is halved before it is given up.
+/// Number of times a step is halved before it is given up.
 const HALVINGS: u32 = 4;
 
-/// What one joint can do, in the space of its parent.
+/// Freedom of one joint, in the space of its parent.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Freedom {
     /// `d_k`: turns that the limit allows, as axis times angle.
     turns: [DVec3; 2],
     /// `a_k`: how each moves the end.
     moves: [DVec3; 2],
-    /// `x_k`.
+    /// `x_k`: share of each in the step.
     shares: [f64; 2],
 }
 
 impl ChainScratch {
-    /// Looks for rotations within the limits with which the end meets `goal`; leaves the best in the links, and the
-    /// joints that belong to them.
+    /// Searches rotations within the limits with which the end meets `goal`; leaves the best, and their joints, in the
+    /// links.
     pub(super) fn search(&mut self, goal: DVec3, tolerance: f64, limit: Limit<'_>) {
         let mut nearest = self.gap(goal);
         let total: f64 = self.lengths.iter().sum();
@@ -70,9 +70,9 @@ impl ChainScratch {
                 break;
             }
             if start > 0 {
-                self.begin_anew(start);
+                self.restart(start);
             }
-            self.hold(limit);
+            self.apply_limits(limit);
             self.descend(goal, tolerance, total, limit);
             if self.gap(goal) < nearest - worth {
                 nearest = self.gap(goal);
@@ -80,11 +80,11 @@ impl ChainScratch {
             }
         }
         self.links.iter_mut().for_each(|link| link.rotation = link.best);
-        self.place();
+        self.update_joints();
     }
 
-    /// Another pose: every joint turned at random from where it was posed, further from start to start.
-    fn begin_anew(&mut self, start: u32) {
+    /// Sets another start pose: every joint turned at random from its posed rotation, further from start to start.
+    fn restart(&mut self, start: u32) {
         let most = [0.8, 1.6, 2.4, 3.1][start as usize % 4];
         for (index, link) in self.links.iter_mut().enumerate() {
             let turn = scattered(start, index as u32) * most;
@@ -92,16 +92,16 @@ impl ChainScratch {
         }
     }
 
-    /// Brings every joint within its limit.
-    fn hold(&mut self, limit: Limit<'_>) {
+    /// Applies the limit to every joint.
+    fn apply_limits(&mut self, limit: Limit<'_>) {
         let turning = self.lengths.len();
         for link in &mut self.links[..turning] {
             link.rotation = limited(limit, link.bone, link.rotation);
         }
-        self.place();
+        self.update_joints();
     }
 
-    /// Steps until the goal is met or no step helps.
+    /// Makes steps until the goal is met or no step helps.
     fn descend(&mut self, goal: DVec3, tolerance: f64, total: f64, limit: Limit<'_>) {
         let mut damping = 1e-3;
         for _ in 0..STEPS {
@@ -109,7 +109,7 @@ impl ChainScratch {
             if before <= tolerance || !before.is_finite() {
                 break;
             }
-            self.look(goal, damping * total * total, limit);
+            self.probe_limits(goal, damping * total * total, limit);
             if !self.step(goal, before, limit) {
                 if damping > 0.5 {
                     break;
@@ -124,8 +124,8 @@ impl ChainScratch {
         }
     }
 
-    /// Fills in what every joint can do and how much of it the step takes.
-    fn look(&mut self, goal: DVec3, damping: f64, limit: Limit<'_>) {
+    /// Computes the freedom of every joint and its share in the step.
+    fn probe_limits(&mut self, goal: DVec3, damping: f64, limit: Limit<'_>) {
         let turning = self.lengths.len();
         let end = self.joints[turning];
         let mut linear = DMat3::IDENTITY;
@@ -148,9 +148,9 @@ impl ChainScratch {
             let link = self.links[index];
             let free = &mut self.freedoms[index];
             for (turn, moved) in free.turns.iter_mut().zip(&mut free.moves) {
-                let way = if moved.dot(pull) < 0.0 { -*turn } else { *turn };
-                let wish = (DQuat::from_scaled_axis(way * PROBE) * link.rotation).normalize();
-                let got = limited(limit, link.bone, wish) * link.rotation.conjugate();
+                let direction = if moved.dot(pull) < 0.0 { -*turn } else { *turn };
+                let wanted = (DQuat::from_scaled_axis(direction * PROBE) * link.rotation).normalize();
+                let got = limited(limit, link.bone, wanted) * link.rotation.conjugate();
                 *turn = rotation_vector(got) / PROBE;
                 *moved = linear * turn.cross(arm);
                 if !moved.is_finite() || turn.length() < 0.02 {
@@ -169,7 +169,7 @@ impl ChainScratch {
         }
     }
 
-    /// `(A Aᵀ + μ I)⁻¹ missing` over the columns that `counts` lets in.
+    /// Returns `(A Aᵀ + μ I)⁻¹ missing` over the columns for which `counts` returns true.
     fn pull(&self, missing: DVec3, damping: f64, counts: impl Fn(DVec3) -> bool) -> DVec3 {
         let mut sum = DMat3::from_diagonal(DVec3::splat(damping));
         let moves = self.freedoms.iter().flat_map(|free| free.moves);
@@ -180,7 +180,7 @@ impl ChainScratch {
         if pull.is_finite() { pull } else { DVec3::ZERO }
     }
 
-    /// Takes the step, or half of it, or half of that, whichever is the first that helps; has one helped?
+    /// Makes the step, or half of it, or half of that, whichever is the first that helps. Returns whether one helped.
     fn step(&mut self, goal: DVec3, before: f64, limit: Limit<'_>) -> bool {
         let turning = self.lengths.len();
         let widest = self.freedoms[..turning].iter().map(|free| free.turn().length()).fold(0.0, f64::max);
@@ -188,38 +188,38 @@ impl ChainScratch {
             return false;
         }
         let mut size = (STRIDE / widest).min(1.0);
-        self.links.iter_mut().for_each(|link| link.kept = link.rotation);
+        self.links.iter_mut().for_each(|link| link.previous = link.rotation);
         for _ in 0..=HALVINGS {
             for (link, free) in self.links[..turning].iter_mut().zip(&self.freedoms) {
-                let wish = (DQuat::from_scaled_axis(free.turn() * size) * link.kept).normalize();
-                link.rotation = limited(limit, link.bone, wish);
+                let wanted = (DQuat::from_scaled_axis(free.turn() * size) * link.previous).normalize();
+                link.rotation = limited(limit, link.bone, wanted);
             }
-            self.place();
+            self.update_joints();
             if self.gap(goal) < before {
                 return true;
             }
             size *= 0.5;
         }
-        self.links.iter_mut().for_each(|link| link.rotation = link.kept);
-        self.place();
+        self.links.iter_mut().for_each(|link| link.rotation = link.previous);
+        self.update_joints();
         false
     }
 }
 
 impl Freedom {
-    /// The joint's own step.
+    /// Returns the joint's own step.
     fn turn(&self) -> DVec3 {
         self.turns[0] * self.shares[0] + self.turns[1] * self.shares[1]
     }
 }
 
-/// What the limit makes of a rotation.
-pub(super) fn limited(limit: Limit<'_>, bone: BoneIndex, wish: DQuat) -> DQuat {
-    let wish = wish.as_quat().normalize();
-    limit(bone, wish).healed(wish).as_dquat().normalize()
+/// Returns a rotation with the limit applied.
+pub(super) fn limited(limit: Limit<'_>, bone: BoneIndex, wanted: DQuat) -> DQuat {
+    let wanted = wanted.as_quat().normalize();
+    limit(bone, wanted).healed(wanted).as_dquat().normalize()
 }
 
-/// A point of the cube from -1 to 1, another for each start and bone, always the same.
+/// Returns a pseudo-random point of the cube from -1 to 1, which depends on start and bone only.
 fn scattered(start: u32, bone: u32) -> DVec3 {
     let mut state = (u64::from(start) << 32 | u64::from(bone)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let mut next = || {

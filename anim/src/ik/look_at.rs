@@ -1,8 +1,8 @@
-//! A gaze: a head, or a row of bones up to it, turns towards a point.
+//! Look-at: a head, or several bones up to it, turns towards a point.
 //!
-//! The bones are taken in order. Each turns its forward axis towards the target by its share of the way that is left, so
-//! shares of 0.3, 0.5 and 1.0 for chest, neck and head give a curve, and the last bone closes the gap. In the space of
-//! the bone's parent, with `f` the forward axis and `d` the direction from the bone to the target:
+//! The bones are processed in order. Each turns its forward axis towards the target by its share of the remaining
+//! angle, so shares of 0.3, 0.5 and 1.0 for chest, neck and head give a curve, and the last bone closes the gap. In the
+//! space of the bone's parent, with `f` the forward axis and `d` the direction from the bone to the target:
 //!
 //! ```text
 //! turn  = the shortest rotation of f onto d, then (with an up direction) the twist about d that brings the bone's
@@ -24,49 +24,49 @@ use crate::data::{BoneIndex, Skeleton, Transform};
 use glam::{Mat3, Mat4, Quat, Vec3};
 use std::f32::consts::PI;
 
-/// One bone of a gaze.
+/// One bone that looks at the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gaze {
-    /// Which bone turns.
+    /// The bone to turn.
     pub bone: BoneIndex,
-    /// Bone space, any length: what shall point at the target.
+    /// Axis that shall point at the target: bone space, any length.
     pub forward: Vec3,
-    /// Bone space, any length: what shall stay up. Only used with [`LookAt::up`].
+    /// Axis that shall stay up: bone space, any length. Only used with [`LookAt::up`].
     pub up: Vec3,
-    /// Bone space: where the eye is; the line from here along `forward` meets the target. Farther from the bone's origin
-    /// than the target is, it counts as the origin.
+    /// Position of the eye in bone space; the line from here along `forward` meets the target. Farther from the bone's
+    /// origin than the target is, it counts as the origin.
     pub eye: Vec3,
-    /// Share of the way that is left when it is this bone's turn, 0..=1.
+    /// Share of the remaining angle by which this bone turns, 0..=1.
     pub share: f32,
-    /// Radians: largest turn away from the pose; π or more is none.
+    /// Largest turn away from the pose in radians; π or more is no limit.
     pub limit: f32,
 }
 
 impl Gaze {
-    /// Bone `bone` looks along `forward`, all the way, without limit; up is any.
+    /// Creates an entry for bone `bone`, which looks along `forward`, with share 1, without limit; up is any.
     pub fn new(bone: BoneIndex, forward: Vec3) -> Self {
         Self { bone, forward, up: Vec3::ZERO, eye: Vec3::ZERO, share: 1.0, limit: PI }
     }
 }
 
-/// A row of bones that look.
+/// Several bones that look at a target, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookAt<'a> {
-    /// Each one below the one before it; other bones may lie between.
+    /// The bones, each a descendant of the one before; other bones may be between.
     pub bones: &'a [Gaze],
-    /// To-root space, any length: where the bones' up axes shall point; `None`: no bone twists.
+    /// Direction to which the bones' up axes shall point: to-root space, any length; `None`: no bone twists.
     pub up: Option<Vec3>,
-    /// Radians from the last bone's posed forward axis to the target: up to the first all is as written above, from the
+    /// Radians from the last bone's posed forward axis to the target: up to the first all bones turn fully, from the
     /// second on nothing moves; smooth between. `[PI, PI]` or more: no target is out of view.
     pub field: [f32; 2],
     /// Share of each limit over which the turning slows down, 0..=1; 0 is a hard stop.
     pub softness: f32,
-    /// 0 keeps the poses bit for bit, 1 turns each bone by its share.
+    /// 0 leaves the poses unchanged bit for bit, 1 turns each bone by its share.
     pub weight: f32,
 }
 
 impl<'a> LookAt<'a> {
-    /// `bones` look without twist, field of view or softness, at full weight.
+    /// Creates settings for `bones` without twist, field of view or softness, at full weight.
     pub fn new(bones: &'a [Gaze]) -> Self {
         Self { bones, up: None, field: [PI, PI], softness: 0.0, weight: 1.0 }
     }
@@ -74,10 +74,11 @@ impl<'a> LookAt<'a> {
 
 /// Turns the bones of `gaze` towards `target` (to-root space).
 ///
-/// A target at a bone's own origin leaves that bone as it is; one exactly behind is turned to about some axis at a
-/// right angle to forward, always the same. `to_root` is read at the parent of the first bone only. On an error no bone
-/// has moved. Returns the distance from the target to the line of the last bone's gaze, or to its eye where the target
-/// is behind it; 0 without bones.
+/// A target at a bone's own origin leaves that bone as it is; for one exactly opposite to forward the bone turns about
+/// some axis at a right angle to forward, always the same. `to_root` is read at the parent of the first bone only. On
+/// an error no bone has moved. Returns the distance from the target to the last bone's line of sight, or to its eye
+/// where the target is opposite to it; 0 without bones.
+#[doc(alias = "aim")]
 pub fn look_at(
     skeleton: &Skeleton,
     to_root: &[Mat4],
@@ -86,7 +87,7 @@ pub fn look_at(
     poses: &mut [Transform],
 ) -> Result<Reach, IkError> {
     let Some(last) = gaze.bones.last() else { return Ok(Reach { distance: 0.0, iterations: 0 }) };
-    // First over unchanged poses: finds every error before anything moves.
+    // First pass over unchanged poses, to find every error before anything moves.
     let mut above = None;
     for one in gaze.bones {
         let parent = space_of(skeleton, to_root, poses, one.bone, above)?;
@@ -110,7 +111,8 @@ pub fn look_at(
     Ok(Reach { distance, iterations: 1 })
 }
 
-/// To-root of the parent of `bone`, from that of the parent of a bone above it; of the first bone: from `to_root`.
+/// Returns to-root of the parent of `bone`, from that of the parent of a bone above it; of the first bone: from
+/// `to_root`.
 fn space_of(
     skeleton: &Skeleton,
     to_root: &[Mat4],
@@ -131,7 +133,7 @@ fn space_of(
     }
 }
 
-/// The rotation of one bone that looks.
+/// Returns the new rotation of one bone.
 fn aim(parent: &Mat4, pose: Transform, one: &Gaze, gaze: &LookAt<'_>, target: Vec3) -> Result<Quat, IkError> {
     let linear = inverse(Mat3::from_mat4(*parent)).ok_or(IkError::Flat { bone: one.bone })?;
     let wanted = linear * (target - parent.w_axis.truncate()) - pose.translation;
@@ -155,9 +157,11 @@ fn aim(parent: &Mat4, pose: Transform, one: &Gaze, gaze: &LookAt<'_>, target: Ve
     if rotation.is_finite() { Ok(rotation) } else { Err(IkError::NotFinite { bone: one.bone }) }
 }
 
-/// What has to point at a target `distance` away, so that the line from `eye` along `forward` meets it.
+/// Returns the direction that has to point at a target `distance` away, so that the line from `eye` along `forward`
+/// meets it.
 ///
-/// The point of that line that is as far from the origin as the target: `eye + t f`, `t = -eye·f + √((eye·f)² + distance² -
+/// The point of that line that is as far from the origin as the target: `eye + t f`, `t = -eye·f + √((eye·f)² +
+/// distance² -
 /// |eye|²)` for unit f.
 fn sight(forward: Vec3, eye: Vec3, distance: f32) -> Vec3 {
     let Some(unit) = forward.try_normalize() else { return Vec3::ZERO };
@@ -169,7 +173,7 @@ fn sight(forward: Vec3, eye: Vec3, distance: f32) -> Vec3 {
     eye + unit * (square.max(0.0).sqrt() - along)
 }
 
-/// Axis and angle of a rotation, 0..=π, exact for small angles.
+/// Returns axis and angle of a rotation, 0..=π, exact for small angles.
 fn shortest(turn: Quat) -> (Vec3, f32) {
     let turn = if turn.w < 0.0 { -turn } else { turn };
     let sine = turn.xyz().length();
@@ -177,7 +181,7 @@ fn shortest(turn: Quat) -> (Vec3, f32) {
     (axis, 2.0 * sine.atan2(turn.w))
 }
 
-/// Radians from the bone's forward axis to the target, in the space of its parent.
+/// Returns the angle in radians from the bone's forward axis to the target, in the space of its parent.
 fn angle_to(parent: &Mat4, pose: Transform, one: &Gaze, target: Vec3) -> f32 {
     let Some(linear) = inverse(Mat3::from_mat4(*parent)) else { return PI };
     let wanted = linear * (target - parent.w_axis.truncate()) - pose.translation;
@@ -188,7 +192,7 @@ fn angle_to(parent: &Mat4, pose: Transform, one: &Gaze, target: Vec3) -> f32 {
     }
 }
 
-/// 1 up to the first angle, 0 from the second on, `1 - (3 x² - 2 x³)` between.
+/// Returns 1 up to the first angle, 0 from the second on, `1 - (3 x² - 2 x³)` between.
 fn fade(angle: f32, [full, none]: [f32; 2]) -> f32 {
     if full >= PI || angle <= full {
         1.0
@@ -200,7 +204,7 @@ fn fade(angle: f32, [full, none]: [f32; 2]) -> f32 {
     }
 }
 
-/// How far the line of sight passes the target.
+/// Returns the distance by which the line of sight misses the target.
 fn miss(to_root: Mat4, one: &Gaze, target: Vec3) -> f32 {
     let eye = to_root.transform_point3(one.eye);
     let wanted = target - eye;

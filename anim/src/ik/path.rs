@@ -1,16 +1,16 @@
-//! Ways down the tree of bones.
+//! Paths down the tree of bones.
 
 use super::IkError;
 use crate::animation::to_parent;
 use crate::data::{BoneIndex, Skeleton, Transform};
 use glam::{Mat3, Mat4, Vec3};
 
-/// The parent of `bone`; one that does not come before its child counts as none, as in [`crate::animation`].
+/// Returns the parent of `bone`; one that does not come before its child is ignored, as in [`crate::animation`].
 pub(super) fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
     skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
 }
 
-/// The pose of `bone`, when both it and the bone exist.
+/// Returns the pose of `bone`, when both it and the bone exist.
 pub(super) fn pose_of(
     skeleton: &Skeleton,
     poses: &[Transform],
@@ -21,7 +21,7 @@ pub(super) fn pose_of(
     poses.get(bone as usize).copied().ok_or(missing)
 }
 
-/// To-root of the parent of `bone`: the identity for a root.
+/// Returns to-root of the parent of `bone`: the identity for a root.
 pub(super) fn parent_to_root(
     skeleton: &Skeleton,
     to_root: &[Mat4],
@@ -36,7 +36,7 @@ pub(super) fn parent_to_root(
     }
 }
 
-/// What lies between two bones of a row.
+/// The transform between two bones of a chain.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Segment {
     /// Origin of the lower bone in the space of the upper one.
@@ -45,7 +45,7 @@ pub(super) struct Segment {
     pub(super) between: Option<Mat3>,
 }
 
-/// The segment from `above` to `below`; bones between them are taken as they stand.
+/// Returns the segment from `above` to `below`; bones between them keep their poses.
 pub(super) fn segment(
     skeleton: &Skeleton,
     poses: &[Transform],

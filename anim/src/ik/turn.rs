@@ -1,15 +1,15 @@
-//! Small pieces of geometry that the solvers share.
+//! Geometry functions that the solvers share.
 
 use glam::{DQuat, DVec3, Mat3, Quat, Vec3};
 
-/// The shortest rotation that brings unit vector `from` onto unit vector `to`.
+/// Returns the shortest rotation from unit vector `from` to unit vector `to`.
 ///
 /// ```text
-/// xyz = from × to,   w = 1 + from · to = |from + to|² / 2,   then normalised
+/// xyz = from × to,   w = 1 + from · to = |from + to|² / 2,   then normalized
 /// ```
 ///
-/// The second form of w keeps its digits where the two are nearly opposite. Exactly opposite: half a turn about some
-/// axis at a right angle to `from`.
+/// The second form of w is accurate where the two are nearly opposite. Exactly opposite: half a turn about some axis at
+/// a right angle to `from`.
 pub(super) fn arc(from: Vec3, to: Vec3) -> Quat {
     let cross = from.cross(to);
     let w = 0.5 * (from + to).length_squared();
@@ -20,7 +20,7 @@ pub(super) fn arc(from: Vec3, to: Vec3) -> Quat {
     Quat::from_xyzw(cross.x, cross.y, cross.z, w).normalize()
 }
 
-/// [`arc`] for vectors of any length, in f64; the identity where one has none.
+/// As [`arc`], for vectors of any length, in f64; the identity where one has none.
 pub(crate) fn arc_between(from: DVec3, to: DVec3) -> DQuat {
     let (Some(from), Some(to)) = (from.try_normalize(), to.try_normalize()) else { return DQuat::IDENTITY };
     let cross = from.cross(to);
@@ -32,15 +32,16 @@ pub(crate) fn arc_between(from: DVec3, to: DVec3) -> DQuat {
     DQuat::from_xyzw(cross.x, cross.y, cross.z, w).normalize()
 }
 
-/// The part of `vector` at a right angle to unit vector `axis`, as a unit vector; `None` where less than a millionth
-/// of it is.
+/// Returns the part of `vector` at a right angle to unit vector `axis`, as a unit vector; `None` where that is less
+/// than a millionth of it.
 pub(super) fn perpendicular(vector: Vec3, axis: Vec3) -> Option<Vec3> {
     let part = vector - axis * vector.dot(axis);
     let length = part.length();
     (length > 1e-6 * vector.length()).then(|| part / length)
 }
 
-/// The rotation about unit vector `axis` that brings `from` nearest to `to`; `None` where one of them lies along it.
+/// Returns the rotation about unit vector `axis` that brings `from` nearest to `to`; `None` where one of them is along
+/// it.
 pub(super) fn twist_towards(axis: Vec3, from: Vec3, to: Vec3) -> Option<Quat> {
     let (from, to) = (perpendicular(from, axis)?, perpendicular(to, axis)?);
     let w = 0.5 * (from + to).length_squared();
@@ -51,8 +52,8 @@ pub(super) fn twist_towards(axis: Vec3, from: Vec3, to: Vec3) -> Option<Quat> {
     Some(Quat::from_xyzw(axis.x * along, axis.y * along, axis.z * along, w).normalize())
 }
 
-/// The rotation nearest to `matrix` in its z and y axes: both made perpendicular, the third follows, so that a
-/// mirrored matrix has its x axis turned round; `None` where an axis has no length.
+/// Returns the rotation nearest to `matrix` in its z and y axes: both made perpendicular, the third follows, so that a
+/// mirrored matrix has its x axis reversed; `None` where an axis has no length.
 pub(super) fn rotation_of(matrix: Mat3) -> Option<Quat> {
     let z = matrix.z_axis.try_normalize()?;
     let y = (matrix.y_axis - z * matrix.y_axis.dot(z)).try_normalize()?;
@@ -60,7 +61,7 @@ pub(super) fn rotation_of(matrix: Mat3) -> Option<Quat> {
     rotation.is_finite().then(|| rotation.normalize())
 }
 
-/// A weight between 0 and 1; NaN is 0.
+/// Clamps a weight to 0..=1; NaN is 0.
 pub(super) fn share(weight: f32) -> f32 {
     if weight > 0.0 { weight.min(1.0) } else { 0.0 }
 }

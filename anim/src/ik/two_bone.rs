@@ -1,10 +1,10 @@
-//! A limb of two parts: shoulder, elbow, hand; or hip, knee, ankle.
+//! Two-bone IK of a limb: shoulder, elbow, hand; or hip, knee, ankle.
 //!
 //! With `a` and `b` the lengths of the upper and the lower part, `d` the distance from the root to the target, the law
 //! of cosines gives the angle θ between the two parts (0 is straight):
 //!
 //! ```text
-//! d' = soft_distance(d, a + b, softness), kept within |a - b| ..= a + b
+//! d' = soft_distance(d, a + b, softness), clamped to |a - b| ..= a + b
 //! cos θ = (d'² - a² - b²) / (2 a b)
 //! sin θ = √((1 - cos θ)(1 + cos θ))
 //!   1 + cos θ = (d' - (a - b)) (d' + (a - b)) / (2 a b)
@@ -12,9 +12,9 @@
 //! ```
 //!
 //! The two factors are computed from differences of lengths, so that nothing is lost where the limb is nearly straight
-//! or folded. The middle turns in the plane in which the limb is bent already; then the root turns the end onto the
+//! or folded. The middle turns in the plane in which the limb is already bent; then the root turns the end onto the
 //! line to the target the short way; then, with a pole, about that line. The law of cosines for limbs is common
-//! knowledge; the cut into middle, root and pole follows Tolani, Goswami and Badler, "Real-Time Inverse Kinematics
+//! knowledge; the division into middle, root and pole follows Tolani, Goswami and Badler, "Real-Time Inverse Kinematics
 //! Techniques for Anthropomorphic Limbs" (2000).
 
 use super::path::{Segment, parent_to_root, pose_of, segment};
@@ -24,19 +24,20 @@ use crate::data::{BoneIndex, Skeleton, Transform};
 use crate::sample::mix::slerp;
 use glam::{Mat3, Mat4, Quat, Vec3};
 
-/// Which way the middle bends.
+/// The direction in which the middle bends (pole vector).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[doc(alias = "pole vector")]
 pub enum Pole {
-    /// As the pose bends it; a straight limb bends in a direction that is always the same for the same pose.
+    /// As in the pose; a straight limb bends in a direction that is always the same for the same pose.
     #[default]
     AsPosed,
-    /// Towards this direction, to-root space; any length. Along the line to the target it says nothing: as posed.
+    /// Towards this direction, to-root space; any length. Along the line to the target it is ignored: as posed.
     Direction(Vec3),
-    /// Towards this point, to-root space. On the line to the target it says nothing: as posed.
+    /// Towards this point, to-root space. On the line to the target it is ignored: as posed.
     Point(Vec3),
 }
 
-/// What becomes of the end's own rotation.
+/// Treatment of the end's own rotation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum EndOrientation {
     /// The end keeps its rotation relative to its parent, and so turns with the limb.
@@ -44,36 +45,36 @@ pub enum EndOrientation {
     FollowParent,
     /// The end's axes keep their directions in to-root space.
     KeepToRoot,
-    /// The end's axes are those of its pose, turned by this rotation in to-root space; by a share of it where the weight
+    /// The end's axes are those of its pose, turned by this rotation in to-root space; by a part of it where the weight
     /// is below one.
     TurnToRoot(Quat),
-    /// The rotation of the end's to-root is this one, as [`Transform::from_matrix`] reads it: under a mirrored parent the
-    /// x axis points the other way.
+    /// The rotation of the end's to-root is set to this one, as [`Transform::from_matrix`] reads it: under a mirrored
+    /// parent the x axis points the other way.
     SetToRoot(Quat),
 }
 
-/// A limb and how to move it.
+/// A limb of two parts, and how to move it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoBone {
-    /// Shoulder or hip: turns.
+    /// Shoulder or hip; it is turned.
     pub root: BoneIndex,
-    /// Elbow or knee, below `root`: turns. Bones between the two keep their poses.
+    /// Elbow or knee, below `root`; it is turned. Bones between the two keep their poses.
     pub middle: BoneIndex,
-    /// Hand or ankle, below `middle`: meets the target.
+    /// Hand or ankle, below `middle`; it is moved to the target.
     pub end: BoneIndex,
-    /// Which way the middle bends.
+    /// The direction in which the middle bends.
     pub pole: Pole,
     /// Share of the limb's length over which it slows down before it is straight, 0..=1; 0 is a hard stop. See
     /// [`soft_distance`].
     pub softness: f32,
-    /// What becomes of the end's own rotation.
+    /// Treatment of the end's own rotation.
     pub end_orientation: EndOrientation,
-    /// 0 keeps the pose bit for bit, 1 is the full solution; between, each rotation is slerped.
+    /// 0 leaves the pose unchanged bit for bit, 1 is the full solution; between, each rotation is slerped.
     pub weight: f32,
 }
 
 impl TwoBone {
-    /// A limb that bends as posed, stops hard, lets its end follow, and is solved at full weight.
+    /// Creates a limb that bends as posed, stops hard, lets its end follow, and is solved at full weight.
     pub fn new(root: BoneIndex, middle: BoneIndex, end: BoneIndex) -> Self {
         Self {
             root,
@@ -87,7 +88,7 @@ impl TwoBone {
     }
 }
 
-/// The distance that a limb of length `length` is bent to when its target is `distance` away.
+/// Returns the distance to which a limb of length `length` is bent when its target is `distance` away.
 ///
 /// ```text
 /// soft = softness * length,  hard = length - soft
@@ -95,9 +96,9 @@ impl TwoBone {
 /// d' = hard + soft (1 - e^(-(d - hard) / soft))   d > hard
 /// ```
 ///
-/// Value and slope have no step at `hard`, and d' nears `length` without meeting it, so the limb does not snap straight.
-/// The price: beyond `hard` the end stays behind its target by d - d'. Softness 0 (or NaN) gives min(d, length).
-/// The formula is the one animators know as soft IK (A. Nicholas, 2009).
+/// Value and slope are continuous at `hard`, and d' approaches `length` without reaching it, so the limb does not snap
+/// straight. The price: beyond `hard` the end stays short of its target by d - d'. Softness 0 (or NaN) gives min(d,
+/// length). The formula is known to animators as soft IK (A. Nicholas, 2009).
 pub fn soft_distance(distance: f32, length: f32, softness: f32) -> f32 {
     let soft = share(softness) * length;
     let hard = length - soft;
@@ -108,14 +109,15 @@ pub fn soft_distance(distance: f32, length: f32, softness: f32) -> f32 {
     }
 }
 
-/// Turns `limb` so that its end meets `target` (to-root space), or comes as near as it can.
+/// Turns `limb` so that its end reaches `target` (to-root space), or comes as close as it can.
 ///
-/// Out of reach, the limb is straight and points at the target; too near (the parts differ in length), it is folded
-/// and points at it. A target at the root folds the limb and keeps its direction. A part without length does not bend;
-/// the other one still points at the target. Where the root bone itself is scaled differently per axis, the length of
-/// the lower part depends on its direction: the solve is repeated, at most eight times.
+/// Out of reach, the limb is straight and points at the target; too near (the parts differ in length), it is folded and
+/// points at it. A target at the root folds the limb and keeps its direction. A part without length does not bend; the
+/// other one still points at the target. Where the root bone itself is scaled differently per axis, the length of the
+/// lower part depends on its direction: the solve is repeated, at most eight times.
 ///
 /// `to_root` is read at the root's parent only. Returns the distance left at full weight.
+#[doc(alias = "limb IK")]
 pub fn two_bone(
     skeleton: &Skeleton,
     to_root: &[Mat4],
@@ -127,7 +129,7 @@ pub fn two_bone(
     two_bone_below(skeleton, parent, limb, target, poses)
 }
 
-/// [`two_bone`] where the to-root matrix of the root's parent is `parent`.
+/// As [`two_bone`], where the to-root matrix of the root's parent is `parent`.
 pub(super) fn two_bone_below(
     skeleton: &Skeleton,
     parent: Mat4,
@@ -135,8 +137,8 @@ pub(super) fn two_bone_below(
     target: Vec3,
     poses: &mut [Transform],
 ) -> Result<Reach, IkError> {
-    let shape = Shape::of(skeleton, poses, limb)?;
-    let space = Space::of(parent, limb, target)?;
+    let shape = LimbShape::of(skeleton, poses, limb)?;
+    let space = LimbSpace::of(parent, limb, target)?;
     let solved = solve(&shape, &space, limb);
     let left = parent.transform_vector3(solved.end - space.target);
     let weight = share(limb.weight);
@@ -158,16 +160,16 @@ pub(super) fn two_bone_below(
 }
 
 /// The limb in its pose.
-struct Shape {
+struct LimbShape {
     root: Transform,
     middle: Transform,
     upper: Segment,
     lower: Segment,
-    /// Inverse of what lies between root and middle.
+    /// Inverse of the transform between root and middle.
     from_between: Option<Mat3>,
 }
 
-impl Shape {
+impl LimbShape {
     fn of(skeleton: &Skeleton, poses: &[Transform], limb: &TwoBone) -> Result<Self, IkError> {
         let root = pose_of(skeleton, poses, limb.root)?;
         let middle = pose_of(skeleton, poses, limb.middle)?;
@@ -181,12 +183,12 @@ impl Shape {
         Ok(Self { root, middle, upper, lower, from_between })
     }
 
-    /// Space of the middle's parent → space of the root's parent, without the root's rotation.
+    /// Transforms from the space of the middle's parent to the space of the root's parent, without the root's rotation.
     fn unturn(&self, vector: Vec3) -> Vec3 {
         self.root.scale * self.upper.between.map_or(vector, |between| between * vector)
     }
 
-    /// The way back.
+    /// Inverse of [`Self::unturn`].
     fn turn(&self, vector: Vec3) -> Vec3 {
         let vector = vector / self.root.scale;
         self.from_between.map_or(vector, |matrix| matrix * vector)
@@ -194,12 +196,12 @@ impl Shape {
 }
 
 /// Target and pole in the space of the root's parent.
-struct Space {
+struct LimbSpace {
     target: Vec3,
     pole: Option<Pole>,
 }
 
-impl Space {
+impl LimbSpace {
     fn of(parent: Mat4, limb: &TwoBone, target: Vec3) -> Result<Self, IkError> {
         if !target.is_finite() {
             return Err(IkError::NotFinite { bone: limb.root });
@@ -214,7 +216,7 @@ impl Space {
         Ok(Self { target: linear * (target - origin), pole })
     }
 
-    /// From `origin` towards the pole.
+    /// Returns the direction from `origin` towards the pole.
     fn pole_from(&self, origin: Vec3) -> Option<Vec3> {
         let pole = match self.pole? {
             Pole::Direction(direction) => direction,
@@ -225,19 +227,19 @@ impl Space {
     }
 }
 
-/// Full rotations, and where the end comes to lie in the space of the root's parent.
+/// Full rotations, and the resulting position of the end in the space of the root's parent.
 struct Solved {
     root: Quat,
     middle: Quat,
     end: Vec3,
 }
 
-fn solve(shape: &Shape, space: &Space, limb: &TwoBone) -> Solved {
+fn solve(shape: &LimbShape, space: &LimbSpace, limb: &TwoBone) -> Solved {
     let wanted = space.target - shape.root.translation;
     let (distance, pole) = (wanted.length(), space.pole_from(shape.root.translation));
     let rotation = shape.root.rotation;
     let upper = shape.root.scale * shape.upper.origin;
-    // In the space of the middle's parent, where the middle turns it.
+    // In the space of the middle's parent, where the rotation of the middle applies to it.
     let arm = shape.middle.scale * shape.lower.origin;
     let mut middle = shape.middle.rotation;
     let mut lower = shape.unturn(middle * arm);
@@ -259,7 +261,7 @@ fn solve(shape: &Shape, space: &Space, limb: &TwoBone) -> Solved {
     let mut root = rotation;
     if let (Some(from), Some(to)) = ((rotation * reach).try_normalize(), wanted.try_normalize()) {
         root = arc(from, to) * rotation;
-        // Towards the pole, about the line to the target.
+        // Turns towards the pole, about the line to the target.
         if let Some(twist) = pole.and_then(|pole| twist_towards(to, root * upper, pole)) {
             root = twist * root;
         }
@@ -268,10 +270,10 @@ fn solve(shape: &Shape, space: &Space, limb: &TwoBone) -> Solved {
     Solved { root, middle, end: shape.root.translation + root * reach }
 }
 
-/// Unit vector at a right angle to the upper part, to which the lower part bends: as it is bent, else away from the
-/// pole, else any.
+/// Returns the unit vector at a right angle to the upper part, to which the lower part bends: as in the pose, else away
+/// from the pole, else any.
 fn side_of(lower: Vec3, along: Vec3, pole: Option<Vec3>) -> Vec3 {
-    // Below a ten-thousandth the bend is rounding rather than meant.
+    // Below a ten-thousandth the bend is rounding rather than intended.
     let part = lower - along * lower.dot(along);
     if part.length() > 1e-4 * lower.length() {
         return part.normalize();
@@ -280,25 +282,25 @@ fn side_of(lower: Vec3, along: Vec3, pole: Option<Vec3>) -> Vec3 {
     away.or_else(|| part.try_normalize()).unwrap_or_else(|| along.any_orthonormal_vector())
 }
 
-/// The lower part, bent so that the end is as far from the root as the law of cosines asks.
+/// Returns the lower part, bent so that the end has the distance from the root given by the law of cosines.
 fn bend(a: f32, b: f32, distance: f32, softness: f32, along: Vec3, side: Vec3) -> Vec3 {
     let (sum, difference) = (a + b, a - b);
     let distance = soft_distance(distance, sum, softness).max(difference.abs()).min(sum);
     let twice = 2.0 * a * b;
     let more = ((distance - difference) * (distance + difference) / twice).clamp(0.0, 2.0);
     let less = ((sum - distance) * (sum + distance) / twice).clamp(0.0, 2.0);
-    // The smaller factor has the better digits.
+    // The smaller factor is the more accurate one.
     let cosine = if more < less { more - 1.0 } else { 1.0 - less };
     (along * cosine + side * (more * less).sqrt()) * b
 }
 
-/// The new rotation of the end; `None` to leave it alone.
+/// Returns the new rotation of the end; `None` to leave it unchanged.
 fn end_rotation(
     skeleton: &Skeleton,
     parent: Mat4,
     limb: &TwoBone,
     poses: &[Transform],
-    shape: &Shape,
+    shape: &LimbShape,
     (root, middle): (Quat, Quat),
 ) -> Result<Option<Quat>, IkError> {
     if limb.end_orientation == EndOrientation::FollowParent {
@@ -330,12 +332,12 @@ fn end_rotation(
     rotation.filter(|rotation| rotation.is_finite()).map(Some).ok_or(IkError::NotFinite { bone: limb.end })
 }
 
-/// From `a` to `b`; `b` itself at full weight.
+/// Interpolates from `a` to `b`; `b` itself at full weight.
 fn blend(a: Quat, b: Quat, weight: f32) -> Quat {
     if weight >= 1.0 { b } else { slerp(a, b, weight) }
 }
 
-/// The inverse, where there is one.
+/// Returns the inverse, where there is one.
 pub(super) fn inverse(matrix: Mat3) -> Option<Mat3> {
     let inverse = matrix.inverse();
     (matrix.determinant() != 0.0 && inverse.is_finite()).then_some(inverse)

@@ -4,12 +4,12 @@ use super::ellipse::nearest_in_ellipse;
 use super::{AngleRange, direction, mirrored_axis};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
-/// No swing goes further, radians: 175°. Straight back the twist could no longer be told from the direction.
+/// Largest swing in radians: 175°. Exactly backwards, twist and direction could not be separated.
 const MOST: f64 = 175.0 / 180.0 * std::f64::consts::PI;
 
 /// A ball joint: a shoulder, a hip, a neck.
 ///
-/// The turn is taken apart into a twist about the bone and then a swing that moves the bone:
+/// The turn is decomposed into a twist about the bone and then a swing that moves the bone:
 ///
 /// ```text
 /// turn   = swing * twist
@@ -18,30 +18,31 @@ const MOST: f64 = 175.0 / 180.0 * std::f64::consts::PI;
 /// s      = σ * that axis, in the plane of `side` and `axis × side`
 /// ```
 ///
-/// * The swing is allowed where `(s·side / swing_side)² + (s·up / swing_up)² ≤ 1`, with `up = axis × side`: a cone whose
-///   section is an ellipse, measured in angles. Otherwise the nearest point of that ellipse is taken. So the limit is
+/// * The swing is allowed where `(s·side / swing_side)² + (s·up / swing_up)² ≤ 1`, with `up = axis × side`: a cone
+///   whose
+///   section is an ellipse, measured in angles. Otherwise the nearest point of that ellipse is used. So the limit is
 ///   continuous also for flat cones, where shrinking `s` towards 0 would jump.
-/// * The twist is held in its range, which does not depend on the swing.
+/// * The twist is clamped to its range, which does not depend on the swing.
 ///
 /// A half-angle of 0 allows no swing about that side: with `swing_up` = 0 the bone swings in one plane only. Negative
 /// and NaN count as 0, more than 175° as 175°.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
-    /// Along the bone, in its axes as it rests; any length but 0.
+    /// Direction of the bone, in its rest axes; any length but 0.
     pub axis: Vec3,
     /// A direction across the bone; only the part at right angles to `axis` counts, and without one any direction is
-    /// taken.
+    /// used.
     pub side: Vec3,
-    /// How far it swings about `side`: half of the cone's opening, radians.
+    /// Largest swing about `side`: half of the cone's opening, radians.
     pub swing_side: f32,
-    /// How far it swings about `axis × side`: half of the cone's opening, radians.
+    /// Largest swing about `axis × side`: half of the cone's opening, radians.
     pub swing_up: f32,
-    /// The twist about `axis`, right-handed.
+    /// Range of the twist about `axis`, right-handed.
     pub twist: AngleRange,
 }
 
 impl Ball {
-    /// With a round cone: as far in every direction.
+    /// Creates a joint with a round cone: the same largest swing in every direction.
     pub fn round(axis: Vec3, swing: f32, twist: AngleRange) -> Self {
         Self { axis, side: Vec3::ZERO, swing_side: swing, swing_up: swing, twist }
     }
@@ -73,7 +74,7 @@ fn half(angle: f32) -> f64 {
     if angle > 0.0 { f64::from(angle).min(MOST) } else { 0.0 }
 }
 
-/// The swing, and the angle of the twist about `axis` (radians, −π..=π), with `turn = swing * twist`.
+/// Returns the swing, and the angle of the twist about `axis` (radians, −π..=π), with `turn = swing * twist`.
 fn swing_twist(turn: DQuat, axis: DVec3) -> (DQuat, f64) {
     let along = turn.xyz().dot(axis);
     let angle = 2.0 * along.atan2(turn.w);
@@ -81,7 +82,7 @@ fn swing_twist(turn: DQuat, axis: DVec3) -> (DQuat, f64) {
     (turn * twist.conjugate(), angle)
 }
 
-/// Axis times angle, the short way: 0..=π long.
+/// Returns axis times angle, the short way: 0..=π long.
 pub(crate) fn rotation_vector(rotation: DQuat) -> DVec3 {
     let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
     let sine = rotation.xyz().length();

@@ -2,21 +2,20 @@
 
 use glam::DVec2;
 
-/// Halvings of the search: as many as f64 has bits, with room to spare.
+/// Number of bisections: more than f64 has bits.
 const STEPS: usize = 80;
 
-/// `point` where it lies inside the ellipse with half-axes `halves` along x and y (0 or more), else the nearest point of
-/// its border.
+/// Returns `point` where it is inside the ellipse with half-axes `halves` along x and y (0 or more), else the nearest
+/// point of its border.
 ///
-/// A point outside is brought to the quarter where both coordinates are positive. The nearest point `n` lies straight
-/// below it on the border's normal:
+/// A point outside is mirrored to the quarter where both coordinates are positive. It is on the border's normal in the
+/// nearest point `n`:
 ///
 /// ```text
 /// n.x = a² p.x / (t + a²)    n.y = b² p.y / (t + b²)    with the one t ≥ 0 for which  (n.x / a)² + (n.y / b)² = 1
 /// ```
 ///
-/// The left side falls from above 1 at t = 0 to 0, so halving an interval finds t. A half-axis of 0 makes the
-/// ellipse a line.
+/// The left side falls from above 1 at t = 0 to 0, so bisection finds t. A half-axis of 0 makes the ellipse a line.
 pub(super) fn nearest_in_ellipse(point: DVec2, halves: DVec2) -> DVec2 {
     let DVec2 { x: a, y: b } = halves;
     if a == 0.0 || b == 0.0 {

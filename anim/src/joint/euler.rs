@@ -1,13 +1,13 @@
-//! Three angles, each with a range.
+//! Joint limits as three Euler angles, each with a range.
 
 use super::AngleRange;
 use glam::{DQuat, EulerRot};
 
-/// The second angle goes no further, radians: 88°. At 90° the first and the third turn about the same line.
+/// Largest second angle in radians: 88°. At 90° the first and the third turn have the same axis.
 const MOST: f64 = 88.0 / 180.0 * std::f64::consts::PI;
 
-/// In which order three turns follow each other, each about an axis that the turns before it have moved along
-/// (intrinsic). `Xyz` is the product `x * y * z`.
+/// Order of three turns, each about an axis that the turns before it have moved along (intrinsic). `Xyz` is the product
+/// `x * y * z`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum EulerOrder {
     /// About x, then y, then z.
@@ -26,10 +26,10 @@ pub enum EulerOrder {
 }
 
 impl EulerOrder {
-    /// All of them.
+    /// All orders.
     pub const ALL: [Self; 6] = [Self::Xyz, Self::Xzy, Self::Yxz, Self::Yzx, Self::Zxy, Self::Zyx];
 
-    /// The axes in this order: 0 x, 1 y, 2 z.
+    /// Returns the axes in this order: 0 x, 1 y, 2 z.
     pub fn axes(self) -> [usize; 3] {
         match self {
             Self::Xyz => [0, 1, 2],
@@ -41,7 +41,7 @@ impl EulerOrder {
         }
     }
 
-    /// The same order as `glam` calls it.
+    /// Returns the same order as a type of `glam`.
     pub fn of_glam(self) -> EulerRot {
         match self {
             Self::Xyz => EulerRot::XYZ,
@@ -58,14 +58,14 @@ impl EulerOrder {
 ///
 /// ```text
 /// turn    = R(first axis, a) * R(second axis, b) * R(third axis, c)      −π ≤ a, c ≤ π,  −π/2 ≤ b ≤ π/2
-/// allowed = the same with each angle at the nearest of its range
+/// allowed = the same with each angle clamped to its range
 /// ```
 ///
-/// Angle by angle, so what comes out is not the allowed rotation nearest to the turn. The second angle is held within
-/// ±88°; put the axis that bends furthest (an elbow's) first or last.
+/// Each angle is clamped separately, so the result is not the allowed rotation nearest to the turn. The second angle is
+/// clamped to ±88°; put the axis that bends furthest (an elbow's) first or last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Euler {
-    /// Which turn is first.
+    /// The order of the turns.
     pub order: EulerOrder,
     /// Range of the turn about each axis: x, y, z, whatever the order.
     pub ranges: [AngleRange; 3],

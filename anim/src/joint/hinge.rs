@@ -3,20 +3,20 @@
 use super::{AngleRange, direction, mirrored_axis};
 use glam::{DQuat, Vec3};
 
-/// Turns about one axis, from one angle to another: an elbow, a knee.
+/// A joint that turns about one axis, from one angle to another: an elbow, a knee.
 ///
 /// ```text
 /// angle   = 2 * atan2(xyz · axis, w)        the twist of the turn about the axis
 /// allowed = turn about axis by the nearest angle of the range
 /// ```
 ///
-/// Whatever turns the axis itself is taken away. A turn of 180° about a line across the axis has no angle about it:
-/// it counts as 0.
+/// The part of the turn that moves the axis itself is removed. A turn of 180° about a line across the axis has no angle
+/// about it: it counts as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hinge {
-    /// In the bone's axes as it rests; any length but 0.
+    /// Axis in the bone's rest axes; any length but 0.
     pub axis: Vec3,
-    /// From the rest pose, right-handed about `axis`.
+    /// Angles relative to the rest pose, right-handed about `axis`.
     pub range: AngleRange,
 }
 

@@ -4,71 +4,71 @@ use super::JointLimit;
 use crate::data::{BoneIndex, Skeleton, Transform};
 use crate::sample::rest_pose;
 
-/// Which bones have limits. A bone without one is free.
+/// The bones with limits. A bone without one is free.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JointLimits {
     /// Ascending by bone, each once.
     limits: Vec<(BoneIndex, JointLimit)>,
 }
 
-/// What [`JointLimits::apply`] had to do.
+/// Result of [`JointLimits::apply`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LimitReport {
-    /// Bones that were not within their limits.
+    /// Number of bones that were outside their limits.
     pub clamped: usize,
-    /// The one that was furthest out, the first of several; `None` when all were within.
+    /// The bone that was furthest outside, the first of several; `None` when all were within.
     pub worst: Option<BoneIndex>,
-    /// How far that one was out, radians.
+    /// Angle by which that bone was outside, in radians.
     pub by: f32,
 }
 
 impl JointLimits {
-    /// No limits.
+    /// Creates an empty set of limits.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Gives `bone` a limit in the place of what it had, which is returned; `None` takes it away.
+    /// Replaces the limit of `bone` and returns the old one; `None` removes it.
     pub fn set(&mut self, bone: BoneIndex, limit: impl Into<Option<JointLimit>>) -> Option<JointLimit> {
-        let place = self.limits.binary_search_by_key(&bone, |&(bone, _)| bone);
-        match (place, limit.into()) {
-            (Ok(place), Some(limit)) => Some(std::mem::replace(&mut self.limits[place].1, limit)),
-            (Ok(place), None) => Some(self.limits.remove(place).1),
-            (Err(place), Some(limit)) => {
-                self.limits.insert(place, (bone, limit));
+        let index = self.limits.binary_search_by_key(&bone, |&(bone, _)| bone);
+        match (index, limit.into()) {
+            (Ok(index), Some(limit)) => Some(std::mem::replace(&mut self.limits[index].1, limit)),
+            (Ok(index), None) => Some(self.limits.remove(index).1),
+            (Err(index), Some(limit)) => {
+                self.limits.insert(index, (bone, limit));
                 None
             }
             (Err(_), None) => None,
         }
     }
 
-    /// The limit of a bone.
+    /// Returns the limit of a bone.
     pub fn get(&self, bone: BoneIndex) -> Option<&JointLimit> {
-        let place = self.limits.binary_search_by_key(&bone, |&(bone, _)| bone).ok()?;
-        Some(&self.limits[place].1)
+        let index = self.limits.binary_search_by_key(&bone, |&(bone, _)| bone).ok()?;
+        Some(&self.limits[index].1)
     }
 
-    /// All of them, ascending by bone.
+    /// Iterates over all limits, ascending by bone.
     pub fn iter(&self) -> impl Iterator<Item = (BoneIndex, &JointLimit)> {
         self.limits.iter().map(|(bone, limit)| (*bone, limit))
     }
 
-    /// Number of bones with a limit.
+    /// Returns the number of bones with a limit.
     pub fn len(&self) -> usize {
         self.limits.len()
     }
 
-    /// Are all bones free?
+    /// Returns whether all bones are free.
     pub fn is_empty(&self) -> bool {
         self.limits.is_empty()
     }
 
-    /// Holds `poses` (relative to the parents) within the limits, each relative to its bone's rest pose, and says how many
-    /// were not.
+    /// Clamps `poses` (relative to the parents) to the limits, each relative to its bone's rest pose, and returns how
+    /// many were outside.
     ///
-    /// `by[bone]` becomes the angle (radians) by which a bone was turned back: 0 for one that was within its limits or
-    /// has none. It may be shorter than the skeleton, or empty. Translations, scales, and rotations within the limits
-    /// keep every bit. A limit of a bone that is not there has no effect. Allocates nothing.
+    /// `by[bone]` becomes the angle (radians) by which a bone was turned: 0 for one that was within its limits or has
+    /// none. It may be shorter than the skeleton, or empty. Translations, scales, and rotations within the limits are
+    /// unchanged bit for bit. A limit of a missing bone has no effect. Allocates nothing.
     pub fn apply(&self, skeleton: &Skeleton, poses: &mut [Transform], by: &mut [f32]) -> LimitReport {
         by.fill(0.0);
         let mut report = LimitReport::default();

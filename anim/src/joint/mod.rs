@@ -1,7 +1,7 @@
-//! How far joints can turn: the physical range of motion of an elbow, a shoulder, a neck, which the article of the first
-//! Dragonfly lists among what a joint has.
+//! Joint limits: the physical range of motion of an elbow, a shoulder, a neck, which the article about the first
+//! Dragonfly lists among the properties of a joint.
 //!
-//! A limit is about a bone's rotation *relative to its rest pose*, in the axes of the bone as it rests:
+//! A limit applies to a bone's rotation *relative to its rest pose*, in the rest axes of the bone:
 //!
 //! ```text
 //! turn     = rest⁻¹ * rotation              rotation and rest in the parent's space
@@ -12,17 +12,17 @@
 //! |---|---|---|
 //! | [`Hinge`] | one axis | elbow, knee, finger |
 //! | [`Ball`] | swing within an elliptic cone, twist about the bone | shoulder, hip, neck |
-//! | [`Euler`] | three axes one after the other | rigs that are described so |
+//! | [`Euler`] | three axes one after the other | rigs that are described in Euler angles |
 //!
-//! # Rules that hold everywhere
+//! # Common rules
 //!
 //! * [`JointLimit::clamp`] is total: any input gives a rotation of unit length, and it never panics.
 //! * A rotation within [`SLACK`] of an allowed one counts as allowed and is returned bit for bit. So clamping twice is
-//!   clamping once, bit for bit: what comes out lies within rounding of the border.
-//! * A range whose ends are the wrong way round allows only its middle; one with an end that is not finite does not
+//!   clamping once, bit for bit: the result is within rounding of the border.
+//! * A range whose `max` is below its `min` allows only its middle; one with an end that is not finite does not
 //!   limit. An axis without direction cannot limit either: the limit allows everything.
-//! * Limits are about rotations alone. The scale of the bone, mirrored or not, has no say, nor have the bones above.
-//!   A limb on the other side of the body wants [`JointLimit::mirrored`].
+//! * Limits affect rotations alone. The scale of the bone, mirrored or not, has no influence, nor have the bones above.
+//!   For a limb on the other side of the body use [`JointLimit::mirrored`].
 
 mod ball;
 mod ellipse;
@@ -41,10 +41,11 @@ pub use range::AngleRange;
 use crate::sample::Value;
 use glam::{DQuat, Quat, Vec3};
 
-/// Radians (about 0.0006°, or 0.01 mm at the end of a bone of 1 m): nearer to an allowed rotation than this is allowed.
+/// Tolerance in radians (about 0.0006°, or 0.01 mm at the end of a bone of 1 m): a rotation nearer to an allowed one
+/// than this is allowed.
 ///
-/// A `f32` quaternion is right to about 2e-7 rad. Where two angles of a limit turn about nearly the same line, they are
-/// known less well by 1 / cos of the angle between; the limits end where that makes 30-fold.
+/// A `f32` quaternion is accurate to about 2e-7 rad. Where two angles of a limit have nearly the same axis, they are
+/// less accurate by 1 / cos of the angle between; the limits end where that factor is 30.
 pub const SLACK: f32 = 1e-5;
 
 /// The range of motion of one joint.
@@ -58,24 +59,24 @@ pub enum JointLimit {
     Euler(Euler),
 }
 
-/// An allowed rotation, and how far it is from what was asked for.
+/// An allowed rotation, and its distance from the given one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clamped {
     /// In the parent's space, unit length.
     pub rotation: Quat,
-    /// The angle between what was given and `rotation`: radians, 0..=π; exactly 0 where it was allowed.
+    /// The angle between the given rotation and `rotation`: radians, 0..=π; exactly 0 where it was allowed.
     pub by: f32,
 }
 
 impl JointLimit {
-    /// The allowed rotation for `rotation`, both in the parent's space; `rest` is the bone's rest rotation.
+    /// Returns the allowed rotation for `rotation`, both in the parent's space; `rest` is the bone's rest rotation.
     ///
-    /// Each kind of limit says which allowed rotation it takes. A `rest` that is not finite counts as the identity, a
-    /// `rotation` that is not finite as `rest`; other lengths than 1 are normalised.
+    /// Each kind of limit documents which allowed rotation it chooses. A `rest` that is not finite counts as the
+    /// identity, a `rotation` that is not finite as `rest`; other lengths than 1 are normalized.
     pub fn clamp(&self, rotation: Quat, rest: Quat) -> Clamped {
         let rest = rest.healed(Quat::IDENTITY);
         let rotation = rotation.healed(rest);
-        // In f64, so that the only rounding that counts is that of the result.
+        // In f64, so that only the result is rounded significantly.
         let (exact_rest, exact) = (rest.as_dquat().normalize(), rotation.as_dquat().normalize());
         let turn = exact_rest.conjugate() * exact;
         let turn = if turn.w < 0.0 { -turn } else { turn };
@@ -89,16 +90,16 @@ impl JointLimit {
             return Clamped { rotation, by: 0.0 };
         }
         let clamped = (exact_rest * allowed).normalize();
-        // In the hemisphere of what was given, so that nothing flips where the joint reaches its limit.
+        // In the hemisphere of the given rotation, so that nothing flips where the joint reaches its limit.
         let clamped = if clamped.dot(exact) < 0.0 { -clamped } else { clamped };
         Clamped { rotation: clamped.as_quat(), by: by as f32 }
     }
 
-    /// The limit of the same joint on the other side: mirrored at the plane through the joint whose normal is the x, y or
-    /// z axis of the bone's rest.
+    /// Returns the limit of the same joint on the other side: mirrored at the plane through the joint whose normal is
+    /// the x, y or z axis of the bone's rest pose.
     ///
-    /// Right where the rest axes of the two bones are mirror images of each other in the same way. `axis` 0 is x, 1 y, any
-    /// other z.
+    /// Correct where the rest axes of the two bones are mirror images of each other in the same way. `axis` 0 is x, 1
+    /// y, any other z.
     pub fn mirrored(&self, axis: usize) -> Self {
         match self {
             Self::Hinge(hinge) => Self::Hinge(hinge.mirrored(axis)),
@@ -108,13 +109,13 @@ impl JointLimit {
     }
 }
 
-/// The smallest angle between two rotations, radians: 0..=π.
+/// Returns the smallest angle between two rotations, radians: 0..=π.
 fn angle_between(a: DQuat, b: DQuat) -> f64 {
     let (near, far) = ((a - b).length(), (a + b).length());
     4.0 * near.min(far).atan2(near.max(far))
 }
 
-/// An axis of turning seen in a mirror: what lies in the plane turns round, what stands on it stays.
+/// Mirrors an axis of rotation: components in the plane are reversed, the one along the normal is kept.
 fn mirrored_axis(axis: Vec3, normal: usize) -> Vec3 {
     match normal {
         0 => Vec3::new(axis.x, -axis.y, -axis.z),
@@ -123,7 +124,7 @@ fn mirrored_axis(axis: Vec3, normal: usize) -> Vec3 {
     }
 }
 
-/// `axis` with length 1, in f64; `None` where it has no direction.
+/// Returns `axis` with length 1, in f64; `None` where it has no direction.
 fn direction(axis: Vec3) -> Option<glam::DVec3> {
     axis.as_dvec3().try_normalize()
 }

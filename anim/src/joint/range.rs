@@ -1,53 +1,54 @@
-//! From one angle to another.
+//! Ranges of angles.
 
 use std::f64::consts::{PI, TAU};
 
-/// Angles from `min` to `max`, radians; counted on, so −3 to 4 is more than a full turn and allows every angle.
+/// Angles from `min` to `max`, radians, not wrapped, so −3 to 4 is more than a full turn and allows every angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AngleRange {
-    /// Radians.
+    /// Smallest angle in radians.
     pub min: f32,
-    /// Radians, not less than `min`.
+    /// Largest angle in radians, not less than `min`.
     pub max: f32,
 }
 
 impl AngleRange {
-    /// Every angle.
+    /// Allows every angle.
     pub const FREE: Self = Self { min: f32::NEG_INFINITY, max: f32::INFINITY };
 
-    /// No angle but 0.
+    /// Allows no angle but 0.
     pub const NONE: Self = Self { min: 0.0, max: 0.0 };
 
-    /// From `min` to `max`, radians.
+    /// Creates a range from `min` to `max`, radians.
     pub fn new(min: f32, max: f32) -> Self {
         Self { min, max }
     }
 
-    /// From `min` to `max`, degrees.
+    /// Creates a range from `min` to `max`, degrees.
     pub fn degrees(min: f32, max: f32) -> Self {
         Self { min: min.to_radians(), max: max.to_radians() }
     }
 
-    /// As far to one side as to the other, radians.
+    /// Creates a range from `-angle` to `angle`, radians.
     pub fn within(angle: f32) -> Self {
         Self { min: -angle, max: angle }
     }
 
-    /// Seen in a mirror: from −max to −min.
+    /// Returns the mirrored range: from −max to −min.
     pub fn reversed(self) -> Self {
         Self { min: -self.max, max: -self.min }
     }
 
-    /// Middle and half of the width; `None` where it does not limit.
+    /// Returns the middle and half of the width; `None` where the range does not limit.
     fn middle(self) -> Option<(f64, f64)> {
         let (min, max) = (f64::from(self.min), f64::from(self.max));
         let half = 0.5 * (max - min);
         (min.is_finite() && max.is_finite() && half < PI).then(|| (0.5 * (min + max), half.max(0.0)))
     }
 
-    /// The nearest allowed angle on the circle. Exactly opposite the middle both ends are as near, and it is one of them.
+    /// Returns the nearest allowed angle on the circle. Exactly opposite the middle both ends are equally near, and the
+    /// result is one of them.
     ///
-    /// An angle that is allowed comes back as it is; any other as the end of the range, −π..=π.
+    /// An allowed angle is returned unchanged; any other gives an end of the range, −π..=π.
     pub(super) fn clamp(self, angle: f64) -> f64 {
         let Some((middle, half)) = self.middle() else { return angle };
         // First the middle, which may be any number of turns away.
@@ -56,7 +57,8 @@ impl AngleRange {
         if off.abs() <= half { angle } else { from_minus_pi(middle + off.clamp(-half, half)) }
     }
 
-    /// The nearest allowed angle within `-most..=most`, on the line instead of the circle: for angles that do not wrap.
+    /// Returns the nearest allowed angle within `-most..=most`, on the line instead of the circle: for angles that do
+    /// not wrap.
     pub(super) fn clamp_within(self, most: f64, angle: f64) -> f64 {
         let (min, max) = match self.middle() {
             Some((middle, half)) => (middle - half, middle + half),
@@ -67,7 +69,7 @@ impl AngleRange {
     }
 }
 
-/// The same angle in −π..=π; a half turn the way it came.
+/// Wraps an angle into −π..=π; half a turn keeps its sign.
 fn from_minus_pi(angle: f64) -> f64 {
     if angle.abs() <= PI {
         return angle;
@@ -90,10 +92,10 @@ mod tests {
         let clamp = |degrees: f64| range.clamp(degrees.to_radians()).to_degrees();
         for (angle, expected) in [(0.0, 0.0), (149.0, 149.0), (160.0, 150.0), (-20.0, -10.0), (-179.0, 150.0)]
         {
-            // The ends are f32: right to a few millionths of a degree.
+            // The ends are f32: accurate to a few millionths of a degree.
             assert!((clamp(angle) - expected).abs() < 1e-4, "{angle}: {}", clamp(angle));
         }
-        // Opposite the middle (70°) lies -110°.
+        // -110° is opposite the middle (70°).
         assert!(clamp(-109.0) < -9.9 && clamp(-111.0) > 149.9);
     }
 

@@ -1,4 +1,4 @@
-//! Levels of a whole model.
+//! Levels of detail of a whole model.
 
 use super::collapse::{SimplifySettings, simplify};
 use super::error::{sample_poses, skinned_error};
@@ -8,46 +8,47 @@ use crate::evaluator::Evaluator;
 use glam::Vec3;
 use std::sync::Arc;
 
-/// One level of a model: other indices for the same vertices.
+/// One level of detail of a model: other indices for the same vertices.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Level {
-    /// Indices that stand in for those of [`ModelData::meshes`]: one list a mesh, in it one a primitive.
+#[doc(alias = "level of detail")]
+pub struct Lod {
+    /// Indices that replace those of [`ModelData::meshes`]: one list per mesh, in it one per primitive.
     pub indices: Vec<Vec<Vec<u32>>>,
-    /// Triangles of all meshes together, each mesh counted once.
+    /// Number of triangles of all meshes together, each mesh counted once.
     pub triangles: usize,
-    /// Scene units: the largest of [`skinned_error`]; 0 for the original.
+    /// Error in scene units: the largest of [`skinned_error`]; 0 for the original.
     pub error: f32,
 }
 
-/// Which levels to make.
+/// The levels to make.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelSettings {
     /// Shares of the original's triangles, descending, each 0..1.
     pub ratios: Vec<f32>,
     /// As [`SimplifySettings::skin`].
     pub skin: f32,
-    /// Poses of each take in which the error is measured, beside the rest pose.
+    /// Number of poses of each take in which the error is measured, in addition to the rest pose.
     pub poses: usize,
 }
 
 impl Default for LevelSettings {
-    /// A half, a quarter, an eighth; measured in eight poses of each take.
+    /// Returns a half, a quarter, an eighth; measured in eight poses of each take.
     fn default() -> Self {
         Self { ratios: vec![0.5, 0.25, 0.125], skin: 0.1, poses: 8 }
     }
 }
 
-/// The original and its levels, each with its error.
+/// Returns the original and its levels, each with its error.
 ///
-/// Each primitive is brought to the share by itself; what has to stay (see the [module](super)) may keep it above. A
-/// level that would have no fewer triangles than the one before is left out. A share that is no number between 0 and 1
-/// counts as 1. O(n log n) for the collapses, and for the errors vertices × poses × log n.
-pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Level> {
+/// Each primitive is reduced to the share by itself; vertices that have to stay (see the [module](super)) may keep it
+/// above. A level that would have no fewer triangles than the one before is left out. A share that is not between 0 and
+/// 1 counts as 1. O(n log n) for the collapses, and for the errors vertices × poses × log n.
+pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Lod> {
     let original =
         model.meshes.iter().map(|mesh| mesh.primitives.iter().map(|of| of.indices.clone()).collect());
     let mut levels = vec![level(original.collect(), 0.0)];
     let progressions = progressions(model, settings);
-    let mut room = Vec::new();
+    let mut scratch = Vec::new();
     for &ratio in &settings.ratios {
         let ratio = if (0.0..=1.0).contains(&ratio) { f64::from(ratio) } else { 1.0 };
         let mut indices: Vec<Vec<Vec<u32>>> = Vec::with_capacity(model.meshes.len());
@@ -55,7 +56,7 @@ pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Level> {
             let of_mesh = mesh.primitives.iter().zip(progressions).map(|(primitive, progression)| {
                 let triangles = (primitive.indices.len() as f64 / 3.0 * ratio).ceil() as usize;
                 let mut out = Vec::new();
-                progression.indices_after(primitive, progression.steps_to(triangles), &mut room, &mut out);
+                progression.indices_after(primitive, progression.steps_to(triangles), &mut scratch, &mut out);
                 out
             });
             indices.push(of_mesh.collect());
@@ -69,15 +70,15 @@ pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Level> {
     levels
 }
 
-fn level(indices: Vec<Vec<Vec<u32>>>, error: f32) -> Level {
+fn level(indices: Vec<Vec<Vec<u32>>>, error: f32) -> Lod {
     let triangles = indices.iter().flatten().map(|indices| indices.len() / 3).sum();
-    Level { indices, triangles, error }
+    Lod { indices, triangles, error }
 }
 
-/// Poses in which collapses are weighed, beside the stored one: more cost time and gain little.
+/// Number of poses for the costs of collapses, in addition to the stored one: more cost time and gain little.
 const WEIGHED: usize = 4;
 
-/// The order of collapses of each primitive of each mesh, weighed in a few of the poses that are measured.
+/// Returns the order of collapses of each primitive of each mesh; costs include a few of the measured poses.
 fn progressions(model: &ModelData, settings: &LevelSettings) -> Vec<Vec<Progression>> {
     let poses = sample_poses(model, settings.poses);
     let mut evaluator = Evaluator::new(Arc::new(ModelData { images: Vec::new(), ..model.clone() }));
@@ -87,7 +88,7 @@ fn progressions(model: &ModelData, settings: &LevelSettings) -> Vec<Vec<Progress
         let (take, time) = poses[weighed * poses.len() / WEIGHED.min(poses.len())];
         evaluator.pose(take, time);
         for (mesh, of_mesh) in of_meshes.iter_mut().enumerate() {
-            // As the first that shows it does.
+            // Poses of the first instance of the mesh.
             let shows = |instance: &MeshInstance| instance.mesh as usize == mesh;
             let Some(instance) = model.instances.iter().position(shows) else { continue };
             for (index, of_primitive) in of_mesh.iter_mut().enumerate() {
@@ -100,7 +101,7 @@ fn progressions(model: &ModelData, settings: &LevelSettings) -> Vec<Vec<Progress
     model.meshes.iter().zip(of_meshes).map(|(mesh, poses)| of_mesh(mesh, &poses, settings)).collect()
 }
 
-/// The order of collapses of each primitive; where two meet, the vertices of both stay.
+/// Returns the order of collapses of each primitive; where two primitives meet, the vertices of both stay.
 fn of_mesh(mesh: &Mesh, poses: &[Vec<Vec<Vec3>>], settings: &LevelSettings) -> Vec<Progression> {
     let bits = |primitive: usize, vertex: usize| {
         let position = mesh.primitives[primitive].vertices.positions.get(vertex).copied().unwrap_or_default();

@@ -1,35 +1,35 @@
-//! Which level is good enough, by its size on the screen.
+//! Choice of a level of detail by its size on the screen.
 
-use super::Level;
+use super::Lod;
 use crate::bounds::Sphere;
 use glam::Vec3;
 
-/// A camera, as far as sizes need it: a perspective one.
+/// The properties of a perspective camera that determine sizes on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Screen {
-    /// Where the camera is, scene space.
+    /// Position of the camera in scene space.
     pub eye: Vec3,
-    /// Radians from the lower edge of the picture to the upper, above 0 and below π.
+    /// Vertical field of view in radians, above 0 and below π.
     pub vertical_fov: f32,
-    /// Pixels from the lower edge to the upper.
+    /// Height of the image in pixels.
     pub height: f32,
 }
 
 impl Screen {
-    /// Pixels that a length of 1 takes at a distance of 1: `height / (2 tan(fov / 2))`.
+    /// Returns the size in pixels of a length of 1 at a distance of 1: `height / (2 tan(fov / 2))`.
     fn focal(&self) -> f32 {
         self.height / (2.0 * (self.vertical_fov * 0.5).tan())
     }
 }
 
-/// Radius of the picture of `sphere` in the middle of the screen, pixels.
+/// Returns the radius in pixels of the image of `sphere`, as seen in the middle of the screen.
 ///
 /// ```text
 /// focal * radius / √(distance² - radius²)
 /// ```
 ///
-/// Infinite where the camera is within the sphere or a number is none. The true outline, which is a little larger than
-/// that of the circle through the centre.
+/// Infinite where the camera is within the sphere or a number is not finite. This is the true outline, which is a
+/// little larger than that of the circle through the center.
 pub fn radius_in_pixels(screen: &Screen, sphere: &Sphere) -> f32 {
     let distance = f64::from(screen.eye.distance(sphere.center));
     let radius = f64::from(sphere.radius);
@@ -38,13 +38,13 @@ pub fn radius_in_pixels(screen: &Screen, sphere: &Sphere) -> f32 {
     if tangent > 0.0 && pixels.is_finite() { pixels } else { f32::INFINITY }
 }
 
-/// Pixels that a length of `error` takes at most, wherever in `sphere` it is.
+/// Returns the largest size in pixels of a length of `error` anywhere in `sphere`.
 ///
 /// ```text
 /// focal * error / (distance - radius)
 /// ```
 ///
-/// Zero for no error; infinite where the camera is within the sphere or a number is none.
+/// Zero for no error; infinite where the camera is within the sphere or a number is not finite.
 pub fn error_in_pixels(screen: &Screen, sphere: &Sphere, error: f32) -> f32 {
     if error == 0.0 {
         return 0.0;
@@ -54,14 +54,15 @@ pub fn error_in_pixels(screen: &Screen, sphere: &Sphere, error: f32) -> f32 {
     if nearest > 0.0 && pixels.is_finite() { pixels } else { f32::INFINITY }
 }
 
-/// The coarsest of `levels` whose error takes at most `pixels` on the screen; the first, the finest, where none does.
+/// Returns the coarsest of `levels` whose error is at most `pixels` on the screen; the first, the finest, where none
+/// is.
 ///
-/// `sphere` is around the model in its pose ([`crate::bounds::BoneBoxes`] gives it quickly). `current` is the level shown
-/// last. So that a model at one distance does not change to and fro, a coarser level than that is only taken when its
-/// error is below `pixels * (1 - hysteresis)`; `hysteresis` is 0..1, 0 for none. A sphere that takes less than a
-/// pixel gets the coarsest of all.
+/// `sphere` is around the model in its pose ([`crate::bounds::BoneBoxes`] computes it quickly). `current` is the most
+/// recent level. To prevent a model at a constant distance from switching between two levels, a coarser level than that
+/// is only chosen when its error is below `pixels * (1 - hysteresis)`; `hysteresis` is 0..1, 0 for none. A sphere
+/// smaller than a pixel gets the coarsest of all.
 pub fn choose_level(
-    levels: &[Level],
+    levels: &[Lod],
     screen: &Screen,
     sphere: &Sphere,
     pixels: f32,
@@ -72,7 +73,7 @@ pub fn choose_level(
         return levels.len().saturating_sub(1);
     }
     let coarsest = |limit: f32| {
-        let fits = |level: &Level| error_in_pixels(screen, sphere, level.error) <= limit;
+        let fits = |level: &Lod| error_in_pixels(screen, sphere, level.error) <= limit;
         levels.iter().rposition(fits).unwrap_or(0)
     };
     let (now, strict) = (coarsest(pixels), coarsest(pixels * (1.0 - hysteresis.clamp(0.0, 1.0))));

@@ -1,4 +1,4 @@
-//! The loop: the cheapest collapse that does no harm, again and again.
+//! The loop: the cheapest valid collapse, again and again.
 
 use super::cost::{Quadric, cost, quadrics};
 use super::progression::{Move, Progression};
@@ -8,38 +8,39 @@ use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A triangle's normal may turn by this cosine in one step, at most: about 78°.
+/// Smallest cosine between a triangle's normals before and after one step: about 78°.
 const TURN: f64 = 0.2;
 
-/// How often all edges are looked at anew, at most: a collapse makes others possible that were refused.
+/// Largest number of passes over all edges: a collapse makes others possible that were rejected.
 const PASSES: usize = 8;
 
-/// How far to go, and what to mind.
+/// Settings of [`simplify`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimplifySettings {
-    /// Stop when no more triangles than this are left.
+    /// Number of triangles at which to stop.
     pub triangles: usize,
-    /// Weight of the difference in influences between the ends of an edge, 0 for none. With 1 an edge whose ends no
-    /// bone moves together costs as if the surface moved by its whole length. With poses to measure in, little of it is
+    /// Weight of the difference in influences between the ends of an edge, 0 for none. With 1, an edge whose ends have
+    /// no bone in common costs as if the surface moved by its whole length. With poses to measure in, a small weight is
     /// enough.
     pub skin: f32,
 }
 
 impl Default for SimplifySettings {
-    /// As far as possible, with the influences minded.
+    /// Returns settings to simplify as far as possible, with the influences considered.
     fn default() -> Self {
         Self { triangles: 0, skin: 0.1 }
     }
 }
 
-/// The order in which triangles of `primitive` are best taken away.
+/// Returns the order in which triangles of `primitive` are best removed.
 ///
-/// `poses` are positions of all vertices in poses that it should look well in (those of
-/// [`crate::evaluator::Evaluator::positions`]; a few are enough, none is allowed). Vertices for which `locked` says so
-/// stay where they are. Ends when `settings.triangles` are left or nothing can be
-/// taken without tearing or turning over. The rules are those of the [module](super). Total: triangles with two
-/// corners at one place, and those that name vertices which are not there, go with the first step; positions that are
-/// not finite stay. A `skin` that is negative or not finite counts as 0. O(n log n); the same input, the same order.
+/// `poses` are positions of all vertices in poses in which it should look good (those of
+/// [`crate::evaluator::Evaluator::positions`]; a few are enough, none is allowed). Vertices for which `locked` returns
+/// true stay in place. Ends when `settings.triangles` are left or nothing can be removed without tearing or turning
+/// over. The rules are those of the [module](super). Total: triangles with two corners at one place, and those with
+/// missing vertices, are removed in the first step; positions that are not finite stay. A `skin` that is negative or
+/// not finite counts as 0. O(n log n); the same input gives the same order.
+#[doc(alias("decimate", "edge collapse"))]
 pub fn simplify(
     primitive: &Primitive,
     poses: &[Vec<Vec3>],
@@ -62,18 +63,18 @@ pub fn simplify(
     collapser.progression
 }
 
-/// An edge with a direction, and what it costs to collapse.
+/// An edge with a direction, and the cost of collapsing it.
 #[derive(Clone, Copy, Debug)]
-struct Candidate {
+struct CollapseCandidate {
     cost: f64,
     from: u32,
     onto: u32,
-    /// Versions of both ends when the cost was found.
+    /// Versions of both ends when the cost was computed.
     versions: [u32; 2],
 }
 
-impl Ord for Candidate {
-    /// The cheapest is the greatest; of two as cheap the one of the earlier vertex, so that the order is always the
+impl Ord for CollapseCandidate {
+    /// The cheapest is the greatest; of two equal ones the one of the earlier vertex, so that the order is always the
     /// same.
     fn cmp(&self, other: &Self) -> Ordering {
         let ends = |candidate: &Self| (candidate.from, candidate.onto);
@@ -81,46 +82,46 @@ impl Ord for Candidate {
     }
 }
 
-impl PartialOrd for Candidate {
+impl PartialOrd for CollapseCandidate {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Candidate {
+impl PartialEq for CollapseCandidate {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Candidate {}
+impl Eq for CollapseCandidate {}
 
-/// Where the work stands.
+/// State of the simplification.
 struct Collapser<'a> {
     surface: Surface<'a>,
-    /// One list a pose.
+    /// One list per pose.
     quadrics: Vec<Vec<Quadric>>,
     skin: f64,
-    /// Of each place: how often its surroundings changed.
+    /// For each place, the number of changes around it.
     versions: Vec<u32>,
-    heap: BinaryHeap<Candidate>,
+    heap: BinaryHeap<CollapseCandidate>,
     /// Normals of the original triangles, of any length.
     normals: Vec<DVec3>,
     left: usize,
     progression: Progression,
-    room: Room,
+    scratch: CollapseScratch,
 }
 
-/// Lists that every collapse needs anew.
+/// Lists reused by every collapse.
 #[derive(Default)]
-struct Room {
-    /// Triangles around the place that goes: which, corners, and whether the other place is a corner too.
+struct CollapseScratch {
+    /// Triangles around the place that is removed: index, corners, and whether the other place is a corner too.
     around: Vec<(u32, [u32; 3], bool)>,
-    /// Places next to the one that goes, and how many triangles each shares with it.
-    beside: Vec<(u32, u32)>,
-    /// Sides of the place that goes, and the side each becomes.
+    /// Places next to the one that is removed, and the number of triangles that each shares with it.
+    adjacent: Vec<(u32, u32)>,
+    /// Sides of the place that is removed, and the side that each becomes.
     sides: Vec<(u32, u32)>,
-    /// Vertices that go, and where.
+    /// Vertices that are removed, and the vertices they become.
     moves: Vec<(u32, u32)>,
     /// Places next to the one that stays.
     next: Vec<u32>,
@@ -141,14 +142,14 @@ impl<'a> Collapser<'a> {
             versions: vec![0; surface.place.len()],
             heap: BinaryHeap::new(),
             progression: Progression { moves: Vec::new(), gone_after, left: vec![all as u32] },
-            room: Room::default(),
+            scratch: CollapseScratch::default(),
             surface,
             skin,
             left,
         }
     }
 
-    /// Every edge, both ways.
+    /// Pushes every edge, in both directions.
     fn seed(&mut self) {
         let mut edges: Vec<[u32; 2]> = Vec::new();
         for corners in self.surface.triangles.iter().flatten() {
@@ -171,52 +172,53 @@ impl<'a> Collapser<'a> {
         let cost = cost(&self.surface, &self.quadrics, self.skin, from, onto);
         if cost.is_finite() {
             let versions = [from, onto].map(|place| self.versions[place as usize]);
-            self.heap.push(Candidate { cost, from, onto, versions });
+            self.heap.push(CollapseCandidate { cost, from, onto, versions });
         }
     }
 
-    /// Collapses until so few triangles are left, or nothing more can be.
+    /// Collapses until `triangles` are left, or nothing more can be collapsed.
     fn run(&mut self, triangles: usize) {
         while self.left > triangles {
             let Some(candidate) = self.heap.pop() else { return };
-            let Candidate { from, onto, versions, .. } = candidate;
+            let CollapseCandidate { from, onto, versions, .. } = candidate;
             let fresh = versions == [from, onto].map(|place| self.versions[place as usize]);
-            if fresh && self.may(from, onto) {
+            if fresh && self.can_collapse(from, onto) {
                 self.collapse(from, onto);
             }
         }
     }
 
-    /// May `from` move onto `onto`? Leaves in the room what it needs for that.
-    fn may(&mut self, from: u32, onto: u32) -> bool {
-        let mut room = std::mem::take(&mut self.room);
-        let may = self.is_open(from, onto, &mut room)
-            && self.joins(from, onto, &mut room)
-            && self.keeps_facing(from, onto, &room);
-        self.room = room;
-        may
+    /// Returns whether `from` may move onto `onto`. Leaves the lists for the collapse in the scratch memory.
+    fn can_collapse(&mut self, from: u32, onto: u32) -> bool {
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let can_collapse = self.keeps_manifold(from, onto, &mut scratch)
+            && self.match_sides(from, onto, &mut scratch)
+            && self.keeps_facing(from, onto, &scratch);
+        self.scratch = scratch;
+        can_collapse
     }
 
-    /// Does the surface stay one? The link condition (Dey and others 1999), and that borders stay borders.
-    fn is_open(&self, from: u32, onto: u32, room: &mut Room) -> bool {
+    /// Returns whether the surface stays a manifold: the link condition (Dey and others 1999), and that borders stay
+    /// borders.
+    fn keeps_manifold(&self, from: u32, onto: u32, scratch: &mut CollapseScratch) -> bool {
         let surface = &self.surface;
-        room.around.clear();
-        room.beside.clear();
-        room.next.clear();
+        scratch.around.clear();
+        scratch.adjacent.clear();
+        scratch.next.clear();
         for (triangle, corners) in surface.around(from) {
             let places = surface.places(corners);
-            room.around.push((triangle, corners, places.contains(&onto)));
+            scratch.around.push((triangle, corners, places.contains(&onto)));
             for place in places.into_iter().filter(|&place| place != from) {
-                match room.beside.iter_mut().find(|(other, _)| *other == place) {
+                match scratch.adjacent.iter_mut().find(|(other, _)| *other == place) {
                     Some((_, count)) => *count += 1,
-                    None => room.beside.push((place, 1)),
+                    None => scratch.adjacent.push((place, 1)),
                 }
             }
         }
-        let shared = room.around.iter().filter(|(.., shared)| *shared).count();
-        let borders = room.beside.iter().filter(|(_, count)| *count == 1).count();
+        let shared = scratch.around.iter().filter(|(.., shared)| *shared).count();
+        let borders = scratch.adjacent.iter().filter(|(_, count)| *count == 1).count();
         let along = if borders == 0 { shared == 2 } else { borders == 2 && shared == 1 };
-        if !along || shared == room.around.len() || room.beside.iter().any(|(_, count)| *count > 2) {
+        if !along || shared == scratch.around.len() || scratch.adjacent.iter().any(|(_, count)| *count > 2) {
             return false;
         }
         if surface.locked[onto as usize] && surface.around(onto).take(MOST_AROUND + 1).count() > MOST_AROUND {
@@ -225,55 +227,58 @@ impl<'a> Collapser<'a> {
         let mut around_onto = 0;
         for (_, corners) in surface.around(onto) {
             around_onto += 1;
-            room.next.extend(surface.places(corners));
+            scratch.next.extend(surface.places(corners));
         }
-        let common =
-            room.beside.iter().filter(|(place, _)| *place != onto && room.next.contains(place)).count();
-        if common != shared || around_onto + room.around.len() - 2 * shared > MOST_AROUND {
+        let common = scratch
+            .adjacent
+            .iter()
+            .filter(|(place, _)| *place != onto && scratch.next.contains(place))
+            .count();
+        if common != shared || around_onto + scratch.around.len() - 2 * shared > MOST_AROUND {
             return false;
         }
-        // A triangle that would lie on another.
-        let survivors = room.around.iter().filter(|(.., shared)| !shared);
+        // A triangle that would coincide with another.
+        let survivors = scratch.around.iter().filter(|(.., shared)| !shared);
         survivors.into_iter().all(|(_, corners, _)| {
             let places = surface.places(*corners);
-            room.next.chunks_exact(3).all(|other| {
+            scratch.next.chunks_exact(3).all(|other| {
                 !places.iter().filter(|&&place| place != from).all(|place| other.contains(place))
             })
         })
     }
 
-    /// Does every side of a seam find its other side? And which vertex does each become: of those on that side the one
-    /// with the most similar normal.
-    fn joins(&self, from: u32, onto: u32, room: &mut Room) -> bool {
+    /// Matches every side of a seam with its other side, and chooses for each vertex the vertex that it becomes: of
+    /// those on that side the one with the most similar normal. Returns whether every side has a match.
+    fn match_sides(&self, from: u32, onto: u32, scratch: &mut CollapseScratch) -> bool {
         let surface = &self.surface;
         let side = |vertex: u32| surface.side[vertex as usize];
-        room.sides.clear();
-        room.moves.clear();
+        scratch.sides.clear();
+        scratch.moves.clear();
         let at = |corners: &[u32; 3], place: u32| {
             corners.iter().copied().find(|&corner| surface.place[corner as usize] == place)
         };
-        for (_, corners, _) in room.around.iter().filter(|(.., shared)| *shared) {
+        for (_, corners, _) in scratch.around.iter().filter(|(.., shared)| *shared) {
             let (Some(own), Some(other)) = (at(corners, from), at(corners, onto)) else { return false };
-            match room.sides.iter().find(|(known, _)| *known == side(own)) {
+            match scratch.sides.iter().find(|(known, _)| *known == side(own)) {
                 Some((_, known)) if *known != side(other) => return false,
                 Some(_) => {}
-                None => room.sides.push((side(own), side(other))),
+                None => scratch.sides.push((side(own), side(other))),
             }
         }
-        for (_, corners, _) in room.around.iter().filter(|(.., shared)| !shared) {
+        for (_, corners, _) in scratch.around.iter().filter(|(.., shared)| !shared) {
             let Some(own) = at(corners, from) else { return false };
-            let Some(&(_, onto)) = room.sides.iter().find(|(known, _)| *known == side(own)) else {
+            let Some(&(_, onto)) = scratch.sides.iter().find(|(known, _)| *known == side(own)) else {
                 return false;
             };
-            if room.moves.iter().all(|(known, _)| *known != own) {
+            if scratch.moves.iter().all(|(known, _)| *known != own) {
                 let Some(vertex) = self.most_similar(own, onto) else { return false };
-                room.moves.push((own, vertex));
+                scratch.moves.push((own, vertex));
             }
         }
         true
     }
 
-    /// The vertex on `side` whose normal is most like that of `vertex`; of two as like the first.
+    /// Returns the vertex on `side` whose normal is most similar to that of `vertex`; of two equal ones the first.
     fn most_similar(&self, vertex: u32, side: u32) -> Option<u32> {
         let normals = &self.surface.primitive.vertices.normals;
         let normal = |vertex: u32| normals.get(vertex as usize).copied().unwrap_or_default();
@@ -288,9 +293,9 @@ impl<'a> Collapser<'a> {
         best.map(|(member, _)| member)
     }
 
-    /// Does every triangle that stays keep its side up, in every pose?
-    fn keeps_facing(&self, from: u32, onto: u32, room: &Room) -> bool {
-        room.around.iter().filter(|(.., shared)| !shared).all(|(triangle, corners, _)| {
+    /// Returns whether every triangle that stays keeps its orientation, in every pose.
+    fn keeps_facing(&self, from: u32, onto: u32, scratch: &CollapseScratch) -> bool {
+        scratch.around.iter().filter(|(.., shared)| !shared).all(|(triangle, corners, _)| {
             let after = corners.map(|corner| {
                 let moves = self.surface.place[corner as usize] == from;
                 if moves { onto } else { corner }
@@ -299,7 +304,7 @@ impl<'a> Collapser<'a> {
             self.surface.poses.iter().enumerate().all(|(pose, positions)| {
                 let [before, after] =
                     [*corners, after].map(|corners| normal(corners.map(|corner| positions[corner as usize])));
-                // One without area had no side to keep.
+                // A triangle without area has no orientation.
                 let flat = if pose == 0 { first == DVec3::ZERO } else { before == DVec3::ZERO };
                 flat || (after.dot(before) > TURN * after.length() * before.length()
                     && (pose != 0 || after.dot(first) > 0.0))
@@ -307,31 +312,32 @@ impl<'a> Collapser<'a> {
         })
     }
 
-    /// Moves `from` onto `onto`, as the room says.
+    /// Moves `from` onto `onto`, with the lists of the scratch memory.
     fn collapse(&mut self, from: u32, onto: u32) {
         let step = self.progression.left.len() as u32 - 1;
-        for &(triangle, corners, shared) in &self.room.around {
+        for &(triangle, corners, shared) in &self.scratch.around {
             let place = &mut self.surface.triangles[triangle as usize];
             if shared {
                 *place = None;
                 self.left -= 1;
                 self.progression.gone_after[triangle as usize] = step + 1;
             } else {
-                let moved = |corner: u32| self.room.moves.iter().find(|one| one.0 == corner).map(|one| one.1);
+                let moved =
+                    |corner: u32| self.scratch.moves.iter().find(|one| one.0 == corner).map(|one| one.1);
                 *place = Some(corners.map(|corner| moved(corner).unwrap_or(corner)));
             }
         }
-        let moves = self.room.moves.iter().map(|&(vertex, onto)| Move { step, vertex, onto });
+        let moves = self.scratch.moves.iter().map(|&(vertex, onto)| Move { step, vertex, onto });
         self.progression.moves.extend(moves);
         self.progression.left.push(self.left as u32);
-        self.surface.hand_over(from, onto);
+        self.surface.move_triangles(from, onto);
         for quadrics in &mut self.quadrics {
             let gone = quadrics[from as usize];
             quadrics[onto as usize].add(&gone);
         }
         self.versions[from as usize] += 1;
         self.versions[onto as usize] += 1;
-        let mut next = std::mem::take(&mut self.room.next);
+        let mut next = std::mem::take(&mut self.scratch.next);
         next.clear();
         for (_, corners) in self.surface.around(onto) {
             next.extend(self.surface.places(corners));
@@ -342,11 +348,11 @@ impl<'a> Collapser<'a> {
             self.push(place, onto);
             self.push(onto, place);
         }
-        self.room.next = next;
+        self.scratch.next = next;
     }
 }
 
-/// Twice the area along the normal.
+/// Returns the normal with twice the area as its length.
 fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }

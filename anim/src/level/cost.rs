@@ -1,16 +1,16 @@
-//! What a collapse costs: how far the surface moves, and how differently it will move.
+//! The cost of a collapse: how far the surface moves, and how differently it is skinned afterwards.
 
 use super::surface::Surface;
 use crate::data::{Influence, MAX_INFLUENCES};
 use glam::{DMat3, DVec3, Vec3};
 
-/// Borders weigh this much more than the planes of triangles: there is nothing beyond that would hide a gap.
+/// Weight of borders relative to planes of triangles: there is nothing beyond a border that would hide a gap.
 const BORDER: f64 = 10.0;
 
-/// Seams weigh as much as triangles.
+/// Weight of seams, the same as of triangles.
 const SEAM: f64 = 1.0;
 
-/// Of two collapses as good, the shorter: a small part of the squared length counts.
+/// Weight of the squared length, so that of two otherwise equal collapses the shorter is chosen.
 const LENGTH: f64 = 1e-6;
 
 /// Sum of squared distances to planes, each times an area (Garland and Heckbert 1997).
@@ -30,17 +30,17 @@ pub(super) struct Quadric {
 }
 
 impl Quadric {
-    /// Of nothing.
+    /// The empty sum.
     pub(super) const ZERO: Self = Self { a: DMat3::ZERO, b: DVec3::ZERO, c: 0.0, area: 0.0 };
 
-    /// Of the plane through `point` with the unit normal `normal`.
+    /// Returns the quadric of the plane through `point` with the unit normal `normal`.
     pub(super) fn plane(normal: DVec3, point: DVec3, weight: f64) -> Self {
         let d = -normal.dot(point);
         let a = DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z) * weight;
         Self { a, b: normal * (d * weight), c: d * d * weight, area: 0.0 }
     }
 
-    /// Both together.
+    /// Adds another sum.
     pub(super) fn add(&mut self, other: &Self) {
         self.a += other.a;
         self.b += other.b;
@@ -48,22 +48,22 @@ impl Quadric {
         self.area += other.area;
     }
 
-    /// The sum at `point`; not negative.
+    /// Returns the sum at `point`; not negative.
     pub(super) fn at(&self, point: DVec3) -> f64 {
         (point.dot(self.a * point) + 2.0 * self.b.dot(point) + self.c).max(0.0)
     }
 }
 
-/// The quadrics of every place, one list a pose.
+/// Returns the quadrics of every place, one list per pose.
 pub(super) fn quadrics(surface: &Surface<'_>) -> Vec<Vec<Quadric>> {
     surface.poses.iter().map(|positions| quadrics_of(surface, positions)).collect()
 }
 
-/// The quadric of every place in one pose: its triangles, and planes upright on borders and seams that keep those where
-/// they are.
+/// Returns the quadric of every place in one pose: its triangles, and planes perpendicular to borders and seams that
+/// keep those in place.
 fn quadrics_of(surface: &Surface<'_>, positions: &[DVec3]) -> Vec<Quadric> {
     let mut quadrics = vec![Quadric::ZERO; surface.place.len()];
-    // Each edge as often as it has triangles: places in ascending order, then the sides, then where it was met.
+    // One entry per triangle of each edge: places in ascending order, then the sides, then the direction of travel.
     let mut edges: Vec<([u32; 2], [u32; 2], DVec3)> = Vec::new();
     for corners in surface.triangles.iter().flatten() {
         let [a, b, c] = corners.map(|corner| positions[corner as usize]);
@@ -107,7 +107,8 @@ fn quadrics_of(surface: &Surface<'_>, positions: &[DVec3]) -> Vec<Quadric> {
     quadrics
 }
 
-/// Half the sum of the differences of weights by joint: 0 where two vertices move alike, 1 where no bone moves both.
+/// Returns half the sum of the differences of weights by joint: 0 where two vertices have equal influences, 1 where
+/// they have no bone in common.
 fn skin_difference(surface: &Surface<'_>, a: u32, b: u32) -> f64 {
     let vertices = &surface.primitive.vertices;
     // No vertex has more; a longer list would only take longer.
@@ -121,7 +122,7 @@ fn skin_difference(surface: &Surface<'_>, a: u32, b: u32) -> f64 {
     };
     let mut sum = 0.0;
     for (at, influence) in of_a.iter().enumerate() {
-        // A joint that is named twice counts once.
+        // A joint that is listed twice counts once.
         if of_a[..at].iter().all(|other| other.joint != influence.joint) {
             sum += (weight(of_a, influence.joint) - weight(of_b, influence.joint)).abs();
         }
@@ -133,16 +134,16 @@ fn skin_difference(surface: &Surface<'_>, a: u32, b: u32) -> f64 {
     (sum * 0.5).min(1.0)
 }
 
-/// What it costs that the place `from` moves onto `onto`; not finite where it cannot be told.
+/// Returns the cost of moving the place `from` onto `onto`; not finite where it cannot be computed.
 ///
 /// ```text
 /// mean over poses of (Q_from + Q_onto)(p_onto)
 ///     + area * length² * ((skin * difference)² + 1e-6) + area * Σ |morph difference|²
 /// ```
 ///
-/// The mean over poses makes the shape that counts the one in motion (Mohr and Gleicher 2003). `area` is that around
-/// `from`, `length` that of the edge, both as stored; `difference` (0..1) is how differently bones move its ends: the
-/// poses show what the takes do, and this stands in for what others may.
+/// Because of the mean over poses, the shape in motion determines the cost (Mohr and Gleicher 2003). `area` is that
+/// around `from`, `length` that of the edge, both as stored; `difference` (0..1) is how differently bones move its
+/// ends: the poses cover the given takes, and this term covers other ones.
 pub(super) fn cost(surface: &Surface<'_>, quadrics: &[Vec<Quadric>], skin: f64, from: u32, onto: u32) -> f64 {
     let (from_at, onto_at) = (from as usize, onto as usize);
     let mut moved = 0.0;

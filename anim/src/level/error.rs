@@ -1,4 +1,4 @@
-//! How far a level is from the original, where it counts: in poses.
+//! The error of a level of detail, measured in poses.
 
 use crate::data::ModelData;
 use crate::evaluator::Evaluator;
@@ -6,18 +6,18 @@ use crate::hit::{HitPose, HitTree};
 use glam::Vec3;
 use std::sync::Arc;
 
-/// The largest distance, in scene units, from a vertex that a level took away to the surface of the level, both skinned
-/// in the same pose.
+/// Returns the largest distance, in scene units, from a removed vertex to the surface of the level, both skinned in the
+/// same pose.
 ///
 /// ```text
 /// error = max over poses, instances and vertices v of the original that the level does not use:
 ///             min over points q of the level's surface of that instance:  |skinned(v) - q|
 /// ```
 ///
-/// The one-sided Hausdorff distance from the original to the level, taken at the vertices. The poses are the rest pose
-/// and `poses` of each take, from its start to its end at even distances. `indices` are those of a
-/// [`super::Level`] of `model`; zero where no vertex was taken away. Infinite where a level has nothing left of an
-/// instance, or the model is larger than a [`HitTree`] can be.
+/// The one-sided Hausdorff distance from the original to the level, measured at the vertices. The poses are the rest
+/// pose and `poses` of each take, from its start to its end at even distances. `indices` are those of a [`super::Lod`]
+/// of `model`; zero where no vertex was removed. Infinite where nothing is left of an instance, or the model is larger
+/// than a [`HitTree`] can be.
 pub fn skinned_error(model: &ModelData, indices: &[Vec<Vec<u32>>], poses: usize) -> f32 {
     let removed = removed(model, indices);
     if removed.iter().flatten().all(Vec::is_empty) {
@@ -48,7 +48,7 @@ pub fn skinned_error(model: &ModelData, indices: &[Vec<Vec<u32>>], poses: usize)
     largest as f32
 }
 
-/// The rest pose, and `poses` of each take.
+/// Returns the rest pose, and `poses` of each take.
 pub(super) fn sample_poses(model: &ModelData, poses: usize) -> Vec<(Option<usize>, f32)> {
     let mut samples = vec![(None, 0.0)];
     for (index, take) in model.animation.takes.iter().enumerate() {
@@ -58,7 +58,7 @@ pub(super) fn sample_poses(model: &ModelData, poses: usize) -> Vec<(Option<usize
     samples
 }
 
-/// Of each mesh and primitive: vertices that the original uses and the level does not.
+/// Returns, for each mesh and primitive, the vertices that the original uses and the level does not.
 fn removed(model: &ModelData, indices: &[Vec<Vec<u32>>]) -> Vec<Vec<Vec<u32>>> {
     let of_primitive = |mesh: usize, index: usize| {
         let primitive = &model.meshes[mesh].primitives[index];
@@ -80,7 +80,7 @@ fn removed(model: &ModelData, indices: &[Vec<Vec<u32>>]) -> Vec<Vec<Vec<u32>>> {
         .collect()
 }
 
-/// A copy of `model` with other indices, without pictures.
+/// Returns a copy of `model` with other indices, without images.
 fn with_indices(model: &ModelData, indices: &[Vec<Vec<u32>>]) -> ModelData {
     let mut coarse = ModelData { images: Vec::new(), ..model.clone() };
     for (mesh, indices) in coarse.meshes.iter_mut().zip(indices) {

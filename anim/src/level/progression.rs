@@ -5,32 +5,32 @@ use crate::data::Primitive;
 /// One vertex that moves onto another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Move {
-    /// The collapse that it is part of; several vertices at one place move together.
+    /// The collapse that it belongs to; several vertices at one place move together.
     pub step: u32,
-    /// Which vertex; it moves once.
+    /// The vertex that moves; each moves once.
     pub vertex: u32,
-    /// Where it goes; still there at this step.
+    /// The vertex that it moves onto, which still exists at this step.
     pub onto: u32,
 }
 
 /// All collapses of a primitive, in order; plain data.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Progression {
-    /// Ascending by step.
+    /// All moves, ascending by step.
     pub moves: Vec<Move>,
-    /// Of each triangle of the original: after how many steps it is gone; `u32::MAX` for one that stays.
+    /// For each triangle of the original, the number of steps after which it is removed; `u32::MAX` for one that stays.
     pub gone_after: Vec<u32>,
-    /// Triangles that are left after each number of steps; the first is the original's.
+    /// Number of triangles left after each number of steps; the first is the original's.
     pub left: Vec<u32>,
 }
 
 impl Progression {
-    /// Number of collapses.
+    /// Returns the number of collapses.
     pub fn steps(&self) -> usize {
         self.left.len().saturating_sub(1)
     }
 
-    /// The fewest steps after which at most `triangles` are left; all steps where there are more even then.
+    /// Returns the fewest steps after which at most `triangles` are left; all steps where there are more even then.
     pub fn steps_to(&self, triangles: usize) -> usize {
         self.left.partition_point(|&left| left as usize > triangles).min(self.steps())
     }
@@ -38,13 +38,13 @@ impl Progression {
     /// Writes the indices of `primitive` after `steps` collapses to `out`, in the order of the original; after none
     /// they are the original's.
     ///
-    /// `room` is worked in; with both kept between calls nothing is allocated. O(vertices + triangles). A vertex or a
-    /// triangle that `primitive` does not have is left out.
+    /// `scratch` is working memory; with both kept between calls nothing is allocated. O(vertices + triangles).
+    /// Vertices and triangles that `primitive` does not have are left out.
     pub fn indices_after(
         &self,
         primitive: &Primitive,
         steps: usize,
-        room: &mut Vec<u32>,
+        scratch: &mut Vec<u32>,
         out: &mut Vec<u32>,
     ) {
         out.clear();
@@ -52,21 +52,21 @@ impl Progression {
             out.extend_from_slice(&primitive.indices);
             return;
         }
-        room.clear();
-        room.extend(0..primitive.vertices.len() as u32);
+        scratch.clear();
+        scratch.extend(0..primitive.vertices.len() as u32);
         let done = self.moves.partition_point(|one| (one.step as usize) < steps);
-        // What a vertex moves onto moves later, if at all: from the last to the first each is known when asked for.
+        // A target moves later, if at all: from the last move to the first, each target is final when it is read.
         for one in self.moves[..done].iter().rev() {
-            let onto = room.get(one.onto as usize).copied();
-            if let (Some(onto), Some(place)) = (onto, room.get_mut(one.vertex as usize)) {
+            let onto = scratch.get(one.onto as usize).copied();
+            if let (Some(onto), Some(place)) = (onto, scratch.get_mut(one.vertex as usize)) {
                 *place = onto;
             }
         }
         for (triangle, corners) in primitive.indices.chunks_exact(3).enumerate() {
             let gone = self.gone_after.get(triangle).is_some_and(|&after| after as usize <= steps);
-            let there = corners.iter().all(|&corner| (corner as usize) < room.len());
+            let there = corners.iter().all(|&corner| (corner as usize) < scratch.len());
             if there && !gone {
-                out.extend(corners.iter().map(|&corner| room[corner as usize]));
+                out.extend(corners.iter().map(|&corner| scratch[corner as usize]));
             }
         }
     }

@@ -1,39 +1,40 @@
-//! Vertices put together to places, and which triangles are around each.
+//! A primitive with vertices merged into places, and the triangles around each place.
 
 use crate::bounds::reach_builder::moving_targets;
 use crate::data::{Influence, Primitive};
 use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
 
-/// A place with more triangles around it is left alone, and none gets more.
+/// A place with more triangles around it is not moved, and no collapse exceeds this number.
 pub(super) const MOST_AROUND: usize = 64;
 
 /// A primitive as a surface of places.
 pub(super) struct Surface<'a> {
     pub(super) primitive: &'a Primitive,
-    /// Of each vertex: its place, the first vertex that is there.
+    /// For each vertex its place, which is the first vertex there.
     pub(super) place: Vec<u32>,
-    /// Of each vertex: its side of a seam, the first vertex with the same place, texture coordinates and colour.
+    /// For each vertex its side of a seam, which is the first vertex with the same place, texture coordinates and
+    /// color.
     pub(super) side: Vec<u32>,
     /// Vertices of each side that triangles use, grouped: `members[first[side]..]`.
     members: Vec<(u32, u32)>,
-    /// Of each triangle: the vertices of its corners now; `None` once it is gone.
+    /// For each triangle, the current vertices of its corners; `None` once it is removed.
     pub(super) triangles: Vec<Option<[u32; 3]>>,
-    /// Of each place: triangles around it, some of which may be gone.
+    /// For each place, the triangles around it, some of which may be removed.
     around: Vec<Vec<u32>>,
-    /// Of each place: must it stay?
+    /// For each place, whether it must stay.
     pub(super) locked: Vec<bool>,
-    /// As stored, and in each pose; of each vertex: brought near 1, so that no square leaves the range of numbers.
+    /// Positions as stored, and in each pose; one per vertex, scaled to at most 1, so that no square overflows.
     pub(super) poses: Vec<Vec<DVec3>>,
     /// Morph targets that move anything.
     pub(super) targets: Vec<u32>,
-    /// Stored lengths are multiplied by this in the first of `poses`.
+    /// Scale of the stored positions in the first of `poses`.
     pub(super) scale: f64,
 }
 
 impl<'a> Surface<'a> {
-    /// The surface of `primitive`, which has the positions `poses` in some poses; vertices for which `locked` says so
-    /// stay. A pose that is too short counts as none.
+    /// Builds the surface of `primitive`, which has the positions `poses` in some poses; vertices for which `locked`
+    /// returns true stay. A pose that is too short is ignored.
     pub(super) fn of(primitive: &'a Primitive, poses: &[Vec<Vec3>], locked: &dyn Fn(usize) -> bool) -> Self {
         let count = primitive.vertices.len();
         let targets = moving_targets(primitive);
@@ -74,7 +75,7 @@ impl<'a> Surface<'a> {
         surface
     }
 
-    /// Takes the triangles that have three places, and locks the places where there are too many.
+    /// Adds the triangles that have three places, and locks the places with too many triangles.
     fn add_triangles(&mut self) {
         let count = self.place.len();
         for (index, corners) in self.primitive.indices.chunks_exact(3).enumerate() {
@@ -95,30 +96,30 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// Number of triangles that are there.
+    /// Returns the number of remaining triangles.
     pub(super) fn left(&self) -> usize {
         self.triangles.iter().flatten().count()
     }
 
-    /// Places of a triangle's corners.
+    /// Returns the places of a triangle's corners.
     pub(super) fn places(&self, corners: [u32; 3]) -> [u32; 3] {
         corners.map(|corner| self.place[corner as usize])
     }
 
-    /// Triangles around `place` that are still there, each with its corners.
+    /// Iterates over the remaining triangles around `place`, each with its corners.
     pub(super) fn around(&self, place: u32) -> impl Iterator<Item = (u32, [u32; 3])> + '_ {
         let all = self.around[place as usize].iter();
         all.filter_map(|&triangle| Some((triangle, self.triangles[triangle as usize]?)))
     }
 
-    /// Vertices on a side of a seam that triangles of the original use.
+    /// Iterates over vertices on a side of a seam that triangles of the original use.
     pub(super) fn members(&self, side: u32) -> impl Iterator<Item = u32> + '_ {
         let first = self.members.partition_point(|member| member.0 < side);
         self.members[first..].iter().take_while(move |member| member.0 == side).map(|member| member.1)
     }
 
-    /// Gives `onto` the triangles of `from`, without those that are gone.
-    pub(super) fn hand_over(&mut self, from: u32, onto: u32) {
+    /// Moves the remaining triangles of `from` to `onto`.
+    pub(super) fn move_triangles(&mut self, from: u32, onto: u32) {
         let mut moved = std::mem::take(&mut self.around[from as usize]);
         moved.append(&mut self.around[onto as usize]);
         moved.retain(|&triangle| self.triangles[triangle as usize].is_some());
@@ -126,7 +127,7 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// Do two vertices always stand at one place? Equal where they have the same position, influences and differences.
+/// Compares two vertices; equal if they are always at the same position: same position, influences and differences.
 fn compare_places(primitive: &Primitive, targets: &[u32], a: usize, b: usize) -> Ordering {
     let vertices = &primitive.vertices;
     let mut order = compare(vertices.positions[a], vertices.positions[b]);
@@ -145,7 +146,7 @@ fn compare_places(primitive: &Primitive, targets: &[u32], a: usize, b: usize) ->
     order
 }
 
-/// Have two vertices the same texture coordinates and colour?
+/// Compares two vertices; equal if they have the same texture coordinates and color.
 fn compare_sides(primitive: &Primitive, a: usize, b: usize) -> Ordering {
     let vertices = &primitive.vertices;
     let key = |vertex: usize| {
@@ -159,7 +160,7 @@ fn compare_sides(primitive: &Primitive, a: usize, b: usize) -> Ordering {
     key(a).cmp(&key(b))
 }
 
-/// An influence without weight is none, whatever joint it names.
+/// An influence without weight counts as none, whatever its joint is.
 fn key(influence: &Influence) -> (u16, u32) {
     if influence.weight == 0.0 { (0, 0) } else { (influence.joint, influence.weight.to_bits()) }
 }
@@ -168,12 +169,13 @@ fn compare(a: Vec3, b: Vec3) -> Ordering {
     a.to_array().map(bits).cmp(&b.to_array().map(bits))
 }
 
-/// The bits of a number; zero and minus zero are one.
+/// Returns the bits of a number, with minus zero as zero.
 fn bits(number: f32) -> u32 {
     (number + 0.0).to_bits()
 }
 
-/// Positions moved to the origin and scaled to at most 1, and the scale; those that are not finite in the origin.
+/// Returns positions moved to the origin and scaled to at most 1, and the scale; those that are not finite are put at
+/// the origin.
 fn near_one(positions: &[Vec3]) -> (Vec<DVec3>, f64) {
     let finite =
         || positions.iter().filter(|position| position.is_finite()).map(|position| position.as_dvec3());

@@ -1,45 +1,47 @@
-//! The motion itself, as a curve over time.
+//! Root motion as a curve over time.
 
 use super::Axis;
 use crate::data::{BoneIndex, Channel, Transform};
 use crate::sample::{PlayMode, clamp_time, sample_channel};
 use glam::{DQuat, DVec3, Quat, Vec3};
 
-/// Where a take carries its figure, relative to where it stands at its start.
+/// Movement of a figure through the scene, relative to its position at the start of the take.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[doc(alias = "root motion")]
 pub struct RootMotion {
-    /// The bone it was taken from, and is put back to.
+    /// The bone that it was extracted from, and is restored to.
     pub bone: BoneIndex,
-    /// The axis that [`Self::rotation`] turns about.
+    /// The axis of [`Self::rotation`].
     pub up: Axis,
     /// Point of the axis of rotation, to-root space: below the bone at the start of the take.
     pub pivot: Vec3,
-    /// To-root space, zero at the start. Empty: the figure stays.
+    /// To-root space, zero at the start. Empty: no translation.
     pub translation: Channel<Vec3>,
     /// Rotation about `up` through `pivot`, before the translation; the identity at the start. Empty: none.
     pub rotation: Channel<Quat>,
-    /// Seconds: start of the take.
+    /// Start of the take in seconds.
     pub start: f32,
-    /// Seconds: length of the take.
+    /// Length of the take in seconds.
     pub length: f32,
 }
 
 impl RootMotion {
-    /// `M(t)`: from the scene in which the take is in place to that in which it moves, at `time` seconds; scale 1.
+    /// Returns `M(t)`: from the scene in which the take is in place to that in which it moves, at `time` seconds; scale
+    /// 1.
     ///
     /// Clamped to the keys. The identity at the start of the take, unless its keys have been edited; also where the
-    /// result would be past what f32 can hold.
+    /// result would exceed the range of f32.
     pub fn at(&self, time: f32) -> Transform {
         self.rigid(time).to_transform()
     }
 
-    /// What moves the figure between two times of a clock: `M(from)⁻¹ · M(to)`.
+    /// Returns the movement of the figure between two times of a clock: `M(from)⁻¹ · M(to)`.
     ///
-    /// The figure's matrix `W` at `from` becomes `W · delta` at `to`. With [`PlayMode::Loop`] the clock may run on: each
-    /// time the take begins anew the way of one whole take is added, `C = M(end) · M(start)⁻¹`:
+    /// The figure's matrix `W` at `from` becomes `W · delta` at `to`. With [`PlayMode::Loop`] the clock may run past
+    /// the end: each repetition of the take adds its whole movement, `C = M(end) · M(start)⁻¹`:
     ///
     /// ```text
-    /// delta = M(t_from)⁻¹ · C^(n_to - n_from) · M(t_to)        t, n: time within the take, takes gone by
+    /// delta = M(t_from)⁻¹ · C^(n_to - n_from) · M(t_to)        t, n: time within the take, number of repetitions
     /// ```
     ///
     /// Either time may be the larger, or before the start. A take without length has no motion; a time that is not
@@ -53,7 +55,7 @@ impl RootMotion {
         delta.to_transform()
     }
 
-    /// How often the take has gone by at `time` of a clock, and the time within it.
+    /// Returns the number of completed repetitions of the take at `time` of a clock, and the time within it.
     fn wrap(&self, time: f32, mode: PlayMode) -> (i64, f32) {
         let (start, length) = (f64::from(self.start), f64::from(self.length));
         let inside = f64::from(time) - start;
@@ -85,7 +87,7 @@ struct Rigid {
 impl Rigid {
     const IDENTITY: Self = Self { rotation: DQuat::IDENTITY, translation: DVec3::ZERO };
 
-    /// The product `self · inner`: `inner` first.
+    /// Returns the product `self · inner`: `inner` is applied first.
     fn then_inside(self, inner: Self) -> Self {
         Self {
             rotation: (self.rotation * inner.rotation).normalize(),
@@ -98,7 +100,7 @@ impl Rigid {
         Self { rotation, translation: -(rotation * self.translation) }
     }
 
-    /// The product of `times` of itself, by squaring; of the inverse where `times` is negative.
+    /// Returns the product of `times` copies of itself, by squaring; of the inverse where `times` is negative.
     fn repeated(self, times: i64) -> Self {
         let mut square = if times < 0 { self.inverse() } else { self };
         let (mut left, mut product) = (times.unsigned_abs(), Self::IDENTITY);

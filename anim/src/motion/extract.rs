@@ -1,22 +1,23 @@
-//! Taking the motion out.
+//! Extraction of root motion from a take.
 
-use super::frame::{Frame, ancestors};
 use super::keys::{Refine, slopes, spins, union, with_values};
-use super::restore::{Way, apply};
+use super::parent_space::{ParentSpace, ancestors};
+use super::restore::{MotionDirection, apply};
 use super::{MotionError, RootMotion, RootMotionOptions};
 use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use crate::sample::{Value, rest_pose, sample_track};
 use glam::{DQuat, DVec3, Quat, Vec3};
 
-/// Takes the motion of `bone` out of `take`: the motion, and the take in place.
+/// Extracts the motion of `bone` from `take`. Returns the motion, and the take in place.
 ///
-/// A bone without keys whose ancestors do not move gives a motion without keys and the take as it was. Where ancestors
+/// A bone without keys whose ancestors do not move gives a motion without keys and the unchanged take. Where ancestors
 /// move, the bone gets keys at their key times too. Nothing else of the take is changed.
 ///
-/// Everything the options take out is gone at the key times; between them as well if only translations are taken out and
-/// the ancestors rest. With yaw, place and direction between two keys differ from the take by what the mix of two
-/// products differs from the product of two mixes: of second order in the angle between the keys. What [`put_back`](super::put_back())
-/// makes of the two is the take again at all times.
+/// At the key times, everything that the options extract is removed; between them too, if only translations are
+/// extracted and the ancestors do not move. With yaw, position and direction between two keys differ from the take by
+/// the difference of an interpolated product from a product of interpolated values: of second order in the angle
+/// between the keys. Applying [`restore`](super::restore()) to both results gives the original take at all times.
+#[doc(alias = "root motion")]
 pub fn extract(
     take: &Take,
     skeleton: &Skeleton,
@@ -26,11 +27,11 @@ pub fn extract(
     let rest = rest_pose(skeleton.bones.get(bone as usize).ok_or(MotionError::NoSuchBone { bone })?);
     let track = refined(take, skeleton, bone, rest, options);
     let motion = measure(take, skeleton, &track, rest, options)?;
-    let track = apply(take, skeleton, &track, &motion, Way::Out)?;
+    let track = apply(take, skeleton, &track, &motion, MotionDirection::Extract)?;
     Ok((motion, with_track(take, track)))
 }
 
-/// The take of [`extract`] alone.
+/// Returns only the take of [`extract`].
 pub fn in_place(
     take: &Take,
     skeleton: &Skeleton,
@@ -40,7 +41,7 @@ pub fn in_place(
     extract(take, skeleton, bone, options).map(|(_, take)| take)
 }
 
-/// `take` with another track for one bone.
+/// Returns `take` with another track for one bone.
 pub(super) fn with_track(take: &Take, track: Track) -> Take {
     let mut take = take.clone();
     let index = track.bone as usize;
@@ -51,13 +52,13 @@ pub(super) fn with_track(take: &Take, track: Track) -> Take {
     take
 }
 
-/// The track of `bone`; an empty one where the take has none.
+/// Returns the track of `bone`; an empty one where the take has none.
 pub(super) fn track_of(take: &Take, bone: BoneIndex) -> Track {
     let track = take.tracks.get(bone as usize).cloned().unwrap_or_default();
     Track { bone, ..track }
 }
 
-/// Key times of everything above `bone`.
+/// Returns the key times of all ancestors of `bone`.
 pub(super) fn times_above(take: &Take, skeleton: &Skeleton, bone: BoneIndex) -> Vec<f32> {
     let tracks = ancestors(skeleton, bone).filter_map(|ancestor| take.tracks.get(ancestor));
     let lists =
@@ -65,13 +66,13 @@ pub(super) fn times_above(take: &Take, skeleton: &Skeleton, bone: BoneIndex) -> 
     union(lists.map(|times| &times[..]))
 }
 
-/// Must the translation have keys wherever the rotation has? Where something horizontal stays in the take while the yaw
-/// does not, the yaw turns what stays.
+/// Returns whether the translation needs keys wherever the rotation has some. Where a horizontal component stays in the
+/// take while the yaw does not, the yaw rotates that component.
 fn is_coupled(horizontal: [bool; 3], up: usize, moves: bool) -> bool {
     moves && (0..3).any(|axis| axis != up && !horizontal[axis])
 }
 
-/// The track of the bone with all keys that the conversion needs.
+/// Returns the track of the bone with all keys that the conversion needs.
 fn refined(
     take: &Take,
     skeleton: &Skeleton,
@@ -94,7 +95,7 @@ fn refined(
     track
 }
 
-/// The motion of a refined track.
+/// Computes the motion of a refined track.
 fn measure(
     take: &Take,
     skeleton: &Skeleton,
@@ -103,13 +104,13 @@ fn measure(
     options: RootMotionOptions,
 ) -> Result<RootMotion, MotionError> {
     let (bone, up) = (track.bone, options.up.to_vec3().as_dvec3());
-    let frame = Frame::at(take, skeleton, bone, take.start)?;
+    let space = ParentSpace::at(take, skeleton, bone, take.start)?;
     let start = sample_track(track, &skeleton.bones[bone as usize], take.start);
-    let place = frame.place(start.translation.as_dvec3());
+    let origin = space.point_to_root(start.translation.as_dvec3());
     let mut motion = RootMotion {
         bone,
         up: options.up,
-        pivot: (place - up * place.dot(up)).as_vec3(),
+        pivot: (origin - up * origin.dot(up)).as_vec3(),
         start: take.start,
         length: take.length,
         ..RootMotion::default()
@@ -117,20 +118,24 @@ fn measure(
     if options.translation.contains(&true) {
         let chosen = DVec3::from_array(options.translation.map(|axis| f64::from(u8::from(axis))));
         motion.translation = map(&track.translation, rest.translation, |time, value, rates| {
-            let frame = Frame::at(take, skeleton, bone, time)?;
-            let moved = chosen * (frame.place(value.as_dvec3()) - place);
-            Ok((moved.as_vec3(), rates.map(|rate| (chosen * frame.direct(rate.as_dvec3())).as_vec3())))
+            let space = ParentSpace::at(take, skeleton, bone, time)?;
+            let moved = chosen * (space.point_to_root(value.as_dvec3()) - origin);
+            Ok((
+                moved.as_vec3(),
+                rates.map(|rate| (chosen * space.vector_to_root(rate.as_dvec3())).as_vec3()),
+            ))
         })?;
     }
     if options.yaw {
-        let back = frame.turn(start.rotation.as_dquat()).conjugate();
+        let inverse_start = space.rotation_to_root(start.rotation.as_dquat()).conjugate();
         let mut last = DQuat::IDENTITY;
         motion.rotation = map_turns(&track.rotation, rest.rotation, |time, value, rates| {
-            let frame = Frame::at(take, skeleton, bone, time)?;
-            let about = |rotation: Quat| along(frame.turn(rotation.as_dquat()) * back, up);
+            let space = ParentSpace::at(take, skeleton, bone, time)?;
+            let about =
+                |rotation: Quat| along(space.rotation_to_root(rotation.as_dquat()) * inverse_start, up);
             let raw = about(value);
             let length = raw.length();
-            // Half a turn about a horizontal axis: no yaw can be told; it stays as it was.
+            // Half a turn about a horizontal axis: the yaw is undefined; it keeps its last value.
             let yaw = if length > 1e-6 { raw / length } else { last };
             let sign = if yaw.dot(last) < 0.0 { -1.0 } else { 1.0 };
             last = yaw * sign;
@@ -144,13 +149,13 @@ fn measure(
     Ok(motion)
 }
 
-/// The part of a quaternion about `axis`, not normalised.
+/// Returns the part of a quaternion about `axis`, not normalized.
 fn along(rotation: DQuat, axis: DVec3) -> DQuat {
     let part = axis * rotation.xyz().dot(axis);
     DQuat::from_xyzw(part.x, part.y, part.z, rotation.w)
 }
 
-/// A channel with every key's value, and a spline's tangents, changed.
+/// Returns a channel with every key's value, and a spline's tangents, changed.
 pub(super) fn map(
     channel: &Channel<Vec3>,
     rest: Vec3,
@@ -167,7 +172,7 @@ pub(super) fn map(
     Ok(with_values(channel, values))
 }
 
-/// [`map`] for rotations.
+/// As [`map`], for rotations.
 pub(super) fn map_turns(
     channel: &Channel<Quat>,
     rest: Quat,

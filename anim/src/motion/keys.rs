@@ -1,4 +1,4 @@
-//! More keys without another curve.
+//! Insertion of keys that leaves a curve unchanged.
 
 use crate::data::{Channel, Interpolation};
 use crate::sample::mix::hermite_slope;
@@ -6,7 +6,7 @@ use crate::sample::{Value, find_keys, sample_channel};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// All times of several lists, ascending, each once; those that are not finite are left out.
+/// Returns all times of several lists, ascending, each once; those that are not finite are left out.
 pub(super) fn union<'a>(lists: impl IntoIterator<Item = &'a [f32]>) -> Vec<f32> {
     let mut times: Vec<f32> = lists.into_iter().flatten().copied().filter(|time| time.is_finite()).collect();
     times.sort_by(f32::total_cmp);
@@ -14,18 +14,19 @@ pub(super) fn union<'a>(lists: impl IntoIterator<Item = &'a [f32]>) -> Vec<f32> 
     times
 }
 
-/// Does `channel` have a key at each of `times`?
+/// Returns whether `channel` has a key at each of `times`.
 fn has_all<T>(channel: &Channel<T>, times: &[f32]) -> bool {
     let has = |time: &f32| channel.times.binary_search_by(|key| key.total_cmp(time)).is_ok();
     times.iter().all(has)
 }
 
-/// A kind of value whose curves can be cut into more pieces.
+/// A type of value whose curves can be cut into more pieces.
 pub(super) trait Refine: Value {
-    /// The same curve with keys at `times` (ascending, finite) as well; `rest` at all of them where it had none.
+    /// Returns the same curve with keys at `times` (ascending, finite) as well; `rest` at all of them where it had
+    /// none.
     ///
     /// Step and linear: the sampled values. Closest becomes step, which changes half way between the old keys. Cubic
-    /// splines of vectors are cut exactly; those of rotations are left as they are.
+    /// splines of vectors are cut exactly; those of rotations are not changed.
     fn refined(channel: &Channel<Self>, rest: Self, times: &[f32]) -> Channel<Self>;
 }
 
@@ -42,7 +43,7 @@ impl Refine for Vec3 {
         let mut values = Vec::with_capacity(times.len() * 3);
         for &time in &times {
             let [before, after] = slopes(channel, rest, time);
-            // Outside its keys the channel keeps its value, whatever the outer tangents say.
+            // Outside its keys the channel is constant, whatever the outer tangents are.
             let before = if time > first { before } else { Vec3::ZERO };
             let after = if time < last { after } else { Vec3::ZERO };
             values.extend([before, sample_channel(channel, rest, time), after]);
@@ -60,7 +61,7 @@ impl Refine for Quat {
     }
 }
 
-/// [`Refine::refined`] for everything but splines.
+/// Refines channels other than splines; see [`Refine::refined`].
 fn sampled<T: Value>(channel: &Channel<T>, rest: T, times: &[f32]) -> Channel<T> {
     if has_all(channel, times) {
         return channel.clone();
@@ -81,7 +82,7 @@ fn sampled<T: Value>(channel: &Channel<T>, rest: T, times: &[f32]) -> Channel<T>
     Channel { times: times.into(), values: values.into(), interpolation }
 }
 
-/// "Closest key" as "last key": each key begins half way after the one before it.
+/// Converts "closest key" to "last key": each key starts half way after the one before it.
 fn as_step<T: Value>(channel: &Channel<T>, rest: T) -> Channel<T> {
     let (mut times, mut values): (Vec<f32>, Vec<T>) = (Vec::new(), Vec::new());
     for (index, &time) in channel.times.iter().enumerate() {
@@ -96,11 +97,11 @@ fn as_step<T: Value>(channel: &Channel<T>, rest: T) -> Channel<T> {
     Channel { times: times.into(), values: values.into(), interpolation: Interpolation::Step }
 }
 
-/// The first time at which the later of two keys is the closest one, as the sampler sees it.
+/// Returns the first time at which the later of two keys is the closest one, exactly as in sampling.
 fn half_way(before: f32, after: f32) -> f32 {
     let later = |time: f32| find_keys(&[before, after], time).is_some_and(|keys| keys.mix >= 0.5);
     let mut half = before * 0.5 + after * 0.5;
-    // Rounding moves it by a step or two.
+    // Corrects rounding by a step or two.
     for _ in 0..4 {
         if !later(half) {
             half = half.next_up();
@@ -111,7 +112,7 @@ fn half_way(before: f32, after: f32) -> f32 {
     half.min(after)
 }
 
-/// How fast the channel changes just before and just after `time`, units a second.
+/// Returns the derivative of the channel just before and just after `time`, in units per second.
 ///
 /// On a key of a spline: its tangents. Between keys of a spline: the derivative of the Hermite polynomial. Elsewhere:
 /// the difference quotient over a millisecond.
@@ -134,13 +135,13 @@ pub(super) fn slopes(channel: &Channel<Vec3>, rest: Vec3, time: f32) -> [Vec3; 2
     [slope; 2]
 }
 
-/// [`slopes`] of rotations, as differences of quaternions.
+/// Returns [`slopes`] of rotations, as differences of quaternions.
 pub(super) fn spins(channel: &Channel<Quat>, time: f32) -> [Quat; 2] {
     let tangents = stored(channel, time);
     tangents.unwrap_or_else(|| quotients(time, |time| sample_channel(channel, Quat::IDENTITY, time)))
 }
 
-/// In-tangent and out-tangent where `time` is on a key of a spline.
+/// Returns in-tangent and out-tangent where `time` is on a key of a spline.
 fn stored<T: Value>(channel: &Channel<T>, time: f32) -> Option<[T; 2]> {
     if channel.interpolation != Interpolation::CubicSpline {
         return None;
@@ -150,7 +151,7 @@ fn stored<T: Value>(channel: &Channel<T>, time: f32) -> Option<[T; 2]> {
     Some([tangent(key * 3).unwrap_or(T::ZERO), tangent(key * 3 + 2).unwrap_or(T::ZERO)])
 }
 
-/// Difference quotients to both sides of `time`.
+/// Returns the difference quotients on both sides of `time`.
 fn quotients<T>(time: f32, value: impl Fn(f32) -> T) -> [T; 2]
 where
     T: Copy + std::ops::Sub<Output = T> + std::ops::Div<f32, Output = T>,
@@ -161,7 +162,7 @@ where
     [quotient(here - value(before), time - before), quotient(value(after) - here, after - time)]
 }
 
-/// A channel of changed values at the same times.
+/// Returns a channel of changed values at the same times.
 pub(super) fn with_values<T: Copy>(channel: &Channel<T>, values: Vec<T>) -> Channel<T> {
     Channel { times: Arc::clone(&channel.times), values: values.into(), interpolation: channel.interpolation }
 }

@@ -1,8 +1,8 @@
-//! Root motion: the way that a take carries its figure through the scene, taken out of the take and put back.
+//! Root motion: the movement of a figure through the scene, extracted from a take and restored.
 //!
 //! Let `P(t)` be to-root of the parent of the chosen bone (usually the root or the hips), `x(t)` the bone's translation
-//! and `q(t)` its rotation relative to that parent, and `p = P x` its place in to-root space. With `t₀` the start of the
-//! take, `Π` the choice of axes, `c` the horizontal part of `p(t₀)` and `R` the rotation of `P`:
+//! and `q(t)` its rotation relative to that parent, and `p = P x` its position in to-root space. With `t₀` the start of
+//! the take, `Π` the choice of axes, `c` the horizontal part of `p(t₀)` and `R` the rotation of `P`:
 //!
 //! ```text
 //! m(t) = Π (p(t) - p(t₀))                               translation of the motion
@@ -13,24 +13,23 @@
 //! put back:   x  = P⁻¹ (c + m + Y (P x' - c))           q  =  R⁻¹ Y R     q'
 //! ```
 //!
-//! A figure placed in the scene by the matrix `W` and drawn in place looks like the take when it is drawn with
-//! `W · M(t)`; from frame to frame `W` is multiplied by [`RootMotion::delta`]. The twist of a rotation about an axis is
-//! its part about that axis: `(q·axis, w)` normalised (Dobrowolski, "Swing-twist decomposition in Clifford algebra",
-//! 2015).
+//! A figure placed in the scene by the matrix `W` and drawn in place looks like the take when it is drawn with `W ·
+//! M(t)`; from frame to frame `W` is multiplied by [`RootMotion::delta`]. The twist of a rotation about an axis is its
+//! part about that axis: `(q·axis, w)` normalized (Dobrowolski, "Swing-twist decomposition in Clifford algebra", 2015).
 //!
-//! The formulas are applied key by key, so what [`put_back`] gives is the take again, at keys and between them. The
+//! The formulas are applied key by key, so [`restore`] restores the take exactly, at keys and between them. The
 //! motion's channels have their keys where the bone has its own, and its interpolation; they are plain [`Channel`]s and
-//! may be edited before they are put back.
+//! may be edited before they are restored.
 
 mod curve;
 mod extract;
-mod frame;
 mod keys;
+mod parent_space;
 mod restore;
 
 pub use curve::RootMotion;
 pub use extract::{extract, in_place};
-pub use restore::put_back;
+pub use restore::restore;
 
 use crate::data::BoneIndex;
 #[cfg(doc)]
@@ -50,31 +49,31 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// As a unit vector.
+    /// Returns the axis as a unit vector.
     pub fn to_vec3(self) -> Vec3 {
         Vec3::AXES[self as usize]
     }
 }
 
-/// What is motion, and what stays in the take.
+/// The parts of the movement to extract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RootMotionOptions {
-    /// Which way is up.
+    /// The axis that points up.
     pub up: Axis,
-    /// Take out the movement along x, y, z of to-root space? That along `up` is the height.
+    /// Whether the movement along x, y, z of to-root space is extracted. The one along `up` is the height.
     pub translation: [bool; 3],
-    /// Take out the turning about `up`?
+    /// Whether the rotation about `up` is extracted.
     pub yaw: bool,
 }
 
 impl Default for RootMotionOptions {
-    /// Y is up; x, z and yaw are motion, height stays in the take.
+    /// Returns options with Y up; x, z and yaw are extracted, height stays in the take.
     fn default() -> Self {
         Self { up: Axis::Y, translation: [true, false, true], yaw: true }
     }
 }
 
-/// Why no root motion could be taken out or put back.
+/// Reasons why root motion cannot be extracted or restored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MotionError {
     /// The skeleton has no such bone.
@@ -83,12 +82,14 @@ pub enum MotionError {
         /// The index that was given.
         bone: BoneIndex,
     },
-    /// Above the bone, at some key, a scale is zero: to-root space cannot be carried into that of the parent.
-    #[error("the space of the parent of bone {bone} is flat at {milliseconds} ms: a scale above it is zero")]
+    /// Above the bone, at some key, a scale is zero: to-root space cannot be transformed to that of the parent.
+    #[error(
+        "the motion of bone {bone} cannot be computed at {milliseconds} ms: a scale of one of its ancestors is zero"
+    )]
     Flat {
-        /// The bone whose motion it is.
+        /// The bone of the motion.
         bone: BoneIndex,
-        /// Where in the take.
+        /// Time in the take.
         milliseconds: i64,
     },
 }

@@ -1,23 +1,24 @@
-//! Which bones stand still, and when.
+//! Detection of contacts: bones that do not move for a while.
 
 use super::{Contact, ContactSearch};
 use glam::Mat4;
 
-/// Seconds over which a speed is taken: over less, the rounding of positions would look like movement.
+/// Seconds over which a speed is measured: over less, the rounding of positions would look like movement.
 const BASE: f32 = 0.005;
 
-/// Every contact that `search` finds: bone by bone, in order of time. `matrices` are to-root, `frame * bones + bone`.
+/// Returns every contact that `search` finds: bone by bone, in order of time. `matrices` are to-root, `frame * bones +
+/// bone`.
 pub(super) fn find_contacts(
     times: &[f32],
     matrices: &[Mat4],
     bones: usize,
-    millimetres_per_unit: f64,
+    millimeters_per_unit: f64,
     search: &ContactSearch,
 ) -> Vec<Contact> {
     let mut contacts = Vec::new();
     let mut look_at = |bone: usize| {
         let origin = |frame: usize| matrices[frame * bones + bone].w_axis.truncate().as_dvec3();
-        // The frame that lies far enough after each, so that a speed can be taken between the two.
+        // For each frame, a later one far enough away to measure a speed between the two.
         let mut start: Option<(usize, usize)> = None;
         let mut later = 0;
         for frame in 0..times.len() {
@@ -28,7 +29,7 @@ pub(super) fn find_contacts(
                 break;
             }
             let seconds = f64::from(times[later]) - f64::from(times[frame]);
-            let speed = origin(later).distance(origin(frame)) * millimetres_per_unit / seconds;
+            let speed = origin(later).distance(origin(frame)) * millimeters_per_unit / seconds;
             if speed < f64::from(search.speed) {
                 start = Some((start.map_or(frame, |(from, _)| from), later));
             } else if let Some(run) = start.take() {

@@ -1,4 +1,4 @@
-//! The original, looked at on every frame: where every bone is, and how far it may be from there.
+//! The original take sampled on every frame: the matrices of every bone, and its tolerance there.
 
 use super::contact::find_contacts;
 use super::settings::Lengths;
@@ -8,24 +8,24 @@ use crate::data::{Channel, Interpolation, Skeleton, Take, Transform};
 use crate::sample::sample_take;
 use glam::Mat4;
 
-/// Most bones × frames that a take may have: about 1.5 GiB of working memory.
+/// Largest number of bones × frames of a take: about 1.5 GiB of working memory.
 pub const SAMPLES: usize = 8 << 20;
 
-/// Where every bone of the original is on every frame.
-pub(super) struct Source {
+/// Poses and matrices of every bone of the original on every frame.
+pub(super) struct SampledTake {
     /// Seconds, ascending.
     pub(super) times: Vec<f32>,
-    /// Relative to the parents; position `frame * bones + bone`.
+    /// Relative to the parents; at position `frame * bones + bone`.
     pub(super) poses: Vec<Transform>,
-    /// Bone space → scene space, likewise.
+    /// Bone space → scene space; at position `frame * bones + bone`.
     pub(super) to_root: Vec<Mat4>,
-    /// Is the bone in contact? Likewise.
+    /// Whether the bone is in contact; at position `frame * bones + bone`.
     in_contact: Vec<bool>,
-    /// The contacts that count.
+    /// The contacts that are considered.
     pub(super) contacts: Vec<Contact>,
 }
 
-impl Source {
+impl SampledTake {
     pub(super) fn new(
         take: &Take,
         skeleton: &Skeleton,
@@ -44,7 +44,7 @@ impl Source {
         let mut contacts = settings.contacts.given.clone();
         contacts.retain(|contact| (contact.bone as usize) < bones);
         if let Some(search) = &settings.contacts.search {
-            let unit = Lengths::of(settings).millimetres_per_unit;
+            let unit = Lengths::of(settings).millimeters_per_unit;
             contacts.extend(find_contacts(&times, &matrices, bones, unit, search));
         }
         let mut in_contact = vec![false; samples];
@@ -58,14 +58,14 @@ impl Source {
         Ok(Self { times, poses, to_root: matrices, in_contact, contacts })
     }
 
-    /// How far the bone at position `at` may be off, in the model's unit.
+    /// Returns the tolerance of the bone at position `at`, in the model's unit.
     pub(super) fn tolerance(&self, at: usize, lengths: Lengths) -> f64 {
         if self.in_contact[at] { lengths.contact } else { lengths.tolerance }
     }
 }
 
-/// Every key time of the take, the last moment before each key of a step channel, and so many frames a second between;
-/// ascending, each once.
+/// Returns every key time of the take, the last time before each key of a step channel, and `per_second` frames per
+/// second between; ascending, each once.
 fn frame_times(take: &Take, bones: usize, per_second: f32) -> Result<Vec<f32>, ReduceError> {
     let limit = SAMPLES / bones.max(1);
     let too_many = |frames: usize| ReduceError::TooLarge { frames, bones, limit: SAMPLES };
@@ -98,7 +98,7 @@ fn frame_times(take: &Take, bones: usize, per_second: f32) -> Result<Vec<f32>, R
     if times.len() > limit { Err(too_many(times.len())) } else { Ok(times) }
 }
 
-/// A step changes its value at once; what the other channels do until then is seen just before.
+/// Adds the time just before each step, where the values of other channels up to it are visible.
 fn before_steps<T: Copy>(channel: &Channel<T>, times: &mut Vec<f32>) {
     if channel.interpolation == Interpolation::Step {
         let before = channel.times.iter().skip(1).map(|time| time.next_down());
@@ -106,7 +106,7 @@ fn before_steps<T: Copy>(channel: &Channel<T>, times: &mut Vec<f32>) {
     }
 }
 
-/// Adds `count` frames to the sorted `times`, except where a key is so near that only rounding keeps them apart.
+/// Adds `count` frames to the sorted `times`, except where a key differs only by rounding.
 fn between(times: &mut Vec<f32>, first: f32, step: f64, count: usize) {
     let keys = times.len();
     for frame in 1..=count {

@@ -1,7 +1,7 @@
-//! How far a reduced take is from the original: on every frame, at every bone, for every point of its shell.
+//! The error of a reduced take: on every frame, at every bone, for every point of its shell.
 //!
-//! Let `A` and `B` be a bone's to-root in the original and in the reduced take. A point of its shell is `shell * u`, `u` of
-//! unit length, and it moves by
+//! Let `A` and `B` be a bone's to-root in the original and in the reduced take. A point of its shell is `shell * u`,
+//! `u` of unit length, and it moves by
 //!
 //! ```text
 //! e(u) = d + shell * M u        d = difference of the origins, M = difference of the linear parts of A and B
@@ -9,8 +9,8 @@
 //! |e(u)|² = |d|² + 2 shell (Mᵀd)·u + shell² |M u|²  <=  |d|² + 2 shell |Mᵀd| + shell² σ²
 //! ```
 //!
-//! `σ` is the largest singular value of `M`. The right side is the largest error of *all* points of the sphere, not of a
-//! few chosen ones: exactly, where the bone turns and shifts without stretching, and an upper bound otherwise.
+//! `σ` is the largest singular value of `M`. The right side is the largest error of *all* points of the sphere, not of
+//! a few selected ones: exactly, where the bone turns and shifts without stretching, and an upper bound otherwise.
 
 use super::settings::Lengths;
 use super::{Deviation, ReduceError, ReduceSettings, frames};
@@ -19,33 +19,33 @@ use crate::data::{Skeleton, Take, Transform};
 use crate::sample::sample_take;
 use glam::{DMat3, DVec3, Mat4};
 
-/// How far a reduced take is from the original.
+/// Error of a reduced take compared with the original.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
-    /// How many times were looked at: every key time of the original, and the frames between.
+    /// Number of times measured: every key time of the original, and the frames between.
     pub frames: usize,
     /// The largest error anywhere; `None` for a skeleton without bones.
     pub largest: Option<Deviation>,
-    /// The error that uses up most of its tolerance.
+    /// The error that is the largest share of its tolerance.
     pub tightest: Option<Deviation>,
 }
 
 impl Measurement {
-    /// Does every bone keep within its tolerance on every frame?
+    /// Returns whether every bone is within its tolerance on every frame.
     pub fn holds(&self) -> bool {
-        self.tightest.is_none_or(|tightest| tightest.millimetres <= tightest.tolerance)
+        self.tightest.is_none_or(|tightest| tightest.millimeters <= tightest.tolerance)
     }
 
     pub(super) fn note(&mut self, found: Deviation) {
-        if self.largest.is_none_or(|largest| found.millimetres > largest.millimetres) {
+        if self.largest.is_none_or(|largest| found.millimeters > largest.millimeters) {
             self.largest = Some(found);
         }
-        // Shares compared without a division, because a tolerance may be zero.
+        // Shares are compared without a division, because a tolerance may be zero.
         let tighter = |than: Deviation| match (found.holds(), than.holds()) {
-            (true, true) => found.millimetres * than.tolerance > than.millimetres * found.tolerance,
+            (true, true) => found.millimeters * than.tolerance > than.millimeters * found.tolerance,
             (true, false) => false,
             (false, true) => true,
-            (false, false) => found.millimetres - found.tolerance > than.millimetres - than.tolerance,
+            (false, false) => found.millimeters - found.tolerance > than.millimeters - than.tolerance,
         };
         if self.tightest.is_none_or(tighter) {
             self.tightest = Some(found);
@@ -53,22 +53,22 @@ impl Measurement {
     }
 }
 
-/// Compares `reduced` with `original` on every frame of the original, from nothing but the two takes.
+/// Compares `reduced` with `original` on every frame of the original, using only the two takes.
 ///
-/// Tolerances and contacts are those that [`super::reduce()`] would keep to for `original`. An error where the frames are
-/// too many, as there.
+/// Tolerances and contacts are those that [`super::reduce()`] would use for `original`. An error where there are too
+/// many frames, as there.
 pub fn measure(
     original: &Take,
     reduced: &Take,
     skeleton: &Skeleton,
     settings: &ReduceSettings,
 ) -> Result<Measurement, ReduceError> {
-    let source = frames::Source::new(original, skeleton, settings)?;
+    let source = frames::SampledTake::new(original, skeleton, settings)?;
     Ok(measure_against(&source, reduced, skeleton, settings))
 }
 
 pub(super) fn measure_against(
-    source: &frames::Source,
+    source: &frames::SampledTake,
     reduced: &Take,
     skeleton: &Skeleton,
     settings: &ReduceSettings,
@@ -87,21 +87,22 @@ pub(super) fn measure_against(
             found.note(Deviation {
                 bone: bone as u32,
                 time,
-                millimetres: error * lengths.millimetres_per_unit,
-                tolerance: source.tolerance(at, lengths) * lengths.millimetres_per_unit,
+                millimeters: error * lengths.millimeters_per_unit,
+                tolerance: source.tolerance(at, lengths) * lengths.millimeters_per_unit,
             });
         }
     }
     found
 }
 
-/// The largest distance between `a * point` and `b * point` over all points `shell` away from the origin, or a little
-/// more; see the formula above. In the unit of the matrices.
+/// Returns the largest distance between `a * point` and `b * point` over all points `shell` away from the origin, or a
+/// little more; see the formula above. In the unit of the matrices.
 pub(super) fn deviation(a: Mat4, b: Mat4, shell: f64) -> f64 {
     deviation_above(a, b, shell, -1.0)
 }
 
-/// The same, where only an error above `known` matters: one that is surely below may come out too large, but still below.
+/// As [`deviation`], where only an error above `known` matters: one that is certainly below may come out too large, but
+/// still below.
 pub(super) fn deviation_above(a: Mat4, b: Mat4, shell: f64, known: f64) -> f64 {
     if a == b {
         return 0.0;
@@ -113,7 +114,7 @@ pub(super) fn deviation_above(a: Mat4, b: Mat4, shell: f64, known: f64) -> f64 {
     let along = (turned.transpose() * moved).length();
     let without_stretch = moved.length_squared() + 2.0 * shell * along;
     let squares = turned.transpose() * turned;
-    // The sum of the eigenvalues, which is at hand, is no less than the largest.
+    // The sum of the eigenvalues, already computed, is no less than the largest.
     let sum = squares.x_axis.x + squares.y_axis.y + squares.z_axis.z;
     let bound = (without_stretch + shell * shell * sum).sqrt();
     if bound <= known {
@@ -123,17 +124,17 @@ pub(super) fn deviation_above(a: Mat4, b: Mat4, shell: f64, known: f64) -> f64 {
     }
 }
 
-/// Of a symmetric matrix without negative eigenvalues, by the trigonometric solution of its cubic (O. K. Smith,
-/// "Eigenvalues of a symmetric 3 × 3 matrix", Communications of the ACM 4, 1961).
+/// Returns the largest eigenvalue of a symmetric matrix without negative eigenvalues, by the trigonometric solution of
+/// its cubic (O. K. Smith, "Eigenvalues of a symmetric 3 × 3 matrix", Communications of the ACM 4, 1961).
 fn largest_eigenvalue(matrix: DMat3) -> f64 {
     let mean = (matrix.x_axis.x + matrix.y_axis.y + matrix.z_axis.z) / 3.0;
-    let centred = matrix - DMat3::from_diagonal(DVec3::splat(mean));
-    let squares = centred.to_cols_array().into_iter().map(|number| number * number).sum::<f64>();
+    let centered = matrix - DMat3::from_diagonal(DVec3::splat(mean));
+    let squares = centered.to_cols_array().into_iter().map(|number| number * number).sum::<f64>();
     let spread = (squares / 6.0).sqrt();
     if spread <= 0.0 {
         return mean.max(0.0);
     }
-    let third = ((centred * (1.0 / spread)).determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0;
+    let third = ((centered * (1.0 / spread)).determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0;
     mean + 2.0 * spread * third.cos()
 }
 
@@ -142,7 +143,7 @@ mod tests {
     use super::*;
     use glam::{Quat, Vec3};
 
-    /// Points spread evenly over the unit sphere.
+    /// Returns points spread evenly over the unit sphere.
     fn sphere(count: u32) -> impl Iterator<Item = DVec3> {
         let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
         (0..count).map(move |k| {

@@ -1,46 +1,49 @@
-//! Fewer keys, nearly the same motion: for authors who want to edit what a capture or a converter has written down frame
-//! by frame (thesis §2.1.2.3: "the animation can be easily compressed by omitting the same key-frames"; §2.1.7.2).
+//! Key reduction: fewer keys, nearly the same motion, for authors who want to edit what a capture or a converter has
+//! written frame by frame (thesis §2.1.2.3: "the animation can be easily compressed by omitting the same key-frames";
+//! §2.1.7.2).
 //!
-//! # What is promised
+//! # Guarantees
 //!
-//! On every frame, for every bone, every point at the shell distance from the bone stays within the tolerance of where
-//! the original has it, in scene space (to-root), all ancestors included. A hand is as exact as a hip: what a shoulder
-//! loses is measured at the fingers. While a bone is in contact its tolerance is a smaller one. [`measure()`] proves it
-//! afterwards from the two takes alone.
+//! On every frame, for every bone, every point at the shell distance from the bone stays within the tolerance of its
+//! position in the original, in scene space (to-root), all ancestors included. A hand is as exact as a hip: the error
+//! of a shoulder is measured at the fingers. While a bone is in contact its tolerance is smaller. [`measure()`]
+//! verifies it afterwards from the two takes alone.
 //!
-//! *Every frame* means every time at which any channel of the take has a key, the last moment before each key of a step
-//! channel, and so many a second between. Between two frames the motion of both takes is as smooth as their
-//! interpolation, and nothing is measured.
+//! *Every frame* means every time at which any channel of the take has a key, the last time before each key of a step
+//! channel, and a given number of frames per second between. Between two frames the motion of both takes is as smooth
+//! as their interpolation, and nothing is measured.
 //!
-//! # What comes out
+//! # Result
 //!
-//! An ordinary [`Take`] with the same name, start and length; its keys are some of the original's, with their times,
-//! values and interpolation as they were (of rotations that are mixed by distance the sign may differ, which means the
-//! same rotation), so that it can be edited and reduced again.
+//! An ordinary [`Take`] with the same name, start and length; its keys are some of the original's, with unchanged
+//! times, values and interpolation (of interpolated rotations the sign may differ, which means the same rotation), so
+//! that it can be edited and reduced again.
 //!
-//! * A channel whose value is always the same keeps one key; none, where that is the rest value.
-//! * Step, linear and closest channels stay what they are; where the closest key is taken, only a key between two of the
-//!   same value goes, because the moment of a change lies between frames. Cubic splines stay cubic splines: a key that is left keeps its
-//!   tangents, so a spline loses keys only where its neighbours' tangents already say the same curve; none is resampled.
+//! * A channel whose value is constant keeps one key; none, where that is the rest value.
+//! * Step, linear and closest channels keep their interpolation; with closest, only a key between two of the
+//!   same value is removed, because the time of a change is between frames. Cubic splines stay cubic splines: a remaining
+//!   key keeps its tangents, so a spline loses keys only where its neighbors' tangents already describe the same curve;
+//!   none is resampled.
 //! * One channel keeps a key at the start and one at the end, so that the take is as long as before.
-//! * Weights of morph targets are not touched.
+//! * Weights of morph targets are not changed.
 //!
-//! # How
+//! # Method
 //!
-//! Each key is tried: the gap that it would leave is sampled on every frame inside it, the bone and all its descendants
-//! are moved there, and the errors are compared with the tolerances. The key that costs least goes first; its neighbours
-//! are then tried anew. Because errors are always measured against the original and in the whole chain as it is by then,
-//! they cannot add up unseen, and bones share the tolerance of a chain as they need it. When no key can go any more, each
-//! channel is laid out anew with the fewest keys that the others allow (a shortest path over its keys).
+//! Each key is tried: the gap without it is sampled on every frame inside it, the bone and all its descendants are
+//! moved there, and the errors are compared with the tolerances. The key with the smallest cost is removed first; its
+//! neighbors are then tried again. Because errors are always measured against the original and in the whole current
+//! chain, they cannot add up unnoticed, and bones share the tolerance of a chain as they need it. When no key can be
+//! removed any more, each channel gets the fewest keys that the others allow (a shortest path over its keys).
 //!
-//! Values before → after, a dot is a key removed, for a linear channel of a take whose start and end others mark:
-//! `0 0 0 1 2 3 3` → `· · 0 · · 3 ·`.
+//! Values before → after, a dot is a removed key, for a linear channel of a take whose start and end are marked by
+//! other channels: `0 0 0 1 2 3 3` → `· · 0 · · 3 ·`.
 //!
-//! The cost is measured in bones moved on a frame: about (keys) × (frames in a gap) × (bones in a subtree).
+//! The cost is counted in bones moved on a frame: about (keys) × (frames in a gap) × (bones in a subtree).
 //!
-//! # Figures
+//! # Measurements
 //!
-//! What the example `reduce_keys` prints, with the default settings (contacts searched for) and the unit of the model:
+//! The output of the example `reduce_keys`, with the default settings (contacts searched for) and the unit of the
+//! model:
 //!
 //! | take | bones, seconds | keys | within 0.1 mm | 1 mm | 5 mm |
 //! |---|---|---|---|---|---|
@@ -48,15 +51,15 @@
 //! | the fox, `Survey` | 25, 3.4 | 1743 | 494 (28 %) | 378 (22 %) | 352 (20 %) |
 //! | the fox, `Run` | 25, 1.2 | 525 | 498 (95 %) | 437 (83 %) | 320 (61 %) |
 //!
-//! `Survey` stands: in its contacts the tolerance is a tenth of a millimetre, whatever it is elsewhere. `Run` has been
-//! thinned out before it was saved. For one channel by itself the result is the fewest keys that there can be: over 60
-//! random curves of 60 keys, 2230 keys in all, as many as an exhaustive search finds.
+//! `Survey` has little motion: in its contacts the tolerance is a tenth of a millimeter, whatever it is elsewhere.
+//! `Run` was thinned out before it was saved. For one channel by itself the result is the minimum number of keys: over
+//! 60 random curves of 60 keys, 2230 keys in all, the same number as an exhaustive search finds.
 
-mod column;
+mod channel_keys;
 mod contact;
 mod frames;
-mod layout;
 mod measure;
+mod minimize;
 mod rebuild;
 mod search;
 mod settings;
@@ -68,62 +71,62 @@ pub use settings::{Contact, ContactSearch, Contacts, ReduceSettings};
 use crate::data::{BoneIndex, Skeleton, Take};
 use settings::Lengths;
 
-/// A reduced take, and what became of the original.
+/// A reduced take, and its comparison with the original.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reduced {
-    /// With fewer keys, or as many.
+    /// The reduced take, with fewer keys than the original or the same number.
     pub take: Take,
-    /// Key times summed over all channels of the original, morph weights included.
+    /// Number of keys summed over all channels of the original, morph weights included.
     pub keys_before: usize,
-    /// The same of the reduced take.
+    /// Number of keys summed over all channels of the reduced take.
     pub keys_after: usize,
-    /// How far it is from the original, measured after the fact from the two takes.
+    /// Its error compared with the original, measured afterwards from the two takes.
     pub measurement: Measurement,
-    /// Every contact that counted: those given, then those found.
+    /// Every contact that was considered: the given ones, then those found.
     pub contacts: Vec<Contact>,
 }
 
 /// An error at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// Which bone.
+    /// The bone.
     pub bone: BoneIndex,
-    /// Seconds.
+    /// Time in seconds.
     pub time: f32,
-    /// How far the worst point of the bone's shell is from where the original has it.
-    pub millimetres: f64,
-    /// How far it may be there: less in a contact.
+    /// Distance in millimeters of the worst point of the bone's shell from its position in the original.
+    pub millimeters: f64,
+    /// Allowed distance there in millimeters: less in a contact.
     pub tolerance: f64,
 }
 
 impl Deviation {
     fn holds(&self) -> bool {
-        self.millimetres <= self.tolerance
+        self.millimeters <= self.tolerance
     }
 }
 
-/// Why a take cannot be reduced.
+/// Reasons why a take cannot be reduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReduceError {
-    /// There is not the memory to look at all of it at once.
+    /// The take is too large to process in memory at once.
     #[error(
-        "{frames} frames of {bones} bones are more than {limit} poses; reduce a part of the take, or fewer frames a second"
+        "{frames} frames of {bones} bones are more than {limit} poses; reduce a part of the take, or use fewer frames per second"
     )]
     TooLarge {
-        /// Key times, and frames between them.
+        /// Number of key times, and frames between them.
         frames: usize,
-        /// Of the skeleton.
+        /// Number of bones of the skeleton.
         bones: usize,
-        /// [`SAMPLES`].
+        /// The limit, [`SAMPLES`].
         limit: usize,
     },
 }
 
-/// Removes the keys of `take` that the others can stand in for.
+/// Removes the redundant keys of `take`.
 ///
-/// No point of any bone's shell moves further than its tolerance, on any frame; see [the module](self). Track number `i`
-/// moves bone number `i`. A channel whose times do not ascend or whose columns do not fit together is left as it is, as
-/// are tracks of bones that are not there. The result is the same for the same input, always.
+/// No point of any bone's shell moves further than its tolerance, on any frame; see [the module](self). Track number
+/// `i` moves bone number `i`. A channel whose times do not ascend or whose columns do not fit together is left
+/// unchanged, as are tracks of missing bones. The same input always gives the same result.
 ///
 /// ```
 /// use dragonfly_anim::data::{Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
@@ -135,7 +138,7 @@ pub enum ReduceError {
 ///     offset: Mat4::IDENTITY, node: None,
 /// };
 /// let skeleton = Skeleton { bones: vec![bone] };
-/// // One metre in one second, written down thirty times.
+/// // One meter in one second, stored as thirty-one keys.
 /// let times: Vec<f32> = (0..=30).map(|frame| frame as f32 / 30.0).collect();
 /// let values: Vec<Vec3> = times.iter().map(|&time| Vec3::X * time).collect();
 /// let track = Track {
@@ -149,11 +152,12 @@ pub enum ReduceError {
 /// assert!(reduced.measurement.holds());
 /// # Ok::<(), dragonfly_anim::reduce::ReduceError>(())
 /// ```
+#[doc(alias = "key reduction")]
 pub fn reduce(take: &Take, skeleton: &Skeleton, settings: &ReduceSettings) -> Result<Reduced, ReduceError> {
-    let source = frames::Source::new(take, skeleton, settings)?;
-    let mut search = search::Search::new(take, skeleton, &source, Lengths::of(settings));
+    let source = frames::SampledTake::new(take, skeleton, settings)?;
+    let mut search = search::KeySearch::new(take, skeleton, &source, Lengths::of(settings));
     search.run();
-    layout::lay_out(&mut search);
+    minimize::minimize_keys(&mut search);
     let mut reduced = rebuild::rebuild(take, &search.columns);
     let measurement = restore_until_it_holds(take, &mut reduced, skeleton, |reduced| {
         measure::measure_against(&source, reduced, skeleton, settings)
@@ -167,10 +171,10 @@ pub fn reduce(take: &Take, skeleton: &Skeleton, settings: &ReduceSettings) -> Re
     })
 }
 
-/// Measures `reduced`; where it does not hold, gives the bone and its ancestors back their original tracks and measures
-/// again.
+/// Measures `reduced`; where a tolerance is exceeded, restores the original tracks of the bone and its ancestors and
+/// measures again.
 ///
-/// The search has measured the same before, so this is a second pair of eyes. It ends: each time at least one more track
+/// The search has measured the same before, so this is an independent check. It ends: each time at least one more track
 /// is the original one, and a chain of original tracks has no error.
 fn restore_until_it_holds(
     take: &Take,
@@ -230,12 +234,12 @@ mod tests {
             contacts: Contacts { search: None, ..Contacts::default() },
             ..ReduceSettings::default()
         };
-        let mut mended = bad.clone();
+        let mut restored = bad.clone();
         let look = |reduced: &Take| measure(&take, reduced, &skeleton, &settings).unwrap();
         assert!(!look(&bad).holds());
-        let found = restore_until_it_holds(&take, &mut mended, &skeleton, look);
+        let found = restore_until_it_holds(&take, &mut restored, &skeleton, look);
         assert!(found.holds());
-        assert_eq!(mended.tracks[..2], take.tracks[..2]);
-        assert_eq!(mended.tracks[2], bad.tracks[2], "half a millimetre was allowed");
+        assert_eq!(restored.tracks[..2], take.tracks[..2]);
+        assert_eq!(restored.tracks[2], bad.tracks[2], "half a millimeter was allowed");
     }
 }

@@ -1,19 +1,19 @@
-//! From what is left to an ordinary take.
+//! Building an ordinary take from the remaining keys.
 
-use super::column::{Column, Property};
+use super::channel_keys::{ChannelKeys, ChannelKind};
 use crate::data::{Channel, Interpolation, Take};
 use crate::sample::Value;
 use glam::Quat;
 
-/// `take` with the keys that `columns` have left; all else as it was.
-pub(super) fn rebuild(take: &Take, columns: &[Column]) -> Take {
+/// Returns `take` with the keys that remain in `columns`; everything else is unchanged.
+pub(super) fn rebuild(take: &Take, columns: &[ChannelKeys]) -> Take {
     let mut reduced = take.clone();
     for column in columns {
         let track = &mut reduced.tracks[column.bone as usize];
         match column.property {
-            Property::Translation => track.translation = shorter(&track.translation, column),
-            Property::Scale => track.scale = shorter(&track.scale, column),
-            Property::Rotation => {
+            ChannelKind::Translation => track.translation = shorter(&track.translation, column),
+            ChannelKind::Scale => track.scale = shorter(&track.scale, column),
+            ChannelKind::Rotation => {
                 let rotation = shorter(&track.rotation, column);
                 track.rotation =
                     if rotation.len() < track.rotation.len() { one_hemisphere(rotation) } else { rotation };
@@ -23,7 +23,7 @@ pub(super) fn rebuild(take: &Take, columns: &[Column]) -> Take {
     reduced
 }
 
-fn shorter<T: Value>(channel: &Channel<T>, column: &Column) -> Channel<T> {
+fn shorter<T: Value>(channel: &Channel<T>, column: &ChannelKeys) -> Channel<T> {
     if column.count == channel.len() {
         return channel.clone();
     }
@@ -31,7 +31,8 @@ fn shorter<T: Value>(channel: &Channel<T>, column: &Column) -> Channel<T> {
     let mut times: Vec<f32> = column.keys().map(|key| channel.times[key]).collect();
     let values: Vec<T> =
         column.keys().flat_map(|key| &channel.values[key * per_key..][..per_key]).copied().collect();
-    // A single key holds at all times; it stands best where the channel began, unless it marks the end of the take.
+    // A single key applies at all times; it is best put at the start of the channel, unless it marks the end of the
+    // take.
     let single = column.keys().next().filter(|_| column.count == 1);
     if single.is_some_and(|key| key + 1 < channel.len()) {
         times[0] = channel.times[0];
@@ -39,8 +40,8 @@ fn shorter<T: Value>(channel: &Channel<T>, column: &Column) -> Channel<T> {
     Channel::new(times, values, channel.interpolation)
 }
 
-/// Neighbours that are mixed by distance are brought to the same side; `q` and `-q` are one rotation. A spline says
-/// itself which way it goes.
+/// Moves neighbors that are interpolated linearly to the same hemisphere; `q` and `-q` are one rotation. Of a spline
+/// the tangents determine the direction.
 fn one_hemisphere(mut channel: Channel<Quat>) -> Channel<Quat> {
     if channel.interpolation != Interpolation::CubicSpline {
         let mut values = channel.values.to_vec();

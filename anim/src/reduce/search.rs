@@ -1,7 +1,7 @@
-//! Which keys can go: the cheapest first, each tried on every frame that it touches before it is taken away.
+//! The search for removable keys: the cheapest first, each tried on every frame that it affects before it is removed.
 
-use super::column::{Column, Gap, Property};
-use super::frames::Source;
+use super::channel_keys::{ChannelKeys, ChannelKind, Gap};
+use super::frames::SampledTake;
 use super::measure::deviation_above;
 use super::settings::Lengths;
 use crate::animation::{child_to_root, to_parent};
@@ -11,37 +11,43 @@ use glam::Mat4;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Removals are ordered by their cost in steps of this part of the tolerance; among those of one step the shortest gap
-/// goes first, so that gaps grow evenly.
+/// Resolution of costs as a fraction of the tolerance, by which removals are ordered; among those of equal cost the
+/// shortest gap is removed first, so that gaps grow evenly.
 const STEPS: f64 = 64.0;
 
-/// Rounds over all keys: what could not go in one may in the next, because errors also cancel.
+/// Number of rounds over all keys: a key that could not be removed in one may be in the next, because errors also
+/// cancel.
 const ROUNDS: usize = 3;
 
-/// A take that is losing keys, and where every bone is on every frame meanwhile.
-pub(super) struct Search<'a> {
+/// A take that is losing keys, and the matrices of every bone on every frame for the remaining ones.
+pub(super) struct KeySearch<'a> {
     pub(super) take: &'a Take,
     skeleton: &'a Skeleton,
-    pub(super) source: &'a Source,
+    pub(super) source: &'a SampledTake,
     lengths: Lengths,
     children: Vec<Vec<BoneIndex>>,
     rests: Vec<Transform>,
-    /// As [`Source::poses`], of what is left of the take.
+    /// As [`SampledTake::poses`], for the remaining keys.
     poses: Vec<Transform>,
-    /// As [`Source::to_root`], likewise.
+    /// As [`SampledTake::to_root`], for the remaining keys.
     to_root: Vec<Mat4>,
-    pub(super) columns: Vec<Column>,
-    /// How many keys are left on the first and on the last frame; `usize::MAX` where something else stands there.
+    pub(super) columns: Vec<ChannelKeys>,
+    /// Number of keys left on the first and on the last frame; `usize::MAX` where other keys mark that end.
     ends: [usize; 2],
-    /// Of one frame, while a removal is tried.
+    /// Matrices of one frame, while a removal is tried.
     trial: Vec<Mat4>,
     open: Vec<BoneIndex>,
-    /// Bones moved on a frame so far.
+    /// Number of bones moved on a frame so far.
     pub(super) work: u64,
 }
 
-impl<'a> Search<'a> {
-    pub(super) fn new(take: &'a Take, skeleton: &'a Skeleton, source: &'a Source, lengths: Lengths) -> Self {
+impl<'a> KeySearch<'a> {
+    pub(super) fn new(
+        take: &'a Take,
+        skeleton: &'a Skeleton,
+        source: &'a SampledTake,
+        lengths: Lengths,
+    ) -> Self {
         let bones = skeleton.len();
         let mut children = vec![Vec::new(); bones];
         for (index, bone) in skeleton.bones.iter().enumerate() {
@@ -67,7 +73,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Removes what can be removed.
+    /// Removes all redundant keys.
     pub(super) fn run(&mut self) {
         for column in 0..self.columns.len() {
             self.flatten(column);
@@ -79,7 +85,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Leaves the first key of a channel whose values are all the same.
+    /// Keeps only the first key of a channel whose values are all equal.
     fn flatten(&mut self, column: usize) {
         let last = self.columns[column].frames.len() - 1;
         let gap = Gap { before: Some(0), after: None };
@@ -94,40 +100,40 @@ impl<'a> Search<'a> {
     }
 
     fn is_constant(&self, column: usize) -> bool {
-        let Column { bone, property, .. } = self.columns[column];
+        let ChannelKeys { bone, property, .. } = self.columns[column];
         let track = &self.take.tracks[bone as usize];
         match property {
-            Property::Translation => is_constant(&track.translation),
-            Property::Rotation => is_constant(&track.rotation),
-            Property::Scale => is_constant(&track.scale),
+            ChannelKind::Translation => is_constant(&track.translation),
+            ChannelKind::Rotation => is_constant(&track.rotation),
+            ChannelKind::Scale => is_constant(&track.scale),
         }
     }
 
-    /// Tries every key that is left; has any gone?
+    /// Tries every remaining key. Returns whether any was removed.
     fn round(&mut self) -> bool {
         let mut queue = BinaryHeap::new();
         for column in 0..self.columns.len() {
             let keys: Vec<usize> = self.columns[column].keys().collect();
             queue.extend(keys.into_iter().filter_map(|key| self.candidate(column, key)).map(Reverse));
         }
-        let mut gone = false;
+        let mut removed = false;
         while let Some(Reverse(tried)) = queue.pop() {
             let (column, key) = (tried.column as usize, tried.key as usize);
             match self.candidate(column, key) {
                 None => {}
-                // What is around it has changed since: it has to wait for its new turn.
+                // Its surroundings have changed since: it is queued again with its new cost.
                 Some(now) if now > tried => queue.push(Reverse(now)),
                 Some(_) => {
                     self.commit(column, self.columns[column].gap(key));
-                    gone = true;
+                    removed = true;
                 }
             }
         }
-        gone
+        removed
     }
 
-    /// What it would cost to remove a key; `None` when it cannot go.
-    fn candidate(&mut self, column: usize, key: usize) -> Option<Candidate> {
+    /// Returns the cost of removing a key; `None` when it cannot be removed.
+    fn candidate(&mut self, column: usize, key: usize) -> Option<RemovalCandidate> {
         if !self.columns[column].kept[key] || self.holds_an_end(column, key) || self.switches_at(column, key)
         {
             return None;
@@ -135,28 +141,29 @@ impl<'a> Search<'a> {
         let gap = self.columns[column].gap(key);
         let cost = (self.cost(column, gap)? * STEPS) as u32;
         let window = self.columns[column].window(gap, self.source.times.len()).len() as u32;
-        Some(Candidate { cost, window, column: column as u32, key: key as u32 })
+        Some(RemovalCandidate { cost, window, column: column as u32, key: key as u32 })
     }
 
-    /// Is the key the last that says when the take starts or ends?
+    /// Returns whether the key is the last one that marks the start or the end of the take.
     fn holds_an_end(&self, column: usize, key: usize) -> bool {
         let frame = self.columns[column].frames[key] as usize;
         (frame == 0 && self.ends[0] == 1) || (frame + 1 == self.source.times.len() && self.ends[1] == 1)
     }
 
-    /// Would a gap here move the moment at which the closest key changes? That lies between frames, where nobody looks.
+    /// Returns whether a gap here would move the time at which the closest key changes. That time is between frames,
+    /// where nothing is measured.
     fn switches_at(&self, column: usize, key: usize) -> bool {
-        let Column { bone, property, .. } = self.columns[column];
+        let ChannelKeys { bone, property, .. } = self.columns[column];
         let (track, gap) = (&self.take.tracks[bone as usize], self.columns[column].gap(key));
         match property {
-            Property::Translation => switches(&track.translation, key, gap),
-            Property::Rotation => switches(&track.rotation, key, gap),
-            Property::Scale => switches(&track.scale, key, gap),
+            ChannelKind::Translation => switches(&track.translation, key, gap),
+            ChannelKind::Rotation => switches(&track.rotation, key, gap),
+            ChannelKind::Scale => switches(&track.scale, key, gap),
         }
     }
 
-    /// The largest share of a tolerance, 0..=1, that is used up anywhere in the subtree of the column's bone once only
-    /// the two keys of `gap` are left there; `None` when a tolerance is exceeded.
+    /// Returns the largest share of a tolerance, 0..=1, that is used anywhere in the subtree of the column's bone if
+    /// only the two keys of `gap` are left there; `None` when a tolerance is exceeded.
     pub(super) fn cost(&mut self, column: usize, gap: Gap) -> Option<f64> {
         let mut largest = 0.0_f64;
         for frame in self.columns[column].window(gap, self.source.times.len()) {
@@ -167,19 +174,19 @@ impl<'a> Search<'a> {
         Some(largest)
     }
 
-    /// The pose of the column's bone on `frame` with only the keys of `gap`; `None` when that changes nothing.
+    /// Returns the pose of the column's bone on `frame` with only the keys of `gap`; `None` when that changes nothing.
     fn changed_pose(&self, column: usize, gap: Gap, frame: usize) -> Option<Transform> {
-        let Column { bone, property, .. } = self.columns[column];
+        let ChannelKeys { bone, property, .. } = self.columns[column];
         let (bone, time) = (bone as usize, self.source.times[frame]);
         let (track, rest) = (&self.take.tracks[bone], self.rests[bone]);
         let now = self.poses[frame * self.skeleton.len() + bone];
         let mut pose = now;
         match property {
-            Property::Translation => {
+            ChannelKind::Translation => {
                 pose.translation = gap.sample(&track.translation, rest.translation, time)
             }
-            Property::Rotation => pose.rotation = gap.sample(&track.rotation, rest.rotation, time),
-            Property::Scale => pose.scale = gap.sample(&track.scale, rest.scale, time),
+            ChannelKind::Rotation => pose.rotation = gap.sample(&track.rotation, rest.rotation, time),
+            ChannelKind::Scale => pose.scale = gap.sample(&track.scale, rest.scale, time),
         }
         (pose != now).then_some(pose)
     }
@@ -229,27 +236,27 @@ impl<'a> Search<'a> {
         self.columns[column].remove(gap);
     }
 
-    /// Is the closest key taken in the column?
-    pub(super) fn takes_closest(&self, column: usize) -> bool {
-        let Column { bone, property, .. } = self.columns[column];
+    /// Returns whether the column's channel has closest-key interpolation.
+    pub(super) fn is_closest(&self, column: usize) -> bool {
+        let ChannelKeys { bone, property, .. } = self.columns[column];
         let track = &self.take.tracks[bone as usize];
         let interpolation = match property {
-            Property::Translation => track.translation.interpolation,
-            Property::Rotation => track.rotation.interpolation,
-            Property::Scale => track.scale.interpolation,
+            ChannelKind::Translation => track.translation.interpolation,
+            ChannelKind::Rotation => track.rotation.interpolation,
+            ChannelKind::Scale => track.scale.interpolation,
         };
         interpolation == Interpolation::Closest
     }
 
-    /// May the column have a key here, now that the others are as they are?
-    pub(super) fn can_stand(&mut self, column: usize, key: usize) -> bool {
+    /// Returns whether the column may have a key here, with the others as they are now.
+    pub(super) fn can_have_key(&mut self, column: usize, key: usize) -> bool {
         let (frame, on_key) = self.on_key(column, key);
         let Some(pose) = self.changed_pose(column, on_key, frame) else { return true };
         self.cost_of_frame(self.columns[column].bone, pose, frame).is_some()
     }
 
-    /// Leaves exactly `keys` in a column, whose gaps are known to be allowed.
-    pub(super) fn relay(&mut self, column: usize, keys: &[usize]) {
+    /// Keeps exactly `keys` in a column, whose gaps are known to be allowed.
+    pub(super) fn set_keys(&mut self, column: usize, keys: &[usize]) {
         self.columns[column].keep(keys);
         for pair in keys.windows(2) {
             self.apply(column, Gap { before: Some(pair[0]), after: Some(pair[1]) });
@@ -260,12 +267,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The frame of a key, and the gap that is sampled as that key's value there.
+    /// Returns the frame of a key, and the gap that is sampled as that key's value there.
     fn on_key(&self, column: usize, key: usize) -> (usize, Gap) {
         (self.columns[column].frames[key] as usize, Gap { before: Some(key), after: None })
     }
 
-    /// Moves the bone and all below it on every frame of `gap`.
+    /// Moves the bone and its descendants on every frame of `gap`.
     fn apply(&mut self, column: usize, gap: Gap) {
         for frame in self.columns[column].window(gap, self.source.times.len()) {
             self.apply_on(column, gap, frame);
@@ -291,31 +298,32 @@ impl<'a> Search<'a> {
     }
 }
 
-/// A key that may go. Compared field by field, in this order.
+/// A removable key. Compared field by field, in this order.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Candidate {
+struct RemovalCandidate {
     cost: u32,
     window: u32,
     column: u32,
     key: u32,
 }
 
-/// Every channel of the take that can lose keys.
-fn columns(take: &Take, bones: usize, times: &[f32]) -> Vec<Column> {
+/// Returns every channel of the take that can lose keys.
+fn columns(take: &Take, bones: usize, times: &[f32]) -> Vec<ChannelKeys> {
     let mut columns = Vec::new();
     for (bone, track) in take.tracks.iter().take(bones).enumerate() {
         let bone = bone as BoneIndex;
-        columns.extend(Column::new(bone, Property::Translation, &track.translation, times));
-        columns.extend(Column::new(bone, Property::Rotation, &track.rotation, times));
-        columns.extend(Column::new(bone, Property::Scale, &track.scale, times));
+        columns.extend(ChannelKeys::new(bone, ChannelKind::Translation, &track.translation, times));
+        columns.extend(ChannelKeys::new(bone, ChannelKind::Rotation, &track.rotation, times));
+        columns.extend(ChannelKeys::new(bone, ChannelKind::Scale, &track.scale, times));
     }
     columns
 }
 
-/// How many keys of the columns lie on the first and on the last frame; any number, where morph weights have a key there.
-fn ends(take: &Take, columns: &[Column], frames: usize) -> [usize; 2] {
+/// Returns the number of keys of the columns on the first and on the last frame; the maximum, where morph weights have
+/// a key there.
+fn ends(take: &Take, columns: &[ChannelKeys], frames: usize) -> [usize; 2] {
     [0, frames - 1].map(|end| {
-        let on_end = |column: &&Column| column.frames.iter().any(|&frame| frame as usize == end);
+        let on_end = |column: &&ChannelKeys| column.frames.iter().any(|&frame| frame as usize == end);
         let bound = take.morphs.iter().any(|morph| match end {
             0 => morph.times.first() == Some(&take.start),
             _ => morph.times.last() == Some(&take.end()),
@@ -324,15 +332,15 @@ fn ends(take: &Take, columns: &[Column], frames: usize) -> [usize; 2] {
     })
 }
 
-/// Is the closest key taken, and is this one not the same as both its neighbours?
+/// Returns whether the channel has closest-key interpolation and this key differs from one of its neighbors.
 fn switches<T: Value + PartialEq>(channel: &Channel<T>, key: usize, gap: Gap) -> bool {
-    let same = |neighbour: Option<usize>| {
-        neighbour.is_none_or(|neighbour| channel.value(neighbour) == channel.value(key))
+    let same = |neighbor: Option<usize>| {
+        neighbor.is_none_or(|neighbor| channel.value(neighbor) == channel.value(key))
     };
     channel.interpolation == Interpolation::Closest && !(same(gap.before) && same(gap.after))
 }
 
-/// Are all values of the channel the same, and its tangents zero?
+/// Returns whether all values of the channel are equal, and its tangents zero.
 fn is_constant<T: Value + PartialEq>(channel: &Channel<T>) -> bool {
     let Some(first) = channel.value(0) else { return false };
     let cubic = channel.values_per_key() == 3;

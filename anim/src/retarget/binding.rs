@@ -1,10 +1,10 @@
-//! Which bone of one skeleton is which bone of another.
+//! Bindings between the bones of two skeletons.
 
 use super::names::normalized_name;
 use crate::data::{BoneIndex, Skeleton, Take, Track};
 use std::collections::HashMap;
 
-/// Why a given map is no binding.
+/// Reasons why a given map is not a valid binding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BindError {
     /// A bone of the map is not in the source's skeleton.
@@ -27,9 +27,9 @@ pub enum BindError {
     },
 }
 
-/// Pairs of bones of two skeletons, and what was left over.
+/// Pairs of bones of two skeletons, and the unbound rest.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Binding {
+pub struct SkeletonBinding {
     /// For each bone of the target, in bone order: the bone of the source that moves it.
     pub source_of: Vec<Option<BoneIndex>>,
     /// Bones of the source that move nothing, ascending.
@@ -38,12 +38,11 @@ pub struct Binding {
     pub unbound_target: Vec<BoneIndex>,
 }
 
-impl Binding {
+impl SkeletonBinding {
     /// Binds bones of the same name; then, of those left, bones whose [`normalized_name`] is the same.
     ///
-    /// A name that several bones of a skeleton share binds the first with the first, the second with the second, when
-    /// it is written alike; a normalised name that several bones left over share binds none. Bones without a name stay
-    /// unbound.
+    /// If several bones of a skeleton have the same name, the first is bound to the first of that name, the second to
+    /// the second; a normalized name that several remaining bones have binds none. Bones without a name stay unbound.
     pub fn by_name(source: &Skeleton, target: &Skeleton) -> Self {
         let mut source_of = vec![None; target.len()];
         let mut used = vec![false; source.len()];
@@ -52,7 +51,7 @@ impl Binding {
             exact.entry(&bone.name).or_default().push(index as BoneIndex);
         }
         for (bone, bound) in target.bones.iter().zip(&mut source_of) {
-            // Pushed backwards, so the last one is the first in bone order.
+            // The list was filled in reverse, so the last one is the first in bone order.
             *bound = exact.get_mut(&*bone.name).filter(|_| !bone.name.is_empty()).and_then(Vec::pop);
             if let Some(index) = *bound {
                 used[index as usize] = true;
@@ -87,7 +86,7 @@ impl Binding {
         Ok(Self::with(source.len(), source_of))
     }
 
-    /// Number of bones of the target that are bound.
+    /// Returns the number of bones of the target that are bound.
     pub fn bound(&self) -> usize {
         self.source_of.len() - self.unbound_target.len()
     }
@@ -104,7 +103,7 @@ impl Binding {
     }
 }
 
-/// The chosen bones that have a name, by normalised name.
+/// Returns the chosen bones that have a name, by normalized name.
 fn by_normalized(skeleton: &Skeleton, choose: impl Fn(usize) -> bool) -> HashMap<String, Vec<BoneIndex>> {
     let mut names: HashMap<String, Vec<BoneIndex>> = HashMap::new();
     for (index, bone) in skeleton.bones.iter().enumerate().filter(|(index, _)| choose(*index)) {
@@ -116,11 +115,11 @@ fn by_normalized(skeleton: &Skeleton, choose: impl Fn(usize) -> bool) -> HashMap
     names
 }
 
-/// `take` with its tracks handed to the bound bones of the target as they are: the same skeleton, another model.
+/// Assigns the tracks of `take` unchanged to the bound bones of the target: the same skeleton, another model.
 ///
-/// Bones that are not bound get empty tracks. Morph weights belong to the source's meshes and are left behind. Start and
+/// Bones that are not bound get empty tracks. Morph weights belong to the source's meshes and are not copied. Start and
 /// length stay. Columns are shared, not copied.
-pub fn rebind(take: &Take, binding: &Binding) -> Take {
+pub fn rebind(take: &Take, binding: &SkeletonBinding) -> Take {
     let track = |(index, source): (usize, &Option<BoneIndex>)| {
         let track = source.and_then(|source| take.tracks.get(source as usize)).cloned().unwrap_or_default();
         Track { bone: index as BoneIndex, ..track }

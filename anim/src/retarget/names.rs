@@ -1,17 +1,17 @@
-//! Names of bones as different programs write them.
+//! Normalization of bone names from different programs.
 
-/// Beginnings that a program or a file adds to every name, in lower case and without separators.
+/// Prefixes that a program or a file adds to every name, in lower case and without separators.
 const PREFIXES: [&str; 4] = ["mixamorig", "bip", "def", "b"];
 
-/// Words for sides, and what becomes of them.
+/// Words for sides, and their normal form.
 const SIDES: [(&str, &str); 4] = [("left", "l"), ("l", "l"), ("right", "r"), ("r", "r")];
 
-/// `name` without what differs from program to program, for comparison only.
+/// Returns `name` without the differences between programs, for comparison only.
 ///
-/// Everything up to the last `:` or `|` (a namespace) goes; the rest is cut into words at separators (space, `.`, `_`, `-`),
-/// between a small and a capital letter, and between letters and digits; words are in lower case, numbers without
-/// leading zeros; a first word that is a program's prefix (`mixamorig`, `Bip01`, `DEF`, `b`) goes unless it is the only
-/// one; a side (`L`, `Left`, `l_`, `_R` …) goes to the end.
+/// The namespace, everything up to the last `:` or `|`, is removed; the rest is split into words at separators (space,
+/// `.`, `_`, `-`), between a small and a capital letter, and between letters and digits; words are in lower case,
+/// numbers without leading zeros; a first word that is a program's prefix (`mixamorig`, `Bip01`, `DEF`, `b`) is removed
+/// unless it is the only one; a side (`L`, `Left`, `l_`, `_R` …) is moved to the end.
 ///
 /// ```
 /// use dragonfly_anim::retarget::normalized_name;
@@ -32,35 +32,35 @@ pub fn normalized_name(name: &str) -> String {
     joined
 }
 
-/// What a letter is for the cutting.
+/// Class of a character for splitting.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum CharClass {
     Capital,
     Small,
     Digit,
     Separator,
 }
 
-fn kind(letter: char) -> Kind {
+fn char_class(letter: char) -> CharClass {
     if letter.is_numeric() {
-        Kind::Digit
+        CharClass::Digit
     } else if letter.is_uppercase() {
-        Kind::Capital
+        CharClass::Capital
     } else if letter.is_alphabetic() {
-        Kind::Small
+        CharClass::Small
     } else {
-        Kind::Separator
+        CharClass::Separator
     }
 }
 
-/// Lower-case words and numbers.
+/// Returns the lower-case words and numbers.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
-    let mut last = Kind::Separator;
+    let mut last = CharClass::Separator;
     for letter in name.chars() {
-        let now = kind(letter);
-        if now != Kind::Separator {
-            let goes_on = last == now || (last == Kind::Capital && now == Kind::Small);
+        let now = char_class(letter);
+        if now != CharClass::Separator {
+            let goes_on = last == now || (last == CharClass::Capital && now == CharClass::Small);
             if !goes_on {
                 words.push(String::new());
             }
@@ -79,7 +79,7 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Takes a program's prefix away: one word, or a word and a number (`Bip 01`, `mixamorig1`).
+/// Removes a program's prefix: one word, or a word and a number (`Bip 01`, `mixamorig1`).
 fn strip_prefix(words: &mut Vec<String>) {
     let is = |text: &str| PREFIXES.contains(&text);
     let number = words.get(1).is_some_and(|word| word.chars().all(char::is_numeric));
@@ -91,7 +91,7 @@ fn strip_prefix(words: &mut Vec<String>) {
     }
 }
 
-/// Takes the first word that is a side away. A letter alone counts anywhere, since words are whole.
+/// Removes and returns the first word that is a side. A single letter counts anywhere, since words are whole.
 fn take_side(words: &mut Vec<String>) -> Option<&'static str> {
     let side = |word: &str| SIDES.iter().find(|(spelled, _)| *spelled == word).map(|(_, side)| *side);
     let found = words.iter().enumerate().find_map(|(index, word)| Some((index, side(word)?)));

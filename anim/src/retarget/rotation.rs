@@ -1,13 +1,13 @@
 //! Rotations of one bone: `q_t = L · (G_sa⁻¹ G_s) · E`.
 
-use super::moments::Moments;
 use super::rest::parent_of;
+use super::sample_times::SampleTimes;
 use crate::data::{Channel, Interpolation, Skeleton, Take};
 use crate::sample::{Value, rest_pose, sample_channel};
 use glam::{DQuat, Quat};
 
-/// What moves a bone of the target, and the two factors that do not depend on time.
-pub(super) struct Turn {
+/// The bones that move a bone of the target, and the two factors that do not depend on time.
+pub(super) struct BoneRotation {
     /// `a` in the source: the bone that moves the nearest bound ancestor; `None` for a topmost bone.
     pub(super) above: Option<usize>,
     /// The source's bone.
@@ -16,12 +16,12 @@ pub(super) struct Turn {
     pub(super) right: DQuat,
 }
 
-impl Turn {
-    /// The channel of the target's bone, whose rest rotation is `rest`.
+impl BoneRotation {
+    /// Returns the channel of the target's bone, whose rest rotation is `rest`.
     pub(super) fn channel(&self, take: &Take, source: &Skeleton, rest: DQuat) -> Channel<Quat> {
         let down = path(source, self.bone, self.above);
         let Some(down) = down else {
-            // The source's two bones lie on different branches: down the one, up the other.
+            // The source's two bones are on different branches: the path goes down one and up the other.
             let all = path(source, self.bone, None).unwrap_or_default();
             let other = self.above.and_then(|above| path(source, above, None)).unwrap_or_default();
             return self.sampled(take, source, &all, &other);
@@ -35,7 +35,7 @@ impl Turn {
         }
     }
 
-    /// Nothing moves: no keys where the target rests like this, else one.
+    /// Returns the channel when nothing moves: no keys where the target has this rest rotation, else one.
     fn constant(&self, take: &Take, source: &Skeleton, down: &[usize], rest: DQuat) -> Channel<Quat> {
         let rotation = (self.left * product(source, down) * self.right).normalize();
         let off = (rotation - rest).length().min((rotation + rest).length());
@@ -45,7 +45,7 @@ impl Turn {
         Channel::new([take.start], [rotation.as_quat()], Interpolation::Linear)
     }
 
-    /// One channel moves: its keys, each multiplied from both sides.
+    /// Returns the channel when one channel moves: its keys, each multiplied from both sides.
     fn mapped(&self, take: &Take, source: &Skeleton, down: &[usize], mover: usize) -> Channel<Quat> {
         let at = down.iter().position(|&bone| bone == mover).unwrap_or(0);
         let left = self.left * product(source, &down[..at]);
@@ -68,13 +68,13 @@ impl Turn {
         }
     }
 
-    /// Several channels move: their product at the moments of all of them, and between, because the product of two even
-    /// turns is none.
+    /// Returns the channel when several channels move: their product at the key times of all of them, and between,
+    /// because the product of two rotations at constant speed has no constant speed.
     fn sampled(&self, take: &Take, source: &Skeleton, down: &[usize], up: &[usize]) -> Channel<Quat> {
-        let mut moments = Moments::default();
+        let mut sample_times = SampleTimes::default();
         let tracks = down.iter().chain(up).filter_map(|&bone| take.tracks.get(bone));
-        tracks.for_each(|track| moments.add(&track.rotation));
-        let (times, interpolation) = moments.all(true);
+        tracks.for_each(|track| sample_times.add(&track.rotation));
+        let (times, interpolation) = sample_times.all(true);
         let mut last = DQuat::IDENTITY;
         let values: Vec<Quat> = times
             .iter()
@@ -89,7 +89,7 @@ impl Turn {
     }
 }
 
-/// The bones from below `above` down to `bone`, top first; `None` where `above` is no ancestor of `bone`.
+/// Returns the bones from below `above` down to `bone`, top first; `None` where `above` is not an ancestor of `bone`.
 pub(super) fn path(skeleton: &Skeleton, bone: usize, above: Option<usize>) -> Option<Vec<usize>> {
     let (mut path, mut at) = (Vec::new(), Some(bone));
     while at != above {
@@ -100,13 +100,13 @@ pub(super) fn path(skeleton: &Skeleton, bone: usize, above: Option<usize>) -> Op
     Some(path)
 }
 
-/// Product of the rest rotations of a path.
+/// Returns the product of the rest rotations of a path.
 fn product(skeleton: &Skeleton, path: &[usize]) -> DQuat {
     let rest = |&bone: &usize| rest_pose(&skeleton.bones[bone]).rotation.as_dquat().normalize();
     path.iter().map(rest).fold(DQuat::IDENTITY, |above, own| above * own)
 }
 
-/// Product of the rotations of a path at one time.
+/// Returns the product of the rotations of a path at one time.
 fn turned(take: &Take, skeleton: &Skeleton, path: &[usize], time: f32) -> DQuat {
     let own = |&bone: &usize| {
         let rest = rest_pose(&skeleton.bones[bone]).rotation;

@@ -1,11 +1,11 @@
-//! Translations and scales of one bone, relative to the rest.
+//! Translations and scales of one bone, relative to the rest pose.
 
 use crate::data::Channel;
 use crate::data::Interpolation;
 use crate::sample::Value;
 use glam::{DMat3, Vec3};
 
-/// `x_t0 + map (x_s - x_s0)` key by key; the linear part alone for a spline's tangents.
+/// Returns `x_t0 + map (x_s - x_s0)` key by key; the linear part alone for a spline's tangents.
 ///
 /// No keys where the source has none, or where `map` is not finite.
 pub(super) fn carried(
@@ -25,7 +25,8 @@ pub(super) fn carried(
     )
 }
 
-/// `s_t0 · s_s / s_s0` per axis, key by key; an axis without scale in the source's rest keeps the target's rest.
+/// Returns `s_t0 · s_s / s_s0` per axis, key by key; an axis with scale zero in the source's rest pose keeps the
+/// target's rest scale.
 pub(super) fn scaled(channel: &Channel<Vec3>, source_rest: Vec3, target_rest: Vec3) -> Channel<Vec3> {
     let factor = Vec3::select(source_rest.cmpeq(Vec3::ZERO), Vec3::ZERO, target_rest / source_rest);
     let constant = Vec3::select(source_rest.cmpeq(Vec3::ZERO), target_rest, Vec3::ZERO);

@@ -1,4 +1,4 @@
-//! Which two keys lie around a time, and how far between them it is.
+//! Search of the two keys around a time, and the fraction between them.
 //!
 //! Thesis §2.1.5.2: "two key-frames are selected, one just before the current time and one directly after".
 //!
@@ -11,16 +11,16 @@
 /// The keys around a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Keys {
-    /// The last key at or before the time; the first key when the time lies before all.
+    /// The last key at or before the time; the first key when the time is before all.
     pub before: usize,
     /// The next one; the same as `before` outside the keys.
     pub after: usize,
-    /// How far the time is from `before` towards `after`, 0 ≤ mix ≤ 1; 0 on a key and outside the keys.
+    /// Fraction of the time from `before` to `after`, 0 ≤ mix ≤ 1; 0 on a key and outside the keys.
     pub mix: f32,
 }
 
 impl Keys {
-    /// Exactly on one key, or outside the keys.
+    /// Returns keys for a time exactly on one key, or outside the keys.
     pub(crate) fn on(key: usize) -> Self {
         Self { before: key, after: key, mix: 0.0 }
     }
@@ -32,7 +32,7 @@ impl Keys {
 #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "the negation is how NaN is caught")]
 pub fn find_keys(times: &[f32], time: f32) -> Option<Keys> {
     let (&first, &last) = (times.first()?, times.last()?);
-    // Written so that a NaN on either side ends here.
+    // Written so that a NaN on either side returns here.
     if !(time > first) {
         return Some(Keys::on(0));
     }
@@ -44,13 +44,13 @@ pub fn find_keys(times: &[f32], time: f32) -> Option<Keys> {
     Some(Keys { before, after, mix: mix_factor(times[before], times[after], time) })
 }
 
-/// `(time - before) / (after - before)`, 0..=1; 0 where that is undefined (both keys at the same time).
+/// Returns `(time - before) / (after - before)`, 0..=1; 0 where that is undefined (both keys at the same time).
 pub(crate) fn mix_factor(before: f32, after: f32, time: f32) -> f32 {
     let span = after - before;
     let mix = if span.is_finite() {
         (time - before) / span
     } else {
-        // The span of very distant keys is not a number that f32 can hold; half of it is.
+        // The difference of very distant keys exceeds the range of f32; half of it does not.
         (time * 0.5 - before * 0.5) / (after * 0.5 - before * 0.5)
     };
     // NaN fails both comparisons.

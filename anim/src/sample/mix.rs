@@ -1,32 +1,32 @@
-//! How two keys are combined (thesis §2.1.5.2: "0.5 * K1 + 0.5 * K2"; glTF 2.0 appendix C for the others).
+//! Interpolation between two keys (thesis §2.1.5.2: "0.5 * K1 + 0.5 * K2"; glTF 2.0 appendix C for the others).
 //!
 //! `mix` is always 0..1: 0 the first key, 1 the second.
 
 use glam::Quat;
 use std::ops::{Add, Mul, Sub};
 
-/// Linear: `(1 - mix) * a + mix * b`, for translations, scales and single numbers.
+/// Interpolates linearly: `(1 - mix) * a + mix * b`, for translations, scales and single numbers.
 pub fn lerp<T: Copy + Add<Output = T> + Mul<f32, Output = T>>(a: T, b: T, mix: f32) -> T {
     a * (1.0 - mix) + b * mix
 }
 
-/// Above this cosine two rotations are so near (less than 0.06° in quaternion space) that the division by
-/// `sin(angle)` would lose more than the straight line does.
+/// Cosine above which two rotations are so close (less than 0.06° in quaternion space) that the division by
+/// `sin(angle)` would lose more than linear interpolation does.
 const NEARLY_PARALLEL: f32 = 0.999_999_5;
 
-/// Spherical linear: turns from `a` to `b` about one axis at constant speed, the short way round.
+/// Interpolates spherically: turns from `a` to `b` about one axis at constant speed, the short way round.
 ///
 /// ```text
 /// angle = the angle between a and b as four-dimensional vectors
 /// (sin((1 - mix) * angle) * a + sin(mix * angle) * b) / sin(angle)
 /// ```
 ///
-/// * `b` and `-b` are the same rotation; the one nearer to `a` is used, so the way is never longer than 180°.
-/// * Rotations exactly 180° apart have two ways of the same length: the one towards `b` as it is stored is taken, so
+/// * `b` and `-b` are the same rotation; the one nearer to `a` is used, so the path is never longer than 180°.
+/// * Rotations exactly 180° apart have two paths of the same length: the one towards `b` as it is stored is used, so
 ///   the axis is that of `b * a⁻¹`.
-/// * Nearly parallel rotations: a straight line, see [`nlerp`].
+/// * Nearly parallel rotations: linear interpolation, see [`nlerp`].
 ///
-/// Both of unit length; the result is normalised.
+/// Both of unit length; the result is normalized.
 pub fn slerp(a: Quat, b: Quat, mix: f32) -> Quat {
     let cosine = a.dot(b);
     let b = if cosine < 0.0 { -b } else { b };
@@ -40,20 +40,20 @@ pub fn slerp(a: Quat, b: Quat, mix: f32) -> Quat {
     ((a * from + b * to) / angle.sin()).normalize()
 }
 
-/// The straight line between two rotations of one hemisphere, normalised.
+/// Interpolates two rotations of one hemisphere linearly, and normalizes the result.
 pub fn nlerp(a: Quat, b: Quat, mix: f32) -> Quat {
     lerp(a, b, mix).normalize()
 }
 
-/// Cubic Hermite spline from key `a` to key `b`.
+/// Evaluates the cubic Hermite spline from key `a` to key `b`.
 ///
 /// ```text
 /// ( 2 m³ - 3 m² + 1) * a  +  span * (m³ - 2 m² + m) * out_tangent
 /// (-2 m³ + 3 m²    ) * b  +  span * (m³ -   m²    ) * in_tangent
 /// ```
 ///
-/// `out_tangent` leaves `a`, `in_tangent` arrives at `b`, both in units a second; `span` is the seconds between
-/// the keys. A rotation has to be normalised afterwards.
+/// `out_tangent` belongs to `a`, `in_tangent` to `b`, both in units per second; `span` is the seconds between the keys.
+/// A rotation has to be normalized afterwards.
 pub fn hermite<T>(a: T, out_tangent: T, in_tangent: T, b: T, span: f32, mix: f32) -> T
 where
     T: Copy + Add<Output = T> + Mul<f32, Output = T>,
@@ -65,13 +65,13 @@ where
         + in_tangent * (span * (mix3 - mix2))
 }
 
-/// How fast [`hermite`] changes there, units a second: its derivative.
+/// Returns the derivative of [`hermite`] in units per second.
 ///
 /// ```text
 /// (b - a) * 6 m (1 - m) / span  +  (3 m² - 4 m + 1) * out_tangent  +  (3 m² - 2 m) * in_tangent
 /// ```
 ///
-/// A key put there with this as both tangents leaves the curve as it is.
+/// A key inserted there with this as both tangents leaves the curve unchanged.
 pub fn hermite_slope<T>(a: T, out_tangent: T, in_tangent: T, b: T, span: f32, mix: f32) -> T
 where
     T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,

@@ -1,19 +1,19 @@
 //! From keys to a pose: the open path, which follows the formulas line by line (thesis §2.1.5.2).
 //!
-//! For each animated property of each bone: [`find_keys`] finds the two keys around the time and how far it lies
-//! between them, [`mix`] combines their values, and the three results make the temporary key-frame
-//! ([`keyframe_at`]) that the formulas of [`crate::animation`] take from there.
+//! For each animated property of each bone: [`find_keys`] finds the two keys around the time and the fraction between
+//! them, [`mix`] combines their values, and the three results form the temporary key-frame ([`keyframe_at`]) that the
+//! formulas of [`crate::animation`] continue with.
 //!
-//! # Rules that hold everywhere
+//! # Common rules
 //!
 //! * Before the first and after the last key a channel keeps that key's value (clamped). To repeat a take instead,
 //!   map the time first: [`loop_time`].
 //! * On a key the key's value is returned bit for bit.
-//! * A channel without keys leaves the rest value of its bone.
-//! * Sampling is total: it never panics, and no result is NaN or infinite, whatever the data holds. A stored number
+//! * A channel without keys gives the rest value of its bone.
+//! * Sampling is total: it never panics, and no result is NaN or infinite, whatever the data is. A stored number
 //!   that is not finite is replaced: a key by the rest value, a tangent by zero, a rest value by that of
-//!   [`Transform::IDENTITY`]; a mix that leaves the range of `f32` by the key before. Healthy data never takes
-//!   these ways, and its results are not touched.
+//!   [`Transform::IDENTITY`]; an interpolated value that leaves the range of `f32` by the key before. Valid data and its
+//!   results are never changed by this.
 
 mod channel;
 mod keys;
@@ -32,15 +32,16 @@ pub use value::Value;
 
 use crate::data::{Bone, Keyframe, Skeleton, Take, Track, Transform};
 
-/// The pose of `bone`, relative to its parent, when nothing animates it: its rest pose, every number finite and the
-/// rotation of unit length.
+/// Returns the pose of `bone`, relative to its parent, when nothing animates it: its rest pose, every number finite and
+/// the rotation of unit length.
 ///
-/// A healthy rest pose is returned bit for bit.
+/// A valid rest pose is returned bit for bit.
 pub fn rest_pose(bone: &Bone) -> Transform {
     healthy(bone.rest, Transform::IDENTITY)
 }
 
-/// The pose of `bone` relative to its parent at `time` seconds; what `track` does not animate keeps the rest value.
+/// Returns the pose of `bone` relative to its parent at `time` seconds; properties that `track` does not animate have
+/// the rest value.
 pub fn sample_track(track: &Track, bone: &Bone, time: f32) -> Transform {
     let rest = rest_pose(bone);
     Transform {
@@ -50,17 +51,18 @@ pub fn sample_track(track: &Track, bone: &Bone, time: f32) -> Transform {
     }
 }
 
-/// The temporary key-frame of `bone` at `time` seconds, put together from the columns of its track.
+/// Returns the temporary key-frame of `bone` at `time` seconds, assembled from the columns of its track.
 ///
-/// A time that is not finite is written down as 0; the pose is that of the first key (NaN, −∞) or the last (+∞).
+/// A time that is not finite is stored as 0; the pose is that of the first key (NaN, −∞) or the last (+∞).
 pub fn keyframe_at(track: &Track, bone: &Bone, time: f32) -> Keyframe {
     Keyframe { time: if time.is_finite() { time } else { 0.0 }, pose: sample_track(track, bone, time) }
 }
 
-/// The poses of all bones at `time` seconds, each relative to its parent, in bone order.
+/// Samples the poses of all bones at `time` seconds, each relative to its parent, in bone order.
 ///
-/// Without `take`, or for a bone whose track is missing: the rest pose. Writes as many poses as `out` and the skeleton
-/// both have room for; allocates nothing.
+/// Without `take`, or for a bone whose track is missing: the rest pose. Writes up to the length of the shorter of `out`
+/// and the skeleton; allocates nothing.
+#[doc(alias("evaluate", "pose"))]
 pub fn sample_take(take: Option<&Take>, skeleton: &Skeleton, time: f32, out: &mut [Transform]) {
     for (index, (bone, pose)) in skeleton.bones.iter().zip(out).enumerate() {
         *pose = match take.and_then(|take| take.tracks.get(index)) {
@@ -70,7 +72,7 @@ pub fn sample_take(take: Option<&Take>, skeleton: &Skeleton, time: f32, out: &mu
     }
 }
 
-/// `pose` with every number that is not finite taken from `fallback`, and its rotation of unit length.
+/// Returns `pose` with every number that is not finite replaced by that of `fallback`, and its rotation normalized.
 pub fn healthy(pose: Transform, fallback: Transform) -> Transform {
     Transform {
         translation: pose.translation.healed(fallback.translation),

@@ -3,10 +3,11 @@
 use super::{find_keys, mix};
 use crate::data::{Interpolation, MorphTrack, Take};
 
-/// Weights of the morph targets of instance number `instance` at `time` seconds, into `out` (one a target).
+/// Samples the weights of the morph targets of instance number `instance` at `time` seconds, into `out` (one per
+/// target).
 ///
 /// Where `take` does not animate them: `rest`, the instance's own weights; zero where `rest` is shorter. The rules of
-/// [`super::sample_channel`] hold for each weight by itself. Allocates nothing.
+/// [`super::sample_channel`] apply to each weight by itself. Allocates nothing.
 pub fn sample_morph_weights(take: Option<&Take>, instance: u32, rest: &[f32], time: f32, out: &mut [f32]) {
     let track = take.and_then(|take| take.morphs.iter().find(|track| track.instance == instance));
     for (target, weight) in out.iter_mut().enumerate() {
@@ -15,12 +16,12 @@ pub fn sample_morph_weights(take: Option<&Take>, instance: u32, rest: &[f32], ti
     }
 }
 
-/// One weight; a file stores those of a key side by side.
+/// Samples one weight; a file stores the weights of a key next to each other.
 fn sample_weight(track: &MorphTrack, target: usize, rest: f32, time: f32) -> f32 {
     let targets = track.targets as usize;
     let Some(keys) = find_keys(&track.times, time).filter(|_| target < targets) else { return rest };
     let parts = if track.interpolation == Interpolation::CubicSpline { 3 } else { 1 };
-    // Which of a key's parts: 0 in-tangents, 1 values, 2 out-tangents; only values without tangents.
+    // Part of a key: 0 in-tangents, 1 values, 2 out-tangents; only values without tangents.
     let stored = |key: usize, part: usize, fallback: f32| {
         let row = key.saturating_mul(parts).saturating_add(part);
         let position = row.saturating_mul(targets).saturating_add(target);

@@ -1,19 +1,19 @@
-//! From a clock that runs on to a time inside a take.
+//! From the time of a running clock to a time inside a take.
 
 use crate::data::Take;
 
-/// What happens when the clock leaves a take.
+/// Behavior when the clock is outside a take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum PlayMode {
-    /// The first or last pose stays.
+    /// The first or last pose is kept.
     Clamp,
-    /// The take begins anew.
+    /// The take is repeated.
     #[default]
     Loop,
 }
 
 impl PlayMode {
-    /// The time inside `take` that belongs to `time` seconds of a clock.
+    /// Returns the time inside `take` that belongs to `time` seconds of a clock.
     pub fn map(self, take: &Take, time: f32) -> f32 {
         match self {
             Self::Clamp => clamp_time(time, take.start, take.length),
@@ -22,10 +22,10 @@ impl PlayMode {
     }
 }
 
-/// `time` seconds kept within `start ..= start + length`; NaN gives `start`.
+/// Clamps `time` seconds to `start ..= start + length`; NaN gives `start`.
 ///
-/// A length that is negative or not finite counts as zero, a start that is not finite as 0, and an end past what f32
-/// can hold is the largest f32.
+/// A length that is negative or not finite counts as zero, a start that is not finite as 0, and an end that exceeds the
+/// range of f32 is the largest f32.
 #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "the negation is how NaN is caught")]
 pub fn clamp_time(time: f32, start: f32, length: f32) -> f32 {
     let (start, length) = checked(start, length);
@@ -39,10 +39,10 @@ pub fn clamp_time(time: f32, start: f32, length: f32) -> f32 {
     }
 }
 
-/// `time` seconds wrapped into `start ..= start + length`; one past the end begins anew, one before the start comes
-/// from the end.
+/// Wraps `time` seconds into `start ..= start + length`; a time past the end continues at the start, one before the
+/// start at the end.
 ///
-/// Inside the take, both ends included, the time is returned as it is. A take without length, NaN and infinite times
+/// Inside the take, both ends included, the time is returned unchanged. A take without length, NaN and infinite times
 /// give `start`; otherwise as [`clamp_time`].
 pub fn loop_time(time: f32, start: f32, length: f32) -> f32 {
     let (start, length) = checked(start, length);
@@ -54,7 +54,7 @@ pub fn loop_time(time: f32, start: f32, length: f32) -> f32 {
     clamp_time(if wrapped.is_finite() { start + wrapped } else { start }, start, length)
 }
 
-/// Both finite, the length not negative.
+/// Returns both finite, the length not negative.
 fn checked(start: f32, length: f32) -> (f32, f32) {
     let start = if start.is_finite() { start } else { 0.0 };
     let length = if length.is_finite() && length > 0.0 { length } else { 0.0 };

@@ -1,28 +1,28 @@
-//! What a channel can animate: vectors, rotations, and single numbers such as weights.
+//! Types that a channel can animate: vectors, rotations, and single numbers such as weights.
 
 use super::mix;
 use glam::{Quat, Vec3};
 
-/// A value that keys hold and that can be mixed.
+/// A value that keys contain and that can be interpolated.
 pub trait Value: Copy {
-    /// Adds nothing: stands in for a tangent that is no number.
+    /// Zero, used for a tangent that is not finite.
     const ZERO: Self;
 
-    /// Between two keys, 0 ≤ `mix` ≤ 1.
+    /// Interpolates linearly between two keys, 0 ≤ `mix` ≤ 1.
     fn linear(a: Self, b: Self, mix: f32) -> Self;
 
-    /// On the Hermite spline between two keys `span` seconds apart; a rotation is normalised, and is `a` where the
-    /// spline passes through zero.
+    /// Interpolates on the Hermite spline between two keys `span` seconds apart; a rotation is normalized, and is `a`
+    /// where the spline passes through zero.
     fn cubic(a: Self, out_tangent: Self, in_tangent: Self, b: Self, span: f32, mix: f32) -> Self;
 
-    /// Is every component finite?
+    /// Returns whether every component is finite.
     fn is_finite(self) -> bool;
 
-    /// Itself bit for bit where it is a usable value, else the nearest usable one, else `fallback`.
+    /// Returns the value bit for bit where it is usable; otherwise the nearest usable one, or `fallback`.
     fn healed(self, fallback: Self) -> Self;
 }
 
-/// Numbers and vectors: mixed component by component; any finite one is usable, zero scale included.
+/// Numbers and vectors: interpolated component by component; any finite one is usable, zero scale included.
 macro_rules! by_component {
     ($type:ty, $zero:expr) => {
         impl Value for $type {
@@ -50,7 +50,7 @@ macro_rules! by_component {
 by_component!(f32, 0.0);
 by_component!(Vec3, Vec3::ZERO);
 
-/// A squared length this near 1 is a unit quaternion with rounding; it is left alone.
+/// Tolerance of the squared length of a unit quaternion with rounding, which is not changed.
 const UNIT_TOLERANCE: f32 = 2e-4;
 
 impl Value for Quat {
@@ -68,8 +68,8 @@ impl Value for Quat {
         Quat::is_finite(self)
     }
 
-    /// A quaternion of another length is normalised; one without length is the identity; one that is not finite
-    /// becomes `fallback`.
+    /// A quaternion of another length is normalized; one without length is the identity; one that is not finite becomes
+    /// `fallback`.
     fn healed(self, fallback: Self) -> Self {
         if !self.is_finite() {
             return fallback;
@@ -81,9 +81,9 @@ impl Value for Quat {
     }
 }
 
-/// `rotation` divided by its length; `None` when it has none or is not finite.
+/// Returns `rotation` divided by its length; `None` when it has none or is not finite.
 ///
-/// A square of a very large or small component leaves the range of f32, so those are first brought near 1.
+/// The square of a very large or small component leaves the range of f32, so those are first scaled to about 1.
 fn unit(rotation: Quat) -> Option<Quat> {
     let length_squared = rotation.length_squared();
     if (1e-20..=1e20).contains(&length_squared) {

@@ -1,24 +1,24 @@
 //! Normals and tangents: directions that a matrix with unequal scales would tilt.
 //!
 //! A normal is not moved by the matrix `M` of its vertex but by the transposed inverse of its linear part, so that it
-//! stays at right angles to the surface. That is taken as the cofactor matrix, which needs no division and therefore
+//! stays at right angles to the surface. That is computed as the cofactor matrix, which needs no division and therefore
 //! exists where a scale is zero:
 //!
 //! ```text
 //! M = [x y z]      cofactors = [y×z  z×x  x×y]      inverse transpose = cofactors / determinant
-//! normal = normalise(sign(determinant) * cofactors * normal)
+//! normal = normalize(sign(determinant) * cofactors * normal)
 //! ```
 //!
-//! The sign turns the normals of a mirrored bone to the right side. One zero scale flattens the surface: its normal
+//! The sign turns the normals of a mirrored bone to the correct side. One zero scale flattens the surface: its normal
 //! becomes that of the plane, as it should. With two zero scales no cofactor is left: the normal is moved like a
-//! tangent, by `M` itself; with three it stays.
+//! tangent, by `M` itself; with three it is not changed.
 
 use super::{Movement, morphed};
 use crate::data::Primitive;
 use glam::{Mat3, Mat4, Vec3, Vec4};
 
-/// `sign(determinant) * cofactors` of the linear part of `matrix`, scaled so that its numbers are near 1: normals are
-/// multiplied by it and normalised.
+/// Returns `sign(determinant) * cofactors` of the linear part of `matrix`, scaled so that its numbers are near 1:
+/// normals are multiplied by it and normalized.
 ///
 /// A determinant of zero counts as positive. All zero where two or three scales are zero.
 pub fn normal_matrix(matrix: Mat4) -> Mat3 {
@@ -31,9 +31,9 @@ pub fn normal_matrix(matrix: Mat4) -> Mat3 {
     if mirrors(linear) { -cofactors } else { cofactors }
 }
 
-/// Moves the first normals of `primitive`, as many as `out` has room for, to scene space, unit length.
+/// Moves normals of `primitive` to scene space, unit length, up to the length of `out`.
 ///
-/// Returns how many were written; 0 when the primitive has no normals. Allocates nothing.
+/// Returns the number written; 0 when the primitive has no normals. Allocates nothing.
 pub fn skin_normals(
     primitive: &Primitive,
     movement: Movement<'_>,
@@ -47,7 +47,7 @@ pub fn skin_normals(
     normals.len().min(out.len())
 }
 
-/// The normal of vertex `index` of `primitive` in scene space, unit length: what [`skin_normals`] does for one vertex;
+/// Returns the normal of vertex `index` of `primitive` in scene space, unit length: [`skin_normals`] for one vertex;
 /// `None` where it has none.
 pub fn skin_normal(
     primitive: &Primitive,
@@ -76,10 +76,10 @@ fn moved_normal(
     ])
 }
 
-/// Moves the first tangents of `primitive`, as many as `out` has room for, to scene space.
+/// Moves tangents of `primitive` to scene space, up to the length of `out`.
 ///
 /// xyz follow the surface, so the matrix itself moves them, and they have unit length; w, the side of the bitangent,
-/// changes its sign where the matrix mirrors. Returns how many were written; 0 when the primitive has no tangents.
+/// changes its sign where the matrix mirrors. Returns the number written; 0 when the primitive has no tangents.
 /// Allocates nothing.
 pub fn skin_tangents(
     primitive: &Primitive,
@@ -100,29 +100,29 @@ pub fn skin_tangents(
     tangents.len().min(out.len())
 }
 
-/// Is the determinant negative?
+/// Returns whether the determinant is negative.
 fn mirrors(linear: Mat3) -> bool {
     linear.x_axis.cross(linear.y_axis).dot(linear.z_axis) < 0.0
 }
 
-/// `linear` divided by its largest number, so that products of three stay within f32; zero stays zero.
+/// Returns `linear` divided by its largest number, so that products of three stay within f32; zero stays zero.
 pub(crate) fn near_one(linear: Mat3) -> Mat3 {
     let largest = linear.to_cols_array().into_iter().map(f32::abs).fold(0.0, f32::max);
     if largest > 0.0 { Mat3::from_cols_array(&linear.to_cols_array().map(|n| n / largest)) } else { linear }
 }
 
-/// The first of `candidates` that has a direction, unit length; +Y when none has.
+/// Returns the first of `candidates` that has a direction, unit length; +Y when none has.
 pub(crate) fn first_direction<const N: usize>(candidates: [Vec3; N]) -> Vec3 {
     candidates.into_iter().find_map(direction).unwrap_or(Vec3::Y)
 }
 
-/// `vector` divided by its length; `None` when it is zero or not finite.
+/// Returns `vector` divided by its length; `None` when it is zero or not finite.
 fn direction(vector: Vec3) -> Option<Vec3> {
     let largest = vector.abs().max_element();
     if !vector.is_finite() || largest == 0.0 {
         return None;
     }
-    // Below what f32 can divide by, 1/largest would be infinite; the quotient itself is not.
+    // For very small numbers, 1/largest would be infinite; the quotient itself is not.
     let near_one = vector / largest;
     near_one.is_finite().then(|| near_one.normalize())
 }

@@ -4,10 +4,11 @@ use super::{Movement, final_of, morphed};
 use crate::data::{Influence, Primitive};
 use glam::{Mat4, Vec3};
 
-/// Moves the first vertices of `primitive`, as many as `out` has room for, to scene space.
+/// Moves vertices of `primitive` to scene space, up to the length of `out`.
 ///
-/// `morph_weights`: one a morph target; missing ones count as 0. Returns how many positions were written. Allocates
+/// `morph_weights`: one per morph target; missing ones count as 0. Returns the number of positions written. Allocates
 /// nothing.
+#[doc(alias = "linear blend skinning")]
 pub fn skin_positions(
     primitive: &Primitive,
     movement: Movement<'_>,
@@ -21,8 +22,8 @@ pub fn skin_positions(
     stored.len().min(out.len())
 }
 
-/// Where vertex `index` of `primitive` is in scene space: what [`skin_positions`] does for one vertex; `None` past the
-/// end.
+/// Returns the position of vertex `index` of `primitive` in scene space: [`skin_positions`] for one vertex; `None` past
+/// the end.
 pub fn skin_position(
     primitive: &Primitive,
     movement: Movement<'_>,
@@ -33,11 +34,12 @@ pub fn skin_position(
     Some(moved(primitive, movement, morph_weights, index, stored))
 }
 
-/// What one influence adds to the position of a vertex: `final[joint] * position * weight`, scene space.
+/// Returns the contribution of one influence to the position of a vertex: `final[joint] * position * weight`, scene
+/// space.
 ///
 /// `finals` are the final poses of the skin, `position` that of the vertex after morphing. Zero without weight.
 pub fn contribution(finals: &[Mat4], influence: Influence, position: Vec3) -> Vec3 {
-    // Not for speed: zero times a product that overflowed would be NaN.
+    // Required for correctness: zero times a product that overflowed would be NaN.
     if influence.weight == 0.0 {
         return Vec3::ZERO;
     }
@@ -65,7 +67,7 @@ fn moved(
     first_finite([moved, stored])
 }
 
-/// The first of `candidates` without NaN or infinity; the origin when there is none.
+/// Returns the first of `candidates` without NaN or infinity; the origin when there is none.
 fn first_finite(candidates: [Vec3; 2]) -> Vec3 {
     candidates.into_iter().find(|candidate| candidate.is_finite()).unwrap_or(Vec3::ZERO)
 }

@@ -1,6 +1,6 @@
-//! The arm of the tutorial, as the first five steps make it: where the examples of the later steps begin.
+//! The arm of the tutorial, as built by the first five steps: the starting point of the examples of the later steps.
 //!
-//! The examples of the first five steps compare what they have made with this.
+//! The examples of the first five steps compare their results with it.
 
 use crate::animation;
 use crate::data::{
@@ -9,7 +9,7 @@ use crate::data::{
 use crate::sample::sample_take;
 use glam::{Mat4, Quat, Vec3};
 
-/// After step 1.
+/// Returns the skeleton after step 1.
 pub fn without_offsets() -> Skeleton {
     let bone = |name: &str, parent, translation| Bone {
         name: name.to_owned(),
@@ -22,7 +22,7 @@ pub fn without_offsets() -> Skeleton {
     Skeleton { bones: vec![bone("upper", None, Vec3::ZERO), bone("lower", Some(0), Vec3::X)] }
 }
 
-/// After step 3.
+/// Returns the skeleton after step 3.
 pub fn skeleton() -> Skeleton {
     let mut skeleton = without_offsets();
     let rest = to_root(&skeleton, None, 0.0);
@@ -32,7 +32,7 @@ pub fn skeleton() -> Skeleton {
     skeleton
 }
 
-/// Three vertices, as in step 4.
+/// Returns the three vertices of step 4.
 pub fn primitive() -> Primitive {
     let influence = |joint, weight| Influence { joint, weight };
     let mut influences = vec![Influence::default(); 12];
@@ -49,13 +49,13 @@ pub fn primitive() -> Primitive {
     Primitive { vertices, indices: vec![0, 1, 2], ..Primitive::default() }
 }
 
-/// Their skin, as in step 4.
+/// Returns the skin of step 4.
 pub fn skin() -> Skin {
     let offsets = skeleton().bones.iter().map(|bone| bone.offset).collect();
     Skin { name: "arm".to_owned(), bones: vec![0, 1], offsets }
 }
 
-/// The take of step 5.
+/// Returns the take of step 5.
 pub fn bend() -> Take {
     let turns = [Quat::IDENTITY, Quat::from_rotation_z(std::f32::consts::FRAC_PI_2)];
     let rotation = Channel::new([0.0, 1.0], turns, Interpolation::Linear);
@@ -68,7 +68,7 @@ pub fn bend() -> Take {
     }
 }
 
-/// Steps 6 and 7.
+/// Computes steps 6 and 7.
 pub fn to_root(skeleton: &Skeleton, take: Option<&Take>, time: f32) -> [Mat4; 2] {
     let (mut poses, mut matrices) = ([Transform::IDENTITY; 2], [Mat4::IDENTITY; 2]);
     sample_take(take, skeleton, time, &mut poses);

@@ -1,20 +1,20 @@
-//! An animated model from nothing, in ten steps, for someone who has never done it.
+//! An animated model from scratch, in ten steps, for readers who have never built one.
 //!
-//! The model is an arm of two bones that bends at the elbow. Every step has the code, the formula behind it, and the
-//! section of the thesis that explains it. At the end stands everything that a game or an editor does each frame to
+//! The model is an arm of two bones that bends at the elbow. Every step has the code, its formula, and the
+//! section of the thesis that explains it. The result is everything that a game or an editor does each frame to
 //! move a character; a real one only has more bones.
 //!
-//! The steps are one program: each goes on where the one before has stopped. The lines that begin with `assert` are not
-//! needed; they say what has come out.
+//! The steps are one program: each continues the one before. The lines that begin with `assert` are not
+//! needed; they show the results.
 //!
 //! # Step 1: bones, a tree written as a list
 //!
 //! A skeleton is a tree. It is stored as a list, and each bone has only the number of its parent (thesis §2.1.2.2): a
-//! number can be saved and sent to a shader as it is, a pointer cannot. Vertices and animations name bones by the
-//! same numbers (§2.1.3). Parents come before their children, so that one pass through the list meets them first.
+//! number can be saved and sent to a shader as it is, a pointer cannot. Vertices and animations refer to bones by the
+//! same numbers (§2.1.3). Parents come before their children, so that one pass through the list visits them first.
 //!
-//! `rest` is where the bone is when nothing moves it, *relative to its parent*. Our arm lies along x. The upper bone
-//! begins in the origin, the lower one a metre further on, at the elbow.
+//! `rest` is the pose of the bone when nothing moves it, *relative to its parent*. Our arm points along x. The upper bone
+//! starts at the origin, the lower one a meter further on, at the elbow.
 //!
 //! ```
 //! use dragonfly_anim::data::{Bone, Skeleton, Transform};
@@ -39,16 +39,16 @@
 //!
 //! # Step 2: from the parent to the root
 //!
-//! A pose relative to the parent becomes a matrix, `to_parent`: scale first, then turn, then shift. Multiplied with
-//! the matrices of all ancestors it becomes `to_root`, which says where the bone is in the scene (§2.1.5.1):
+//! A pose relative to the parent becomes a matrix, `to_parent`: scale first, then rotation, then translation. Multiplied
+//! by the matrices of all ancestors it becomes `to_root`, the pose of the bone in the scene (§2.1.5.1):
 //!
 //! ```text
 //! to_parent = translation * rotation * scale
 //! to_root   = to_root of the parent * to_parent          thesis: ToRoot_i = ToParent_i · ToRoot_p
 //! ```
 //!
-//! The thesis writes vectors as rows, we as columns, so its products read the other way round. The numbers are the
-//! same.
+//! The thesis writes vectors as rows, this library as columns, so the factors of its products are in the opposite order.
+//! The numbers are the same.
 //!
 //! ```
 //! # use dragonfly_anim::{data::Transform, tutorial::arm};
@@ -60,18 +60,18 @@
 //! let mut rest_to_root = [Mat4::IDENTITY; 2];
 //! to_root(&skeleton, &rest, &mut rest_to_root);
 //!
-//! // The elbow is one metre along x.
+//! // The elbow is at one meter along x.
 //! assert_eq!(rest_to_root[1].transform_point3(Vec3::ZERO), Vec3::X);
 //! ```
 //!
 //! # Step 3: offsets
 //!
-//! Geometry is modelled once, around the skeleton in its *binding pose*. The offset of a bone takes a point from
-//! there into the bone's own space; it never changes (§2.1.2.2). When the binding pose is the rest pose, it is the
+//! Geometry is modeled once, around the skeleton in its *bind pose*. The offset of a bone (inverse bind matrix) transforms
+//! a point from there to the bone's own space; it never changes (§2.1.2.2). When the bind pose is the rest pose, it is the
 //! inverse of `to_root`:
 //!
 //! ```text
-//! offset = (to_root in the binding pose)⁻¹
+//! offset = (to_root in the bind pose)⁻¹
 //! ```
 //!
 //! ```
@@ -83,19 +83,19 @@
 //!     bone.offset = to_root.inverse();
 //! }
 //!
-//! // Seen from the elbow, the elbow is the origin.
+//! // In its own space, the elbow is the origin.
 //! assert_eq!(skeleton.bones[1].offset.transform_point3(Vec3::X), Vec3::ZERO);
 //! # assert_eq!(skeleton, arm::skeleton());
 //! ```
 //!
 //! # Step 4: vertices, and which bones move them
 //!
-//! A vertex lists the bones that move it and how much each counts (§2.1.2.1): four places a vertex, the strongest
+//! A vertex lists the bones that move it and their weights (§2.1.2.1): four influences per vertex, the strongest
 //! first, the weights summing to 1. Three vertices are enough for an arm: shoulder, elbow, hand. The elbow belongs to
 //! both bones.
 //!
-//! A vertex names *joints*, which are places in the list of a [`Skin`](crate::data::Skin); the skin says which bone
-//! each is, and has the offsets. So several meshes can share a skeleton.
+//! A vertex refers to *joints*, which are positions in the list of a [`Skin`](crate::data::Skin); the skin contains the bone
+//! of each, and the offsets. So several meshes can share a skeleton.
 //!
 //! ```
 //! # use dragonfly_anim::tutorial::arm;
@@ -105,8 +105,8 @@
 //!
 //! let influences = |joints: &[(u16, f32)]| {
 //!     let mut four = [Influence::default(); 4];
-//!     for (place, &(joint, weight)) in four.iter_mut().zip(joints) {
-//!         *place = Influence { joint, weight };
+//!     for (slot, &(joint, weight)) in four.iter_mut().zip(joints) {
+//!         *slot = Influence { joint, weight };
 //!     }
 //!     four
 //! };
@@ -129,10 +129,10 @@
 //!
 //! # Step 5: keys, tracks, a take
 //!
-//! A key says what a value is at a time. The keys of one property of one bone are a
+//! A key is a value at a time. The keys of one property of one bone are a
 //! [`Channel`](crate::data::Channel); the channels of a bone are its [`Track`](crate::data::Track); a track for every
-//! bone is a [`Take`](crate::data::Take) (§2.1.2.3, §3.1.2). Each bone has its own keys, so what does not move needs
-//! none: our upper bone has an empty track, and keeps its rest pose.
+//! bone is a [`Take`](crate::data::Take), in other programs a clip (§2.1.2.3, §3.1.2). Each bone has its own keys, and one
+//! that does not move needs none: our upper bone has an empty track, and keeps its rest pose.
 //!
 //! In one second the lower bone turns by a right angle.
 //!
@@ -163,8 +163,8 @@
 //!
 //! # Step 6: between two keys
 //!
-//! At half a second there is no key. The one before and the one after are found, and how far the time is between
-//! them; then both are combined (§2.1.5.2: `0.5 * K1 + 0.5 * K2`). Rotations turn from one to the other at constant
+//! At half a second there is no key. The one before, the one after, and the fraction of the time between them are found;
+//! then both are combined (§2.1.5.2: `0.5 * K1 + 0.5 * K2`). Rotations turn from one to the other at constant
 //! speed.
 //!
 //! ```text
@@ -193,7 +193,7 @@
 //!
 //! # Step 7: the pose in the scene
 //!
-//! The formula of step 2 again, now with the poses of this moment (§2.1.5.1). These matrices also draw the skeleton.
+//! The formula of step 2 again, now with the poses at this time (§2.1.5.1). These matrices also draw the skeleton.
 //!
 //! ```text
 //! to_root = to_root of the parent * to_parent
@@ -207,7 +207,7 @@
 //! let mut now_to_root = [Mat4::IDENTITY; 2];
 //! to_root(&skeleton, &poses, &mut now_to_root);
 //!
-//! // A point one metre along the lower bone has left the x axis; the elbow is where it was.
+//! // A point one meter along the lower bone has left the x axis; the elbow has not moved.
 //! let hand = now_to_root[1].transform_point3(Vec3::X);
 //! let slope = std::f32::consts::FRAC_1_SQRT_2;
 //! assert!(hand.distance(Vec3::new(1.0 + slope, slope, 0.0)) < 1e-6);
@@ -216,8 +216,9 @@
 //!
 //! # Step 8: final poses
 //!
-//! Vertices are stored in the binding pose. To move one, it is first taken into the bone's space, then to where the
-//! bone is now (§2.1.5.1). Both together are the final pose, one matrix a joint, and all that a graphics card needs.
+//! Vertices are stored in the bind pose. To move one, it is first transformed to the bone's space, then by the bone's
+//! current `to_root` (§2.1.5.1). Both together are the final pose (skinning matrix), one matrix per joint, and all that a
+//! graphics card needs.
 //!
 //! ```text
 //! final = to_root * offset                                thesis: Final_i = Offset_i · ToRoot_i
@@ -234,7 +235,7 @@
 //! let mut finals = [Mat4::IDENTITY; 2];
 //! final_poses(&skin, &now_to_root, &mut finals);
 //!
-//! // In the binding pose every final pose is the identity: nothing moves.
+//! // In the bind pose every final pose is the identity: nothing moves.
 //! let mut at_rest = [Mat4::ZERO; 2];
 //! final_poses(&skin, &rest_to_root, &mut at_rest);
 //! assert_eq!(at_rest, [Mat4::IDENTITY; 2]);
@@ -249,7 +250,7 @@
 //! ```
 //!
 //! On the screen a shader does this, for each vertex in each frame. [`skin_positions`](crate::skin::skin_positions)
-//! is the same on the processor.
+//! does the same on the CPU.
 //!
 //! ```
 //! # use dragonfly_anim::{animation::final_poses, tutorial::arm};
@@ -274,13 +275,13 @@
 //! (§2.1.4.1). Each take is sampled by itself; [`blend`](crate::blend::blend()) makes one pose of them, bone by bone:
 //!
 //! ```text
-//! translation = Σ weight_i * translation_i        scale likewise
+//! translation = Σ weight_i * translation_i        scale too
 //! rotation    = Σ weight_i * rotation_i, divided by its length
 //! ```
 //!
-//! Where the weights of a bone sum to less than 1, the pose that is given first, usually the rest pose, takes what is
-//! missing; where to more, they are divided by their sum. Here a second take lifts the upper bone, and both count half. From the
-//! combined poses on, everything is as before.
+//! Where the weights of a bone sum to less than 1, the pose that is given first, usually the rest pose, gets the
+//! remainder; where to more, they are divided by their sum. Here a second take lifts the upper bone, and both have the weight
+//! 0.5. From the combined poses on, everything is as before.
 //!
 //! ```
 //! # use dragonfly_anim::{animation::{final_poses, to_root}, data::Transform, sample::sample_take};
@@ -311,14 +312,15 @@
 //!
 //! # Where to go from here
 //!
-//! * [`explain`](crate::explain::explain()) prints all of these steps with their numbers, for any bone or vertex of any model.
+//! * [`explain`](crate::explain::explain()) shows all of these steps with their numbers, for any bone or vertex of any model.
 //! * [`Animation`](crate::animation::Animation) and [`Evaluator`](crate::evaluator::Evaluator) do steps 6 to 9 in one call
 //!   and keep their memory, so that playing allocates nothing.
-//! * [`format::read`](crate::format::read) gets a model from a file instead of steps 1 to 5.
-//! * [`blend`](mod@crate::blend) also has masks, movements on top of others, and fades from take to take; [`ik`](crate::ik)
-//!   makes an arm like this one reach; [`motion`](crate::motion) and [`retarget`](crate::retarget) make other takes of a take.
+//! * [`format::read`](crate::format::read) reads a model from a file instead of steps 1 to 5.
+//! * [`blend`](mod@crate::blend) also has masks, additive animation, and fades from take to take; [`ik`](crate::ik)
+//!   makes an arm like this one reach for a target; [`motion`](crate::motion) extracts root motion, and
+//!   [`retarget`](crate::retarget) transfers a take to another skeleton.
 //! * [`format::dfm`](crate::format::dfm) saves the model.
-//! * [`reduce`](crate::reduce::reduce()) takes away keys that nobody would miss.
+//! * [`reduce`](crate::reduce::reduce()) removes redundant keys.
 
 #[doc(hidden)]
 pub mod arm;

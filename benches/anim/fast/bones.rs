@@ -4,13 +4,13 @@ use super::{Form, Ready};
 use crate::case::Case;
 use crate::inputs::{ADDED, BLENDS, WEIGHTS, how, limb, mask_weights};
 use crate::play::ways;
-use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{
-    LaneMask, PoseLayer, TwoBone, add, blend, difference, final_poses, sample, to_root, two_bone,
+    FastTwoBone, LaneMask, PoseLayer, add, blend, difference, final_poses, sample, to_root, two_bone,
 };
 use std::hint::black_box;
 
-pub(super) fn sampling<F: Form>(ready: &'static Ready, level: Level) -> Vec<Case> {
+pub(super) fn sampling<F: Form>(ready: &'static Ready, level: SimdLevel) -> Vec<Case> {
     let subject = ready.subject;
     let mut cases = Vec::new();
     for (index, take) in subject.short_and_long() {
@@ -32,7 +32,7 @@ pub(super) fn sampling<F: Form>(ready: &'static Ready, level: Level) -> Vec<Case
     cases
 }
 
-pub(super) fn matrices(ready: &'static Ready, level: Level) -> [Case; 2] {
+pub(super) fn matrices(ready: &'static Ready, level: SimdLevel) -> [Case; 2] {
     let name = ready.subject.name;
     [
         Case::new(level.name(), format!("to_root/{name}"), ready.rig.bones(), "bone", move || {
@@ -52,7 +52,7 @@ pub(super) fn matrices(ready: &'static Ready, level: Level) -> [Case; 2] {
     ]
 }
 
-pub(super) fn blending(ready: &'static Ready, level: Level) -> [Case; 4] {
+pub(super) fn blending(ready: &'static Ready, level: SimdLevel) -> [Case; 4] {
     let subject = ready.subject;
     BLENDS.map(|(count, is_masked)| {
         let row = format!("blend/{}/{count}/{}", subject.name, how(is_masked));
@@ -75,7 +75,7 @@ pub(super) fn blending(ready: &'static Ready, level: Level) -> [Case; 4] {
 }
 
 /// A difference between two takes added to a third: wholly, and in part.
-pub(super) fn additive(ready: &'static Ready, level: Level) -> [Case; 2] {
+pub(super) fn additive(ready: &'static Ready, level: SimdLevel) -> [Case; 2] {
     ADDED.map(|(how, weight)| {
         let row = format!("additive/{}/{how}", ready.subject.name);
         Case::new(level.name(), row, ready.rig.bones(), "bone", move || {
@@ -91,10 +91,10 @@ pub(super) fn additive(ready: &'static Ready, level: Level) -> [Case; 2] {
     })
 }
 
-pub(super) fn reaching(ready: &'static Ready, level: Level) -> Case {
+pub(super) fn reaching(ready: &'static Ready, level: SimdLevel) -> Case {
     Case::new(level.name(), format!("two_bone/{}", ready.subject.name), 1, "solve", move || {
         let given = limb(ready.subject);
-        let limb = TwoBone { pole: given.pole, ..TwoBone::new(given.root, given.middle, given.end) };
+        let limb = FastTwoBone { pole: given.pole, ..FastTwoBone::new(given.root, given.middle, given.end) };
         let (roots, mut pose) = (ready.roots(), ready.pose(0, 0.4));
         move || {
             black_box(two_bone(&limb, black_box(given.target), &roots, &mut pose));

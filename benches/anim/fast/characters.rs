@@ -3,17 +3,17 @@
 use super::{Form, Ready};
 use crate::case::Case;
 use crate::play::{CROWDS, FRAMES, crowd, forward};
-use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{Playing, Scratch, matrix, pose_character, pose_crowd};
 use std::hint::black_box;
 
-pub(super) fn cases<F: Form>(ready: &'static Ready, level: Level) -> Vec<Case> {
+pub(super) fn cases<F: Form>(ready: &'static Ready, level: SimdLevel) -> Vec<Case> {
     let mut cases = vec![one::<F>(ready, level), one_of_two::<F>(ready, level)];
     cases.extend(CROWDS.map(|count| many::<F>(ready, level, count)));
     cases
 }
 
-fn one<F: Form>(ready: &'static Ready, level: Level) -> Case {
+fn one<F: Form>(ready: &'static Ready, level: SimdLevel) -> Case {
     let row = format!("pipeline/{}/1", ready.subject.name);
     Case::new(F::way(level), row, FRAMES, "character", move || {
         let (take, times) = (&F::takes(ready)[0], forward(&ready.subject.model.animation.takes[0]));
@@ -28,7 +28,7 @@ fn one<F: Form>(ready: &'static Ready, level: Level) -> Case {
     })
 }
 
-fn one_of_two<F: Form>(ready: &'static Ready, level: Level) -> Case {
+fn one_of_two<F: Form>(ready: &'static Ready, level: SimdLevel) -> Case {
     let row = format!("pipeline/{}/1_of_2_takes", ready.subject.name);
     Case::new(F::way(level), row, FRAMES, "character", move || {
         let takes = F::takes(ready);
@@ -46,7 +46,7 @@ fn one_of_two<F: Form>(ready: &'static Ready, level: Level) -> Case {
     })
 }
 
-fn many<F: Form>(ready: &'static Ready, level: Level, count: usize) -> Case {
+fn many<F: Form>(ready: &'static Ready, level: SimdLevel, count: usize) -> Case {
     let row = format!("pipeline/{}/{count}", ready.subject.name);
     Case::new(F::way(level), row, count, "character", move || {
         let takes = F::takes(ready);

@@ -6,10 +6,10 @@ mod vertices;
 
 use crate::case::Case;
 use crate::model::Subject;
-use dragonfly_anim::compressed::{CompressedTake, Settings, compress};
-use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::compressed::{CompressedTake, CompressionSettings, compress};
+use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{
-    Binding, KeyedTake, Matrix34, Playable, Pose, Rig, RootPoses, final_poses, matrix, sample, to_root,
+    KeyedTake, Matrix34, Playable, Pose, Rig, RootPoses, SkinBinding, final_poses, matrix, sample, to_root,
 };
 use std::sync::OnceLock;
 
@@ -17,7 +17,7 @@ use std::sync::OnceLock;
 struct Ready {
     subject: &'static Subject,
     rig: Rig,
-    binding: Binding,
+    binding: SkinBinding,
     keyed: OnceLock<Vec<KeyedTake>>,
     compressed: OnceLock<Vec<CompressedTake>>,
 }
@@ -25,7 +25,7 @@ struct Ready {
 /// A form of takes that can be played.
 trait Form: Playable + Sized + 'static {
     /// Who plays it at a level, as a part of a name.
-    fn way(level: Level) -> String;
+    fn way(level: SimdLevel) -> String;
 
     /// The takes of `ready` in this form.
     fn takes(ready: &'static Ready) -> &'static [Self];
@@ -33,7 +33,7 @@ trait Form: Playable + Sized + 'static {
 
 /// Keys as they are, 32 bits a number.
 impl Form for KeyedTake {
-    fn way(level: Level) -> String {
+    fn way(level: SimdLevel) -> String {
         level.name().to_owned()
     }
 
@@ -46,13 +46,14 @@ impl Form for KeyedTake {
 
 /// Compressed to 0.1 mm at 3 cm.
 impl Form for CompressedTake {
-    fn way(level: Level) -> String {
+    fn way(level: SimdLevel) -> String {
         format!("{}/compressed", level.name())
     }
 
     fn takes(ready: &'static Ready) -> &'static [Self] {
         let animation = &ready.subject.model.animation;
-        let settings = Settings { everywhere: ready.subject.exactness, ..Settings::default() };
+        let settings =
+            CompressionSettings { everywhere: ready.subject.exactness, ..CompressionSettings::default() };
         let made = |take| compress(take, &animation.skeleton, &settings).expect("a take of a small model").0;
         ready.compressed.get_or_init(|| animation.takes.iter().map(|take| made(take)).collect())
     }
@@ -61,7 +62,7 @@ impl Form for CompressedTake {
 impl Ready {
     fn new(subject: &'static Subject) -> &'static Self {
         let rig = Rig::new(&subject.model.animation.skeleton);
-        let binding = Binding::new(&rig, subject.skin());
+        let binding = SkinBinding::new(&rig, subject.skin());
         Box::leak(Box::new(Self {
             subject,
             rig,
@@ -76,31 +77,31 @@ impl Ready {
         let takes = KeyedTake::takes(self);
         let take = &takes[take % takes.len()];
         let mut pose = self.rig.rest().clone();
-        sample(Level::best(), take, take.start() + take.length() * part, pose.blocks_mut());
+        sample(SimdLevel::best(), take, take.start() + take.length() * part, pose.blocks_mut());
         pose
     }
 
     /// The to-root matrices of some pose.
     fn roots(&'static self) -> RootPoses {
         let mut roots = RootPoses::new(&self.rig);
-        to_root(Level::best(), &self.rig, self.pose(0, 0.4).blocks(), &mut roots);
+        to_root(SimdLevel::best(), &self.rig, self.pose(0, 0.4).blocks(), &mut roots);
         roots
     }
 
     /// The final matrices of the same pose.
     fn finals(&'static self) -> Vec<Matrix34> {
         let mut finals = vec![matrix::IDENTITY; self.binding.joints()];
-        final_poses(Level::best(), &self.binding, &self.roots(), &mut finals);
+        final_poses(SimdLevel::best(), &self.binding, &self.roots(), &mut finals);
         finals
     }
 }
 
 pub(crate) fn cases(subject: &'static Subject) -> Vec<Case> {
     let ready = Ready::new(subject);
-    Level::all().into_iter().flat_map(|level| at_level(ready, level)).collect()
+    SimdLevel::all().into_iter().flat_map(|level| at_level(ready, level)).collect()
 }
 
-fn at_level(ready: &'static Ready, level: Level) -> Vec<Case> {
+fn at_level(ready: &'static Ready, level: SimdLevel) -> Vec<Case> {
     let mut cases = bones::sampling::<KeyedTake>(ready, level);
     cases.extend(bones::sampling::<CompressedTake>(ready, level));
     cases.extend(bones::matrices(ready, level));

@@ -3,11 +3,11 @@
 use super::Ready;
 use crate::case::Case;
 use crate::inputs::{INFLUENCES, primitive};
-use dragonfly_anim::fast::simd::Level;
+use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{SkinnedVertices, skin_vertices};
 use std::hint::black_box;
 
-pub(super) fn skinning(ready: &'static Ready, level: Level) -> [Case; 3] {
+pub(super) fn skinning(ready: &'static Ready, level: SimdLevel) -> [Case; 3] {
     let subject = ready.subject;
     let count = subject.primitive().vertices.len();
     INFLUENCES.map(|most| {

@@ -15,7 +15,7 @@ use crate::play::{CROWDS, crowd};
 use dragonfly_anim::data::{Skeleton, Take, Transform};
 use dragonfly_anim::fast::PoseBlock;
 use dragonfly_anim::fast::matrix::{IDENTITY, Matrix34};
-use dragonfly_anim::fast::simd::{Float8, Kernel, Level, Simd};
+use dragonfly_anim::fast::simd::{Float8, Kernel, Simd, SimdLevel};
 use dragonfly_anim::sample::sample_take;
 use std::hint::black_box;
 
@@ -235,7 +235,7 @@ fn chain(sketch: &'static Sketch) -> Case {
                 block
             })
             .collect();
-        let (mut out, level) = (roots(bones), Level::best());
+        let (mut out, level) = (roots(bones), SimdLevel::best());
         move || {
             level.run(ToRoot { parents: &sketch.parents, pose: &pose, out: &mut out });
             black_box(&out);
@@ -249,7 +249,7 @@ fn many(sketch: &'static Sketch, count: usize) -> Case {
     Case::new("lockstep", row, count, "character", move || {
         let (takes, bones) = (takes(sketch), sketch.subject.bones());
         let (mut pose, mut roots) = (vec![PoseBlock::IDENTITY; bones], roots(bones));
-        let (mut out, level) = (sketch.finals(count), Level::best());
+        let (mut out, level) = (sketch.finals(count), SimdLevel::best());
         let mut crowd = crowd(sketch.subject, count);
         move || {
             let eights = crowd.as_chunks_mut::<8>().0.iter_mut().map(|eight| {

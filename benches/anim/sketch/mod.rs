@@ -25,7 +25,7 @@ use crate::model::Subject;
 use crate::play::{CROWDS, FRAMES, Member, crowd, forward, ways};
 use dragonfly_anim::fast::Pose;
 use dragonfly_anim::fast::matrix::{IDENTITY, Matrix34, matrix34};
-use dragonfly_anim::fast::simd::{Kernel, Level, Simd};
+use dragonfly_anim::fast::simd::{Kernel, Simd, SimdLevel};
 use std::hint::black_box;
 use std::sync::OnceLock;
 use take::SketchTake;
@@ -161,7 +161,7 @@ fn one(
         let mut go = move |time: f32, steps: Steps| {
             let (room, out) = (&mut room, &mut out);
             let playing = std::iter::once((take, time));
-            Level::best().run(Take { sketch, takes, room, steps, playing, out });
+            SimdLevel::best().run(Take { sketch, takes, room, steps, playing, out });
             black_box((&room.pose, &room.roots, &out));
         };
         go(times[0], Steps::All);
@@ -174,7 +174,7 @@ fn many(sketch: &'static Sketch, count: usize) -> Case {
     Case::new("sketch", row, count, "character", move || {
         let (takes, mut room, mut out) = (sketch.takes(), sketch.room(), sketch.finals(count));
         let mut crowd = crowd(sketch.subject, count);
-        let level = Level::best();
+        let level = SimdLevel::best();
         move || {
             let playing = crowd.iter_mut().map(|member: &mut Member| {
                 member.step();

@@ -15,7 +15,7 @@ use crate::inputs::{INFLUENCES, finals, primitive};
 use crate::model::Subject;
 use dragonfly_anim::data::{Influence, Primitive};
 use dragonfly_anim::fast::matrix::{IDENTITY, Matrix34, matrix34};
-use dragonfly_anim::fast::simd::{Float4, Float8, Kernel, Level, Simd};
+use dragonfly_anim::fast::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
 use std::hint::black_box;
 
 /// A vertex with `N` influences.
@@ -107,7 +107,7 @@ fn case<const N: usize>(subject: &'static Subject, most: usize) -> Case {
         let vertices = vertices::<N>(&primitive(subject, most));
         let finals: Vec<Matrix34> = finals(subject).into_iter().map(matrix34).collect();
         let (mut positions, mut normals) = (vec![[0.0; 3]; count], vec![[0.0; 3]; count]);
-        let level = Level::best();
+        let level = SimdLevel::best();
         move || {
             let (positions, normals) = (&mut positions, &mut normals);
             level.run(Skin { vertices: &vertices, finals: &finals, positions, normals });

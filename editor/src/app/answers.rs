@@ -3,10 +3,10 @@
 use super::file_dialog::Answer;
 use super::interface::Interface;
 use super::saving;
-use crate::document::{Change, DocumentReply, Source};
 use crate::panels::Effect;
 use crate::panels::state::Loading;
 use crate::panels::status::{Level, Status};
+use dragonfly_document::{Change, DocumentReply, Source};
 use dragonfly_runtime::{Context, Receiver};
 use std::cell::RefCell;
 use std::rc::Rc;

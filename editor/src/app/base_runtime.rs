@@ -1,7 +1,7 @@
 //! What a program built on [`super::MainRuntime`] provides (thesis §3.2.4.3).
 
 use super::interface::Interface;
-use crate::graphics::{GraphicsHandle, GraphicsReply};
+use dragonfly_picture::{GraphicsHandle, GraphicsReply};
 use dragonfly_runtime::Context;
 use std::cell::RefCell;
 use std::rc::Rc;

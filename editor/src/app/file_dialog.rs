@@ -1,6 +1,6 @@
 //! The system's dialogs for files, asked in a thread of their own: they may take minutes to answer.
 
-use crate::document::{Offer, Then, formats};
+use dragonfly_document::{Offer, Then, formats};
 use dragonfly_runtime::Address;
 use std::path::PathBuf;
 

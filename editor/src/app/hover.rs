@@ -3,7 +3,7 @@
 //! The pointer reports far more places than anybody can answer: while a question is on its way none follows, and then only
 //! the newest place is asked for. Where nothing changes nothing is asked, so a pointer at rest costs nothing.
 
-use crate::camera::Camera;
+use dragonfly_picture::camera::Camera;
 
 /// A place in a picture: what the answer depends on, besides the time of the take.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::base_runtime::{BaseRuntime, Parts};
 use super::timeline::{Step, Timeline};
-use crate::graphics::GraphicsReply;
+use dragonfly_picture::GraphicsReply;
 use dragonfly_runtime::{Context, Receiver, Worker};
 use std::cell::RefCell;
 use std::rc::Rc;

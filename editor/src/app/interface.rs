@@ -6,8 +6,6 @@ use super::options::{Mistake, Part};
 use super::reader::Reader;
 use super::shown::Shown;
 use super::store::{self, Store};
-use crate::document::edit::Edit;
-use crate::graphics::{GraphicsHandle, PanelsFrame};
 use crate::panels::commands;
 use crate::panels::hands;
 use crate::panels::marks;
@@ -15,6 +13,8 @@ use crate::panels::saving::Deed;
 use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;
 use crate::panels::{Desk, Effect, Request, Settings, State, style};
+use dragonfly_document::edit::Edit;
+use dragonfly_picture::{GraphicsHandle, PanelsFrame};
 use dragonfly_runtime::{Context, Worker};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -369,7 +369,7 @@ impl Interface {
         let files = dropped.len();
         if let Some(path) = dropped.into_iter().next() {
             self.state.passed_over = files - 1;
-            requests.push(Request::Open(crate::document::Source::File(path)));
+            requests.push(Request::Open(dragonfly_document::Source::File(path)));
         }
         for request in requests {
             let effect = self.state.execute(request);

@@ -7,9 +7,10 @@ use super::event::UserEvent;
 use super::init_manager::{InitManager, MakeRuntime};
 use super::interface::Interface;
 use super::store::Store;
+use super::target_window::WinitWindow;
 use super::timeline::{Step, Timeline};
-use crate::graphics::guard::caught;
-use crate::graphics::{Connection, Graphics, GraphicsHandle, SurfaceSource};
+use dragonfly_picture::guard::caught;
+use dragonfly_picture::{Connection, Graphics, GraphicsHandle, SurfaceSource};
 use dragonfly_runtime::{Captured, Next, RESTART_WINDOW, RESTARTS, Thread};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -82,8 +83,8 @@ impl MainRuntime {
         main.context().register_restartable_worker(move |_| Rc::clone(&kept));
         timeline.borrow_mut().reach(Step::MainRuntime);
 
-        let connection = Connection::beside(event_loop.owned_display_handle());
-        let source = SurfaceSource { window: Arc::clone(&window), connection };
+        let connection = Connection::beside(Arc::new(event_loop.owned_display_handle()));
+        let source = SurfaceSource { window: Arc::new(WinitWindow(Arc::clone(&window))), connection };
         let size = window.inner_size();
         let graphics = Graphics::start(source, [size.width, size.height], replies)
             .map_err(|error| AppError::Thread(error.to_string()))?;

@@ -23,6 +23,7 @@ mod sent;
 mod shown;
 mod signals;
 pub mod store;
+mod target_window;
 pub mod timeline;
 
 pub use base_runtime::{BaseRuntime, Parts};

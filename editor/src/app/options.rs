@@ -1,7 +1,7 @@
 //! How the editor is started.
 
-use crate::document::Source;
-use crate::document::edit::Edit;
+use dragonfly_document::Source;
+use dragonfly_document::edit::Edit;
 use std::path::PathBuf;
 use std::str::FromStr;
 

@@ -2,12 +2,12 @@
 
 use super::file_dialog::{self, Purpose};
 use super::interface::Interface;
-use crate::document::{DocumentMessage, DocumentReply, Offer, SaveOrder, Source, Then};
 use crate::panels::Effect;
 use crate::panels::saving::{Deed, Question};
 use crate::panels::state::Overlay;
 use crate::panels::status::{Level, Status};
 use dragonfly_anim::format::gltf::GLB;
+use dragonfly_document::{DocumentMessage, DocumentReply, Offer, SaveOrder, Source, Then};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -127,7 +127,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
     match (purpose, file) {
         (Purpose::Open, Some(path)) => interface.effects.push(Effect::Open(Source::File(path))),
         (Purpose::Save { copy, then, .. }, Some(path)) => {
-            use crate::document::SaveTo::{As, Copy};
+            use dragonfly_document::SaveTo::{As, Copy};
             let to = if copy { Copy(path) } else { As(path) };
             // The dialog asked before it gave the name of a file that is there.
             let order = SaveOrder { to, anyway: true, then };
@@ -210,14 +210,14 @@ pub(super) fn heard(interface: &mut Interface, reply: DocumentReply) -> Option<D
 }
 
 /// Asks about unsaved work; what was asked already and not answered stays asked.
-fn offer(state: &mut crate::panels::State, mut offers: Vec<crate::document::Offer>) {
+fn offer(state: &mut crate::panels::State, mut offers: Vec<dragonfly_document::Offer>) {
     if let Some(Question::Recover { offers: before, .. }) = state
         .questions
         .iter()
         .map(|(_, question)| question)
         .find(|question| matches!(question, Question::Recover { .. }))
     {
-        let new = |other: &&crate::document::Offer| {
+        let new = |other: &&dragonfly_document::Offer| {
             !offers.iter().any(|offer| offer.found.journal == other.found.journal)
         };
         let before: Vec<_> = before.iter().filter(new).cloned().collect();
@@ -227,7 +227,7 @@ fn offer(state: &mut crate::panels::State, mut offers: Vec<crate::document::Offe
     state.ask(Question::Recover { offers, lost });
 }
 
-fn say_saved(status: &mut Status, name: &str, saved: &crate::document::SavedFile) {
+fn say_saved(status: &mut Status, name: &str, saved: &dragonfly_document::SavedFile) {
     let what = if saved.copy { "Saved a copy as" } else { "Saved" };
     let beside = match saved.beside {
         0 => String::new(),

@@ -1,14 +1,14 @@
 //! What the graphics thread knows already: it is told only what differs.
 
 use super::interface::Interface;
-use crate::camera::Camera;
-use crate::control::bones::HiddenBones;
-use crate::control::gizmo::GizmoShape;
-use crate::graphics::{Appearance, GizmoLook, GraphicsHandle, IkLook, Look, PathLook};
 use crate::panels::State;
 use crate::panels::theme::{Theme, linear};
-use crate::playback::Playback;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::bones::HiddenBones;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::gizmo::GizmoShape;
+use dragonfly_picture::playback::Playback;
+use dragonfly_picture::{Appearance, GizmoLook, GraphicsHandle, IkLook, Look, PathLook};
 use std::sync::Arc;
 
 /// See the module.

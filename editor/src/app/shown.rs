@@ -1,9 +1,9 @@
 //! What the window shows, in the log: for who looks after the program from outside and cannot read pixels.
 
-use crate::document::Change;
 use crate::panels::State;
-use crate::protocol::Deed;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::Change;
+use dragonfly_document::protocol::Deed;
 use glam::{Quat, Vec3};
 use tracing::{debug, enabled};
 

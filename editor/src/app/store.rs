@@ -39,7 +39,7 @@ impl Store {
         let Some(folder) = &self.folder else { return Ok(()) };
         let path = folder.join(name);
         std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
-        crate::store::replace(&path, text.as_bytes()).map_err(std::io::Error::other)?;
+        dragonfly_store::replace(&path, text.as_bytes()).map_err(std::io::Error::other)?;
         Ok(())
     }
 }

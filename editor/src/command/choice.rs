@@ -1,8 +1,8 @@
 //! What the commands let one choose, and how each choice is read: a file, a take, times, a size, a colour.
 
 use super::{Failure, progress::Teller};
-use crate::document::{Cancel, LoadedModel, Source, formats, load_model};
 use dragonfly_anim::data::{ModelData, Take};
+use dragonfly_document::{Cancel, LoadedModel, Source, formats, load_model};
 use std::path::PathBuf;
 use std::str::FromStr;
 

@@ -14,7 +14,7 @@ pub(super) struct Arguments {
 
 impl Command for Arguments {
     fn run(self) -> Result<(), Failure> {
-        output::write_file(&self.output, crate::demo::DRAGONFLY_GLB)?;
+        output::write_file(&self.output, dragonfly_document::demo::DRAGONFLY_GLB)?;
         if self.output != *"-" {
             tell(format_args!("wrote {}", self.output.display()));
         }

@@ -3,10 +3,10 @@
 use super::choice::{model_help, source};
 use super::output::{print, print_json, write_file};
 use super::{Command, Failure, tell};
-use crate::document::adapter::ModelAdapter;
-use crate::document::edit::{EXAMPLES, Edit, VERSION, parse_lines};
-use crate::document::{Cancel, Editable, fits, make_folder, read_file};
 use dragonfly_anim::format::SavePlan;
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::edit::{EXAMPLES, Edit, VERSION, parse_lines};
+use dragonfly_document::{Cancel, Editable, fits, make_folder, read_file};
 use serde::Serialize;
 use std::io::Read;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! How a command ends when it does not end well: one line on stderr and a code that scripts can rely on.
 
-use crate::document::LoadError;
+use dragonfly_document::LoadError;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::process::ExitCode;

@@ -3,7 +3,7 @@
 use super::choice::{Size, load, source};
 use super::{Command, Failure, output, quiet, render, tell};
 use crate::app::{self, AppError, Mistake, Options};
-use crate::document::{Source, formats};
+use dragonfly_document::{Source, formats};
 use std::env;
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! Where results go: stdout, or a file that is either whole or not there.
 
 use super::Failure;
-use crate::store::{self, Expected, RealFiles, SaveError, SaveOptions};
+use dragonfly_store::{Expected, RealFiles, SaveError, SaveOptions};
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -38,7 +38,8 @@ pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     }
     let special = fs::metadata(path).is_ok_and(|metadata| !metadata.is_file());
     if !special {
-        let saved = store::replace(path, bytes).map_err(|error| Failure::Input(error.to_string()))?;
+        let saved =
+            dragonfly_store::replace(path, bytes).map_err(|error| Failure::Input(error.to_string()))?;
         for notice in saved.notices {
             tracing::warn!("{}: {notice}", path.display());
         }
@@ -71,11 +72,11 @@ pub(super) fn write_new(
             if number == 1 { format!("{stem}.{extension}") } else { format!("{stem}-{number}.{extension}") };
         let path = folder.join(name);
         let options = SaveOptions { expected: Expected::Nothing, ..SaveOptions::default() };
-        match store::save(&RealFiles, &path, bytes, &options) {
+        match dragonfly_store::save(&RealFiles, &path, bytes, &options) {
             Ok(_) => return Ok(path),
             // A folder of that name is something else, too.
             Err(SaveError::Exists { .. } | SaveError::NotRegular { .. }) => {
-                let same = crate::document::read_file(&path, bytes.len() as u64)
+                let same = dragonfly_document::read_file(&path, bytes.len() as u64)
                     .is_ok_and(|existing| existing == bytes);
                 if same {
                     return Ok(path);

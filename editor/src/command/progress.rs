@@ -1,6 +1,6 @@
 //! Says on stderr how far long work is; silent about work that is done before one would wonder.
 
-use crate::document::{Progress, Stage};
+use dragonfly_document::{Progress, Stage};
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 

@@ -2,8 +2,8 @@
 
 use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
 use super::{Command, Failure, output, quiet, tell};
-use crate::document::LoadedModel;
-use crate::graphics::{GraphicsError, PictureSettings, render_picture};
+use dragonfly_document::LoadedModel;
+use dragonfly_picture::{GraphicsError, PictureSettings, render_picture};
 use std::io::Cursor;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -2,9 +2,9 @@
 
 use super::choice::{BUILT_IN, source};
 use super::{Failure, tell};
-use crate::document::edit::LONGEST_LINE;
-use crate::document::{Cancel, Editable};
-use crate::protocol::Session;
+use dragonfly_document::edit::LONGEST_LINE;
+use dragonfly_document::protocol::Session;
+use dragonfly_document::{Cancel, Editable};
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,7 @@
 //! Keys as controls know them: what is written on them, not where they are.
 
 use super::base::ControlId;
+use dragonfly_document::bones::Choice;
 
 /// A key of the keyboard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,6 +46,17 @@ pub struct Modifiers {
     pub ctrl: bool,
     /// Is Alt held?
     pub alt: bool,
+}
+
+/// Shift adds to a selection, Ctrl toggles.
+impl From<Modifiers> for Choice {
+    fn from(modifiers: Modifiers) -> Self {
+        match modifiers {
+            Modifiers { ctrl: true, .. } => Self::Toggle,
+            Modifiers { shift: true, .. } => Self::Add,
+            Modifiers { .. } => Self::Replace,
+        }
+    }
 }
 
 /// Keys held at once that are remembered with who heard of them; hands have ten fingers.

@@ -1,7 +1,6 @@
 //! How a person acts on the picture: what the mouse does there, as a machine that needs no window to be tested.
 
 mod base;
-pub mod bones;
 pub mod expression;
 mod framework;
 pub mod gizmo;

@@ -2,9 +2,9 @@
 
 use super::base::{BaseControl, Mouse, Pass};
 use super::framework::ControlFramework;
-use super::gizmo::{AXIS_FROM, GizmoView};
 use super::key::{Key, Modifiers};
 use super::viewport::Button;
+use dragonfly_picture::gizmo::{AXIS_FROM, GizmoView};
 use glam::{DVec3, Vec2, Vec3};
 
 /// The pointer may miss a key by so much, points.

@@ -2,10 +2,11 @@
 //! programs).
 
 use super::base::{BaseControl, Mouse, Pass};
-use super::bones::{Choice, Lasso, OwnedRegion, Region};
 use super::framework::ControlFramework;
 use super::key::{Key, Modifiers};
-use crate::camera::Camera;
+use dragonfly_document::bones::Choice;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::pick::{Lasso, OwnedRegion, Region};
 use glam::Vec2;
 
 /// A button of the mouse.
@@ -177,7 +178,7 @@ impl ViewportControl {
         };
         // Ctrl and Alt together belong to the lasso itself.
         let ctrl = modifiers.ctrl && !modifiers.alt;
-        self.outcome = Some(Outcome::Catch(region, Choice::of(Modifiers { ctrl, ..modifiers })));
+        self.outcome = Some(Outcome::Catch(region, Choice::from(Modifiers { ctrl, ..modifiers })));
     }
 }
 
@@ -215,7 +216,7 @@ impl BaseControl for ViewportControl {
         match self.mode {
             Mode::Pressed { at, .. } if button == Button::Left => {
                 self.mode = Mode::Idle;
-                self.outcome = Some(Outcome::Pick(at, Choice::of(mouse.modifiers)));
+                self.outcome = Some(Outcome::Pick(at, Choice::from(mouse.modifiers)));
             }
             Mode::Catching { from, to, catch } if button == Button::Left => {
                 self.mode = Mode::Idle;

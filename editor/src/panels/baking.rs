@@ -3,11 +3,11 @@
 use super::ruler::{frame_of, time_of};
 use super::state::{Effect, State};
 use super::status::Level;
-use crate::document::Change;
-use crate::document::edit::{BonePose, BoneRef, Edit, PoseAt, SAME_TIME};
-use crate::posing::{Hold, poses_of_pins};
 use dragonfly_anim::data::{BoneIndex, Take, Transform};
 use dragonfly_anim::sample::sample_take;
+use dragonfly_document::Change;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, SAME_TIME};
+use dragonfly_document::posing::{Hold, poses_of_pins};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! What panels need to know about a view, computed once when it changes and not every frame.
 
-use crate::document::{LoadedModel, View};
 use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_document::{LoadedModel, View};
 use std::sync::Arc;
 
 /// A line of the skeleton's tree.

@@ -10,8 +10,8 @@
 
 use super::saving::Deed;
 use super::state::{Effect, State};
-use crate::document::Change;
-use crate::document::history::Gesture;
+use dragonfly_document::Change;
+use dragonfly_document::history::Gesture;
 use egui::{Context, Event, Key, Modifiers, PointerButton, Popup, RawInput, pos2};
 use std::collections::VecDeque;
 

@@ -8,12 +8,12 @@ use super::saving::Deed;
 use super::settings::{IkSettings, SCALES, SPEEDS, ThemeChoice, TimelineSettings};
 use super::state::{Effect, Overlay, Request, State};
 use super::status::Level;
-use crate::camera::Side;
-use crate::document::edit::{Between, Edit};
-use crate::document::edit::{Property, ResetTo};
-use crate::document::{Change, Source};
-use crate::graphics::{BoneLook, Shading};
-use crate::playback::Repeat;
+use dragonfly_document::edit::{Between, Edit};
+use dragonfly_document::edit::{Property, ResetTo};
+use dragonfly_document::{Change, Source};
+use dragonfly_picture::camera::Side;
+use dragonfly_picture::playback::Repeat;
+use dragonfly_picture::{BoneLook, Shading};
 
 impl State {
     /// Does what a panel asked for.

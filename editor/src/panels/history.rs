@@ -6,7 +6,7 @@ use super::state::{Request, State};
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
-use crate::document::{Change, HistoryView};
+use dragonfly_document::{Change, HistoryView};
 use egui::{Rect, ScrollArea, TextStyle, Ui, pos2, vec2};
 use std::borrow::Cow;
 

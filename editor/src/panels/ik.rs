@@ -2,11 +2,11 @@
 
 use super::state::{Effect, State};
 use super::status::Level;
-use crate::control::gizmo::Tool;
-use crate::document::Change;
-use crate::graphics::IkLook;
-use crate::posing::{Hold, LONGEST_CHAIN, look_at};
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::Change;
+use dragonfly_document::posing::{Hold, LONGEST_CHAIN, look_at};
+use dragonfly_picture::IkLook;
+use dragonfly_picture::gizmo::Tool;
 use std::sync::Arc;
 
 impl State {

@@ -4,9 +4,9 @@
 use super::keys::{BoneFlag, BoneFlags};
 use super::pose_commands::named;
 use super::state::State;
-use crate::document::View;
-use crate::document::edit::BoneRef;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
+use dragonfly_document::View;
+use dragonfly_document::edit::BoneRef;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 

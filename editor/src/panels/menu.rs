@@ -5,8 +5,8 @@ use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::state::{Request, State};
 use super::style::{self, GRID};
 use super::theme::Theme;
-use crate::document::Source;
-use crate::graphics::{BoneLook, Shading};
+use dragonfly_document::Source;
+use dragonfly_picture::{BoneLook, Shading};
 use egui::{Align, Button, Layout, MenuBar, RichText, Slider, Ui};
 
 /// Draws the bar; `panels` are id, title and whether they are shown.

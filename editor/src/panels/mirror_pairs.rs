@@ -4,9 +4,9 @@ use super::state::{Request, State};
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::widgets;
-use crate::control::bones::{Choice, MirrorPairs};
-use crate::document::LoadedModel;
 use dragonfly_anim::data::Skeleton;
+use dragonfly_document::LoadedModel;
+use dragonfly_document::bones::{Choice, MirrorPairs};
 use egui::{Rect, RichText, ScrollArea, TextStyle, Ui, pos2};
 use std::sync::Arc;
 

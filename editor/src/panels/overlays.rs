@@ -6,7 +6,7 @@ use super::state::{Overlay, Request, State};
 use super::style::GRID;
 use super::theme::Theme;
 use super::widgets;
-use crate::document::Source;
+use dragonfly_document::Source;
 use egui::{Align2, Id as WidgetId, Key, Modal, RichText, TextEdit, TextStyle, Ui, vec2};
 use std::path::PathBuf;
 

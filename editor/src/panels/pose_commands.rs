@@ -3,13 +3,13 @@
 use super::keys;
 use super::state::{Effect, State};
 use super::status::Level;
-use crate::control::bones::MirrorPairs;
-use crate::document::Change;
-use crate::document::adapter::PendingAt;
-use crate::document::edit::{BonePose, BoneRef, Edit, NewKey, Property, ResetTo};
-use crate::posing::clipboard;
 use dragonfly_anim::data::{BoneIndex, Take, Transform};
 use dragonfly_anim::sample::{rest_pose, sample_track};
+use dragonfly_document::Change;
+use dragonfly_document::adapter::PendingAt;
+use dragonfly_document::bones::MirrorPairs;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, NewKey, Property, ResetTo};
+use dragonfly_document::posing::clipboard;
 use std::sync::Arc;
 
 impl State {

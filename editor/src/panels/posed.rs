@@ -1,9 +1,9 @@
 //! Poses of what is open, computed when somebody reads them.
 
 use super::keys::BoneFlags;
-use crate::document::{LoadedModel, View};
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{AnimationData, BoneIndex, Take};
+use dragonfly_document::{LoadedModel, View};
 use std::sync::Arc;
 
 /// Poses at the time shown, computed when somebody reads them.

@@ -1,10 +1,10 @@
 //! How a panel or a gizmo changes the pose at the time shown: one place, whoever asks.
 
 use super::state::State;
-use crate::document::adapter::{PendingAt, Slot};
-use crate::document::edit::{BonePose, BoneRef, Edit, TakeRef};
-use crate::posing::{Hold, poses_of_drag};
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::adapter::{PendingAt, Slot};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::posing::{Hold, poses_of_drag};
 
 impl State {
     /// The take that is shown, as edits name it.

@@ -5,10 +5,11 @@ use super::keys::KeysRequest;
 use super::saving::Deed;
 use super::settings::GhostSettings;
 use super::state::Overlay;
-use crate::camera::Camera;
-use crate::control::bones::{Choice, OwnedRegion};
-use crate::document::{Change, Source};
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::{Change, Source};
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::pick::OwnedRegion;
 
 /// What a panel asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +47,7 @@ pub enum Request {
     /// Take seconds a second.
     Speed(f32),
     /// At the end of the take.
-    Repeat(crate::playback::Repeat),
+    Repeat(dragonfly_picture::playback::Repeat),
     /// Frames a second for the display.
     FrameRate(u32),
     /// Scale of the window's content.

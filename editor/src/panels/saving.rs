@@ -2,8 +2,8 @@
 
 use super::state::{Effect, State};
 use super::status::Level;
-use crate::document::{Decision, Offer, SaveOrder, SaveTo, Then};
-use crate::store::FileState;
+use dragonfly_document::{Decision, Offer, SaveOrder, SaveTo, Then};
+use dragonfly_store::FileState;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -205,8 +205,8 @@ impl State {
     }
 
     /// Asks what is in the way of a save, or says it.
-    pub fn not_saved(&mut self, order: SaveOrder, reason: crate::document::NotSaved) -> Option<Effect> {
-        use crate::document::NotSaved::{Changed, Exists, Failed, NoFile};
+    pub fn not_saved(&mut self, order: SaveOrder, reason: dragonfly_document::NotSaved) -> Option<Effect> {
+        use dragonfly_document::NotSaved::{Changed, Exists, Failed, NoFile};
         match reason {
             NoFile => return Some(Effect::Deed(Deed::Where { copy: false, then: order.then })),
             Changed => self.ask(Question::Changed(FileState::Changed, Some(order))),

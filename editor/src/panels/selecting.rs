@@ -4,8 +4,8 @@ use super::commands::Id;
 use super::keys::{BoneFlag, KeysRequest};
 use super::state::State;
 use super::status::Level;
-use crate::control::bones::{Choice, MirrorPairs};
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::bones::{Choice, MirrorPairs};
 use egui::Pos2;
 use glam::Vec2;
 

@@ -2,10 +2,10 @@
 
 use super::commands::KeySettings;
 use super::properties::PropertiesLook;
-use crate::control::gizmo::{Pivot, Space, Tool};
-use crate::graphics::{BoneLook, Shading};
-use crate::playback::Repeat;
-use crate::posing::{IkMode, LONGEST_CHAIN};
+use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
+use dragonfly_picture::gizmo::{Pivot, Space, Tool};
+use dragonfly_picture::playback::Repeat;
+use dragonfly_picture::{BoneLook, Shading};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 

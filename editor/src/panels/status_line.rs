@@ -7,7 +7,7 @@ use super::status::{Level, Line};
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets;
-use crate::document::edit::SAME_TIME;
+use dragonfly_document::edit::SAME_TIME;
 use egui::{Align, Color32, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
 
 /// Draws the line.

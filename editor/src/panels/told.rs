@@ -2,7 +2,7 @@
 //! when it is done again.
 
 use super::widgets::{count, grouped};
-use crate::document::{HistoryView, View};
+use dragonfly_document::{HistoryView, View};
 use std::sync::Arc;
 
 /// What leads from one view of a model to a newer one; `None` where nothing was done, or a gesture just goes on.

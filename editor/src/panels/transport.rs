@@ -9,7 +9,7 @@ use super::style::{CONTROL, GRID};
 use super::theme::Theme;
 use super::widgets::{command_button, icon_button};
 use crate::control::expression::{Quantity, evaluate};
-use crate::playback::{LATEST, Repeat};
+use dragonfly_picture::playback::{LATEST, Repeat};
 use egui::{Align, Button, DragValue, Layout, RichText, Ui, vec2};
 
 /// Draws the bar.

@@ -69,3 +69,17 @@ fn read_thread(task: &std::path::Path) -> Option<OsThread> {
         waits: field("voluntary_ctxt_switches:")?.parse().ok()?,
     })
 }
+
+/// Returns whether this process ignores `signal`, and with it every process that it starts. What a script starts in the
+/// background ignores Ctrl+C.
+#[cfg(unix)]
+pub fn ignores(signal: rustix::process::Signal) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = line.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or_default();
+    let ignores = mask >> (signal.as_raw() - 1) & 1 == 1;
+    if ignores {
+        println!("skipped: {signal:?}, which whoever started this ignores");
+    }
+    ignores
+}

@@ -1,22 +1,22 @@
-//! Translations that make a bone longer or shorter than it rests.
+//! Translations that make a bone longer or shorter than at rest.
 //!
 //! ```text
 //! length = |translation|                     from the parent's origin to the bone's
 //! stretch = |length(key) / length(rest) − 1|   reported above 5 %, the worst key of a track
 //! ```
 //!
-//! Roots have no length. A translation that turns without changing its length is none of this.
+//! Roots have no length. A translation that turns without changing its length is not reported.
 
-use crate::check::column::{channel_place, keys};
-use crate::check::{Findings, Kind, TakeOf};
+use crate::check::channels::{channel_path, keys};
+use crate::check::{Findings, PathKind, TakeContext};
 
-/// Part of the rest length.
+/// Fraction of the rest length.
 const THRESHOLD: f32 = 0.05;
 
-/// Bones shorter than this part of the longest stand where their parent stands, and have no length to keep.
+/// Bones shorter than this fraction of the longest are at their parent's origin, and have no length to keep.
 const SHORTEST: f32 = 1e-3;
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     let with_parents = of.skeleton.bones.iter().filter(|bone| bone.parent.is_some());
     let longest = with_parents.map(|bone| bone.rest.translation.length()).fold(0.0, f32::max);
     for (number, track) in of.take.tracks.iter().enumerate() {
@@ -31,7 +31,7 @@ pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
             .max_by(|a, b| stretch(a.2).total_cmp(&stretch(b.2)));
         if let Some((key, time, translation)) = worst.filter(|(_, _, translation)| translation.is_finite()) {
             let text = || format!("at {time} s: length {}, at rest {rest}", translation.length());
-            findings.add(|| (channel_place(of, number, 0).then(Kind::Key, key, ""), text()));
+            findings.add(|| (channel_path(of, number, 0).then(PathKind::Key, key, ""), text()));
         }
     }
 }

@@ -1,11 +1,11 @@
-//! Bones that no vertex and no mesh follows, nor any bone below them.
+//! Bones that neither move a vertex or a mesh nor have a descendant that does.
 
-use crate::check::{Findings, Kind, Place};
+use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     let bones = &model.animation.skeleton.bones;
-    // A model of bones alone uses them all.
+    // In a model of bones alone all bones count as used.
     if model.meshes.is_empty() {
         return;
     }
@@ -38,7 +38,7 @@ pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
         }
     }
     for (number, bone) in bones.iter().enumerate().filter(|(number, _)| !used[*number]) {
-        let text = || "no vertex and no mesh follows it or a bone below it".to_owned();
-        findings.add(|| (Place::of(Kind::Bone, number, &bone.name), text()));
+        let text = || "neither it nor a descendant moves a vertex or a mesh".to_owned();
+        findings.add(|| (ModelPath::of(PathKind::Bone, number, &bone.name), text()));
     }
 }

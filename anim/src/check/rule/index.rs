@@ -1,32 +1,32 @@
-//! Indices past the end of what they index.
+//! Indices out of range.
 
-use crate::check::column::primitives;
-use crate::check::{Findings, Kind, Place};
+use crate::check::channels::primitives;
+use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
-    for (_, primitive, place) in primitives(model) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
+    for (_, primitive, path) in primitives(model) {
         let count = primitive.vertices.len();
         for (at, &index) in
             primitive.indices.iter().enumerate().filter(|(_, index)| **index as usize >= count)
         {
-            let text = || format!("index {index} names none of {count} vertices");
-            findings.add(|| (place().then(Kind::Triangle, at / 3, ""), text()));
+            let text = || format!("index {index} is out of range for {count} vertices");
+            findings.add(|| (path().then(PathKind::Triangle, at / 3, ""), text()));
         }
-        missing(primitive.material, model.materials.len(), "material", place, findings);
+        missing(primitive.material, model.materials.len(), "material", path, findings);
     }
     let bones = model.animation.skeleton.len();
     for (number, skin) in model.skins.iter().enumerate() {
         for (joint, &bone) in skin.bones.iter().enumerate() {
-            let place = || Place::of(Kind::Skin, number, &skin.name).then(Kind::Joint, joint, "");
-            missing(Some(bone), bones, "bone", place, findings);
+            let path = || ModelPath::of(PathKind::Skin, number, &skin.name).then(PathKind::Joint, joint, "");
+            missing(Some(bone), bones, "bone", path, findings);
         }
     }
     for (number, instance) in model.instances.iter().enumerate() {
-        let place = || Place::of(Kind::Instance, number, "");
-        missing(Some(instance.mesh), model.meshes.len(), "mesh", place, findings);
-        missing(instance.skin, model.skins.len(), "skin", place, findings);
-        missing(instance.bone, bones, "bone", place, findings);
+        let path = || ModelPath::of(PathKind::Instance, number, "");
+        missing(Some(instance.mesh), model.meshes.len(), "mesh", path, findings);
+        missing(instance.skin, model.skins.len(), "skin", path, findings);
+        missing(instance.bone, bones, "bone", path, findings);
     }
     for (number, material) in model.materials.iter().enumerate() {
         let textures = [
@@ -37,14 +37,20 @@ pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
             material.emissive_texture,
         ];
         for texture in textures.into_iter().flatten() {
-            let place = || Place::of(Kind::Material, number, &material.name);
-            missing(Some(texture.image), model.images.len(), "image", place, findings);
+            let path = || ModelPath::of(PathKind::Material, number, &material.name);
+            missing(Some(texture.image), model.images.len(), "image", path, findings);
         }
     }
 }
 
-fn missing(index: Option<u32>, count: usize, what: &str, place: impl Fn() -> Place, findings: &mut Findings) {
+fn missing(
+    index: Option<u32>,
+    count: usize,
+    what: &str,
+    path: impl Fn() -> ModelPath,
+    findings: &mut Findings,
+) {
     if let Some(index) = index.filter(|&index| index as usize >= count) {
-        findings.add(|| (place(), format!("there is no {what} {index}, only {count}")));
+        findings.add(|| (path(), format!("{what} {index} does not exist; the model has {count}")));
     }
 }

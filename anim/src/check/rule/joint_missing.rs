@@ -1,9 +1,9 @@
-//! Influences of a mesh that a skin moves, against the joints of that skin.
+//! Influences of a skinned mesh whose joint is missing in the skin.
 
-use crate::check::{Findings, Kind, Place};
+use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, instance) in model.instances.iter().enumerate() {
         let mesh = model.meshes.get(instance.mesh as usize);
         let skin = instance.skin.and_then(|skin| model.skins.get(skin as usize));
@@ -13,13 +13,14 @@ pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
             let each = vertices.influences_per_vertex.max(1);
             let missing = |joint: u16| usize::from(joint) >= skin.bones.len();
             for (at, influence) in vertices.influences.iter().enumerate().filter(|(_, i)| missing(i.joint)) {
-                let place = || {
-                    let place = Place::of(Kind::Instance, number, "");
-                    let place = place.then(Kind::Mesh, instance.mesh as usize, &mesh.name);
-                    place.then(Kind::Primitive, index, "").then(Kind::Vertex, at / each, "")
+                let path = || {
+                    let path = ModelPath::of(PathKind::Instance, number, "");
+                    let path = path.then(PathKind::Mesh, instance.mesh as usize, &mesh.name);
+                    path.then(PathKind::Primitive, index, "").then(PathKind::Vertex, at / each, "")
                 };
-                let text = || format!("names joint {}, the skin has {}", influence.joint, skin.bones.len());
-                findings.add(|| (place(), text()));
+                let text =
+                    || format!("joint {} does not exist; the skin has {}", influence.joint, skin.bones.len());
+                findings.add(|| (path(), text()));
             }
         }
     }

@@ -1,13 +1,13 @@
 //! Times without values, and values without times.
 
-use crate::check::column::columns;
-use crate::check::{Findings, TakeOf};
+use crate::check::channels::channels;
+use crate::check::{Findings, TakeContext};
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
-    for column in columns(of) {
-        let (times, values) = (column.times.len(), column.len());
-        if times.checked_mul(column.values_per_key()) != Some(values) {
-            findings.add(|| (column.place(of), format!("{values} values for {times} keys")));
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
+    for channel in channels(of) {
+        let (times, values) = (channel.times.len(), channel.len());
+        if times.checked_mul(channel.values_per_key()) != Some(values) {
+            findings.add(|| (channel.path(of), format!("{values} values for {times} keys")));
         }
     }
 }

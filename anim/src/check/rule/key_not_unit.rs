@@ -1,16 +1,16 @@
-//! Rotation keys that would scale.
+//! Rotation keys that are not of unit length, and would scale.
 
 use super::UNIT_TOLERANCE;
-use crate::check::column::{channel_place, keys};
-use crate::check::{Findings, Kind, TakeOf};
+use crate::check::channels::{channel_path, keys};
+use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for (number, track) in of.take.tracks.iter().enumerate() {
         for (key, time, rotation) in keys(&track.rotation) {
             let length = rotation.length();
             if length.is_finite() && (length - 1.0).abs() > UNIT_TOLERANCE {
                 let text = || format!("at {time} s: length {length}");
-                findings.add(|| (channel_place(of, number, 1).then(Kind::Key, key, ""), text()));
+                findings.add(|| (channel_path(of, number, 1).then(PathKind::Key, key, ""), text()));
             }
         }
     }

@@ -1,15 +1,15 @@
-//! Keys before the time at which playing usually begins.
+//! Keys before time 0, at which playing usually starts.
 
-use crate::check::column::columns;
-use crate::check::{Findings, Kind, TakeOf};
+use crate::check::channels::channels;
+use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
-    for column in columns(of) {
-        // Once a channel: the others before 0 follow.
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
+    for channel in channels(of) {
+        // Reported once per channel: the other keys before 0 follow.
         if let Some((key, time)) =
-            column.times.iter().enumerate().find(|(_, time)| **time < 0.0 && time.is_finite())
+            channel.times.iter().enumerate().find(|(_, time)| **time < 0.0 && time.is_finite())
         {
-            findings.add(|| (column.place(of).then(Kind::Key, key, ""), format!("at {time} s")));
+            findings.add(|| (channel.path(of).then(PathKind::Key, key, ""), format!("at {time} s")));
         }
     }
 }

@@ -1,12 +1,12 @@
-//! Two keys at one time: which counts depends on who looks.
+//! Two keys at the same time: which of them counts is undefined.
 
-use super::neighbours;
-use crate::check::{Findings, TakeOf};
+use super::neighbors;
+use crate::check::{Findings, TakeContext};
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
-    neighbours(of, |place, before, after| {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
+    neighbors(of, |path, before, after| {
         if after == before {
-            findings.add(|| (place(), format!("at {after} s, as the one before it")));
+            findings.add(|| (path(), format!("at {after} s, as the one before it")));
         }
     });
 }

@@ -1,12 +1,12 @@
-//! Keys that are not found, because times are searched as if they rose.
+//! Descending key times: the key search assumes ascending ones and does not find them.
 
-use super::neighbours;
-use crate::check::{Findings, TakeOf};
+use super::neighbors;
+use crate::check::{Findings, TakeContext};
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
-    neighbours(of, |place, before, after| {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
+    neighbors(of, |path, before, after| {
         if after < before {
-            findings.add(|| (place(), format!("at {after} s, after one at {before} s")));
+            findings.add(|| (path(), format!("at {after} s, after one at {before} s")));
         }
     });
 }

@@ -1,7 +1,7 @@
-//! One rule a file: a function that looks at a model or a take and adds what it finds.
+//! One rule per file: a function that examines a model or a take and adds its findings.
 //!
-//! A rule compares so that NaN breaks no other rule than the one about NaN, and keeps to its own subject: what has a
-//! rule of its own is not reported twice.
+//! A rule compares so that NaN violates no rule but the one about NaN, and reports only its own subject: a problem that
+//! another rule covers is not reported twice.
 
 pub(super) mod bone_name_twice;
 pub(super) mod bone_stretched;
@@ -37,35 +37,35 @@ pub(super) mod triangle_degenerate;
 pub(super) mod weight_negative;
 pub(super) mod weight_sum;
 
-use super::column::columns;
-use super::{Kind, Place, TakeOf};
+use super::channels::channels;
+use super::{ModelPath, PathKind, TakeContext};
 use glam::Vec3;
 
-/// How far from 1 the length of a unit vector or quaternion may be: what half floats lose is less.
+/// Tolerance of the length of a unit vector or quaternion; half floats lose less.
 const UNIT_TOLERANCE: f32 = 2e-3;
 
-/// Has one axis no extent beside the longest, or are all a million times smaller than they should be?
+/// Returns whether one axis has no extent relative to the longest, or all are a million times too small.
 fn is_flat(scale: Vec3) -> bool {
     let scale = scale.abs();
     scale.is_finite() && (scale.min_element() <= 1e-5 * scale.max_element() || scale.max_element() < 1e-6)
 }
 
-/// Does it turn left into right: an odd number of negative factors?
+/// Returns whether `scale` mirrors: an odd number of factors is negative.
 fn is_mirrored(scale: Vec3) -> bool {
     scale.x * scale.y * scale.z < 0.0
 }
 
-/// Every two neighbouring key times of every channel and morph track; `each` gets the place of the later one.
-fn neighbours(of: &TakeOf<'_>, mut each: impl FnMut(&dyn Fn() -> Place, f32, f32)) {
-    for column in columns(of) {
-        for (key, pair) in column.times.windows(2).enumerate() {
-            each(&|| column.place(of).then(Kind::Key, key + 1, ""), pair[0], pair[1]);
+/// Calls `each` with every two neighboring key times of every channel and morph track, and the path of the later one.
+fn neighbors(of: &TakeContext<'_>, mut each: impl FnMut(&dyn Fn() -> ModelPath, f32, f32)) {
+    for channel in channels(of) {
+        for (key, pair) in channel.times.windows(2).enumerate() {
+            each(&|| channel.path(of).then(PathKind::Key, key + 1, ""), pair[0], pair[1]);
         }
     }
     for (number, morph) in of.take.morphs.iter().enumerate() {
         for (key, pair) in morph.times.windows(2).enumerate() {
-            let place = || of.place().then(Kind::MorphTrack, number, "").then(Kind::Key, key + 1, "");
-            each(&place, pair[0], pair[1]);
+            let path = || of.path().then(PathKind::MorphTrack, number, "").then(PathKind::Key, key + 1, "");
+            each(&path, pair[0], pair[1]);
         }
     }
 }

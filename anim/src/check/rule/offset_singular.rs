@@ -1,32 +1,33 @@
-//! Offsets that flatten what they move, so that nothing leads back from bone space to bind space.
+//! Singular offsets: they flatten what they move, so bone space cannot be mapped to bind space again.
 
-use crate::check::{Findings, Kind, Place};
+use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 use glam::{Mat3, Mat4};
 
 /// Volume of a unit cube after the offset, relative to the product of its sides.
 const SMALLEST: f32 = 1e-6;
 
-pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, skin) in model.skins.iter().enumerate() {
         for (joint, offset) in skin.offsets.iter().enumerate().filter(|(_, offset)| is_singular(offset)) {
             let name =
                 skin.bones.get(joint).and_then(|&bone| model.animation.skeleton.bones.get(bone as usize));
             let name = name.map_or("", |bone| bone.name.as_str());
-            let place = || Place::of(Kind::Skin, number, &skin.name).then(Kind::Joint, joint, name);
-            findings.add(|| (place(), format!("determinant {}", Mat3::from_mat4(*offset).determinant())));
+            let path =
+                || ModelPath::of(PathKind::Skin, number, &skin.name).then(PathKind::Joint, joint, name);
+            findings.add(|| (path(), format!("determinant {}", Mat3::from_mat4(*offset).determinant())));
         }
     }
     for (number, bone) in model.animation.skeleton.bones.iter().enumerate() {
         if is_singular(&bone.offset) {
             let determinant = Mat3::from_mat4(bone.offset).determinant();
-            let place = || Place::of(Kind::Bone, number, &bone.name);
-            findings.add(|| (place(), format!("determinant {determinant}")));
+            let path = || ModelPath::of(PathKind::Bone, number, &bone.name);
+            findings.add(|| (path(), format!("determinant {determinant}")));
         }
     }
 }
 
-/// Each side is made of unit length first, so that small models are not taken for flat ones.
+/// Normalizes each side first, so that small models do not count as flat.
 fn is_singular(offset: &Mat4) -> bool {
     let sides = Mat3::from_mat4(*offset);
     let unit = |side: glam::Vec3| side.normalize_or_zero();

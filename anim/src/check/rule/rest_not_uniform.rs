@@ -1,20 +1,20 @@
-//! Bones whose rest scale shears children that turn.
+//! Non-uniform rest scales, which shear children that turn.
 
 use super::is_flat;
-use crate::check::{Findings, Kind, Place};
+use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 
-/// Factors may differ by this part of the largest.
+/// Allowed difference of the factors, as a fraction of the largest.
 const TOLERANCE: f32 = 1e-3;
 
-pub(crate) fn look(model: &ModelData, findings: &mut Findings) {
+pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
     for (number, bone) in model.animation.skeleton.bones.iter().enumerate() {
         let scale = bone.rest.scale.abs();
         let (least, most) = (scale.min_element(), scale.max_element());
-        // Flat ones have a rule of their own.
+        // Flat scales have a rule of their own.
         if scale.is_finite() && !is_flat(scale) && most - least > TOLERANCE * most {
             let text = || format!("the rest scale is {}", bone.rest.scale);
-            findings.add(|| (Place::of(Kind::Bone, number, &bone.name), text()));
+            findings.add(|| (ModelPath::of(PathKind::Bone, number, &bone.name), text()));
         }
     }
 }

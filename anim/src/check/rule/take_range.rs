@@ -1,11 +1,11 @@
-//! A take that says another time than its keys.
+//! Takes whose start and length do not match their keys.
 
-use crate::check::{Findings, TakeOf};
+use crate::check::{Findings, TakeContext};
 
-/// Seconds, and part of the larger number, that may be lost by adding start and length.
+/// Tolerance in seconds, and as a fraction of the larger number, for the rounding of start plus length.
 const TOLERANCE: f32 = 1e-5;
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     let take = of.take;
     let (mut first, mut last) = (f32::INFINITY, f32::NEG_INFINITY);
     let tracks = take
@@ -16,7 +16,7 @@ pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
         (first, last) = (first.min(time), last.max(time));
     }
     if !take.start.is_finite() || !take.length.is_finite() || take.length < 0.0 {
-        findings.add(|| (of.place(), format!("begins at {} s and is {} s long", take.start, take.length)));
+        findings.add(|| (of.path(), format!("starts at {} s and is {} s long", take.start, take.length)));
         return;
     }
     let tolerance = TOLERANCE * first.abs().max(last.abs()).max(1.0);
@@ -24,7 +24,7 @@ pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
     // Infinite keys have a rule of their own; without keys there is nothing to compare.
     if first.is_finite() && last.is_finite() && off > tolerance {
         let text =
-            || format!("from {} s to {} s, its keys from {first} s to {last} s", take.start, take.end());
-        findings.add(|| (of.place(), text()));
+            || format!("from {} s to {} s, but its keys from {first} s to {last} s", take.start, take.end());
+        findings.add(|| (of.path(), text()));
     }
 }

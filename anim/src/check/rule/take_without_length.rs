@@ -1,10 +1,10 @@
-//! Takes that do not play.
+//! Takes of length zero.
 
-use crate::check::{Findings, TakeOf};
+use crate::check::{Findings, TakeContext};
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     if of.take.length == 0.0 {
         let keys = of.take.keys();
-        findings.add(|| (of.place(), format!("0 s long, with {keys} keys")));
+        findings.add(|| (of.path(), format!("0 s long, with {keys} keys")));
     }
 }

@@ -1,12 +1,12 @@
-//! Tracks that move nothing because their bone is not there.
+//! Tracks whose bone does not exist.
 
-use crate::check::{Findings, Kind, TakeOf};
+use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for (number, track) in of.take.tracks.iter().enumerate() {
         if track.bone as usize >= of.skeleton.len() {
             let text = || format!("there is no bone {}, only {}", track.bone, of.skeleton.len());
-            findings.add(|| (of.place().then(Kind::Track, number, ""), text()));
+            findings.add(|| (of.path().then(PathKind::Track, number, ""), text()));
         }
     }
 }

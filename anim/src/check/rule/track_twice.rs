@@ -1,14 +1,14 @@
-//! Tracks that contradict each other.
+//! Several tracks for one bone.
 
-use crate::check::{Findings, Kind, TakeOf};
+use crate::check::{Findings, PathKind, TakeContext};
 
-pub(crate) fn look(of: &TakeOf<'_>, findings: &mut Findings) {
+pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     let mut first = vec![None; of.skeleton.len()];
     for (number, track) in of.take.tracks.iter().enumerate() {
         let Some(slot) = first.get_mut(track.bone as usize) else { continue };
         if let Some(earlier) = *slot {
             let text = || format!("track {earlier} is of bone {} as well", track.bone);
-            findings.add(|| (of.place().then(Kind::Track, number, ""), text()));
+            findings.add(|| (of.path().then(PathKind::Track, number, ""), text()));
         } else {
             *slot = Some(number);
         }

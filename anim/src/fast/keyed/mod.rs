@@ -1,24 +1,24 @@
-//! A take with its keys as they are, brought to a layout that is sampled eight bones at once.
+//! A take with its original keys, in a layout that is sampled eight bones at once.
 //!
 //! ```text
 //! keys of rotations, tracks that share their times:   key 0: block, block, …   key 1: block, block, …
 //! a block: the same eight bones as in the pose, x of all eight, then y, z, w
 //! ```
 //!
-//! The two keys around a time are two neighbouring stretches of memory. Eight bones that are keyed at different times get
-//! the union of their times; what is put in between lies where the open path has it, so nothing moves. What does not
-//! change in a take is no track but part of its base pose. Numbers are not packed: that is for compressed takes.
+//! The two keys around a time are two neighboring ranges of memory. Eight bones that are keyed at different times get
+//! the union of their times; the inserted keys are the values of the open path there, so nothing moves. Constant
+//! channels have no track but are part of the take's base pose. Numbers are not packed: that is for compressed takes.
 //!
-//! Linear channels are played this way. Those of another interpolation, and ones whose times do not ascend, are
-//! played by the open path itself, one by one ([`KeyedTake::odd_channels`] says how many).
+//! Linear channels are played this way. Those of another interpolation, and ones whose times do not ascend, are played
+//! by the open path itself, one by one ([`KeyedTake::fallback_channels`] returns their number).
 
 mod build;
 mod tracks;
 
-use super::between::Way;
 use super::playable::Playable;
 use super::pose::{Pose, PoseBlock};
 use super::simd::{Float8, LANES, Simd};
+use super::slerp::FastSlerp;
 use crate::data::{Channel, Skeleton, Take, Transform};
 use crate::sample::sample_channel;
 use glam::{Quat, Vec3};
@@ -29,18 +29,18 @@ use tracks::Tracks;
 pub struct KeyedTake {
     start: f32,
     length: f32,
-    /// What no track changes; complete, so that tracks may also be missing.
+    /// Values that no track changes; complete, so that tracks may also be missing.
     base: Pose,
     rotations: Vec<Tracks<4>>,
     translations: Vec<Tracks<3>>,
     scales: Vec<Tracks<3>>,
-    still: Still,
-    odd: Vec<Odd>,
+    constant: ConstantBlocks,
+    fallback: Vec<FallbackChannel>,
 }
 
 /// Blocks that no track writes, for each property.
 #[derive(Clone, Debug, Default)]
-struct Still {
+struct ConstantBlocks {
     rotations: Vec<u32>,
     translations: Vec<u32>,
     scales: Vec<u32>,
@@ -48,70 +48,73 @@ struct Still {
 
 /// A channel that the open path plays.
 #[derive(Clone, Debug)]
-enum Odd {
+enum FallbackChannel {
     Rotation(usize, Channel<Quat>, Quat),
     Translation(usize, Channel<Vec3>, Vec3),
     Scale(usize, Channel<Vec3>, Vec3),
 }
 
 impl KeyedTake {
-    /// `take` for the bones of `skeleton`. Bones without a track rest.
+    /// Converts `take` for the bones of `skeleton`. Bones without a track keep their rest pose.
     ///
     /// Takes about the memory of the take's own keys where all bones of a block are keyed at the same times, at most
-    /// about six times it where each is keyed alone, and at most six times that where every turn is wide enough to be cut
-    /// into steps (more than 35° from key to key).
+    /// about six times it where each is keyed alone, and at most six times that where every rotation is wide enough to
+    /// be cut into steps (more than 35° from key to key).
     pub fn new(skeleton: &Skeleton, take: &Take) -> Self {
         build::build(skeleton, take)
     }
 
-    /// Channels that the open path plays, because their interpolation is not linear or their times do not ascend.
-    pub fn odd_channels(&self) -> usize {
-        self.odd.len()
+    /// Returns the number of channels that the open path plays, because their interpolation is not linear or their
+    /// times do not ascend.
+    pub fn fallback_channels(&self) -> usize {
+        self.fallback.len()
     }
 
-    /// Bytes of keys.
+    /// Returns the size of the keys in bytes.
     pub fn key_bytes(&self) -> usize {
         let rotations = self.rotations.iter().map(Tracks::key_bytes).sum::<usize>();
         let vectors = self.translations.iter().chain(&self.scales).map(Tracks::key_bytes).sum::<usize>();
         rotations + vectors
     }
 
-    /// What does not change, copied.
+    /// Copies the constant values.
     #[inline(always)]
-    fn copy_still<S: Simd>(&self, out: &mut [PoseBlock]) {
+    fn copy_constant<S: Simd>(&self, out: &mut [PoseBlock]) {
         let base = self.base.blocks();
-        for &block in &self.still.rotations {
+        for &block in &self.constant.rotations {
             if let (Some(out), Some(base)) = (out.get_mut(block as usize), base.get(block as usize)) {
                 copy::<S, 4>(&base.rotation, &mut out.rotation);
             }
         }
-        for &block in &self.still.translations {
+        for &block in &self.constant.translations {
             if let (Some(out), Some(base)) = (out.get_mut(block as usize), base.get(block as usize)) {
                 copy::<S, 3>(&base.translation, &mut out.translation);
             }
         }
-        for &block in &self.still.scales {
+        for &block in &self.constant.scales {
             if let (Some(out), Some(base)) = (out.get_mut(block as usize), base.get(block as usize)) {
                 copy::<S, 3>(&base.scale, &mut out.scale);
             }
         }
     }
 
-    /// What the open path plays.
+    /// Samples the channels that the open path plays.
     #[cold]
-    fn sample_odd(&self, time: f32, out: &mut [PoseBlock]) {
-        for odd in &self.odd {
-            let (Odd::Rotation(bone, ..) | Odd::Translation(bone, ..) | Odd::Scale(bone, ..)) = odd;
+    fn sample_fallback(&self, time: f32, out: &mut [PoseBlock]) {
+        for fallback in &self.fallback {
+            let (FallbackChannel::Rotation(bone, ..)
+            | FallbackChannel::Translation(bone, ..)
+            | FallbackChannel::Scale(bone, ..)) = fallback;
             let Some(block) = out.get_mut(bone / LANES) else { continue };
             let pose = block.get(*bone);
-            let pose = match odd {
-                Odd::Rotation(_, channel, rest) => {
+            let pose = match fallback {
+                FallbackChannel::Rotation(_, channel, rest) => {
                     Transform { rotation: sample_channel(channel, *rest, time), ..pose }
                 }
-                Odd::Translation(_, channel, rest) => {
+                FallbackChannel::Translation(_, channel, rest) => {
                     Transform { translation: sample_channel(channel, *rest, time), ..pose }
                 }
-                Odd::Scale(_, channel, rest) => {
+                FallbackChannel::Scale(_, channel, rest) => {
                     Transform { scale: sample_channel(channel, *rest, time), ..pose }
                 }
             };
@@ -135,44 +138,44 @@ impl Playable for KeyedTake {
 
     #[inline(always)]
     fn sample_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]) {
-        self.copy_still::<S>(out);
+        self.copy_constant::<S>(out);
         for tracks in &self.rotations {
-            let (way, keys) = tracks.around::<S>(time);
+            let (slerp, keys) = tracks.around::<S>(time);
             for (block, before, after) in keys {
                 let Some(out) = out.get_mut(block as usize) else { continue };
-                let turned = way.turn(S::F8::load_four(before), S::F8::load_four(after));
+                let turned = slerp.turn(S::F8::load_four(before), S::F8::load_four(after));
                 S::F8::store_four(turned, &mut out.rotation);
             }
         }
         for tracks in &self.translations {
-            let (way, keys) = tracks.around::<S>(time);
+            let (slerp, keys) = tracks.around::<S>(time);
             for (block, before, after) in keys {
                 let Some(out) = out.get_mut(block as usize) else { continue };
-                straight::<S>(&way, before, after, &mut out.translation);
+                straight::<S>(&slerp, before, after, &mut out.translation);
             }
         }
         for tracks in &self.scales {
-            let (way, keys) = tracks.around::<S>(time);
+            let (slerp, keys) = tracks.around::<S>(time);
             for (block, before, after) in keys {
                 let Some(out) = out.get_mut(block as usize) else { continue };
-                straight::<S>(&way, before, after, &mut out.scale);
+                straight::<S>(&slerp, before, after, &mut out.scale);
             }
         }
-        if !self.odd.is_empty() {
-            self.sample_odd(time, out);
+        if !self.fallback.is_empty() {
+            self.sample_fallback(time, out);
         }
     }
 }
 
 #[inline(always)]
 fn straight<S: Simd>(
-    way: &Way<S>,
+    slerp: &FastSlerp<S>,
     before: &[[f32; LANES]; 3],
     after: &[[f32; LANES]; 3],
     out: &mut [[f32; LANES]; 3],
 ) {
     for ((out, before), after) in out.iter_mut().zip(before).zip(after) {
-        way.straight(S::F8::load(before), S::F8::load(after)).store(out);
+        slerp.straight(S::F8::load(before), S::F8::load(after)).store(out);
     }
 }
 

@@ -1,10 +1,10 @@
 //! The vectors of x86-64 processors with AVX2 and FMA.
 //!
-//! The one file of the crate with `unsafe` code. Each use of it is one of three:
+//! The only file of the crate with `unsafe` code. Each use of it is one of three:
 //!
-//! * an instruction that needs AVX2 or FMA. The types here are private to [`super`]: other code meets them only as
-//!   `S::F8` and its like inside [`Kernel::run`], which is called with them only by [`Present::run`], and a
-//!   [`Present`] exists only where the processor was found to have both;
+//! * an instruction that needs AVX2 or FMA. The types here are private to [`super`]: other code can name them only as
+//!   `S::F8` and its like inside [`Kernel::run`], which is called with them only by [`CpuSupport::run`], and a
+//!   [`CpuSupport`] exists only if the processor has both;
 //! * an unaligned load or store through a reference to an array of exactly as many bytes;
 //! * the gather and [`Word8::near`], which keep their offsets within the slice.
 
@@ -14,15 +14,15 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 /// Proof that the processor has AVX2 and FMA.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Present(());
+pub(super) struct CpuSupport(());
 
-impl Present {
-    /// Asks the processor.
+impl CpuSupport {
+    /// Detects the features of the processor.
     pub(super) fn detect() -> Option<Self> {
         (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")).then_some(Self(()))
     }
 
-    /// Does the work of `kernel` with these vectors.
+    /// Runs `kernel` with these vectors.
     #[inline]
     pub(super) fn run<K: Kernel>(self, kernel: K) -> K::Output {
         // SAFETY: `self` is proof that the processor has both features.
@@ -64,7 +64,7 @@ pub(super) struct U8(__m256i);
 /// An instruction of AVX2 or FMA, on registers and constants only.
 macro_rules! instruction {
     ($instruction:expr) => {
-        // SAFETY: these types are met only where the processor has both features, see the top of this file.
+        // SAFETY: these types can only be used where the processor has both features, see the top of this file.
         unsafe { $instruction }
     };
 }
@@ -72,7 +72,7 @@ macro_rules! instruction {
 /// An instruction that reads or writes memory through a reference to an array.
 macro_rules! memory {
     ($instruction:expr) => {
-        // SAFETY: as for `instruction`; and the array behind the reference has exactly the bytes that an unaligned
+        // SAFETY: as for `instruction`; and the array of the reference has exactly the bytes that an unaligned
         // access of this width touches.
         unsafe { $instruction }
     };
@@ -359,10 +359,10 @@ impl Word8 for U8 {
     #[inline(always)]
     fn gather(bytes: &[u8], offsets: Self) -> Self {
         let Some(last) = bytes.len().checked_sub(4) else { return Self::splat(0) };
-        // The instruction reads its offsets as signed.
+        // The instruction reads its offsets as signed numbers.
         let last = Self::splat(last.min(i32::MAX as usize) as u32);
         let offsets = instruction!(_mm256_min_epu32(offsets.0, last.0));
-        // SAFETY: as for `instruction`; and no offset lies past the last four bytes of the slice.
+        // SAFETY: as for `instruction`; and no offset is past the last four bytes of the slice.
         Self(unsafe { _mm256_i32gather_epi32::<1>(bytes.as_ptr().cast(), offsets) })
     }
 
@@ -388,15 +388,15 @@ impl Word8 for U8 {
         let Some(last) = bytes.len().checked_sub(32) else { return Self::splat(0) };
         let (at, second) = (at.min(last), usize::from(second & 15));
         // SAFETY: as for `instruction`; `at` is not past the last 32 bytes of the slice, so sixteen from there on, and
-        // sixteen from up to fifteen later on, lie within.
+        // sixteen from up to fifteen later on, are within.
         let halves = unsafe {
             let from = bytes.as_ptr().add(at);
             let low = _mm_loadu_si128(from.cast());
             let high = _mm_loadu_si128(from.add(second).cast());
             _mm256_inserti128_si256::<1>(_mm256_castsi128_si256(low), high)
         };
-        // The first byte of each lane four times, and then the next three. An index counts in its half of the register;
-        // without its highest bits it stays below sixteen.
+        // The first byte of each lane four times, and then the next three. An index is relative to its half of the
+        // register; without its highest bits it stays below sixteen.
         let first = Self::from_u8(lanes);
         let control = instruction!({
             let four = _mm_setr_epi8(0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12);

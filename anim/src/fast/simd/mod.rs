@@ -1,13 +1,13 @@
-//! Eight numbers at once: the vectors that the kernels of the fast path are written with.
+//! Vectors of eight numbers, with which the kernels of the fast path are written.
 //!
-//! A kernel is written once, generic over [`Simd`], and run by a [`Level`]: the set of instructions that this
-//! machine was found to have. [`Level::best`] asks the processor; keep what it answers where the kernel's data is
-//! kept, and nothing is asked again.
+//! A kernel is written once, generic over [`Simd`], and run by a [`SimdLevel`]: a set of instructions of the current
+//! machine. [`SimdLevel::best`] queries the processor; store its result together with the kernel's data, so that it is
+//! called only once.
 //!
 //! ```
-//! use dragonfly_anim::fast::simd::{Float8, Kernel, Level, Simd};
+//! use dragonfly_anim::fast::simd::{Float8, Kernel, Simd, SimdLevel};
 //!
-//! /// Adds to each number the square of its neighbour in `other`.
+//! /// Adds to each number the square of its neighbor in `other`.
 //! struct AddSquares<'a>(&'a mut [[f32; 8]], &'a [[f32; 8]]);
 //!
 //! impl Kernel for AddSquares<'_> {
@@ -23,25 +23,26 @@
 //! }
 //!
 //! let mut numbers = [[1.0; 8]];
-//! Level::best().run(AddSquares(&mut numbers, &[[3.0; 8]]));
+//! SimdLevel::best().run(AddSquares(&mut numbers, &[[3.0; 8]]));
 //! assert_eq!(numbers, [[10.0; 8]]);
 //! ```
 //!
 //! # Levels
 //!
-//! | level | where | a vector of eight is |
+//! | level | available | a vector of eight is |
 //! |---|---|---|
 //! | `avx2` | x86-64 with AVX2 and FMA | one register |
-//! | `portable` | everywhere | an array, in loops that compilers turn into what the target has |
+//! | `portable` | everywhere | an array, in loops that compilers vectorize for the target |
 //!
 //! Results are the same, bit for bit, each time the same build runs at the same level; no approximate instruction
-//! (reciprocal, reciprocal root) is used, so that holds across processors too. Levels differ in the last bits,
-//! because a fused multiplication rounds once and not twice.
+//! (reciprocal, reciprocal root) is used, so that is true across processors too. Levels differ in the last bits,
+//! because a fused multiply-add rounds once and not twice.
 //!
 //! # Safety
 //!
-//! The one file of the crate that holds `unsafe` code is `avx2.rs`, behind the safe traits of this one. Its types
-//! cannot be named outside; a kernel meets them only inside [`Level::run`], after the processor was asked.
+//! The only file of the crate with `unsafe` code is `avx2.rs`, called through the safe traits of this module. Its types
+//! cannot be named outside; a kernel is only given them inside [`SimdLevel::run`], after the processor's features were
+//! detected.
 
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code, reason = "instructions beyond the target's own can be had in no other way")]
@@ -52,75 +53,76 @@ mod vector;
 pub use portable::Portable;
 pub use vector::{Float4, Float8, Simd, Word8};
 
-/// Lanes of the wide vectors.
+/// Number of lanes of the wide vectors.
 pub const LANES: usize = 8;
 
 /// Work written for any set of instructions.
 ///
-/// Mark `run`, and every function that it calls with vectors, `#[inline(always)]`: only what becomes part of the
-/// function that [`Level::run`] compiles for a level is compiled with that level's instructions. Closures cannot be
-/// marked, so no vector may pass through one, nor through `map` and iterators over vectors: each operation in them
-/// would be a call, several times slower. Iterators over memory are fine.
+/// Mark `run`, and every function that it calls with vectors, `#[inline(always)]`: only code that becomes part of the
+/// function that [`SimdLevel::run`] compiles for a level uses that level's instructions. Closures cannot be marked, so
+/// no vector may pass through one, nor through `map` and iterators over vectors: each operation in them would be a
+/// call, several times slower. Iterators over memory are fine.
 pub trait Kernel {
-    /// What the work results in.
+    /// Result of the work.
     type Output;
 
-    /// Does the work with the vectors of `S`.
+    /// Runs the kernel with the vectors of `S`.
     fn run<S: Simd>(self) -> Self::Output;
 }
 
-/// A set of instructions that this machine has.
+/// A set of instructions of the current machine (AVX2, or the portable fallback).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Level(Kind);
+#[doc(alias("AVX2", "instruction set"))]
+pub struct SimdLevel(Instructions);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Kind {
+enum Instructions {
     Portable,
     #[cfg(target_arch = "x86_64")]
-    Avx2(avx2::Present),
+    Avx2(avx2::CpuSupport),
 }
 
-impl Level {
-    /// What every machine has.
-    pub const PORTABLE: Self = Self(Kind::Portable);
+impl SimdLevel {
+    /// The level that every machine has.
+    pub const PORTABLE: Self = Self(Instructions::Portable);
 
-    /// The fastest level of this machine. Cheap, but ask once, at set-up.
+    /// Returns the fastest level of this machine. Cheap, but call it once, at set-up.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if let Some(present) = avx2::Present::detect() {
-            return Self(Kind::Avx2(present));
+        if let Some(support) = avx2::CpuSupport::detect() {
+            return Self(Instructions::Avx2(support));
         }
         Self::PORTABLE
     }
 
-    /// Every level of this machine, the fastest first; the last is [`Self::PORTABLE`].
+    /// Returns every level of this machine, the fastest first; the last is [`Self::PORTABLE`].
     pub fn all() -> Vec<Self> {
         let mut levels = vec![Self::best(), Self::PORTABLE];
         levels.dedup();
         levels
     }
 
-    /// As the table in [`self`] has it.
+    /// Returns the name in the table of [`self`].
     pub fn name(self) -> &'static str {
         match self.0 {
-            Kind::Portable => "portable",
+            Instructions::Portable => "portable",
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx2(_) => "avx2",
+            Instructions::Avx2(_) => "avx2",
         }
     }
 
-    /// Does the work of `kernel` with this level's instructions.
+    /// Runs `kernel` with this level's instructions.
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
-            Kind::Portable => portable::run(kernel),
+            Instructions::Portable => portable::run(kernel),
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx2(present) => present.run(kernel),
+            Instructions::Avx2(support) => support.run(kernel),
         }
     }
 }
 
-impl Default for Level {
+impl Default for SimdLevel {
     fn default() -> Self {
         Self::best()
     }

@@ -1,9 +1,9 @@
-//! The vectors of every machine: arrays, and loops short enough for a compiler to turn into what the target has.
+//! The vectors of every machine: arrays, and loops short enough for a compiler to vectorize.
 
 use super::{Float4, Float8, Kernel, Simd, Word8};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
-/// What every machine has.
+/// Instructions that every machine has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Portable;
 
@@ -13,8 +13,8 @@ impl Simd for Portable {
     type U8 = Words8;
 }
 
-/// Does the work of `kernel` with these vectors. A call of its own, so that nobody who asks for another level saves the
-/// registers that this one needs.
+/// Runs `kernel` with these vectors. A separate function, so that callers at another level do not save the registers
+/// that this one needs.
 #[inline(never)]
 pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Portable>()
@@ -35,7 +35,7 @@ pub struct Array4([f32; 4]);
 #[repr(align(32))]
 pub struct Words8([u32; 8]);
 
-/// Is a multiplication with an addition one instruction of the target, not a call?
+/// Whether a multiply-add is one instruction of the target, not a function call.
 const FUSED: bool = cfg!(any(target_arch = "aarch64", target_feature = "fma"));
 
 #[inline(always)]
@@ -43,7 +43,7 @@ fn mul_add(a: f32, b: f32, c: f32) -> f32 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// `$new` with the lanes that `$lane` gives for the index `$at`.
+/// Creates a `$new` from the lanes that `$lane` gives for the index `$at`.
 macro_rules! lanes {
     ($new:ident, $zero:expr, $at:ident => $lane:expr) => {{
         let mut lanes = $zero;
@@ -265,7 +265,7 @@ impl Float8 for Array8 {
     }
 }
 
-/// The bit that says "below zero"; of a mask, the bit that says "yes".
+/// The sign bit; in a mask, the bit that is set for true.
 const SIGN: u32 = 1 << 31;
 
 impl Float4 for Array4 {

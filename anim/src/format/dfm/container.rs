@@ -6,7 +6,6 @@ use super::part::{DfmPart, PARTS};
 use super::record::{DfmRecord, RecordFields};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, invalid};
-use crate::checksum::Checksum;
 use crate::format::ImportContext;
 use crate::format::{ImportError, Place};
 use crate::limits::CANCEL_EVERY;
@@ -109,7 +108,7 @@ fn ending(bytes: &[u8]) -> Result<(usize, bool), ImportError> {
         let reason = format!("there is no directory at byte {directory_at}, to which the file refers here");
         return Err(invalid(at, DFM_ENDING, reason));
     }
-    let computed = Checksum::START.with(&bytes[directory_at..at + 8]).value();
+    let computed = crc32fast::hash(&bytes[directory_at..at + 8]);
     if computed != checksum {
         return Err(altered(directory_at, "checksums", computed, checksum));
     }
@@ -157,14 +156,15 @@ fn extent<'a>(
         return Err(invalid(entry_at, DFM_PARTS, reason));
     }
     let part = &bytes[at..at + size];
-    let mut computed = Checksum::START;
+    let mut hasher = crc32fast::Hasher::new();
     for piece in part.chunks(CANCEL_EVERY) {
         context.work(piece.len())?;
-        computed = computed.with(piece);
+        hasher.update(piece);
     }
     let name = PARTS.iter().find(|layout| layout.tag == tag).map_or("unknown elements", |layout| layout.name);
-    if computed.value() != checksum {
-        return Err(altered(at, name, computed.value(), checksum));
+    let computed = hasher.finalize();
+    if computed != checksum {
+        return Err(altered(at, name, computed, checksum));
     }
     Ok(part)
 }

@@ -4,7 +4,6 @@ use super::part::{DfmPart, PARTS};
 use super::record::{DfmRecord, Put};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, WriteError};
-use crate::checksum::Checksum;
 
 /// A file that is being written.
 pub(super) struct DfmWriter {
@@ -68,7 +67,7 @@ impl DfmWriter {
             directory.extend_from_slice(&layout.tag);
             directory.u32(at as u32);
             directory.u32((file.len() - at) as u32);
-            directory.u32(Checksum::START.with(&file[at..]).value());
+            directory.u32(crc32fast::hash(&file[at..]));
         }
         ending(&mut file, &directory);
         debug_assert_eq!(file.len() as u64, bytes);
@@ -104,7 +103,7 @@ fn ending(file: &mut Vec<u8>, entries: &[u8]) {
     file.u32(at as u32);
     file.extend_from_slice(&VERSION.0.to_le_bytes());
     file.extend_from_slice(&VERSION.1.to_le_bytes());
-    let checksum = Checksum::START.with(&file[at..]).value();
+    let checksum = crc32fast::hash(&file[at..]);
     file.u32(checksum);
     file.extend_from_slice(&ENDING_MAGIC);
 }

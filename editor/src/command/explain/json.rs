@@ -1,8 +1,8 @@
 //! An explanation as JSON: bones, takes and nodes by the numbers of `dragonfly info --json`.
 
-use crate::document::LoadedModel;
 use dragonfly_anim::data::{Interpolation, ModelData};
 use dragonfly_anim::explain::{BoneStep, ChannelStep, Explanation, MovementStep, Subject, VertexResult};
+use dragonfly_document::LoadedModel;
 use glam::{Mat4, Quat, Vec3};
 use serde::Serialize;
 

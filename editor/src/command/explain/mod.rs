@@ -6,7 +6,7 @@ use super::choice::{File, TakeChoice, clamp_time, finite, plain};
 use super::output::{print, print_json};
 use super::{Command, Failure};
 use dragonfly_anim::data::{BoneIndex, ModelData};
-use dragonfly_anim::explain::{What, explain};
+use dragonfly_anim::explain::{ExplainTarget, explain};
 use json::Document;
 
 /// Every value on the way from keys to a bone or a vertex, with the formula of each step
@@ -68,14 +68,14 @@ impl Command for Arguments {
 }
 
 impl Arguments {
-    fn what(&self, title: &str, model: &ModelData) -> Result<What, Failure> {
+    fn what(&self, title: &str, model: &ModelData) -> Result<ExplainTarget, Failure> {
         let Some(wanted) = &self.bone else {
             let vertex = self.vertex.unwrap_or_default();
-            return Ok(What::Vertex { instance: self.instance, primitive: self.primitive, vertex });
+            return Ok(ExplainTarget::Vertex { instance: self.instance, primitive: self.primitive, vertex });
         };
         let skeleton = &model.animation.skeleton;
         let by_number = || wanted.parse().ok().filter(|&bone: &BoneIndex| (bone as usize) < skeleton.len());
-        skeleton.find(wanted).or_else(by_number).map(What::Bone).ok_or_else(|| {
+        skeleton.find(wanted).or_else(by_number).map(ExplainTarget::Bone).ok_or_else(|| {
             let reason = format!(
                 "--bone: no bone is called \"{}\"; there are {} (`dragonfly info` lists them)",
                 plain(wanted),

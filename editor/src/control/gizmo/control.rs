@@ -1,10 +1,11 @@
 //! The gizmo as a control of the scene: it is where its handles are, and everywhere while it drags.
 
-use super::{Gizmo, GizmoAnswer, Handle, Tool};
+use super::{Gizmo, GizmoAnswer};
 use crate::control::base::{BaseControl, ControlId, Mouse, Pass};
 use crate::control::framework::ControlFramework;
 use crate::control::key::{Key, Modifiers};
 use crate::control::viewport::{Button, CLICK};
+use dragonfly_picture::gizmo::{Handle, Tool};
 use glam::Vec2;
 
 /// Registered over the whole picture, inside of its control, so that what misses a handle goes to the picture.

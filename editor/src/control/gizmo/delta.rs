@@ -9,43 +9,16 @@
 //! unevenly, or the axes are the bone's own, that is exact. Under a parent that is flat in some direction no place in the
 //! world can be reached, and the joint stays.
 
-use super::frame::{Frame, GizmoTarget, unit};
 use dragonfly_anim::data::Transform;
+use dragonfly_picture::gizmo::{GizmoAxes, GizmoDelta, GizmoTarget, unit};
 use glam::{DMat3, DQuat, DVec3};
-
-/// What is done to all bones, along the axes of a gizmo.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum GizmoDelta {
-    /// Scene units along each axis.
-    Move(DVec3),
-    /// Radians about a unit axis, beyond a turn too.
-    Rotate {
-        /// Unit length.
-        axis: DVec3,
-        /// Radians.
-        angle: f64,
-    },
-    /// Factors along each axis.
-    Scale(DVec3),
-}
-
-impl GizmoDelta {
-    /// Does it change nothing?
-    pub fn is_identity(&self) -> bool {
-        match self {
-            Self::Move(by) => *by == DVec3::ZERO,
-            Self::Rotate { angle, .. } => *angle == 0.0,
-            Self::Scale(by) => *by == DVec3::ONE,
-        }
-    }
-}
 
 /// The new pose of a bone relative to its parent. `pivot` is the place in the scene that it turns and grows about; `None` for
 /// its own joint. A delta that changes nothing, and one whose result would not be finite, give the pose as it was, bit for
 /// bit.
 pub(super) fn apply(
     target: &GizmoTarget,
-    frame: &Frame,
+    frame: &GizmoAxes,
     pivot: Option<DVec3>,
     delta: &GizmoDelta,
 ) -> Transform {

@@ -1,15 +1,15 @@
 //! A drag from its beginning to its end: what is bound, measured, snapped, typed.
 
-use super::delta::{GizmoDelta, apply};
-use super::frame::{Axis, Frame, GizmoTarget, Pivot, Space};
-use super::handle::{Handle, Stand, Tool};
+use super::delta::apply;
 use super::measure::Measure;
 use super::typed::Typed;
-use super::view::GizmoView;
-use super::{GizmoSettings, Placed};
 use crate::control::expression::Quantity;
 use crate::control::key::{Key, Modifiers};
 use dragonfly_anim::data::{BoneIndex, Transform};
+use dragonfly_picture::gizmo::{
+    Axis, GizmoAnchor, GizmoAxes, GizmoDelta, GizmoLayout, GizmoSettings, GizmoTarget, GizmoView, Handle,
+    Pivot, Space, Tool,
+};
 use glam::{DVec2, DVec3};
 
 /// A bone and its new pose.
@@ -45,7 +45,7 @@ pub(super) struct Drag {
     by_handle: bool,
     lock: Option<Lock>,
     settings: GizmoSettings,
-    placed: Placed,
+    placement: GizmoAnchor,
     /// Seen from where it is, and from where it was at the beginning: its axes stay those.
     view: GizmoView,
     first: GizmoView,
@@ -64,21 +64,21 @@ impl Drag {
         tool: Tool,
         handle: Option<Handle>,
         settings: GizmoSettings,
-        placed: Placed,
+        placement: GizmoAnchor,
         view: GizmoView,
         pointer: DVec2,
     ) -> Option<Self> {
         let by_key = if tool == Tool::Rotate { Handle::Ring } else { Handle::Centre };
         let grabbed = handle.unwrap_or(by_key);
-        let stand = Stand::new(view, placed.pivot, placed.active.frame(settings.space, &view))?;
-        let measure = Measure::new(tool, grabbed, stand, pointer, handle.is_some());
+        let layout = GizmoLayout::new(view, placement.pivot, placement.axes(settings.space, &view))?;
+        let measure = Measure::new(tool, grabbed, layout, pointer, handle.is_some());
         Some(Self {
             tool,
             grabbed,
             by_handle: handle.is_some(),
             lock: None,
             settings,
-            placed,
+            placement,
             view,
             first: view,
             start: pointer,
@@ -104,8 +104,8 @@ impl Drag {
     }
 
     /// Where it stands: where it began.
-    pub(super) fn stand(&self) -> Option<Stand> {
-        Stand::new(self.view, self.placed.pivot, self.placed.active.frame(self.space(), &self.first))
+    pub(super) fn layout(&self) -> Option<GizmoLayout> {
+        GizmoLayout::new(self.view, self.placement.pivot, self.placement.axes(self.space(), &self.first))
     }
 
     pub(super) fn start(&self) -> DVec2 {
@@ -128,11 +128,11 @@ impl Drag {
         }
         self.settle();
         self.view = view;
-        if let Some(stand) = self.stand() {
+        if let Some(layout) = self.layout() {
             self.measure = Measure::new(
                 self.tool,
                 self.handle(),
-                stand,
+                layout,
                 self.pointer,
                 self.by_handle && self.lock.is_none(),
             );
@@ -169,9 +169,9 @@ impl Drag {
             _ => Some(Lock { handle, presses: 1 }),
         };
         // Measured from where the drag began, as if it had been bound so from then on.
-        if let Some(stand) = self.stand() {
+        if let Some(layout) = self.layout() {
             let grabbed = self.by_handle && self.lock.is_none();
-            self.measure = Measure::new(self.tool, self.handle(), stand, self.start, grabbed);
+            self.measure = Measure::new(self.tool, self.handle(), layout, self.start, grabbed);
             (self.settled, self.anchor) = (DVec3::ZERO, DVec3::ZERO);
         }
     }
@@ -267,7 +267,7 @@ impl Drag {
     }
 
     fn turn(&self, amount: DVec3) -> GizmoDelta {
-        let frame = self.placed.active.frame(self.space(), &self.first);
+        let frame = self.placement.axes(self.space(), &self.first);
         // Seen from outside, a rotation in mirrored axes runs the other way.
         let inside = |axis: DVec3| frame.axes.transpose() * axis * frame.sign;
         match self.handle() {
@@ -288,11 +288,11 @@ impl Drag {
     /// Writes the new pose of every target.
     pub(super) fn apply(&self, targets: &[GizmoTarget], delta: &GizmoDelta, out: &mut Vec<BoneDrag>) {
         out.clear();
-        let common = self.placed.active.frame(self.space(), &self.first);
+        let common = self.placement.axes(self.space(), &self.first);
         for target in targets {
             let (frame, pivot) = match self.settings.pivot {
                 Pivot::Individual => (self.own_frame(target, common), None),
-                Pivot::Median | Pivot::Active => (common, Some(self.placed.pivot)),
+                Pivot::Median | Pivot::Active => (common, Some(self.placement.pivot)),
             };
             let to_parent = apply(target, &frame, pivot, delta);
             out.push(BoneDrag { bone: target.bone, to_parent });
@@ -300,7 +300,7 @@ impl Drag {
     }
 
     /// Each along its own axes, but what is done in the plane or along the line of the picture: that is one for all.
-    fn own_frame(&self, target: &GizmoTarget, common: Frame) -> Frame {
+    fn own_frame(&self, target: &GizmoTarget, common: GizmoAxes) -> GizmoAxes {
         let in_view = matches!((self.tool, self.handle()), (Tool::Move, Handle::Centre))
             || (self.tool == Tool::Rotate && matches!(self.handle(), Handle::Centre | Handle::Ring));
         if in_view { common } else { target.frame(self.space(), &self.first) }

@@ -12,8 +12,7 @@
 //! * *Scaling*: the ratio of the distances from the middle; along an axis the signed one, so it can mirror. Too near to the
 //!   middle to divide by, right and up enlarge.
 
-use super::frame::Axis;
-use super::handle::{AXIS_TO, Handle, RING, Stand, Tool};
+use dragonfly_picture::gizmo::{AXIS_TO, Axis, GizmoLayout, Handle, RING, Tool};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -54,7 +53,7 @@ enum Kind {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Measure {
     kind: Kind,
-    stand: Stand,
+    layout: GizmoLayout,
     start: DVec2,
     /// What the kind answers at the start.
     zero: DVec3,
@@ -65,18 +64,18 @@ pub(super) struct Measure {
 impl Measure {
     /// A drag of `handle` that began at `start`. `grabbed`: was the handle itself under the pointer, so that its axis can be
     /// followed by sign?
-    pub(super) fn new(tool: Tool, handle: Handle, stand: Stand, start: DVec2, grabbed: bool) -> Self {
+    pub(super) fn new(tool: Tool, handle: Handle, layout: GizmoLayout, start: DVec2, grabbed: bool) -> Self {
         let kind = match tool {
-            Tool::Move => translation(handle, &stand, start, grabbed),
-            Tool::Rotate => rotation(handle, &stand),
-            Tool::Scale => scale(handle, &stand, start, grabbed),
+            Tool::Move => translation(handle, &layout, start, grabbed),
+            Tool::Rotate => rotation(handle, &layout),
+            Tool::Scale => scale(handle, &layout, start, grabbed),
         };
         let is_ratio = tool == Tool::Scale && matches!(kind, Kind::Line { .. });
-        let mut measure = Self { kind, stand, start, zero: DVec3::ZERO, is_ratio };
+        let mut measure = Self { kind, layout, start, zero: DVec3::ZERO, is_ratio };
         measure.zero = measure.raw(start);
         // Too near to divide by.
-        if is_ratio && measure.zero.x.abs() < NEAREST * stand.unit {
-            measure.kind = distance(&stand, start);
+        if is_ratio && measure.zero.x.abs() < NEAREST * layout.unit {
+            measure.kind = distance(&layout, start);
             measure.is_ratio = false;
             measure.zero = measure.raw(start);
         }
@@ -91,7 +90,7 @@ impl Measure {
     }
 
     fn raw(&mut self, pointer: DVec2) -> DVec3 {
-        let Stand { view, pivot, frame, unit } = self.stand;
+        let GizmoLayout { view, pivot, axes: frame, unit } = self.layout;
         let by = pointer - self.start;
         let to_axes = frame.axes.transpose();
         match &mut self.kind {
@@ -130,8 +129,8 @@ impl Measure {
 
 /// Along an axis. Where the pointer began away from it, taken hold of by a key, that place counts as the joint's: the pointer
 /// may be past the point where the axis vanishes, and nothing would follow it there.
-fn axis_line(axis: Axis, stand: &Stand, start: DVec2, grabbed: bool) -> Kind {
-    let Stand { view, pivot, unit, frame } = stand;
+fn axis_line(axis: Axis, layout: &GizmoLayout, start: DVec2, grabbed: bool) -> Kind {
+    let GizmoLayout { view, pivot, unit, axes: frame } = layout;
     let along = frame.axis(axis);
     if let (Some((g, b)), Some(joint)) = (view.run(*pivot, along), view.to_screen(*pivot)) {
         let a = g.length();
@@ -147,33 +146,33 @@ fn axis_line(axis: Axis, stand: &Stand, start: DVec2, grabbed: bool) -> Kind {
     Kind::Up { unit: *unit }
 }
 
-fn translation(handle: Handle, stand: &Stand, start: DVec2, grabbed: bool) -> Kind {
+fn translation(handle: Handle, layout: &GizmoLayout, start: DVec2, grabbed: bool) -> Kind {
     match handle {
-        Handle::Axis(axis) => axis_line(axis, stand, start, grabbed),
+        Handle::Axis(axis) => axis_line(axis, layout, start, grabbed),
         Handle::Plane(axis) => {
-            let normal = stand.frame.axis(axis);
-            if normal.dot(stand.view.towards(stand.pivot)).abs() > FLAT {
+            let normal = layout.axes.axis(axis);
+            if normal.dot(layout.view.towards(layout.pivot)).abs() > FLAT {
                 // Taken hold of by a key, the pointer may be beyond the horizon: as for axes.
-                let joint = stand.view.to_screen(stand.pivot).filter(|_| !grabbed);
+                let joint = layout.view.to_screen(layout.pivot).filter(|_| !grabbed);
                 Kind::Plane { normal, shift: joint.map_or(DVec2::ZERO, |joint| joint - start) }
             } else {
-                Kind::Edge { normal, unit: stand.unit }
+                Kind::Edge { normal, unit: layout.unit }
             }
         }
-        Handle::Centre | Handle::Ring => Kind::Plane { normal: stand.view.back, shift: DVec2::ZERO },
+        Handle::Centre | Handle::Ring => Kind::Plane { normal: layout.view.back, shift: DVec2::ZERO },
     }
 }
 
-fn rotation(handle: Handle, stand: &Stand) -> Kind {
-    let view = &stand.view;
+fn rotation(handle: Handle, layout: &GizmoLayout) -> Kind {
+    let view = &layout.view;
     // About an axis of the gizmo the angle is one in its axes, which run the other way where they are mirrored; the line of
     // sight is the world's.
     let (normal, sign) = match handle {
-        Handle::Axis(axis) | Handle::Plane(axis) => (stand.frame.axis(axis), stand.frame.sign),
+        Handle::Axis(axis) | Handle::Plane(axis) => (layout.axes.axis(axis), layout.axes.sign),
         Handle::Ring => (view.back, 1.0),
         Handle::Centre => return Kind::Ball,
     };
-    let towards = view.towards(stand.pivot);
+    let towards = view.towards(layout.pivot);
     if normal.dot(towards).abs() > RING_FLAT {
         return Kind::Ring { normal, sign, zero: normal.any_orthonormal_vector(), last: None, total: 0.0 };
     }
@@ -181,18 +180,18 @@ fn rotation(handle: Handle, stand: &Stand) -> Kind {
     Kind::Wheel { along, sign }
 }
 
-fn scale(handle: Handle, stand: &Stand, start: DVec2, grabbed: bool) -> Kind {
+fn scale(handle: Handle, layout: &GizmoLayout, start: DVec2, grabbed: bool) -> Kind {
     match handle {
-        Handle::Axis(axis) if grabbed => match axis_line(axis, stand, start, true) {
+        Handle::Axis(axis) if grabbed => match axis_line(axis, layout, start, true) {
             line @ Kind::Line { .. } => line,
             _ => Kind::Slide,
         },
-        _ => distance(stand, start),
+        _ => distance(layout, start),
     }
 }
 
-fn distance(stand: &Stand, start: DVec2) -> Kind {
-    let middle = stand.view.to_screen(stand.pivot).unwrap_or(start);
+fn distance(layout: &GizmoLayout, start: DVec2) -> Kind {
+    let middle = layout.view.to_screen(layout.pivot).unwrap_or(start);
     let distance = start.distance(middle);
     if distance < NEAREST { Kind::Slide } else { Kind::Ratio { middle, start: distance } }
 }

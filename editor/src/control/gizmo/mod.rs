@@ -14,79 +14,21 @@
 mod control;
 mod delta;
 mod drag;
-mod frame;
-mod handle;
 mod measure;
-mod select;
-mod shape;
 mod typed;
-mod view;
 
 pub use control::GizmoControl;
-pub use delta::GizmoDelta;
 pub use drag::{BoneDrag, GizmoDrag};
-pub use frame::{Axis, GizmoTarget, Pivot, Space};
-pub use handle::{AXIS_FROM, AXIS_TO, CENTRE, Handle, OUTER, PLANE, REACH, RING, Tool};
-pub use shape::{GizmoRole, GizmoShape, GizmoVertex};
-pub use view::GizmoView;
 
 use super::key::{Key, Modifiers};
 use drag::Drag;
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
-use glam::{DVec3, Mat4, Vec2};
-use handle::Stand;
+use dragonfly_picture::gizmo::{
+    GizmoDelta, GizmoLayout, GizmoPlacement, GizmoSettings, GizmoShape, GizmoTarget, GizmoView, Handle,
+    PosedSkeleton, Space, Tool,
+};
+use glam::{Mat4, Vec2};
 use typed::Typed;
-
-/// How gizmos work.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GizmoSettings {
-    /// Whose axes.
-    pub space: Space,
-    /// What several bones turn and grow about.
-    pub pivot: Pivot,
-    /// Does every bone of a selected chain turn and grow by the amount, as when a finger is curled? Else those with a
-    /// selected bone above them only follow it. Only for [`Pivot::Individual`], and not for moving.
-    pub curl: bool,
-    /// Scene units that moving snaps to, with Ctrl.
-    pub move_step: f64,
-    /// Radians that rotating snaps to.
-    pub rotate_step: f64,
-    /// Part of a factor that scaling snaps to.
-    pub scale_step: f64,
-    /// How much of the pointer's way counts, with Shift.
-    pub precise: f64,
-}
-
-impl Default for GizmoSettings {
-    fn default() -> Self {
-        Self {
-            space: Space::default(),
-            pivot: Pivot::default(),
-            curl: false,
-            move_step: 0.1,
-            rotate_step: 5f64.to_radians(),
-            scale_step: 0.1,
-            precise: 0.1,
-        }
-    }
-}
-
-impl GizmoSettings {
-    fn step(&self, tool: Tool) -> f64 {
-        match tool {
-            Tool::Move => self.move_step,
-            Tool::Rotate => self.rotate_step,
-            Tool::Scale => self.scale_step,
-        }
-    }
-}
-
-/// Where the gizmo of a selection stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Placed {
-    active: GizmoTarget,
-    pivot: DVec3,
-}
 
 /// What became of a key or a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,9 +72,7 @@ pub struct Gizmo {
     /// What it does.
     pub tool: Tool,
     view: Option<GizmoView>,
-    placed: Option<Placed>,
-    targets: Vec<GizmoTarget>,
-    chosen: Vec<bool>,
+    placement: GizmoPlacement,
     hovered: Option<Handle>,
     going: Option<Drag>,
     /// The bones of the drag as they were before it.
@@ -159,19 +99,8 @@ impl Gizmo {
         selected: &[BoneIndex],
         active: Option<BoneIndex>,
     ) {
-        let each = self.settings.curl && self.settings.pivot == Pivot::Individual && self.tool != Tool::Move;
-        let pose = select::Pose { skeleton, poses, to_root };
-        select::targets(&pose, selected, each, &mut self.chosen, &mut self.targets);
-        let active = active.or(selected.last().copied());
-        let active = active.and_then(|bone| GizmoTarget::of(skeleton, poses, to_root, bone));
-        self.placed =
-            active.or(self.targets.last().copied()).filter(|_| !self.targets.is_empty()).map(|active| {
-                let pivot = match self.settings.pivot {
-                    Pivot::Median => select::median(&pose, selected).unwrap_or(active.origin()),
-                    Pivot::Individual | Pivot::Active => active.origin(),
-                };
-                Placed { active, pivot }
-            });
+        let pose = PosedSkeleton { skeleton, poses, to_root };
+        self.placement.select(&self.settings, self.tool, &pose, selected, active);
     }
 
     /// From where it is seen.
@@ -184,13 +113,13 @@ impl Gizmo {
 
     /// What it stands at, scene space; `None` where nothing is selected.
     pub fn pivot(&self) -> Option<glam::DVec3> {
-        self.placed.map(|placed| placed.pivot)
+        self.placement.anchor().map(|anchor| anchor.pivot)
     }
 
     /// The handle at a place, points from the top left of the picture; none while dragging.
     pub fn handle_at(&self, pointer: Vec2) -> Option<Handle> {
         let free = pointer.is_finite() && self.going.is_none();
-        free.then(|| self.stand()?.hit(self.tool, pointer.as_dvec2())).flatten()
+        free.then(|| self.layout()?.hit(self.tool, pointer.as_dvec2())).flatten()
     }
 
     /// Notes and tells the handle under the pointer.
@@ -207,16 +136,17 @@ impl Gizmo {
     /// Begins a drag: of `handle`, or without one as by a key, then in the plane of the picture. `false` where nothing is
     /// selected or it lies behind the eye.
     pub fn begin(&mut self, handle: Option<Handle>, pointer: Vec2) -> bool {
-        let (Some(view), Some(placed)) = (self.view, self.placed) else { return false };
+        let (Some(view), Some(anchor)) = (self.view, self.placement.anchor()) else { return false };
         if !pointer.is_finite() || self.going.is_some() {
             return false;
         }
-        self.going = Drag::begin(self.tool, handle, self.settings, placed, view, pointer.as_dvec2());
+        self.going = Drag::begin(self.tool, handle, self.settings, anchor, view, pointer.as_dvec2());
         if self.going.is_none() {
             return false;
         }
         self.hovered = None;
-        self.before.clone_from(&self.targets);
+        self.before.clear();
+        self.before.extend_from_slice(self.placement.targets());
         self.typed.clear();
         self.change();
         true
@@ -304,32 +234,26 @@ impl Gizmo {
         self.present_into(shape);
     }
 
-    /// Says which handle is drawn as if the pointer were over it.
-    pub fn highlight(&mut self, handle: Option<Handle>) {
-        self.hovered = handle;
-    }
-
     /// The same as [`Self::present`], behind what `shape` has already.
     pub fn present_into(&self, shape: &mut GizmoShape) {
         match &self.going {
             Some(drag) => {
-                let Some(mut stand) = drag.stand() else { return };
+                let Some(mut layout) = drag.layout() else { return };
                 if let Some(GizmoDelta::Move(by)) = self.delta {
                     // It goes where the bones go.
-                    stand.pivot += stand.frame.axes * by;
+                    layout.pivot += layout.axes.axes * by;
                 }
-                shape.dragging(&stand, drag.tool, drag.handle(), self.delta, drag.start());
+                shape.dragging(&layout, drag.tool, drag.handle(), self.delta, drag.start());
             }
             None => {
-                let Some(stand) = self.stand() else { return };
-                shape.waiting(&stand, self.tool, self.hovered);
+                let Some(layout) = self.layout() else { return };
+                shape.waiting(&layout, self.tool, self.hovered);
             }
         }
     }
 
-    fn stand(&self) -> Option<Stand> {
-        let (view, placed) = (self.view?, self.placed?);
-        Stand::new(view, placed.pivot, placed.active.frame(self.settings.space, &view))
+    fn layout(&self) -> Option<GizmoLayout> {
+        self.placement.layout(self.settings.space, self.view?)
     }
 
     fn change(&mut self) {

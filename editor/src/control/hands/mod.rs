@@ -16,12 +16,13 @@ pub use shield::Shield;
 
 use super::base::{Area, BaseControl, ControlId, Controls};
 use super::framework::ControlFramework;
-use super::gizmo::{GizmoControl, GizmoView};
+use super::gizmo::GizmoControl;
 use super::input::InputEvent;
 use super::key::Modifiers;
 use super::path::PathControl;
 use super::viewport::ViewportControl;
-use crate::camera::Camera;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::gizmo::GizmoView;
 use glam::Vec2;
 
 /// How much of the picture's edge is not its own, points.

@@ -2,11 +2,11 @@
 //! keys, so that a column of pixels costs the same whether it holds one key or a thousand.
 
 use super::form::Form;
-use crate::document::edit::Property;
 use crate::panels::keys::intervals::Intervals;
 use crate::panels::keys::{ChannelId, Shift, channel};
 use dragonfly_anim::data::{Channel, Interpolation, Take};
 use dragonfly_anim::sample::sample_channel;
+use dragonfly_document::edit::Property;
 use glam::{Quat, Vec3};
 use std::ops::Range;
 use std::sync::Arc;
@@ -264,7 +264,7 @@ impl Curve {
         }
         keys.retain(|(time, ..)| time.is_finite());
         keys.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.2.cmp(&a.2)));
-        keys.dedup_by(|later, earlier| later.0 - earlier.0 <= crate::document::edit::SAME_TIME);
+        keys.dedup_by(|later, earlier| later.0 - earlier.0 <= dragonfly_document::edit::SAME_TIME);
         let steeper = match shift {
             Shift::Scale { factor, .. } => 1.0 / factor,
             _ => 1.0,

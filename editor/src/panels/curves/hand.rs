@@ -4,12 +4,12 @@ use super::axis::ValueScale;
 use super::curve::Curve;
 use super::tangents::{Handle, Tangents};
 use super::values::{ValueKey, value_edit};
-use crate::control::bones::Choice;
 use crate::panels::dope::{Input, readout, to_frame};
 use crate::panels::keys::intervals::keys_between;
 use crate::panels::keys::{Deed, Drawn, KeysRequest, TimeScale};
 use crate::panels::state::{Request, State};
 use crate::panels::theme::Theme;
+use dragonfly_document::bones::Choice;
 use egui::{CornerRadius, CursorIcon, Modifiers, Pos2, Rect, Response, Stroke, StrokeKind, Ui, pos2};
 use std::sync::Arc;
 

@@ -2,10 +2,10 @@
 
 use super::curve::{Curve, Extent};
 use super::form::Form;
-use crate::document::edit::Property;
 use crate::panels::keys::{ChannelId, Drawn, channel};
 use crate::panels::state::State;
 use dragonfly_anim::data::Take;
+use dragonfly_document::edit::Property;
 use std::sync::Arc;
 
 /// More channels at once than this are not told apart.

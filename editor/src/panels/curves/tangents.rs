@@ -3,10 +3,10 @@
 use super::axis::ValueScale;
 use super::curve::{Curve, Slopes};
 use super::paint::color;
-use crate::document::edit::{BoneRef, Edit, TakeRef};
 use crate::panels::keys::intervals::keys_between;
 use crate::panels::keys::{ChannelId, Drawn, TimeScale};
 use crate::panels::theme::Theme;
+use dragonfly_document::edit::{BoneRef, Edit, TakeRef};
 use egui::{Painter, Pos2, Rect, Stroke, Vec2, vec2};
 use std::sync::Arc;
 

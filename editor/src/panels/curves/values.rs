@@ -2,8 +2,8 @@
 
 use super::curve::{Curve, Numbers};
 use super::form::Form;
-use crate::document::edit::{BonePose, BoneRef, Edit, PoseAt, Property, TakeRef};
 use crate::panels::keys::ChannelId;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, Property, TakeRef};
 use std::collections::BTreeMap;
 
 /// A key with the numbers that it had when a drag began.

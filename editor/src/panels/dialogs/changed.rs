@@ -1,10 +1,10 @@
 //! Somebody else changed the file that is open, or took it away.
 
 use super::{Ask, Tone};
-use crate::document::SaveOrder;
 use crate::panels::saving::Deed;
 use crate::panels::state::Request;
-use crate::store::FileState;
+use dragonfly_document::SaveOrder;
+use dragonfly_store::FileState;
 
 #[derive(Clone, Copy)]
 enum Choice {

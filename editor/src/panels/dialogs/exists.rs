@@ -1,9 +1,9 @@
 //! The name that was typed belongs to another file.
 
 use super::{Ask, Tone};
-use crate::document::SaveOrder;
 use crate::panels::saving::Deed;
 use crate::panels::state::Request;
+use dragonfly_document::SaveOrder;
 use std::path::Path;
 
 pub(super) fn show(ask: &mut Ask<'_>, path: &Path, order: &SaveOrder) {

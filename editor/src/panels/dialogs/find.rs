@@ -2,9 +2,9 @@
 //! where the file that was chosen is another one.
 
 use super::{Ask, Tone};
-use crate::document::{Decision, Offer, Source};
 use crate::panels::saving::Deed;
 use crate::panels::state::Request;
+use dragonfly_document::{Decision, Offer, Source};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 

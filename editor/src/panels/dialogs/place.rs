@@ -1,9 +1,9 @@
 //! Where to save, typed: for desktops without a dialog for files.
 
 use super::{Ask, Tone};
-use crate::document::{SaveOrder, SaveTo, Then};
 use crate::panels::saving::Deed;
 use crate::panels::state::{Request, State};
+use dragonfly_document::{SaveOrder, SaveTo, Then};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 

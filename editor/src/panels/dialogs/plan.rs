@@ -1,11 +1,11 @@
 //! What a save will change, before it is written.
 
 use super::{Ask, Tone};
-use crate::document::SaveOrder;
 use crate::panels::saving::Deed;
 use crate::panels::state::Request;
 use crate::panels::style::{self, GRID};
 use crate::panels::theme::Theme;
+use dragonfly_document::SaveOrder;
 use egui::{Align, Frame, Label, Layout, RichText, ScrollArea, vec2};
 
 /// Height of a line of the list, in points.

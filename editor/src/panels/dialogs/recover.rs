@@ -1,12 +1,12 @@
 //! Unsaved work of an earlier time: what it is, and what becomes of it.
 
 use super::{Ask, Tone};
-use crate::document::{Decision, Offer};
 use crate::panels::saving::Deed;
 use crate::panels::state::Request;
 use crate::panels::style::{GRID, ROW};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
+use dragonfly_document::{Decision, Offer};
 use egui::{Rect, RichText, ScrollArea, TextStyle, pos2};
 use std::time::Duration;
 

@@ -1,9 +1,9 @@
 //! Something is not saved, and the person wants to leave it.
 
 use super::{Ask, Tone};
-use crate::document::{SaveOrder, Then};
 use crate::panels::saving::Deed;
 use crate::panels::state::Request;
+use dragonfly_document::{SaveOrder, Then};
 
 #[derive(Clone, Copy)]
 enum Choice {

@@ -3,7 +3,6 @@
 use super::ROW;
 use super::place::Places;
 use super::rows::{RowKind, Rows};
-use crate::control::bones::Choice;
 use crate::panels::bone_menu;
 use crate::panels::commands::{self, Id};
 use crate::panels::icons::Icon;
@@ -13,6 +12,7 @@ use crate::panels::style::RADIUS;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::bones::Choice;
 use egui::accesskit::Role;
 use egui::{
     Align2, CornerRadius, FontId, Rect, Sense, Shape, Stroke, TextEdit, TextStyle, Ui, WidgetInfo, pos2, vec2,

@@ -5,11 +5,11 @@ use super::head::to_frame;
 use super::place::Places;
 use super::rows::{RowKind, Rows};
 use super::scroll;
-use crate::control::bones::Choice;
-use crate::document::edit::SAME_TIME;
 use crate::panels::keys::{ChannelId, Deed, Drawn, KeysRequest, TimeScale, channel};
 use crate::panels::state::{Request, State};
 use crate::panels::theme::Theme;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::SAME_TIME;
 use egui::{
     CornerRadius, CursorIcon, FontId, Key, Modifiers, PointerButton, Pos2, Rect, Response, Stroke,
     StrokeKind, Ui, pos2, vec2,

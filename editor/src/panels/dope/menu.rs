@@ -1,10 +1,10 @@
 //! The menu of keys, at the right button.
 
 use super::hand::Hand;
-use crate::document::Change;
 use crate::panels::commands::Id;
 use crate::panels::menu::item;
 use crate::panels::state::{Request, State};
+use dragonfly_document::Change;
 use egui::{Button, Response, Ui};
 
 /// See the module.

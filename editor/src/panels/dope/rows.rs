@@ -1,9 +1,9 @@
 //! The rows of the dope sheet: which there are, and the channels of each.
 
-use crate::document::edit::Property;
 use crate::panels::keys::{self, ChannelId, channel};
 use crate::panels::state::State;
 use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_document::edit::Property;
 use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;

@@ -1,9 +1,10 @@
 //! What follows the bones that a hand moves: those above them with IK on, and whatever keeps pinned bones in place.
 
-use crate::control::gizmo::{BoneDrag, GizmoTarget, Tool};
-use crate::document::edit::{BonePose, BoneRef};
+use crate::control::gizmo::BoneDrag;
 use crate::panels::state::State;
-use crate::posing::{self, Goal, poses_of_drag};
+use dragonfly_document::edit::{BonePose, BoneRef};
+use dragonfly_document::posing::{self, Goal, poses_of_drag};
+use dragonfly_picture::gizmo::{GizmoTarget, Tool};
 
 /// Decided once a drag, so that it means the same bones from its first move to its last, whatever is switched on the way.
 #[derive(Debug, Default)]

@@ -1,10 +1,10 @@
 //! Where the gizmo stands: at the selected bones, in the pose that is shown.
 
 use super::follow::Following;
-use crate::control::gizmo::{GizmoSettings, Tool};
-use crate::document::history::Gesture;
 use crate::panels::state::State;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::history::Gesture;
+use dragonfly_picture::gizmo::{GizmoSettings, Tool};
 
 /// What the hands hold on to between two inputs.
 #[derive(Debug, Default)]

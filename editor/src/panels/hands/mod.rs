@@ -12,13 +12,13 @@ pub use path::Trail;
 
 use super::state::{Effect, State};
 use super::status::Level;
-use crate::control::bones::Choice;
 use crate::control::gizmo::GizmoAnswer;
 use crate::control::path::PathAnswer;
 use crate::control::{Area, Button, InputEvent, Outcome};
-use crate::document::Change;
-use crate::document::edit::{BonePose, Edit};
-use crate::document::history::Gesture;
+use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{BonePose, Edit};
+use dragonfly_document::history::Gesture;
 use egui::{Pos2, Rect, pos2};
 use glam::Vec2;
 use std::time::Instant;
@@ -74,7 +74,7 @@ impl State {
         }
         if let Some(mouse) = self.hands.gizmo_mut().take_click() {
             self.on_handle = true;
-            effects.push(Effect::Pick(pos2(mouse.at.x, mouse.at.y), Choice::of(mouse.modifiers)));
+            effects.push(Effect::Pick(pos2(mouse.at.x, mouse.at.y), Choice::from(mouse.modifiers)));
         }
         if self.hands.gizmo_mut().take_refused() {
             self.refuse();

@@ -1,17 +1,17 @@
 //! The motion path of the selected bone: where its joint is, frame by frame; and the times of ghosts.
 
 use super::follow::Following;
-use crate::control::gizmo::GizmoTarget;
 use crate::control::path::PathKey;
-use crate::document::View;
-use crate::document::edit::{BonePose, BoneRef, Edit};
-use crate::graphics::PathLook;
 use crate::panels::keys::BoneFlags;
 use crate::panels::state::{Posed, State};
-use crate::posing::{self, Goal, poses_of_drag};
 use dragonfly_anim::animation::to_parent;
 use dragonfly_anim::data::{BoneIndex, Take, Track};
 use dragonfly_anim::sample::{rest_pose, sample_track};
+use dragonfly_document::View;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit};
+use dragonfly_document::posing::{self, Goal, poses_of_drag};
+use dragonfly_picture::PathLook;
+use dragonfly_picture::gizmo::GizmoTarget;
 use glam::{Mat4, Vec3};
 use std::sync::Arc;
 

@@ -1,9 +1,9 @@
 //! Commands about what the mouse does in the picture.
 
 use crate::control::Catch;
-use crate::control::gizmo::{Pivot, Space, Tool};
 use crate::panels::commands::Id;
 use crate::panels::state::{Effect, State};
+use dragonfly_picture::gizmo::{Pivot, Space, Tool};
 use std::time::Instant;
 
 impl State {

@@ -1,7 +1,7 @@
 //! The channels of a take, by name.
 
-use crate::document::edit::Property;
 use dragonfly_anim::data::{BoneIndex, Interpolation, Take, Track};
+use dragonfly_document::edit::Property;
 use std::sync::Arc;
 
 /// A channel: of which bone, and what of it.

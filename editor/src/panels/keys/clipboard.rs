@@ -4,14 +4,14 @@
 //! holds says what a paste does; what a copy takes is up to who was touched last, the timeline or the picture.
 
 use super::{ChannelId, KeySelection, channel};
-use crate::control::bones::Choice;
-use crate::document::Change;
-use crate::document::edit::{Between, BoneRef, CopiedChannel, CopiedKey, Edit, Property};
 use crate::panels::pose_commands::named;
 use crate::panels::state::{Effect, State};
 use crate::panels::status::Level;
 use crate::panels::widgets::{count, grouped};
 use dragonfly_anim::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
+use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{Between, BoneRef, CopiedChannel, CopiedKey, Edit, Property};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;

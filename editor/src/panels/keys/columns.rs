@@ -3,7 +3,7 @@
 use super::intervals::Intervals;
 use super::shift::Shift;
 use super::window::TimeScale;
-use crate::document::edit::SAME_TIME;
+use dragonfly_document::edit::SAME_TIME;
 
 /// Which columns of pixels have a key, and where in it the first one lies.
 ///

@@ -2,11 +2,11 @@
 
 use super::drag::Deed;
 use super::{KeysRequest, MarkerDeed, TimeWindow};
-use crate::document::Change;
-use crate::document::edit::{Between, BoneRef, Edit, Property, SAME_TIME};
 use crate::panels::state::{Effect, State};
 use crate::panels::status::Level;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::Change;
+use dragonfly_document::edit::{Between, BoneRef, Edit, Property, SAME_TIME};
 use std::collections::BTreeMap;
 
 impl State {

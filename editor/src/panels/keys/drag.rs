@@ -5,10 +5,10 @@
 
 use super::selection::KeySelection;
 use super::shift::Shift;
-use crate::document::Change;
-use crate::document::edit::{Edit, KeySet, SAME_TIME, TakeRef};
-use crate::document::history::Gesture;
 use dragonfly_anim::data::Take;
+use dragonfly_document::Change;
+use dragonfly_document::edit::{Edit, KeySet, SAME_TIME, TakeRef};
+use dragonfly_document::history::Gesture;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 

@@ -1,8 +1,8 @@
 //! Bones that are muted, soloed or locked.
 
-use crate::document::Change;
-use crate::document::edit::{BoneRef, Edit};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
+use dragonfly_document::Change;
+use dragonfly_document::edit::{BoneRef, Edit};
 use std::collections::BTreeSet;
 
 /// One of the marks of a bone.

@@ -1,6 +1,6 @@
 //! Which keys of one channel are selected: stretches of time, so that a hundred thousand keys cost as much as two.
 
-use crate::document::edit::SAME_TIME;
+use dragonfly_document::edit::SAME_TIME;
 use std::ops::Range;
 
 /// Closed stretches of time, ascending, none of which touch; a single key is one of no length.

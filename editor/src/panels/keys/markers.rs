@@ -1,7 +1,7 @@
 //! Markers: times with names, kept beside the program's settings and never in the model's file.
 
-use crate::document::adapter::{Slot, TakeId};
 use dragonfly_anim::data::{Take, Track};
+use dragonfly_document::adapter::{Slot, TakeId};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -30,9 +30,9 @@ pub use window::{TimeScale, TimeWindow};
 use super::settings::TimelineSettings;
 use super::state::State;
 use super::told;
-use crate::document::View;
 use drag::KeyDrag;
 use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_document::View;
 use std::sync::Arc;
 
 /// See the module.

@@ -1,7 +1,7 @@
 //! The part of a take that plays.
 
-use crate::document::edit::SAME_TIME;
 use crate::panels::state::State;
+use dragonfly_document::edit::SAME_TIME;
 
 impl State {
     /// Start and length of the take that is shown.

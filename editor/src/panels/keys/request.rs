@@ -7,11 +7,11 @@ use super::markers::MarkerDeed;
 use super::selection::KeySelection;
 use super::window::TimeWindow;
 use super::{ChannelId, channel};
-use crate::control::bones::Choice;
-use crate::document::Change;
 use crate::panels::state::{Effect, State};
 use crate::panels::status::Level;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
 use std::sync::Arc;
 
 /// See the module.

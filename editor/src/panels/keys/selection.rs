@@ -3,9 +3,9 @@
 use super::channel::{self, ChannelId};
 use super::intervals::{Intervals, WHOLE};
 use super::shift::Shift;
-use crate::control::bones::Choice;
-use crate::document::edit::{BoneRef, KeySet, Property, SAME_TIME};
 use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{BoneRef, KeySet, Property, SAME_TIME};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -11,7 +11,7 @@ mod typed;
 
 use super::number_text::Digits;
 use crate::control::expression::{Quantity, evaluate};
-use crate::text::sentence;
+use dragonfly_document::text::sentence;
 use egui::{Id, Rect, Response, Sense, Ui};
 use std::ops::RangeInclusive;
 use std::time::Duration;

@@ -9,8 +9,8 @@ use super::super::theme::Theme;
 use super::hand::{Hand, Spot};
 use super::parts::{Column, Form, Pair};
 use crate::control::expression::Quantity;
-use crate::document::edit::Property;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::edit::Property;
 use egui::accesskit::Role;
 use egui::{Align2, CornerRadius, FontId, Id, Rect, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 

@@ -6,10 +6,10 @@ use super::super::theme::Theme;
 use super::super::widgets;
 use super::hand::Hand;
 use super::parts::Part;
-use crate::document::Change;
-use crate::document::edit::{Edit, KeySet, NewKey, Property, ResetTo};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::rest_pose;
+use dragonfly_document::Change;
+use dragonfly_document::edit::{Edit, KeySet, NewKey, Property, ResetTo};
 use egui::Ui;
 
 /// What a channel has at the time shown.

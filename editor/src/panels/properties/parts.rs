@@ -7,9 +7,9 @@
 //! ```
 
 use super::turn;
-use crate::document::edit::{BonePose, BoneRef, Property};
 use dragonfly_anim::data::{BoneIndex, Transform};
 use dragonfly_anim::joint::EulerOrder;
+use dragonfly_document::edit::{BonePose, BoneRef, Property};
 use glam::{DQuat, Quat, Vec3};
 
 /// Which of the three.

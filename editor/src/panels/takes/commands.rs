@@ -3,9 +3,9 @@
 use super::super::commands::Id;
 use super::super::state::{Effect, State};
 use super::super::status::Level;
-use crate::document::Change;
-use crate::document::adapter::{Slot, TakeId};
-use crate::document::edit::{Edit, TakeRef};
+use dragonfly_document::Change;
+use dragonfly_document::adapter::{Slot, TakeId};
+use dragonfly_document::edit::{Edit, TakeRef};
 use std::sync::Arc;
 
 /// What the list of takes is about to do.

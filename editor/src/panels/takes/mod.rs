@@ -12,8 +12,8 @@ use super::state::{Request, State};
 use super::style::{GRID, RADIUS, ROW};
 use super::theme::Theme;
 use super::{Panel, Place, menu, search_field, widgets};
-use crate::document::Change;
-use crate::document::edit::{Edit, TakeRef};
+use dragonfly_document::Change;
+use dragonfly_document::edit::{Edit, TakeRef};
 use egui::accesskit::Role;
 use egui::{
     Color32, CornerRadius, CursorIcon, Key, PointerButton, Rect, Response, ScrollArea, Sense, Stroke,
@@ -28,7 +28,7 @@ pub struct Takes {
     times: Times,
     /// How often start and length were asked for when they were shown last.
     times_shown: u64,
-    rename: Option<(crate::document::adapter::TakeId, Rename)>,
+    rename: Option<(dragonfly_document::adapter::TakeId, Rename)>,
     /// Bytes with which all names begin and that are not shown: some programs write the skeleton's name before each.
     prefix: usize,
     /// Part of the names that are listed; empty for all.

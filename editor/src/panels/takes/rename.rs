@@ -4,10 +4,10 @@ use super::super::state::{Request, State};
 use super::super::style::RADIUS;
 use super::super::theme::Theme;
 use super::super::widgets;
-use crate::document::Change;
-use crate::document::adapter::take_name;
-use crate::document::edit::{Edit, TakeRef};
-use crate::text::sentence;
+use dragonfly_document::Change;
+use dragonfly_document::adapter::take_name;
+use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::text::sentence;
 use egui::{CornerRadius, Frame, Id, Key, Margin, Modifiers, Rect, Stroke, StrokeKind, TextEdit, Ui};
 
 /// Longest name that can be typed, letters.

@@ -7,11 +7,11 @@ use super::super::style::GRID;
 use super::super::theme::Theme;
 use super::super::widgets;
 use crate::control::expression::Quantity;
-use crate::document::Change;
-use crate::document::adapter::TakeId;
-use crate::document::edit::Edit;
-use crate::document::history::Gesture;
-use crate::playback::LATEST;
+use dragonfly_document::Change;
+use dragonfly_document::adapter::TakeId;
+use dragonfly_document::edit::Edit;
+use dragonfly_document::history::Gesture;
+use dragonfly_picture::playback::LATEST;
 use egui::{Id, Rect, RichText, Sense, TextStyle, Ui, vec2};
 use std::ops::RangeInclusive;
 

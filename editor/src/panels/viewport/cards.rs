@@ -1,11 +1,11 @@
 //! Cards in the middle of the picture: nothing is open, something is on its way, the device failed.
 
-use crate::document::Source;
 use crate::panels::commands::{self, Id};
 use crate::panels::state::Device;
 use crate::panels::style::{CARD_RADIUS, GRID};
 use crate::panels::theme::Theme;
 use crate::panels::{Request, State};
+use dragonfly_document::Source;
 use egui::{Align2, CornerRadius, Frame, Margin, Rect, RichText, Stroke, Ui, vec2};
 
 /// What there is to say.

@@ -1,12 +1,12 @@
 //! The tools of the hand at the left of the picture: what the gizmo does, whose axes it has, what it turns about.
 
 use super::{divider_across, glass, ik};
-use crate::control::gizmo::{Pivot, Space, Tool};
 use crate::panels::commands::Id;
 use crate::panels::icons::Icon;
 use crate::panels::style::GRID;
 use crate::panels::widgets::{column_button, hint_beside, icon_button};
 use crate::panels::{Request, State, menu};
+use dragonfly_picture::gizmo::{Pivot, Space, Tool};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// Draws them; tells where they are. In a low picture they stand in two columns, in a narrow one some are left out, and in a

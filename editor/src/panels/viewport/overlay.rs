@@ -1,9 +1,9 @@
 //! What the mouse is doing in the picture, as far as it is drawn by the panels: pointer, box, lasso.
 
 use crate::control::ViewportControl;
-use crate::control::bones::Region;
 use crate::panels::theme::Theme;
 use crate::panels::{Request, State};
+use dragonfly_picture::pick::Region;
 use egui::{CursorIcon, Pos2, Rect, Response, Shape, Stroke, StrokeKind, Ui, pos2};
 use glam::Vec2;
 

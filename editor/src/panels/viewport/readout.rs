@@ -3,9 +3,10 @@
 use super::super::style::{GRID, NUMBER};
 use super::glass;
 use crate::control::Catch;
-use crate::control::gizmo::{Axis, GizmoDelta, GizmoReadout, Handle, Space, Tool};
+use crate::control::gizmo::GizmoReadout;
 use crate::panels::State;
 use crate::panels::theme::Theme;
+use dragonfly_picture::gizmo::{Axis, GizmoDelta, Handle, Space, Tool};
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};

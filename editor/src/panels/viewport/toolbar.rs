@@ -1,13 +1,13 @@
 //! Buttons for how the picture is drawn and seen, at its right top.
 
 use super::{divider, glass};
-use crate::camera::Projection;
-use crate::graphics::{BoneLook, Shading};
 use crate::panels::commands::Id;
 use crate::panels::icons::Icon;
 use crate::panels::style::GRID;
 use crate::panels::widgets::{command_button, icon_button};
 use crate::panels::{Request, State, menu};
+use dragonfly_picture::camera::Projection;
+use dragonfly_picture::{BoneLook, Shading};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// Buttons for everything about the picture, so that nothing needs a numeric keypad or a middle button. Tells where it is.

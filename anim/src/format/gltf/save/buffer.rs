@@ -6,6 +6,8 @@ use super::json::token::{unquoted, written_at};
 use super::reuse::is_ours;
 use super::source::is_data;
 use crate::format::uri::{DataUri, relative_path};
+use base64::prelude::{BASE64_STANDARD, Engine};
+use percent_encoding::{NON_ALPHANUMERIC, percent_encode};
 use std::collections::HashSet;
 
 /// Storage of a buffer.
@@ -138,29 +140,12 @@ fn written_bytes(text: &[u8], count: usize) -> usize {
 
 /// Encodes as base64 (RFC 4648 §4) with padding.
 pub(super) fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let padded = [three[0], three.get(1).copied().unwrap_or(0), three.get(2).copied().unwrap_or(0)];
-        let bits = u32::from_be_bytes([0, padded[0], padded[1], padded[2]]);
-        for digit in 0..4 {
-            let value = bits >> (18 - 6 * digit) & 63;
-            text.push(if digit <= three.len() { char::from(DIGITS[value as usize]) } else { '=' });
-        }
-    }
-    text
+    BASE64_STANDARD.encode(bytes)
 }
 
 /// Percent-encodes every byte except letters and digits.
 fn percent(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |mut text, &byte| {
-        if byte.is_ascii_alphanumeric() {
-            text.push(char::from(byte));
-        } else {
-            text.push_str(&format!("%{byte:02X}"));
-        }
-        text
-    })
+    percent_encode(bytes, NON_ALPHANUMERIC).to_string()
 }
 
 /// Returns a name for a new buffer next to the file called `name`. The name contains a hash of the content, so that an

@@ -1,0 +1,133 @@
+//! What holds for every document at every time.
+
+use super::ModelAdapter;
+use super::change::{KeyChange, triple};
+use super::kind::{Kind, Rotation, Scale, Translation};
+use super::pending::PendingPose;
+use super::slot::{Slot, extent};
+use crate::edit::{Property, SAME_TIME};
+use dragonfly_anim::data::Take;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// A promise that does not hold: a mistake in this program.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("take {take}: {what}")]
+pub struct Broken {
+    /// Place of the take in the list.
+    pub take: usize,
+    /// What does not hold.
+    pub what: String,
+}
+
+impl ModelAdapter {
+    /// Looks whether everything holds that must: original, changes and result correspond, untouched channels are
+    /// shared, keys ascend, numbers are finite, start and length are those of the keys, no take is there twice.
+    pub fn check(&self) -> Result<(), Broken> {
+        for (take, slot) in self.slots.iter().enumerate() {
+            let found = slot_is_right(slot).and_then(|()| {
+                let twice = self.slots[..take].iter().any(|other| other.id == slot.id);
+                if twice { Err(format!("{:?} is there twice", slot.id)) } else { Ok(()) }
+            });
+            found.map_err(|what| Broken { take, what })?;
+        }
+        Ok(())
+    }
+}
+
+type Found = Result<(), String>;
+
+fn ensure(holds: bool, what: impl FnOnce() -> String) -> Found {
+    if holds { Ok(()) } else { Err(what()) }
+}
+
+fn slot_is_right(slot: &Slot) -> Found {
+    let (original, result) = (&slot.original, &slot.result);
+    let unchanged = slot.changed().next().is_none();
+    ensure(unchanged == Arc::ptr_eq(original, result), || "an unchanged take is its original".to_owned())?;
+    ensure(original.name == result.name, || "the names differ".to_owned())?;
+    ensure(original.tracks.len() == result.tracks.len(), || "the tracks differ".to_owned())?;
+    ensure(original.morphs == result.morphs, || "the morph tracks differ".to_owned())?;
+    for take in [original, result] {
+        let now = (take.start.to_bits(), take.length.to_bits());
+        let (start, length) = extent(take);
+        ensure(now == (start.to_bits(), length.to_bits()), || {
+            "start and length are not those of the keys".to_owned()
+        })?;
+    }
+    for (bone, property) in slot.changed() {
+        ensure((bone as usize) < original.tracks.len(), || {
+            format!("a change of bone {bone}, which is not there")
+        })?;
+        ensure(!slot.changes(bone, property).is_empty(), || "a list of no changes is kept".to_owned())?;
+    }
+    pending_is_right(slot)?;
+    for bone in 0..original.tracks.len() as u32 {
+        channel_is_right::<Translation>(slot, result, bone, Property::Translation)?;
+        channel_is_right::<Rotation>(slot, result, bone, Property::Rotation)?;
+        channel_is_right::<Scale>(slot, result, bone, Property::Scale)?;
+    }
+    Ok(())
+}
+
+fn pending_is_right(slot: &Slot) -> Found {
+    let pending = slot.pending();
+    let apart = pending.windows(2).all(|pair| pair[1].time - pair[0].time > SAME_TIME);
+    ensure(apart, || "pending poses do not ascend in time".to_owned())?;
+    for at in pending {
+        let inside = |pose: &PendingPose| (pose.bone as usize) < slot.original.tracks.len();
+        let is_finite = |pose: &PendingPose| {
+            let mut values = Property::ALL.into_iter().filter_map(|property| pose.get(property)).flatten();
+            values.all(f32::is_finite)
+        };
+        let finite = at.time.is_finite() && at.poses.iter().all(is_finite);
+        ensure(finite, || format!("what is pending at {} s is not finite", at.time))?;
+        let ascend = at.poses.windows(2).all(|pair| pair[0].bone < pair[1].bone);
+        let some = !at.poses.is_empty() && !at.poses.iter().any(PendingPose::is_empty);
+        ensure(ascend && some && at.poses.iter().all(inside), || {
+            format!("what is pending at {} s is not in order", at.time)
+        })?;
+    }
+    Ok(())
+}
+
+fn channel_is_right<K: Kind>(slot: &Slot, result: &Take, bone: u32, property: Property) -> Found {
+    let at = || format!("bone {bone}, {}", property.name());
+    let track = &result.tracks[bone as usize];
+    ensure(track.bone == bone, || format!("{}: the track is of bone {}", at(), track.bone))?;
+    let Some(original) = slot.original_of::<K>(bone) else { return Ok(()) };
+    let (result, changes) = (K::channel(track), slot.changes(bone, property));
+    ensure(result.interpolation == original.interpolation, || format!("{}: interpolations differ", at()))?;
+    ensure(Arc::ptr_eq(&result.times, &original.times), || format!("{}: times are not shared", at()))?;
+    let whole = result.values.len() == result.times.len() * result.values_per_key();
+    ensure(whole && original.values.len() == result.values.len(), || {
+        format!("{}: columns of other lengths", at())
+    })?;
+    let times_ascend = original.times.windows(2).all(|pair| pair[0] < pair[1]);
+    ensure(times_ascend, || format!("{}: times do not ascend", at()))?;
+    if changes.is_empty() {
+        return ensure(Arc::ptr_eq(&result.values, &original.values), || {
+            format!("{}: values are not shared", at())
+        });
+    }
+    let ascend = changes.windows(2).all(|pair| pair[0].0 < pair[1].0);
+    ensure(ascend, || format!("{}: changes do not ascend", at()))?;
+    let inside = changes.last().is_none_or(|(key, _)| (*key as usize) < original.len());
+    ensure(inside, || format!("{}: a change of a key that is not there", at()))?;
+    for key in 0..original.len() {
+        let as_read = triple::<K>(original, key);
+        let change = slot.key_change(bone, property, key);
+        ensure(change != Some(KeyChange::identity::<K>()), || {
+            format!("{}: key {key}: a change of nothing", at())
+        })?;
+        let wanted = change.map_or(as_read, |change| change.result::<K>(&as_read));
+        let now = triple::<K>(result, key);
+        // Without a spline there are no tangents to compare.
+        let stored = if result.values_per_key() == 3 { 0..3 } else { 1..2 };
+        let bits = |at: usize| wanted[at].map(f32::to_bits) == now[at].map(f32::to_bits);
+        ensure(stored.into_iter().all(bits), || format!("{}: key {key} is not original + change", at()))?;
+        let finite = now.iter().flatten().all(|number| number.is_finite());
+        ensure(finite, || format!("{}: key {key} is not finite", at()))?;
+    }
+    Ok(())
+}

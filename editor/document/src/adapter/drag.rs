@@ -1,0 +1,169 @@
+//! A pose that is being dragged: the same channels at the same time get ever newer values.
+//!
+//! The edits of a gesture each begin where the gesture began. Taking back the one before and doing the next would copy
+//! the columns of their channels with every move of the mouse. So where only values differ the next one is written over
+//! the one before, in memory that nobody shows any more. The result is the same to the bit.
+
+use super::change::KeyChange;
+use super::kind::{Kind, Rotation, Scale, Translation};
+use super::op::{Op, Place};
+use super::plan::{Way, changed, rotation, vector};
+use super::slot::Slot;
+use super::{EditError, Inverse, ModelAdapter};
+use crate::edit::{BonePose, Edit, Property, TakeRef};
+use std::sync::Arc;
+
+/// States of a take that are kept to be written over: what the panels and the picture show, and one that is free.
+const KEPT: usize = 4;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(crate) struct Drag {
+    time: u32,
+    channels: Vec<Held>,
+    kept: Vec<Arc<Slot>>,
+}
+
+/// A key whose value the hand holds.
+#[derive(Clone, Copy, Debug)]
+struct Held {
+    place: Place,
+    key: u32,
+    /// Its change when the gesture began.
+    before: Option<KeyChange>,
+}
+
+impl Drag {
+    /// After `edit`, which `inverse` leads back from; `None` where the edits to come may do more than give values.
+    pub(crate) fn of(adapter: &ModelAdapter, edit: &Edit, inverse: &Inverse) -> Option<Self> {
+        let (time, poses, _) = values_of(edit)?;
+        let mut held: Vec<Held> = Vec::new();
+        for op in &inverse.0 {
+            match op {
+                Op::Changes(place, before) => match before[..] {
+                    [(key, before)] => held.push(Held { place: *place, key, before }),
+                    _ => return None,
+                },
+                // A key that was added for it.
+                Op::Splice(_, gone, back) if gone.len() == 1 && back.is_empty() => {}
+                // A channel in steps that became linear for it; once is enough.
+                Op::Replace(..) => {}
+                _ => return None,
+            }
+        }
+        held.reverse();
+        let drag = Self { time: time.to_bits(), channels: held, kept: Vec::new() };
+        drag.fits(adapter, edit.take()?, poses).then_some(drag)
+    }
+
+    /// Are these the channels that are held, each once and in their order?
+    fn fits(&self, adapter: &ModelAdapter, take: &TakeRef, poses: &[BonePose]) -> bool {
+        let Ok(take) = adapter.take(take).map(|slot| slot.id) else { return false };
+        let mut held = self.channels.iter().map(|held| held.place);
+        for pose in poses {
+            let Ok(bone) = adapter.bone(&pose.bone) else { return false };
+            for property in Property::ALL {
+                let given = match property {
+                    Property::Translation => pose.translation.is_some(),
+                    Property::Rotation => pose.rotation.is_some(),
+                    Property::Scale => pose.scale.is_some(),
+                };
+                if given && held.next() != Some(Place { take, bone, property }) {
+                    return false;
+                }
+            }
+        }
+        let twice =
+            |(at, held): (usize, &Held)| self.channels[..at].iter().any(|other| other.place == held.place);
+        // More than a few hundred channels are looked through no faster than they are done anew.
+        held.next().is_none()
+            && (1..=512).contains(&self.channels.len())
+            && !self.channels.iter().enumerate().any(twice)
+    }
+
+    /// Does the next edit of the gesture in place of the one before; `None` where it does something else.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be done; nothing has changed then.
+    pub(crate) fn amend(&mut self, adapter: &mut ModelAdapter, edit: &Edit) -> Option<Result<(), EditError>> {
+        let (time, poses, way) = values_of(edit)?;
+        if time.to_bits() != self.time || !self.fits(adapter, edit.take()?, poses) {
+            return None;
+        }
+        let take = self.channels.first()?.place.take;
+        let index = adapter.slots.iter().position(|slot| slot.id == take)?;
+        let now = &adapter.slots[index];
+        let changes = match self.changes(now, poses, way) {
+            Ok(changes) => changes,
+            Err(error) => return Some(Err(error)),
+        };
+        let mut next = self.free().unwrap_or_else(|| Arc::new(Slot::clone(now)));
+        let slot = Arc::make_mut(&mut next);
+        for (held, change) in self.channels.iter().zip(changes) {
+            slot.set_changes(held.place.bone, held.place.property, &[(held.key, change)]);
+        }
+        let before = std::mem::replace(&mut adapter.slots[index], next);
+        if self.kept.len() == KEPT {
+            self.kept.remove(0);
+        }
+        self.kept.push(before);
+        Some(Ok(()))
+    }
+
+    /// A state that nobody shows any more. It differs from the newest one in nothing but what is written next.
+    fn free(&mut self) -> Option<Arc<Slot>> {
+        let is_free = |slot: &Arc<Slot>| Arc::strong_count(slot) == 1 && Arc::strong_count(&slot.result) == 1;
+        let at = self.kept.iter().position(is_free)?;
+        Some(self.kept.remove(at))
+    }
+
+    /// The change of each channel, as if its key were as it was when the gesture began.
+    fn changes(
+        &self,
+        slot: &Slot,
+        poses: &[BonePose],
+        way: Way,
+    ) -> Result<Vec<Option<KeyChange>>, EditError> {
+        let mut held = self.channels.iter();
+        let mut found = Vec::with_capacity(self.channels.len());
+        for pose in poses {
+            if let (Some(given), Some(held)) = (pose.translation, pose.translation.and_then(|_| held.next()))
+            {
+                found.push(one::<Translation>(slot, held, vector("a translation", given)?, way)?);
+            }
+            if let (Some(given), Some(held)) = (pose.rotation, pose.rotation.and_then(|_| held.next())) {
+                found.push(one::<Rotation>(slot, held, rotation(given)?, way)?);
+            }
+            if let (Some(given), Some(held)) = (pose.scale, pose.scale.and_then(|_| held.next())) {
+                found.push(one::<Scale>(slot, held, vector("a scale", given)?, way)?);
+            }
+        }
+        Ok(found)
+    }
+}
+
+fn one<K: Kind>(
+    slot: &Slot,
+    held: &Held,
+    wanted: K::Value,
+    way: Way,
+) -> Result<Option<KeyChange>, EditError> {
+    let Some(mut key) = slot.key::<K>(held.place.property, held.place.bone, held.key as usize) else {
+        return Ok(None);
+    };
+    key.change = held.before;
+    changed::<K>(held.place.bone, &key, |now| match way {
+        Way::Set => wanted,
+        Way::Offset => K::offset(now, wanted),
+    })
+}
+
+/// Time and poses of an edit that gives values.
+fn values_of(edit: &Edit) -> Option<(f32, &[BonePose], Way)> {
+    match edit {
+        Edit::Set { time, poses, .. } => Some((*time, poses, Way::Set)),
+        Edit::Offset { time, poses, .. } => Some((*time, poses, Way::Offset)),
+        _ => None,
+    }
+}

@@ -1,0 +1,157 @@
+//! The few operations that every edit is made of. Doing one gives the one that undoes it.
+
+use super::ModelAdapter;
+use super::change::KeyChange;
+use super::kind::AnyChannel;
+use super::pending::PendingAt;
+use super::slot::{Content, Key, Slot, TakeId};
+use super::times::Shared;
+use crate::edit::Property;
+use dragonfly_anim::data::MorphTrack;
+use std::sync::Arc;
+
+/// One channel of one take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Place {
+    pub(super) take: TakeId,
+    pub(super) bone: u32,
+    pub(super) property: Property,
+}
+
+/// One operation; as large as what it touches.
+#[derive(Clone, Debug)]
+pub(super) enum Op {
+    /// Other changes for some keys.
+    Changes(Place, Vec<(u32, Option<KeyChange>)>),
+    /// Keys out (positions before) and keys in (positions after).
+    Splice(Place, Vec<u32>, Vec<(u32, Key)>),
+    /// Other times for some keys, ascending, whose order stays.
+    Times(Place, Vec<(u32, f32)>),
+    /// Another channel in place of the one that is there.
+    Replace(Place, Box<Content>),
+    /// Other morph tracks.
+    Morphs(TakeId, Vec<MorphTrack>),
+    /// Other pending poses at a time, `None` for none.
+    Pending(TakeId, f32, Option<Arc<PendingAt>>),
+    /// Another name.
+    Name(TakeId, String),
+    /// A take more, at a place in the list.
+    Insert(usize, Arc<Slot>),
+    /// A take less.
+    Remove(TakeId),
+    /// A take elsewhere in the list.
+    Move(TakeId, usize),
+}
+
+impl Content {
+    /// Bytes of its columns.
+    fn bytes(&self) -> usize {
+        let columns = match &self.original {
+            AnyChannel::Vector(channel) => channel.times.len() * 4 + channel.values.len() * 12,
+            AnyChannel::Turn(channel) => channel.times.len() * 4 + channel.values.len() * 16,
+        };
+        columns + size_of_val(self.changes.as_slice())
+    }
+}
+
+impl Op {
+    /// Bytes that it keeps, about.
+    pub(super) fn bytes(&self) -> usize {
+        size_of::<Self>()
+            + match self {
+                Self::Changes(_, changes) => size_of_val(changes.as_slice()),
+                Self::Splice(_, remove, insert) => {
+                    size_of_val(remove.as_slice()) + size_of_val(insert.as_slice())
+                }
+                Self::Times(_, times) => size_of_val(times.as_slice()),
+                Self::Replace(_, content) => content.bytes(),
+                Self::Morphs(_, morphs) => {
+                    morphs.iter().map(|morph| 4 * (morph.times.len() + morph.weights.len())).sum()
+                }
+                Self::Pending(_, _, at) => at.as_ref().map_or(0, |at| size_of_val(at.poses.as_slice())),
+                Self::Insert(_, slot) => slot.original.keys() * 16,
+                Self::Name(..) | Self::Remove(_) | Self::Move(..) => 0,
+            }
+    }
+}
+
+impl Op {
+    /// The take whose keys it makes, moves or takes away.
+    pub(super) fn keys_of(&self) -> Option<TakeId> {
+        match self {
+            Self::Splice(place, ..) | Self::Times(place, _) | Self::Replace(place, _) => Some(place.take),
+            Self::Morphs(take, _) => Some(*take),
+            Self::Changes(..)
+            | Self::Pending(..)
+            | Self::Name(..)
+            | Self::Insert(..)
+            | Self::Remove(_)
+            | Self::Move(..) => None,
+        }
+    }
+}
+
+impl ModelAdapter {
+    /// Does one operation; the one that undoes it.
+    pub(super) fn perform(&mut self, op: Op, shared: &mut Shared) -> Op {
+        match op {
+            Op::Changes(place, changes) => {
+                let before = self.slot_mut(place.take).set_changes(place.bone, place.property, &changes);
+                Op::Changes(place, before)
+            }
+            Op::Splice(place, remove, insert) => {
+                let slot = self.slot_mut(place.take);
+                let (remove, insert) = slot.splice(place.bone, place.property, &remove, &insert, shared);
+                Op::Splice(place, remove, insert)
+            }
+            Op::Times(place, times) => {
+                let slot = self.slot_mut(place.take);
+                Op::Times(place, slot.set_times(place.bone, place.property, &times, shared))
+            }
+            Op::Replace(place, content) => {
+                let before = self.slot_mut(place.take).replace(place.bone, place.property, *content);
+                Op::Replace(place, Box::new(before))
+            }
+            Op::Morphs(take, morphs) => Op::Morphs(take, self.slot_mut(take).set_morphs(morphs)),
+            Op::Pending(take, time, at) => {
+                let before = self.slot_mut(take).set_pending(time, at);
+                Op::Pending(take, time, before)
+            }
+            Op::Name(take, name) => Op::Name(take, self.slot_mut(take).set_name(&name)),
+            Op::Insert(index, slot) => {
+                let id = slot.id;
+                self.slots.insert(index.min(self.slots.len()), slot);
+                Op::Remove(id)
+            }
+            Op::Remove(take) => {
+                let index = self.index_of(take);
+                Op::Insert(index, self.slots.remove(index))
+            }
+            Op::Move(take, to) => {
+                let from = self.index_of(take);
+                let slot = self.slots.remove(from);
+                self.slots.insert(to.min(self.slots.len()), slot);
+                Op::Move(take, from)
+            }
+        }
+    }
+
+    /// Looks for the begin and the end of takes whose keys lie elsewhere now, if they are still there.
+    pub(super) fn measure(&mut self, takes: &[TakeId]) {
+        for slot in self.slots.iter_mut().filter(|slot| takes.contains(&slot.id)) {
+            Arc::make_mut(slot).measure();
+        }
+    }
+
+    fn index_of(&self, take: TakeId) -> usize {
+        match self.slots.iter().position(|slot| slot.id == take) {
+            Some(index) => index,
+            None => unreachable!("an operation names a take that is not there: {take:?}"),
+        }
+    }
+
+    fn slot_mut(&mut self, take: TakeId) -> &mut Slot {
+        let index = self.index_of(take);
+        Arc::make_mut(&mut self.slots[index])
+    }
+}

@@ -1,0 +1,165 @@
+//! Which keys are meant: many sets of keys, each looked up once.
+
+use super::super::op::Place;
+use super::super::slot::TakeId;
+use super::{EditError, Work, finite};
+use crate::edit::{BoneRef, KeySet, Property, SAME_TIME};
+use std::collections::HashMap;
+
+/// Sets that name the same channels; the times of all of them together.
+struct Group<'a> {
+    bones: &'a [BoneRef],
+    properties: &'a [Property],
+    /// Seconds, ascending once all are there.
+    at: Vec<f32>,
+    /// Sets that say more than times.
+    ranges: Vec<&'a KeySet>,
+}
+
+impl Work {
+    /// The keys that are meant: the channels with any, and which of theirs, ascending. Takes time in proportion to the
+    /// sets and to the keys that they hold, whatever else there is.
+    pub(super) fn keys(&self, take: TakeId, sets: &[KeySet]) -> Result<Vec<(Place, Vec<u32>)>, EditError> {
+        let mut found: Vec<(Place, Vec<u32>)> = Vec::new();
+        let mut places: HashMap<(u32, Property), usize> = HashMap::new();
+        for group in groups(sets)? {
+            for place in self.channels(take, (group.bones, group.properties))? {
+                let times = self.slot(take).times(place.bone, place.property);
+                let index = *places.entry((place.bone, place.property)).or_insert_with(|| {
+                    found.push((place, Vec::new()));
+                    found.len() - 1
+                });
+                let keys = &mut found[index].1;
+                held_at(times, &group.at, keys);
+                for set in &group.ranges {
+                    held_between(times, set, keys);
+                }
+            }
+        }
+        for (_, keys) in &mut found {
+            if !keys.is_sorted_by(|a, b| a < b) {
+                keys.sort_unstable();
+                keys.dedup();
+            }
+        }
+        found.retain(|(_, keys)| !keys.is_empty());
+        if found.is_empty() { Err(EditError::Nothing("no key is meant")) } else { Ok(found) }
+    }
+}
+
+/// Sets one after the other that name the same channels are one group, so that a key named by itself costs no more than
+/// one in a list.
+fn groups(sets: &[KeySet]) -> Result<Vec<Group<'_>>, EditError> {
+    let mut groups: Vec<Group<'_>> = Vec::new();
+    for set in sets {
+        for number in set.at.iter().flatten().chain(&set.from).chain(&set.to) {
+            finite("a time", *number)?;
+        }
+        let same = |group: &&mut Group<'_>| group.bones == set.bones && group.properties == set.properties;
+        let group = match groups.last_mut().filter(same) {
+            Some(_) => groups.last_mut(),
+            None => {
+                let (bones, properties) = (&set.bones, &set.properties);
+                groups.push(Group { bones, properties, at: Vec::new(), ranges: Vec::new() });
+                groups.last_mut()
+            }
+        };
+        let Some(group) = group else { continue };
+        match &set.at {
+            Some(at) if set.from.is_none() && set.to.is_none() => group.at.extend(at),
+            _ => group.ranges.push(set),
+        }
+    }
+    for group in &mut groups {
+        if !group.at.is_sorted() {
+            group.at.sort_unstable_by(f32::total_cmp);
+        }
+    }
+    Ok(groups)
+}
+
+/// Keys at any of ascending `wanted` times.
+fn held_at(times: &[f32], wanted: &[f32], keys: &mut Vec<u32>) {
+    let mut from = 0;
+    for &wanted in wanted {
+        from += first(&times[from..], |time| time < wanted - 2.0 * SAME_TIME);
+        for (key, &time) in times.iter().enumerate().skip(from) {
+            if time > wanted + 2.0 * SAME_TIME {
+                break;
+            }
+            if (wanted - time).abs() <= SAME_TIME {
+                keys.push(key as u32);
+            }
+        }
+    }
+}
+
+/// Keys that a set with begin and end holds.
+fn held_between(times: &[f32], set: &KeySet, keys: &mut Vec<u32>) {
+    let begin = set.from.map_or(0, |from| times.partition_point(|&time| time < from - SAME_TIME));
+    let end = set.to.map_or(times.len(), |to| times.partition_point(|&time| time <= to + SAME_TIME));
+    match &set.at {
+        None => keys.extend(begin as u32..end.max(begin) as u32),
+        Some(at) => {
+            let mut at = at.clone();
+            at.sort_unstable_by(f32::total_cmp);
+            let mut held = Vec::new();
+            held_at(times, &at, &mut held);
+            keys.extend(held.into_iter().filter(|&key| (begin..end).contains(&(key as usize))));
+        }
+    }
+}
+
+/// How many of ascending times come before; near the begin, as a rule, so it looks there first.
+fn first(times: &[f32], is_before: impl Fn(f32) -> bool) -> usize {
+    let mut reach = 1;
+    while reach < times.len() && is_before(times[reach]) {
+        reach *= 2;
+    }
+    let end = (reach + 1).min(times.len());
+    times[..end].partition_point(|&time| is_before(time))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dragonfly_kit::random::{Random, seed};
+
+    #[test]
+    fn keys_that_are_searched_are_those_that_the_set_holds() {
+        let first = seed(12);
+        for number in first..first + 300 {
+            let mut random = Random::new(number);
+            let mut time = 0.0;
+            let times: Vec<f32> = (0..random.below(60))
+                .map(|_| {
+                    time += random.choice(&[2e-5, 4e-5, 1e-4, 0.01, 0.5]);
+                    time
+                })
+                .collect();
+            let any = |random: &mut Random| match random.below(3) {
+                0 if !times.is_empty() => times[random.below(times.len())] + random.between(-6e-5, 6e-5),
+                _ => random.between(-0.1, 2.0),
+            };
+            let count = random.below(20);
+            let set = KeySet {
+                at: (random.below(2) == 0).then(|| (0..count).map(|_| any(&mut random)).collect()),
+                from: (random.below(3) == 0).then(|| any(&mut random)),
+                to: (random.below(3) == 0).then(|| any(&mut random)),
+                ..KeySet::default()
+            };
+            let sets = [set.clone()];
+            let [group] = &groups(&sets).unwrap()[..] else { panic!("one group") };
+            let mut keys = Vec::new();
+            held_at(&times, &group.at, &mut keys);
+            for set in &group.ranges {
+                held_between(&times, set, &mut keys);
+            }
+            keys.sort_unstable();
+            keys.dedup();
+            let wanted: Vec<u32> =
+                (0..times.len() as u32).filter(|&key| set.holds(times[key as usize])).collect();
+            assert_eq!(keys, wanted, "seed {number}: {set:?} {times:?}");
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! The channels of a slot: their columns, the changes beside them, and the result of both.
+
+use super::{Changes, Content, Key, Slot};
+use crate::adapter::change::{KeyChange, put, triple};
+use crate::adapter::kind::{Held, Kind};
+use crate::adapter::times::Shared;
+use crate::edit::Property;
+use dragonfly_anim::data::{Channel, Interpolation};
+use dragonfly_anim::sample::Value;
+use std::sync::Arc;
+
+/// Puts one change into a list; the one that was there.
+pub(super) fn exchange(changes: &mut Changes, key: u32, change: Option<KeyChange>) -> Option<KeyChange> {
+    match (changes.binary_search_by_key(&key, |(key, _)| *key), change) {
+        (Ok(at), Some(change)) => Some(std::mem::replace(&mut changes[at].1, change)),
+        (Ok(at), None) => Some(changes.remove(at).1),
+        (Err(at), Some(change)) => {
+            changes.insert(at, (key, change));
+            None
+        }
+        (Err(_), None) => None,
+    }
+}
+
+/// Makes the result of a channel anew: of the keys in `touched`, or of all.
+pub(super) fn refresh<K: Kind>(
+    slot: &mut Slot,
+    property: Property,
+    bone: u32,
+    touched: Option<&[(u32, Option<KeyChange>)]>,
+) {
+    if slot.changes.is_empty() {
+        slot.result = Arc::clone(&slot.original);
+        return;
+    }
+    let Some(original) = slot.original_of::<K>(bone).cloned() else { return };
+    let changes = slot.changes.get(&(bone, property)).map_or(&[][..], |changes| changes.as_slice());
+    let result = K::channel_mut(&mut Arc::make_mut(&mut slot.result).tracks[bone as usize]);
+    if changes.is_empty() {
+        *result = original;
+        return;
+    }
+    // Only the keys that were touched differ from the last result, if there is one of its own.
+    let (mut values, keys): (Arc<[K::Value]>, Vec<u32>) = match touched {
+        Some(touched) if !Arc::ptr_eq(&result.values, &original.values) => {
+            // A column that nobody else has is written over.
+            (std::mem::take(&mut result.values), touched.iter().map(|(key, _)| *key).collect())
+        }
+        _ => (Arc::from(&*original.values), changes.iter().map(|(key, _)| *key).collect()),
+    };
+    if Arc::get_mut(&mut values).is_none() {
+        values = Arc::from(&*values);
+    }
+    if let Some(values) = Arc::get_mut(&mut values) {
+        for key in keys {
+            let as_read = triple::<K>(&original, key as usize);
+            let change = changes.binary_search_by_key(&key, |(key, _)| *key).ok().map(|at| changes[at].1);
+            let now = change.map_or(as_read, |change| change.result::<K>(&as_read));
+            put::<K>(values, original.interpolation, key as usize, &now);
+        }
+    }
+    *result = Channel { values, ..original };
+}
+
+pub(super) fn spliced<K: Kind>(
+    slot: &mut Slot,
+    property: Property,
+    bone: u32,
+    remove: &[u32],
+    insert: &[(u32, Key)],
+    shared: &mut Shared,
+) -> Vec<(u32, Key)> {
+    let taken: Vec<(u32, Key)> =
+        remove.iter().filter_map(|&at| Some((at, slot.key::<K>(property, bone, at as usize)?))).collect();
+    let old = slot.original_of::<K>(bone).cloned().unwrap_or_default();
+    let (per_key, keys) = (old.values_per_key(), (old.len() + insert.len()).saturating_sub(taken.len()));
+    let mut times = Vec::with_capacity(keys);
+    let mut values: Vec<K::Value> = Vec::with_capacity(keys * per_key);
+    let mut changes = Changes::new();
+    let mut old_changes = slot.changes(bone, property).iter().peekable();
+    let mut inserted = insert.iter().peekable();
+    // What stays stays in runs, and a run is copied as a whole.
+    for (mut from, end) in runs(old.len(), remove) {
+        while from < end {
+            put_in::<K>(&mut inserted, &mut times, &mut values, &mut changes, old.interpolation);
+            let before_next = inserted.peek().map_or(end - from, |(place, _)| *place as usize - times.len());
+            let until = end.min(from + before_next);
+            while let Some((key, change)) = old_changes.next_if(|(key, _)| (*key as usize) < until) {
+                if (*key as usize) >= from {
+                    changes.push(((*key as usize - from + times.len()) as u32, *change));
+                }
+            }
+            times.extend_from_slice(&old.times[from..until]);
+            values.extend_from_slice(&old.values[from * per_key..until * per_key]);
+            from = until;
+        }
+    }
+    put_in::<K>(&mut inserted, &mut times, &mut values, &mut changes, old.interpolation);
+    let times = shared.times(&old.times, times);
+    let original = Channel { times, values: values.into(), interpolation: old.interpolation };
+    put_channel::<K>(slot, property, bone, original, changes);
+    taken
+}
+
+/// Runs of keys between those at ascending `gone`, as begin and end.
+fn runs(keys: usize, gone: &[u32]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let ends = gone.iter().map(move |&gone| (gone as usize).min(keys)).chain([keys]);
+    let begins = [0].into_iter().chain(gone.iter().map(|&gone| gone as usize + 1));
+    begins.zip(ends).filter(|(begin, end)| begin < end)
+}
+
+/// Puts in the keys whose place has come.
+fn put_in<K: Kind>(
+    inserted: &mut std::iter::Peekable<std::slice::Iter<'_, (u32, Key)>>,
+    times: &mut Vec<f32>,
+    values: &mut Vec<K::Value>,
+    changes: &mut Changes,
+    interpolation: Interpolation,
+) {
+    while let Some((at, key)) = inserted.next_if(|(place, _)| *place as usize <= times.len()) {
+        let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+        times.push(key.time);
+        values.extend(std::iter::repeat_n(K::Value::ZERO, per_key));
+        put::<K>(values, interpolation, *at as usize, &key.original);
+        changes.extend(key.change.map(|change| (*at, change)));
+    }
+}
+
+/// Other times for some keys, which stay in their order; the times from before.
+pub(super) fn retimed<K: Kind>(slot: &mut Slot, bone: u32, times: &Arc<[f32]>) {
+    let original = Arc::make_mut(&mut slot.original);
+    K::channel_mut(&mut original.tracks[bone as usize]).times = Arc::clone(times);
+    if slot.changes.is_empty() {
+        slot.result = Arc::clone(&slot.original);
+    } else {
+        let result = Arc::make_mut(&mut slot.result);
+        K::channel_mut(&mut result.tracks[bone as usize]).times = Arc::clone(times);
+    }
+}
+
+pub(super) fn replaced<K: Kind>(slot: &mut Slot, property: Property, bone: u32, content: Content) -> Content {
+    let before = Content {
+        original: K::Value::wrap(slot.original_of::<K>(bone).cloned().unwrap_or_default()),
+        changes: slot.changes(bone, property).to_vec(),
+    };
+    if let Some(original) = K::Value::unwrap(&content.original) {
+        put_channel::<K>(slot, property, bone, original.clone(), content.changes);
+    }
+    before
+}
+
+/// Puts an original channel and its changes in, and makes the result.
+fn put_channel<K: Kind>(
+    slot: &mut Slot,
+    property: Property,
+    bone: u32,
+    original: Channel<K::Value>,
+    changes: Changes,
+) {
+    if changes.is_empty() {
+        slot.changes.remove(&(bone, property));
+    } else {
+        slot.changes.insert((bone, property), Arc::new(changes));
+    }
+    *K::channel_mut(&mut Arc::make_mut(&mut slot.original).tracks[bone as usize]) = original.clone();
+    if !slot.changes.is_empty() {
+        *K::channel_mut(&mut Arc::make_mut(&mut slot.result).tracks[bone as usize]) = original;
+    }
+    refresh::<K>(slot, property, bone, None);
+}

@@ -1,0 +1,253 @@
+//! One take in its three forms: as it was read, what was changed, and what comes of both.
+
+mod channel;
+
+use super::change::{KeyChange, Triple, triple};
+use super::kind::{AnyChannel, Kind, Numbers, with_kind};
+use super::pending::{Pending, PendingAt, place_of};
+use super::times::Shared;
+use crate::edit::{Property, SAME_TIME};
+use channel::{exchange, refresh, replaced, retimed, spliced};
+use dragonfly_anim::data::{Channel, MorphTrack, Take};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Tells a take from all others of its document, also from those that are gone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+pub struct TakeId(pub u32);
+
+/// The changes of one channel: which key, and what of it; ascending, none that changes nothing.
+pub type Changes = Vec<(u32, KeyChange)>;
+
+/// A key with everything that belongs to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Key {
+    /// Seconds.
+    pub(super) time: f32,
+    pub(super) original: Triple,
+    pub(super) change: Option<KeyChange>,
+}
+
+/// A whole channel: its original and its changes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Content {
+    pub(super) original: AnyChannel,
+    pub(super) changes: Changes,
+}
+
+/// One take in its three forms. Where nothing was changed, all of it is shared: original and result are one.
+#[derive(Clone, Debug)]
+pub struct Slot {
+    /// Which take.
+    pub id: TakeId,
+    /// Its place among the takes of the file; `None` for one made here.
+    pub origin: Option<usize>,
+    /// As it was read; keys and takes made or deleted since are made and deleted in it, too.
+    pub original: Arc<Take>,
+    /// Original + changes: what is shown and saved.
+    pub result: Arc<Take>,
+    changes: BTreeMap<(u32, Property), Arc<Changes>>,
+    pending: Pending,
+}
+
+impl Slot {
+    pub(super) fn unchanged(id: TakeId, origin: Option<usize>, take: Arc<Take>) -> Self {
+        Self {
+            id,
+            origin,
+            original: Arc::clone(&take),
+            result: take,
+            changes: BTreeMap::new(),
+            pending: Vec::new(),
+        }
+    }
+
+    /// The same take under another number, made here; pending poses come along.
+    pub(super) fn copied(&self, id: TakeId) -> Self {
+        Self { id, origin: None, ..self.clone() }
+    }
+
+    /// What was changed of a channel.
+    pub fn changes(&self, bone: u32, property: Property) -> &[(u32, KeyChange)] {
+        self.changes.get(&(bone, property)).map_or(&[], |changes| changes.as_slice())
+    }
+
+    /// What was changed of the value of one key; the change that changes nothing where nothing was.
+    pub fn change(&self, bone: u32, property: Property, key: usize) -> Numbers {
+        self.key_change(bone, property, key).map_or(property.identity(), |change| change.value)
+    }
+
+    /// The key of a channel at `time` seconds, if there is one.
+    pub fn key_at(&self, bone: u32, property: Property, time: f32) -> Option<usize> {
+        ((bone as usize) < self.original.tracks.len())
+            .then(|| key_at(self.times(bone, property), time).ok())
+            .flatten()
+    }
+
+    /// Poses that are shown at their times and held by no key, ascending in time.
+    pub fn pending(&self) -> &[Arc<PendingAt>] {
+        &self.pending
+    }
+
+    /// Those at `time` seconds, if there are any.
+    pub fn pending_at(&self, time: f32) -> Option<&Arc<PendingAt>> {
+        place_of(&self.pending, time).ok().map(|at| &self.pending[at])
+    }
+
+    /// How many poses are pending: bones, summed over times.
+    pub fn pending_poses(&self) -> usize {
+        self.pending.iter().map(|at| at.poses.len()).sum()
+    }
+
+    /// A take without anything pending.
+    pub(super) fn forget_pending(&mut self) {
+        self.pending.clear();
+    }
+
+    /// Puts in other pending poses at a time, `None` for none; those from before.
+    pub(super) fn set_pending(&mut self, time: f32, poses: Option<Arc<PendingAt>>) -> Option<Arc<PendingAt>> {
+        match (place_of(&self.pending, time), poses) {
+            (Ok(at), Some(poses)) => Some(std::mem::replace(&mut self.pending[at], poses)),
+            (Ok(at), None) => Some(self.pending.remove(at)),
+            (Err(at), Some(poses)) => {
+                self.pending.insert(at, poses);
+                None
+            }
+            (Err(_), None) => None,
+        }
+    }
+
+    pub(super) fn key_change(&self, bone: u32, property: Property, key: usize) -> Option<KeyChange> {
+        let changes = self.changes(bone, property);
+        let at = changes.binary_search_by_key(&(key as u32), |(key, _)| *key).ok()?;
+        Some(changes[at].1)
+    }
+
+    /// Channels of which something was changed.
+    pub fn changed(&self) -> impl Iterator<Item = (u32, Property)> + '_ {
+        self.changes.keys().copied()
+    }
+
+    pub(super) fn original_of<K: Kind>(&self, bone: u32) -> Option<&Channel<K::Value>> {
+        self.original.tracks.get(bone as usize).map(K::channel)
+    }
+
+    pub(super) fn key<K: Kind>(&self, property: Property, bone: u32, key: usize) -> Option<Key> {
+        let channel = self.original_of::<K>(bone)?;
+        let time = *channel.times.get(key)?;
+        let change = self.key_change(bone, property, key);
+        Some(Key { time, original: triple::<K>(channel, key), change })
+    }
+
+    /// Times of a channel's keys.
+    pub(super) fn times(&self, bone: u32, property: Property) -> &Arc<[f32]> {
+        let track = &self.original.tracks[bone as usize];
+        match property {
+            Property::Translation => &track.translation.times,
+            Property::Rotation => &track.rotation.times,
+            Property::Scale => &track.scale.times,
+        }
+    }
+
+    /// Gives keys other changes, `None` for none; what they had before.
+    pub(super) fn set_changes(
+        &mut self,
+        bone: u32,
+        property: Property,
+        wanted: &[(u32, Option<KeyChange>)],
+    ) -> Vec<(u32, Option<KeyChange>)> {
+        let changes = Arc::make_mut(self.changes.entry((bone, property)).or_default());
+        let before: Vec<_> =
+            wanted.iter().map(|&(key, change)| (key, exchange(changes, key, change))).collect();
+        if changes.is_empty() {
+            self.changes.remove(&(bone, property));
+        }
+        with_kind!(property, refresh::<K>(self, property, bone, Some(wanted)));
+        before
+    }
+
+    /// Takes keys out (ascending positions as they are) and puts others in (ascending positions as they will be);
+    /// answers with the positions and keys that undo it.
+    pub(super) fn splice(
+        &mut self,
+        bone: u32,
+        property: Property,
+        remove: &[u32],
+        insert: &[(u32, Key)],
+        shared: &mut Shared,
+    ) -> (Vec<u32>, Vec<(u32, Key)>) {
+        let taken = with_kind!(property, spliced::<K>(self, property, bone, remove, insert, shared));
+        (insert.iter().map(|(at, _)| *at).collect(), taken)
+    }
+
+    /// Gives keys other times, without another order; their times from before.
+    pub(super) fn set_times(
+        &mut self,
+        bone: u32,
+        property: Property,
+        wanted: &[(u32, f32)],
+        shared: &mut Shared,
+    ) -> Vec<(u32, f32)> {
+        let old = Arc::clone(self.times(bone, property));
+        let before = wanted.iter().filter_map(|&(key, _)| Some((key, *old.get(key as usize)?))).collect();
+        let times = shared.moved(&old, wanted);
+        with_kind!(property, retimed::<K>(self, bone, &times));
+        before
+    }
+
+    /// Puts a whole channel in the place of another; the other.
+    pub(super) fn replace(&mut self, bone: u32, property: Property, content: Content) -> Content {
+        with_kind!(property, replaced::<K>(self, property, bone, content))
+    }
+
+    /// Puts in other morph tracks; those from before.
+    pub(super) fn set_morphs(&mut self, morphs: Vec<MorphTrack>) -> Vec<MorphTrack> {
+        let before = self.original.morphs.clone();
+        self.both(|take| take.morphs.clone_from(&morphs));
+        before
+    }
+
+    pub(super) fn set_name(&mut self, name: &str) -> String {
+        let before = self.original.name.clone();
+        self.both(|take| take.name = name.to_owned());
+        before
+    }
+
+    /// Does the same to original and result.
+    fn both(&mut self, mut change: impl FnMut(&mut Take)) {
+        change(Arc::make_mut(&mut self.original));
+        if self.changes.is_empty() {
+            self.result = Arc::clone(&self.original);
+        } else {
+            change(Arc::make_mut(&mut self.result));
+        }
+    }
+
+    /// Start and length are those of the keys.
+    pub(super) fn measure(&mut self) {
+        let (start, length) = extent(&self.original);
+        for take in [&mut self.original, &mut self.result] {
+            if take.start.to_bits() != start.to_bits() || take.length.to_bits() != length.to_bits() {
+                let take = Arc::make_mut(take);
+                (take.start, take.length) = (start, length);
+            }
+        }
+        if self.changes.is_empty() {
+            self.result = Arc::clone(&self.original);
+        }
+    }
+}
+
+/// Where the key at `time` is; else where one would come.
+pub(super) fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
+    let after = times.partition_point(|&key| key < time - SAME_TIME);
+    match times.get(after) {
+        Some(&key) if (key - time).abs() <= SAME_TIME => Ok(after),
+        _ => Err(times.partition_point(|&key| key < time)),
+    }
+}
+
+/// Seconds: the first key of any channel, and from it to the last one.
+pub(super) fn extent(take: &Take) -> (f32, f32) {
+    take.range_of_keys().map_or((0.0, 0.0), |(start, end)| (start, end - start))
+}

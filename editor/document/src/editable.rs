@@ -1,0 +1,304 @@
+//! A file that is edited: its data, and what it takes to save it without touching the rest.
+
+use super::adapter::{ModelAdapter, Slot, TakeId};
+use super::load::{LoadError, Source, file_name};
+use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
+use super::{Cancel, Folder, LoadedModel, import, read_file};
+use crate::demo::DRAGONFLY_GLB;
+use dragonfly_anim::data::{AnimationData, ModelData};
+use dragonfly_anim::format::{
+    AssetFs, EditableFile, EditedTake, ExportError, Format, ImportError, NoFiles, ReadOptions, SavePlan,
+};
+use dragonfly_anim::limits::FILE_BYTES;
+use dragonfly_store::{
+    Expected, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file, save_document,
+};
+use std::collections::HashMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A file that is edited.
+pub struct Editable {
+    /// File name without folder.
+    pub title: String,
+    /// Where it is; `None` for the built-in model.
+    pub path: Option<PathBuf>,
+    /// The data as it was read.
+    pub model: Arc<ModelData>,
+    /// What is not shown or was mended, one sentence each.
+    pub warnings: Vec<String>,
+    /// What a save starts from, in the way of the file's format.
+    file: EditableFile,
+    /// What the file was when it was read or saved last.
+    stamp: Option<FileStamp>,
+    /// Its takes as they are in the file now.
+    on_disk: Arc<ModelData>,
+    /// Once it was saved: which animation of the file each take is.
+    places: Option<HashMap<TakeId, usize>>,
+}
+
+/// A file that is written: where, and what.
+pub type Written = (PathBuf, Vec<u8>);
+
+impl Editable {
+    /// Opens `source` to edit it: no texture is decoded.
+    pub fn open(source: &Source, cancel: &Cancel) -> Result<Self, LoadError> {
+        let (name, bytes, path) = match source {
+            Source::BuiltIn => ("dragonfly.glb".to_owned(), DRAGONFLY_GLB.to_vec(), None),
+            Source::File(path) => {
+                let failed = |reason| LoadError::File { path: path.clone(), reason };
+                (file_name(path), read_file(path, FILE_BYTES).map_err(failed)?, Some(path.clone()))
+            }
+        };
+        let wrong = |reason: String| LoadError::Format { title: source.title(), reason };
+        let door = match &path {
+            Some(path) => Some(Folder::of(path).map_err(|error| wrong(error.to_string()))?),
+            None => None,
+        };
+        // Before it is looked at: what changes from now on is somebody else's doing.
+        let stamp = path.as_deref().and_then(|path| FileStamp::take(&RealFiles, path).ok());
+        let door: &dyn AssetFs = door.as_ref().map_or(&NoFiles, |folder| folder);
+        let imported = import::read(&name, &bytes, door, &|_| {}, cancel)?;
+        if stamp.as_ref().is_some_and(|stamp| !stamp.is_of(&bytes)) {
+            return Err(wrong("file: it changed while it was read".to_owned()));
+        }
+        let file = imported.format.edit(&name, bytes, door, &ReadOptions::default());
+        let file = file.map_err(|error| wrong(error.to_string()))?;
+        let (model, warnings) = (Arc::new(imported.model), imported.warnings);
+        let on_disk = Arc::clone(&model);
+        Ok(Self { title: source.title(), path, model, warnings, file, stamp, on_disk, places: None })
+    }
+
+    /// The file behind `loaded`, which was made of `bytes` while the file had this stamp.
+    pub(super) fn of(
+        source: &Source,
+        bytes: Vec<u8>,
+        stamp: Option<FileStamp>,
+        loaded: &LoadedModel,
+    ) -> Result<Self, String> {
+        let format = loaded.format.ok_or("it was not read from a file")?;
+        let name = loaded.path.as_deref().map_or_else(|| "dragonfly.glb".to_owned(), file_name);
+        let file = opened(format, &name, bytes, loaded.path.as_deref()).map_err(|error| error.to_string())?;
+        Ok(Self {
+            title: source.title(),
+            path: loaded.path.clone(),
+            model: Arc::clone(&loaded.model),
+            warnings: loaded.warnings.clone(),
+            file,
+            stamp,
+            on_disk: Arc::clone(&loaded.model),
+            places: None,
+        })
+    }
+
+    /// What saving the takes of `adapter` will write.
+    pub fn plan(&self, adapter: &ModelAdapter) -> Result<SavePlan, ExportError> {
+        let takes: Vec<EditedTake> = adapter
+            .slots()
+            .iter()
+            .map(|slot| EditedTake { origin: self.place(slot), take: Arc::clone(&slot.result) })
+            .collect();
+        self.file.plan(&self.on_disk, &takes)
+    }
+
+    /// What taking away everything that earlier saves left unused will write.
+    pub fn compact(&self) -> Result<SavePlan, ExportError> {
+        self.file.compact(&self.on_disk)
+    }
+
+    /// Which animation of the file a take is.
+    fn place(&self, slot: &Slot) -> Option<usize> {
+        match &self.places {
+            None => slot.origin,
+            Some(places) => places.get(&slot.id).copied(),
+        }
+    }
+
+    /// Everything that a save as `output` writes, in the order in which to write it: what is beside the file first, the
+    /// file itself last, so that it never names what is not there. Files that the model needs go along to another folder.
+    ///
+    /// # Errors
+    ///
+    /// What stands in the way, with its place.
+    pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, String> {
+        let Some((main, beside)) = plan.files.split_last() else { return Ok(Vec::new()) };
+        let folder = folder_of(output);
+        let mut files: Vec<Written> =
+            beside.iter().map(|file| (folder.join(&file.name), file.bytes.clone())).collect();
+        files.extend(self.taken_along(folder)?);
+        files.push((output.to_path_buf(), main.bytes.clone()));
+        Ok(files)
+    }
+
+    /// Does it need files beside it, once `plan` is done?
+    pub fn needs_others(&self, plan: &SavePlan) -> bool {
+        plan.files.len() > 1 || !self.file.neighbors().is_empty()
+    }
+
+    /// Files that the model needs and that are not in `folder`.
+    fn taken_along(&self, folder: &Path) -> Result<Vec<Written>, String> {
+        let Some(from) = self.path.as_deref().map(folder_of) else { return Ok(Vec::new()) };
+        if std::fs::canonicalize(from).ok() == std::fs::canonicalize(folder).ok() {
+            return Ok(Vec::new());
+        }
+        let door = Folder::new(from).map_err(|error| format!("{}: {error}", from.display()))?;
+        let mut found = Vec::new();
+        for name in self.file.neighbors() {
+            let target = folder.join(&name);
+            // What could not be read when the model was opened was a warning then.
+            let Ok(bytes) = door.read(&name, FILE_BYTES) else { continue };
+            match read_file(&target, FILE_BYTES) {
+                Ok(there) if there == bytes => {}
+                _ if target.exists() => {
+                    return Err(format!(
+                        "{}: is another file than the one the model needs",
+                        target.display()
+                    ));
+                }
+                _ => found.push((target, bytes)),
+            }
+        }
+        Ok(found)
+    }
+
+    /// Saves as `output`; the file that was opened is only overwritten while nobody else has changed it. What it is on
+    /// the disk from now on is what later saves begin with.
+    ///
+    /// # Errors
+    ///
+    /// What went wrong, with its place; the old file is whole then.
+    pub fn save(
+        &mut self,
+        adapter: &ModelAdapter,
+        plan: &SavePlan,
+        output: &Path,
+    ) -> Result<Vec<PathBuf>, String> {
+        let own = self.is_own(output);
+        let overwrite = if own { Overwrite::AsRead } else { Overwrite::Anything };
+        let how = Writing { overwrite, journal: None, versions: None, becomes: own };
+        let saved = self.save_with(adapter, plan, output, how).map_err(|error| error.to_string())?;
+        Ok(saved.files)
+    }
+
+    /// Is this the file that was opened?
+    pub(super) fn is_own(&self, path: &Path) -> bool {
+        self.path.as_deref().is_some_and(|own| same_file(own, path))
+    }
+
+    /// The ending of its name.
+    pub fn ending(&self) -> String {
+        let ending = self.path.as_deref().and_then(|path| path.extension()?.to_str().map(str::to_owned));
+        ending.unwrap_or_else(|| self.file.format().extension().to_owned())
+    }
+
+    /// What the file was when it was read or saved last.
+    pub(super) fn stamp(&self) -> Option<&FileStamp> {
+        self.stamp.as_ref()
+    }
+
+    /// Says which animation of the file each take is, of takes that do not begin with those of the file.
+    pub(super) fn set_places(&mut self, places: HashMap<TakeId, usize>) {
+        self.places = Some(places);
+    }
+
+    /// From now on it has no file of its own: the next save asks where.
+    pub(super) fn forget_file(&mut self) {
+        self.stamp = None;
+    }
+
+    /// Saves as `output`.
+    ///
+    /// # Errors
+    ///
+    /// What went wrong; what was there is whole then, unless the error says otherwise.
+    pub(super) fn save_with(
+        &mut self,
+        adapter: &ModelAdapter,
+        plan: &SavePlan,
+        output: &Path,
+        how: Writing<'_>,
+    ) -> Result<FilesSaved, SaveFailure> {
+        let mut files = self.files(plan, output)?;
+        let Some((main, bytes)) = files.pop() else { return Ok(FilesSaved::default()) };
+        let mut saved = FilesSaved::default();
+        for (path, bytes) in &files {
+            make_folder(path)?;
+            let options = SaveOptions::default();
+            save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of)?;
+            saved.files.push(path.clone());
+        }
+        make_folder(&main)?;
+        let expected = match (how.overwrite, &self.stamp) {
+            (Overwrite::AsRead, Some(stamp)) => Expected::Stamp(stamp),
+            (Overwrite::Nothing, _) => Expected::Nothing,
+            _ => Expected::Anything,
+        };
+        let options = SaveOptions { expected, versions: how.versions };
+        let done = match how.journal {
+            Some(journal) => save_document(&RealFiles, journal, &main, &bytes, &options),
+            None => save_file(&RealFiles, &main, &bytes, &options),
+        };
+        let done = done.map_err(SaveFailure::of)?;
+        saved.files.push(main.clone());
+        saved.notices = done.notices;
+        saved.bytes = bytes.len();
+        if how.becomes {
+            self.stamp = Some(done.stamp);
+            self.title = file_name(&main);
+            self.path = Some(main);
+            if let Err(reason) = self.begin_again(adapter, bytes) {
+                saved.notices.push(format!("what was written cannot be saved again: {reason}"));
+            }
+        }
+        Ok(saved)
+    }
+
+    /// The file is `bytes` now, with the takes of `adapter`.
+    fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
+        let file = opened(self.file.format(), &self.title, bytes, self.path.as_deref());
+        self.file = file.map_err(|error| error.to_string())?;
+        let skeleton = Arc::clone(&self.model.animation.skeleton);
+        let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
+        self.on_disk = Arc::new(ModelData { animation, ..ModelData::clone(&self.model) });
+        self.places = Some(places(adapter));
+        Ok(())
+    }
+}
+
+/// Which take of a file each one is, if the file has them all in this order.
+pub(super) fn places(adapter: &ModelAdapter) -> HashMap<TakeId, usize> {
+    adapter.slots().iter().enumerate().map(|(place, slot)| (slot.id, place)).collect()
+}
+
+impl fmt::Debug for Editable {
+    /// Its name; what it holds would fill pages.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "Editable({})", self.title)
+    }
+}
+
+/// Opens `bytes`, the content of the file at `path`, for editing, with access to the files of its folder where there is
+/// one.
+fn opened(
+    format: Format,
+    name: &str,
+    bytes: Vec<u8>,
+    path: Option<&Path>,
+) -> Result<EditableFile, ImportError> {
+    let options = ReadOptions::default();
+    match path.and_then(|path| Folder::of(path).ok()) {
+        Some(folder) => format.edit(name, bytes, &folder, &options),
+        None => format.edit(name, bytes, &NoFiles, &options),
+    }
+}
+
+pub(super) fn same_file(a: &Path, b: &Path) -> bool {
+    matches!((std::fs::canonicalize(a), std::fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// Makes the folder that `path` lies in, where the model wants one that is not there.
+pub fn make_folder(path: &Path) -> Result<(), String> {
+    let folder = folder_of(path);
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))
+}

@@ -1,0 +1,46 @@
+//! The document: what is open, and what everybody may read of it.
+
+mod about;
+pub mod adapter;
+mod alike;
+mod base;
+pub mod bones;
+mod cancel;
+pub mod demo;
+pub mod edit;
+mod editable;
+mod folder;
+mod handle;
+pub mod history;
+pub mod images;
+mod import;
+mod job;
+mod keeper;
+mod load;
+mod message;
+mod offer;
+mod open;
+mod owner;
+pub mod posing;
+pub mod protocol;
+mod recorded;
+mod recovering;
+mod replay;
+mod saving;
+pub mod text;
+mod view;
+mod writing;
+
+pub use cancel::{Cancel, Progress, Stage};
+pub use editable::{Editable, Written, make_folder};
+pub use folder::{DoorError, Folder, read_file};
+pub use handle::DocumentHandle;
+pub use import::formats;
+pub use load::{LoadError, Loader, Opened, Source, load_model, open_model};
+pub use message::{DocumentMessage, DocumentReply};
+pub use offer::Offer;
+pub use open::Change;
+pub use owner::{Document, Setup};
+pub use recovering::Decision;
+pub use saving::{NotSaved, SaveOrder, SaveTo, SavedFile, Then, fits};
+pub use view::{DecodedImage, FileView, HistoryView, LoadedModel, View};

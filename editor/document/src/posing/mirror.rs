@@ -1,0 +1,97 @@
+//! The pose of the other side: what one hand does, done by the other.
+
+use crate::bones::{MirrorPairs, MirrorPlane, Stance};
+use dragonfly_anim::data::{BoneIndex, Skeleton};
+use glam::{Mat3, Mat4, Quat, Vec3};
+
+/// How to mirror poses of one skeleton. Every pose is compared with the stance in which the skeleton is symmetric, so the
+/// axes of the two sides may lie as they like.
+#[derive(Clone, Debug)]
+pub struct Mirror {
+    /// Which bone is the other side of which.
+    pub pairs: MirrorPairs,
+    /// What lies between the sides.
+    pub plane: MirrorPlane,
+    stances: Vec<BoneStance>,
+}
+
+/// A bone before anything moves it.
+#[derive(Clone, Copy, Debug)]
+struct BoneStance {
+    /// Space of the parent → scene space, without place.
+    parent: Mat3,
+    parent_turn: Quat,
+    /// In the space of the parent.
+    translation: Vec3,
+    rotation: Quat,
+    scale: Vec3,
+}
+
+impl Mirror {
+    /// For a skeleton. Takes time in proportion to its bones.
+    pub fn of(skeleton: &Skeleton) -> Self {
+        let pairs = MirrorPairs::of(skeleton);
+        let Stance { to_root, plane, .. } = Stance::of(skeleton, &pairs.pairs);
+        let stance = |(index, bone): (usize, &dragonfly_anim::data::Bone)| {
+            let parent = bone.parent.and_then(|parent| to_root.get(parent as usize)).copied();
+            let parent = parent.filter(|matrix| matrix.determinant().abs() > 1e-18).unwrap_or(Mat4::IDENTITY);
+            let local = parent.inverse() * to_root[index];
+            let (scale, rotation, translation) = parts(&local);
+            BoneStance {
+                parent: Mat3::from_mat4(parent),
+                parent_turn: parts(&parent).1,
+                translation,
+                rotation,
+                scale,
+            }
+        };
+        let stances = skeleton.bones.iter().enumerate().map(stance).collect();
+        Self { pairs, plane, stances }
+    }
+
+    /// Where the mirrored pose of a bone belongs; `None` where its other side is missing.
+    pub fn target(&self, bone: BoneIndex) -> Option<BoneIndex> {
+        self.pairs.mirror_of(bone)
+    }
+
+    /// A translation of `bone` (parent space) as one of its other side.
+    pub fn translation(&self, bone: BoneIndex, translation: Vec3) -> Option<Vec3> {
+        let (from, to) = self.both(bone)?;
+        let moved = self.plane.direction(from.parent * (translation - from.translation));
+        let moved = to.translation + to.parent.inverse() * moved;
+        moved.is_finite().then_some(moved)
+    }
+
+    /// A rotation of `bone` (parent space, unit) as one of its other side.
+    pub fn rotation(&self, bone: BoneIndex, rotation: Quat) -> Option<Quat> {
+        let (from, to) = self.both(bone)?;
+        let turn = from.parent_turn * (rotation * from.rotation.inverse()) * from.parent_turn.inverse();
+        // A mirror keeps what turns in its plane and turns round everything else.
+        let axis = -self.plane.direction(Vec3::new(turn.x, turn.y, turn.z));
+        let turn = Quat::from_xyzw(axis.x, axis.y, axis.z, turn.w);
+        let turned = to.parent_turn.inverse() * turn * to.parent_turn * to.rotation;
+        (turned.is_finite() && turned.length_squared() > 1e-12).then(|| turned.normalize())
+    }
+
+    /// A scale of `bone` as one of its other side.
+    pub fn scale(&self, bone: BoneIndex, scale: Vec3) -> Option<Vec3> {
+        let (from, to) = self.both(bone)?;
+        let scaled = to.scale * (scale / from.scale);
+        scaled.is_finite().then_some(scaled)
+    }
+
+    fn both(&self, bone: BoneIndex) -> Option<(&BoneStance, &BoneStance)> {
+        Some((self.stances.get(bone as usize)?, self.stances.get(self.target(bone)? as usize)?))
+    }
+}
+
+/// Scale, rotation, translation; of a matrix without them what changes nothing.
+fn parts(matrix: &Mat4) -> (Vec3, Quat, Vec3) {
+    let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
+    let whole = scale.is_finite() && rotation.is_finite() && translation.is_finite();
+    if whole && rotation.length_squared() > 0.5 {
+        (scale, rotation.normalize(), translation)
+    } else {
+        (Vec3::ONE, Quat::IDENTITY, Vec3::ZERO)
+    }
+}

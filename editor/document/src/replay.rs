@@ -1,0 +1,159 @@
+//! What a journal holds, done again.
+
+use super::adapter::{ModelAdapter, TakeId};
+use super::alike::alike;
+use super::base;
+use super::edit::VERSION;
+use super::history::Edited;
+use super::recorded::{About, Recorded, Snapshot, built_in_hash};
+use dragonfly_anim::data::{AnimationData, ModelData, Take};
+use dragonfly_store::Entry;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A document with its history, as a journal tells it.
+#[derive(Debug)]
+pub(super) struct Replayed {
+    /// The takes, and what was done to them.
+    pub(super) edited: Edited,
+    /// The takes with which the history begins; those of the file where the journal has none.
+    pub(super) base: Option<Arc<[Arc<Take>]>>,
+    /// The takes when they were saved last, where the journal says so.
+    at_save: Option<Vec<(TakeId, Arc<Take>)>>,
+    /// Why what follows could not be done again; `None` when everything was.
+    pub(super) stopped: Option<String>,
+}
+
+impl Replayed {
+    /// Were the takes, when they were saved last, those of the file `model`?
+    pub(super) fn is_of(&self, model: &ModelData) -> bool {
+        let takes = &model.animation.takes;
+        match &self.at_save {
+            Some(saved) => {
+                saved.len() == takes.len()
+                    && saved
+                        .iter()
+                        .zip(takes)
+                        .all(|((_, saved), take)| Arc::ptr_eq(saved, take) || alike(saved, take))
+            }
+            None => self.base.is_none(),
+        }
+    }
+
+    /// Which take of the file each one is, if the file is what was saved last; `None` where all are still as they were
+    /// in it.
+    pub(super) fn places(&self) -> Option<HashMap<TakeId, usize>> {
+        let saved = self.at_save.as_deref();
+        let saved = saved.or(self.base.as_ref().map(|_| &[][..]))?;
+        Some(saved.iter().enumerate().map(|(place, (id, _))| (*id, place)).collect())
+    }
+}
+
+/// Does everything again, on the takes in the journal or on those of `model`.
+pub(super) fn replay(model: &ModelData, entries: &[Entry]) -> Replayed {
+    let mut replay = Replay {
+        model,
+        replayed: Replayed {
+            edited: Edited::new(ModelAdapter::new(&model.animation)),
+            base: None,
+            at_save: None,
+            stopped: None,
+        },
+    };
+    for entry in entries {
+        let done = match entry {
+            Entry::Snapshot(bytes) => replay.snapshot(bytes),
+            Entry::Edit(bytes) => replay.record(bytes),
+            Entry::Saved => {
+                replay.saved();
+                Ok(())
+            }
+        };
+        if let Err(reason) = done {
+            replay.replayed.stopped = Some(reason);
+            break;
+        }
+    }
+    replay.replayed.edited.end_gesture();
+    replay.replayed
+}
+
+struct Replay<'a> {
+    model: &'a ModelData,
+    replayed: Replayed,
+}
+
+impl Replay<'_> {
+    fn about(&self, about: &About) -> Result<(), String> {
+        if about.version > VERSION {
+            return Err(format!("its edits are of version {}, which a newer program made", about.version));
+        }
+        if about.built_in.is_some_and(|hash| hash != built_in_hash()) {
+            return Err("it was made with the built-in model of another version".to_owned());
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let recorded: Recorded<'_> = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
+        let edited = &mut self.replayed.edited;
+        match recorded {
+            Recorded::Begin(about) => {
+                edited.end_gesture();
+                return self.about(&about);
+            }
+            Recorded::Edit { edit, gesture } => {
+                edited.apply(edit.into_owned(), gesture).map_err(|error| error.to_string())?;
+            }
+            Recorded::Cancel { gesture } => {
+                edited.cancel(gesture);
+            }
+            Recorded::GoTo { steps } => {
+                edited.go_to(steps);
+            }
+        }
+        Ok(())
+    }
+
+    fn snapshot(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let unknown = || "its snapshot is not understood".to_owned();
+        let (snapshot, base) = Snapshot::read(bytes).ok_or_else(unknown)?;
+        self.about(&snapshot.about)?;
+        let animation = &self.model.animation;
+        let takes = match base {
+            Some(bytes) => {
+                base::read(bytes, animation.skeleton.len()).ok_or("its takes are of another model")?
+            }
+            None => animation.takes.clone(),
+        };
+        let instances = self.model.instances.len();
+        if takes.iter().flat_map(|take| &take.morphs).any(|morph| morph.instance as usize >= instances) {
+            return Err("its takes are of another model".to_owned());
+        }
+        self.replayed.base = base.map(|_| takes.clone().into());
+        let skeleton = Arc::clone(&animation.skeleton);
+        let edited = &mut self.replayed.edited;
+        *edited = Edited::new(ModelAdapter::new(&AnimationData { skeleton, takes }));
+        for edit in snapshot.steps {
+            edited.apply(edit, None).map_err(|error| error.to_string())?;
+        }
+        edited.go_to(snapshot.done);
+        edited.set_saved(snapshot.saved);
+        let at_save = snapshot.saved.map(|saved| {
+            let mut then = edited.clone();
+            then.go_to(saved);
+            takes_of(&then)
+        });
+        self.replayed.at_save = at_save.filter(|_| base.is_some());
+        Ok(())
+    }
+
+    fn saved(&mut self) {
+        self.replayed.edited.mark_saved();
+        self.replayed.at_save = Some(takes_of(&self.replayed.edited));
+    }
+}
+
+fn takes_of(edited: &Edited) -> Vec<(TakeId, Arc<Take>)> {
+    edited.adapter().slots().iter().map(|slot| (slot.id, Arc::clone(&slot.result))).collect()
+}

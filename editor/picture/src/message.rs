@@ -1,0 +1,278 @@
+//! What other threads may tell the graphics thread, and what it answers.
+
+use crate::camera::Camera;
+use crate::gizmo::{GizmoSettings, GizmoShape, Handle, Tool};
+use crate::pick::OwnedRegion;
+use crate::playback::Playback;
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::View;
+use dragonfly_document::bones::HiddenBones;
+use glam::Vec3;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// How bones are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum BoneLook {
+    /// Slim octahedra from joint to joint.
+    #[default]
+    Octahedra,
+    /// Thin sticks with a ball at the joint.
+    Sticks,
+    /// One-pixel lines.
+    Lines,
+}
+
+/// What the controls of the scene look like: the appearance of one [`GraphicComponent`](super::control::GraphicComponent).
+#[derive(Clone, Debug)]
+pub enum Appearance {
+    /// The gizmo at the selected bones, wherever they are; none: it is not shown.
+    Gizmo(Option<GizmoLook>),
+    /// The gizmo while it is dragged; none: it waits again.
+    Drag(Option<GizmoShape>),
+    /// Where the selected bone moves along, and the time of the key under the pointer; none: it is not shown.
+    Path(Option<Arc<PathLook>>, Option<f32>),
+    /// The skeleton at other times of the take that is shown: seconds, and how far from now, before now negative.
+    Ghosts(Vec<(f32, i32)>),
+    /// Are ghosts drawn as skins, and not as skeletons?
+    GhostSkins(bool),
+    /// Bones that are pinned, and the row that follows one that is moved; none: nothing of it is shown.
+    Ik(Option<IkLook>),
+}
+
+/// Pins and a row of bones that follows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IkLook {
+    /// Bones that stay.
+    pub pins: Vec<BoneIndex>,
+    /// The end of the row, which is moved, and how many bones above it follow.
+    pub chain: Option<(BoneIndex, u32)>,
+    /// The bone towards which the row bends.
+    pub pole: Option<BoneIndex>,
+}
+
+/// A motion path: seconds, and where the joint is then in scene space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathLook {
+    /// Frame by frame.
+    pub points: Vec<(f32, Vec3)>,
+    /// At keys.
+    pub keys: Vec<(f32, Vec3)>,
+}
+
+/// A gizmo that waits to be taken hold of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GizmoLook {
+    /// What it does.
+    pub tool: Tool,
+    /// How it works: whose axes it has, where it stands.
+    pub settings: GizmoSettings,
+    /// The handle under the pointer.
+    pub hovered: Option<Handle>,
+}
+
+/// How surfaces are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Shading {
+    /// As the materials say.
+    #[default]
+    Material,
+    /// Grey clay, to judge the form.
+    Clay,
+    /// Base colour without light.
+    Unlit,
+}
+
+/// Everything about the viewport that is neither the camera nor the time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// Where the scene goes, in physical pixels of the window: x, y, width, height.
+    pub viewport: [u32; 4],
+    /// Physical pixels a point: how large a hand is on this screen.
+    pub pixels_per_point: f32,
+    /// Linear RGB, top and bottom of the background.
+    pub background: [[f32; 3]; 2],
+    /// Ground grid.
+    pub grid: bool,
+    /// Linear RGB of the grid's lines.
+    pub grid_color: [f32; 3],
+    /// Skeleton over the model.
+    pub skeleton: bool,
+    /// How bones are drawn.
+    pub bone_look: BoneLook,
+    /// Are bones visible through the surface?
+    pub bones_in_front: bool,
+    /// Drawn in the accent colour.
+    pub selected: Vec<BoneIndex>,
+    /// Drawn brighter: the bone under the pointer, in the viewport or the tree.
+    pub hovered: Option<BoneIndex>,
+    /// How surfaces are drawn.
+    pub shading: Shading,
+    /// Is the surface drawn at all?
+    pub surface: bool,
+    /// Linear RGB of bones that are neither selected nor hovered.
+    pub bone_color: [f32; 3],
+    /// Linear RGB of selected bones: the program's accent.
+    pub accent: [f32; 3],
+    /// Not drawn and not picked.
+    pub hidden: Arc<HiddenBones>,
+    /// Linear RGB of handles: along x, y, z; in the plane of the picture; under the pointer; being dragged; and of what was
+    /// before and comes after.
+    pub handles: [[f32; 3]; 8],
+}
+
+impl Default for Look {
+    /// The dark theme in a viewport of no size: fill in the viewport, then what differs.
+    fn default() -> Self {
+        Self {
+            viewport: [0; 4],
+            pixels_per_point: 1.0,
+            background: [[0.046, 0.052, 0.061], [0.014, 0.016, 0.020]],
+            grid: true,
+            grid_color: [0.30, 0.33, 0.37],
+            skeleton: false,
+            bone_look: BoneLook::Octahedra,
+            bones_in_front: true,
+            selected: Vec::new(),
+            hovered: None,
+            shading: Shading::Material,
+            surface: true,
+            bone_color: [0.62, 0.66, 0.72],
+            accent: [0.95, 0.38, 0.06],
+            hidden: Arc::default(),
+            handles: [
+                [0.81, 0.16, 0.15],
+                [0.26, 0.56, 0.12],
+                [0.12, 0.35, 0.84],
+                [0.70, 0.72, 0.74],
+                [1.0, 0.86, 0.35],
+                [1.0, 0.86, 0.35],
+                [0.85, 0.25, 0.16],
+                [0.12, 0.55, 0.60],
+            ],
+        }
+    }
+}
+
+/// One drawing of the panels.
+pub struct PanelsFrame {
+    /// Physical size of the window for which this was laid out.
+    pub size: [u32; 2],
+    /// Physical pixels a point.
+    pub pixels_per_point: f32,
+    /// Triangles, ready to draw.
+    pub jobs: Vec<egui::ClippedPrimitive>,
+    /// Textures that changed since the last frame.
+    pub textures: egui::TexturesDelta,
+}
+
+impl Drop for PanelsFrame {
+    /// egui panics where textures are forgotten, which it takes for a mistake. A drawing that nobody will show, as there is
+    /// no device or no thread any more, is dropped wherever it happens to be, and is none.
+    fn drop(&mut self) {
+        self.textures.clear();
+    }
+}
+
+/// Messages of the graphics thread.
+pub enum GraphicsMessage {
+    /// Shows this instead of what is shown.
+    Show(View),
+    /// Which time of which take.
+    Play(Playback),
+    /// From where.
+    Camera(Camera),
+    /// How.
+    Look(Box<Look>),
+    /// Shows these bones at rest, and all others as they move.
+    Still(Vec<BoneIndex>),
+    /// The panels over it.
+    Panels(Box<PanelsFrame>),
+    /// The window has this many physical pixels; zero when minimised.
+    Resized([u32; 2]),
+    /// Which bone lies under this physical pixel of the window?
+    Pick {
+        /// Physical pixels from the window's top left.
+        position: [f32; 2],
+        /// Comes back in the answer, so that the asker knows which question it belongs to.
+        ticket: u64,
+    },
+    /// Which bones lie under this physical pixel of the window, the nearest first? Where no bone is hit, or none is shown:
+    /// those with most influence on the skin there.
+    PickAll {
+        /// Physical pixels from the window's top left.
+        position: [f32; 2],
+        /// Comes back in the answer.
+        ticket: u64,
+    },
+    /// Which bones lie in there?
+    Catch {
+        /// Points from the top left of the viewport.
+        region: OwnedRegion,
+        /// Comes back in the answer.
+        ticket: u64,
+    },
+    /// A control of the scene looks like this from now on.
+    Control(Box<Appearance>),
+    /// Loses the device on purpose, to show that nothing is lost with it.
+    LoseDevice,
+    /// Panics, at once or when it is about to draw, to show that nothing is lost with it.
+    Fail {
+        /// When it is about to draw?
+        drawing: bool,
+    },
+    /// Starts drawing the scene again after [`GraphicsReply::Paused`].
+    Resume,
+    /// Writes the next whole frame as a PNG, then answers [`GraphicsReply::Captured`].
+    Capture(PathBuf),
+}
+
+/// What the graphics thread tells the main thread.
+#[derive(Debug)]
+pub enum GraphicsReply {
+    /// The device works.
+    Ready {
+        /// Name of the adapter, its backend and driver.
+        adapter: String,
+        /// Longest side of a texture.
+        max_texture_side: u32,
+    },
+    /// Answer to a pick.
+    Picked {
+        /// The bone, or nothing.
+        bone: Option<BoneIndex>,
+        /// As asked.
+        ticket: u64,
+    },
+    /// Answer to [`GraphicsMessage::PickAll`] and [`GraphicsMessage::Catch`].
+    PickedAll {
+        /// The nearest first, or in the order of the skeleton.
+        bones: Vec<BoneIndex>,
+        /// As asked.
+        ticket: u64,
+    },
+    /// Frames drawn so far, and how long the last one took in milliseconds; at most a few times a second.
+    Statistics {
+        /// Since the start.
+        frames: u64,
+        /// Of the last frame.
+        milliseconds: f32,
+    },
+    /// The device was lost and made anew; everything is shown again.
+    Recovered {
+        /// What the driver said.
+        reason: String,
+        /// Losses since the start.
+        losses: u32,
+    },
+    /// Lost too often: the viewport stands still until [`GraphicsMessage::Resume`]; everything else works, the panels
+    /// are still drawn.
+    Paused {
+        /// What the driver said.
+        reason: String,
+    },
+    /// A frame was written, or why not.
+    Captured(Result<PathBuf, String>),
+    /// There is no way to draw; said once.
+    Fatal(String),
+}

@@ -1,0 +1,192 @@
+//! Materials on the device: values, five textures, five samplers.
+
+use super::texture::TextureMaker;
+use crate::gpu::Gpu;
+use crate::uniform::{MaterialUniform, TextureUse};
+use dragonfly_anim::data::{AlphaMode, Filter, Material, TextureRef, Wrap};
+use dragonfly_document::{DecodedImage, LoadedModel};
+use glam::{Vec3, Vec4};
+use std::collections::HashMap;
+use wgpu::util::DeviceExt;
+
+/// Bind group 2 of the model's shader, one a material; the last is that of surfaces without material.
+pub(super) struct GpuMaterials {
+    /// Layout of the groups.
+    pub(super) layout: wgpu::BindGroupLayout,
+    /// Made by the last [`Self::load`].
+    groups: Vec<wgpu::BindGroup>,
+}
+
+/// Texture and sampler of a use.
+type Bound = (wgpu::TextureView, wgpu::Sampler);
+
+impl GpuMaterials {
+    /// No material yet.
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        let fragment = wgpu::ShaderStages::FRAGMENT;
+        let entry =
+            |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: fragment, ty, count: None };
+        let uniform = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: wgpu::BufferSize::new(size_of::<MaterialUniform>() as u64),
+        };
+        let texture = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+        let mut entries = vec![entry(0, uniform)];
+        entries.extend((1..=5).map(|binding| entry(binding, texture)));
+        entries.extend((6..=10).map(|binding| entry(binding, sampler)));
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("material"),
+            entries: &entries,
+        });
+        Self { layout, groups: Vec::new() }
+    }
+
+    /// Takes the materials and images of `loaded` to the device, each image once a way of reading it.
+    pub(super) fn load(&mut self, gpu: &Gpu, maker: &mut TextureMaker, loaded: &LoadedModel) {
+        let mut views = HashMap::new();
+        let mut samplers = HashMap::new();
+        let white = DecodedImage { width: 1, height: 1, pixels: vec![255; 4] };
+        let Some(white) = maker.texture(gpu, &white, false) else { return };
+        let without = Material {
+            metallic: dragonfly_anim::data::Metallic { metallic: 0.0, roughness: 0.8 },
+            base_color: Vec4::new(0.7, 0.7, 0.7, 1.0),
+            ..Material::default()
+        };
+        let materials = loaded.model.materials.iter().chain([&without]);
+        let mut groups = Vec::with_capacity(loaded.model.materials.len() + 1);
+        for material in materials {
+            let mut bind = |use_of: Option<&TextureRef>, encoded: bool| -> (Bound, bool) {
+                let view = use_of.and_then(|use_of| {
+                    let image = loaded.images.get(use_of.image as usize)?.as_ref()?;
+                    views
+                        .entry((use_of.image, encoded))
+                        .or_insert_with(|| maker.texture(gpu, image, encoded))
+                        .clone()
+                });
+                let key = use_of.map(sampler_key).unwrap_or_default();
+                let sampler = samplers.entry(key).or_insert_with(|| sampler(gpu, key)).clone();
+                let there = view.is_some();
+                ((view.unwrap_or_else(|| white.clone()), sampler), there)
+            };
+            let bound = [
+                bind(material.base_color_texture.as_ref(), true),
+                bind(material.metallic_roughness_texture.as_ref(), false),
+                bind(material.normal_texture.as_ref(), false),
+                bind(material.occlusion_texture.as_ref(), false),
+                bind(material.emissive_texture.as_ref(), true),
+            ];
+            let uniform = uniform(material, bound.each_ref().map(|(_, there)| *there));
+            groups.push(self.group(gpu, &uniform, &bound.map(|(bound, _)| bound)));
+        }
+        self.groups = groups;
+    }
+
+    /// The bind group of a material; that of no material for `None` and what is out of range.
+    pub(super) fn group(&self, gpu: &Gpu, uniform: &MaterialUniform, bound: &[Bound; 5]) -> wgpu::BindGroup {
+        let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("material"),
+            contents: bytemuck::bytes_of(uniform),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }];
+        for (index, (view, sampler)) in (1..).zip(bound) {
+            let resource = wgpu::BindingResource::TextureView(view);
+            entries.push(wgpu::BindGroupEntry { binding: index, resource });
+            let resource = wgpu::BindingResource::Sampler(sampler);
+            entries.push(wgpu::BindGroupEntry { binding: index + 5, resource });
+        }
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("material"),
+            layout: &self.layout,
+            entries: &entries,
+        })
+    }
+
+    /// The bind group of material number `index`.
+    pub(super) fn get(&self, index: Option<u32>) -> Option<&wgpu::BindGroup> {
+        let last = self.groups.len().checked_sub(1)?;
+        self.groups.get(index.map_or(last, |index| (index as usize).min(last)))
+    }
+}
+
+/// The material's values; `there` says which textures could be made.
+fn uniform(material: &Material, there: [bool; 5]) -> MaterialUniform {
+    let uses = [
+        &material.base_color_texture,
+        &material.metallic_roughness_texture,
+        &material.normal_texture,
+        &material.occlusion_texture,
+        &material.emissive_texture,
+    ];
+    let mut rows = [TextureUse::default(); 5];
+    for ((row, use_of), there) in rows.iter_mut().zip(uses).zip(there) {
+        if let Some(use_of) = use_of {
+            let matrix = use_of.transform.to_matrix();
+            row.u = matrix.row(0).extend(use_of.set as f32);
+            row.v = matrix.row(1).extend(if there { 1.0 } else { 0.0 });
+        }
+    }
+    let (cut, alpha_mode) = match material.alpha_mode {
+        AlphaMode::Opaque => (0.0, 0),
+        AlphaMode::Mask(cut) => (cut, 1),
+        AlphaMode::Blend => (0.0, 2),
+    };
+    let phong = &material.phong;
+    MaterialUniform {
+        base_color: material.base_color,
+        emissive: material.emissive.extend(cut),
+        metallic: material.metallic.metallic,
+        roughness: material.metallic.roughness,
+        normal_scale: material.normal_scale,
+        occlusion_strength: material.occlusion_strength,
+        phong_ambient: phong.ambient.extend(0.0),
+        phong_diffuse: phong.diffuse.extend(0.0),
+        phong_specular: Vec3::extend(phong.specular, phong.specular_power),
+        use_phong: u32::from(material.use_phong),
+        unlit: u32::from(material.unlit),
+        alpha_mode,
+        pad: 0,
+        uses: rows,
+    }
+}
+
+/// Everything that tells one sampler from another.
+type SamplerKey = ([Wrap; 2], Filter, Filter, bool);
+
+fn sampler_key(use_of: &TextureRef) -> SamplerKey {
+    (use_of.wrap, use_of.magnify, use_of.minify, use_of.mip)
+}
+
+fn sampler(gpu: &Gpu, (wrap, magnify, minify, mip): SamplerKey) -> wgpu::Sampler {
+    let address = |wrap| match wrap {
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::MirroredRepeat => wgpu::AddressMode::MirrorRepeat,
+        Wrap::ClampToEdge => wgpu::AddressMode::ClampToEdge,
+    };
+    let filter = |filter| match filter {
+        Filter::Nearest => wgpu::FilterMode::Nearest,
+        Filter::Linear => wgpu::FilterMode::Linear,
+    };
+    let all_linear = magnify == Filter::Linear && minify == Filter::Linear && mip;
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("image"),
+        address_mode_u: address(wrap[0]),
+        address_mode_v: address(wrap[1]),
+        mag_filter: filter(magnify),
+        min_filter: filter(minify),
+        mipmap_filter: match minify {
+            Filter::Nearest => wgpu::MipmapFilterMode::Nearest,
+            Filter::Linear => wgpu::MipmapFilterMode::Linear,
+        },
+        lod_max_clamp: if mip { 32.0 } else { 0.0 },
+        // Surfaces seen at a flat angle stay sharp. Only allowed where everything is linear.
+        anisotropy_clamp: if all_linear { gpu.anisotropy } else { 1 },
+        ..Default::default()
+    })
+}

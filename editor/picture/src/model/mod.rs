@@ -1,0 +1,196 @@
+//! A model on the device, and how to draw it. Two passes share it: what is solid comes before the ground, what is blended
+//! after it.
+
+mod geometry;
+mod ghost;
+mod material;
+mod pipeline;
+mod texture;
+
+use super::device::DeviceListener;
+use super::ghosts::GhostSkins;
+use super::gpu::Gpu;
+use super::posed::{DrawItem, PosedModel};
+use super::uniform::{Affine, DrawUniform};
+use dragonfly_anim::data::{AlphaMode, Primitive};
+use dragonfly_document::LoadedModel;
+use geometry::GpuGeometry;
+use material::GpuMaterials;
+use pipeline::{Cull, ModelPipelines, PipelineKind};
+use std::collections::HashMap;
+use std::sync::Arc;
+use texture::TextureMaker;
+
+/// See the module.
+#[derive(Default)]
+pub struct GpuModel {
+    /// Kept to load it again on another device.
+    loaded: Option<Arc<LoadedModel>>,
+    resources: Option<Resources>,
+}
+
+/// What a device holds for every model.
+struct Resources {
+    pipelines: ModelPipelines,
+    maker: TextureMaker,
+    materials: GpuMaterials,
+    content: Option<Content>,
+    ghosts: ghost::Ghosts,
+}
+
+/// What a device holds for this model.
+struct Content {
+    loaded: Arc<LoadedModel>,
+    palettes: wgpu::Buffer,
+    weights: wgpu::Buffer,
+    /// Distance between draw uniforms.
+    stride: u32,
+    /// By mesh and primitive.
+    geometries: HashMap<(u32, u32), GpuGeometry>,
+    /// Bind group 1, one a draw item.
+    groups: Vec<wgpu::BindGroup>,
+}
+
+impl DeviceListener for GpuModel {
+    fn on_lost(&mut self) {
+        self.resources = None;
+    }
+
+    fn on_reset(&mut self, gpu: &Gpu) {
+        let materials = GpuMaterials::new(gpu);
+        let pipelines = ModelPipelines::new(gpu, &materials.layout);
+        let maker = TextureMaker::new(gpu);
+        self.resources =
+            Some(Resources { pipelines, maker, materials, content: None, ghosts: Default::default() });
+    }
+}
+
+impl GpuModel {
+    /// Hands this frame's pose to the device; a model not seen before is loaded first.
+    pub fn prepare(&mut self, gpu: &Gpu, posed: Option<&PosedModel>) {
+        self.loaded = posed.map(|posed| Arc::clone(posed.loaded()));
+        let (Some(resources), Some(posed)) = (&mut self.resources, posed) else { return };
+        let known =
+            resources.content.as_ref().is_some_and(|content| Arc::ptr_eq(&content.loaded, posed.loaded()));
+        if !known {
+            resources.load(gpu, posed);
+        }
+        if let Some(content) = &resources.content {
+            gpu.queue.write_buffer(&content.palettes, 0, bytemuck::cast_slice(posed.palettes()));
+            gpu.queue.write_buffer(&content.weights, 0, bytemuck::cast_slice(posed.weights()));
+        }
+        for item in posed.items() {
+            for cull in culls(posed, item) {
+                resources.pipelines.make(gpu, kind(posed, item, *cull));
+            }
+        }
+    }
+
+    /// Hands the poses of ghosts to the device, after [`Self::prepare`].
+    pub fn prepare_ghosts(&mut self, gpu: &Gpu, ghosts: &GhostSkins) {
+        let Some(Resources { pipelines, content: Some(content), ghosts: own, .. }) = &mut self.resources
+        else {
+            return;
+        };
+        own.prepare(gpu, ghosts, pipelines, &content.geometries);
+    }
+
+    /// Draws ghosts.
+    pub fn draw_ghosts(&self, ghosts: &GhostSkins, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
+        if let Some(Resources { content: Some(content), ghosts: own, .. }) = &self.resources {
+            own.draw(gpu, ghosts, &content.geometries, pass);
+        }
+    }
+
+    /// Draws what is solid.
+    pub fn draw_solid(&self, posed: &PosedModel, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
+        for (index, item) in posed.items().iter().enumerate().filter(|(_, item)| !item.blend) {
+            self.draw(posed, index, item, gpu, pass);
+        }
+    }
+
+    /// Draws what is blended, from back to front.
+    pub fn draw_blended(&self, posed: &PosedModel, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
+        for index in posed.back_to_front() {
+            self.draw(posed, index, &posed.items()[index], gpu, pass);
+        }
+    }
+
+    fn draw(
+        &self,
+        posed: &PosedModel,
+        index: usize,
+        item: &DrawItem,
+        gpu: &Gpu,
+        pass: &mut wgpu::RenderPass<'_>,
+    ) {
+        let Some(resources) = &self.resources else { return };
+        let Some(content) = &resources.content else { return };
+        let Some(geometry) = content.geometries.get(&(item.mesh, item.primitive)) else { return };
+        let Some(material) = resources.materials.get(item.material) else { return };
+        pass.set_bind_group(0, &gpu.frame_group, &[]);
+        pass.set_bind_group(1, &content.groups[index], &[index as u32 * content.stride]);
+        pass.set_bind_group(2, material, &[]);
+        pass.set_vertex_buffer(0, geometry.vertices.slice(..));
+        pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for cull in culls(posed, item) {
+            if let Some(pipeline) = resources.pipelines.get(kind(posed, item, *cull)) {
+                pass.set_pipeline(pipeline);
+                pass.draw_indexed(0..geometry.count, 0, 0..1);
+            }
+        }
+    }
+}
+
+impl Resources {
+    fn load(&mut self, gpu: &Gpu, posed: &PosedModel) {
+        let loaded = posed.loaded();
+        self.materials.load(gpu, &mut self.maker, loaded);
+        self.ghosts.forget();
+        let buffer = |label, size, usage| gpu.buffer(label, size, usage);
+        let palettes =
+            buffer("palettes", size_of_val::<[Affine]>(posed.palettes()), wgpu::BufferUsages::STORAGE);
+        let weights =
+            buffer("morph weights", size_of_val::<[f32]>(posed.weights()), wgpu::BufferUsages::STORAGE);
+        let nothing = buffer("no morph deltas", 36, wgpu::BufferUsages::STORAGE);
+        let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
+        let stride = (size_of::<DrawUniform>() as u32).next_multiple_of(alignment);
+        let uniforms =
+            buffer("draws", stride as usize * posed.items().len().max(1), wgpu::BufferUsages::UNIFORM);
+        let mut geometries = HashMap::new();
+        let mut groups = Vec::with_capacity(posed.items().len());
+        for (index, item) in posed.items().iter().enumerate() {
+            let geometry = geometries
+                .entry((item.mesh, item.primitive))
+                .or_insert_with(|| GpuGeometry::new(&gpu.device, primitive(loaded, item)));
+            let offset = index as u64 * u64::from(stride);
+            gpu.queue.write_buffer(&uniforms, offset, bytemuck::bytes_of(&item.uniform));
+            let deltas = geometry.deltas.as_ref().unwrap_or(&nothing);
+            groups.push(self.pipelines.draw_group(gpu, &uniforms, &palettes, &weights, deltas));
+        }
+        self.content =
+            Some(Content { loaded: Arc::clone(loaded), palettes, weights, stride, geometries, groups });
+    }
+}
+
+fn primitive<'a>(loaded: &'a LoadedModel, item: &DrawItem) -> &'a Primitive {
+    &loaded.model.meshes[item.mesh as usize].primitives[item.primitive as usize]
+}
+
+/// Which faces to leave out, one drawing each: of a blended surface seen from both sides the far side is drawn first.
+fn culls(posed: &PosedModel, item: &DrawItem) -> &'static [Cull] {
+    let materials = &posed.loaded().model.materials;
+    let material = item.material.and_then(|material| materials.get(material as usize));
+    match (item.blend, material.is_some_and(|material| material.double_sided)) {
+        (_, false) => &[Cull::Back],
+        (false, true) => &[Cull::Nothing],
+        (true, true) => &[Cull::Front, Cull::Back],
+    }
+}
+
+fn kind(posed: &PosedModel, item: &DrawItem, cull: Cull) -> PipelineKind {
+    let materials = &posed.loaded().model.materials;
+    let material = item.material.and_then(|material| materials.get(material as usize));
+    let mask = material.is_some_and(|material| matches!(material.alpha_mode, AlphaMode::Mask(_)));
+    PipelineKind { mask, blend: item.blend, cull, mirrored: posed.is_mirrored(item) }
+}

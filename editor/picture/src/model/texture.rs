@@ -1,0 +1,173 @@
+//! Images on the device, with all mip levels.
+
+use crate::gpu::Gpu;
+use crate::shaders;
+use dragonfly_document::DecodedImage;
+
+/// Makes textures; keeps what halving a picture takes.
+pub(super) struct TextureMaker {
+    layout: wgpu::BindGroupLayout,
+    module: wgpu::ShaderModule,
+    sampler: wgpu::Sampler,
+    pipelines: [Option<wgpu::RenderPipeline>; 2],
+}
+
+impl TextureMaker {
+    /// A maker on `gpu`.
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        let texture = wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty: wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
+            },
+            count: None,
+        };
+        let sampler = wgpu::BindGroupLayoutEntry {
+            binding: 1,
+            ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+            ..texture
+        };
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("mip"),
+            entries: &[texture, sampler],
+        });
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("mip"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        Self { layout, module: shaders::MIP.module(&gpu.device), sampler, pipelines: [None, None] }
+    }
+
+    /// `image` as a texture; `encoded` when its values are sRGB colours. `None` for an image that is empty, torn or larger
+    /// than the device can hold.
+    pub(super) fn texture(
+        &mut self,
+        gpu: &Gpu,
+        image: &DecodedImage,
+        encoded: bool,
+    ) -> Option<wgpu::TextureView> {
+        let DecodedImage { width, height, .. } = *image;
+        let bytes = u64::from(width) * u64::from(height) * 4;
+        if bytes == 0 || width.max(height) > gpu.max_side || bytes != image.pixels.len() as u64 {
+            return None;
+        }
+        let format =
+            if encoded { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm };
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        let levels = width.max(height).ilog2() + 1;
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("image"),
+            size,
+            mip_level_count: levels,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_DST
+                | wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        gpu.queue.write_texture(
+            texture.as_image_copy(),
+            &image.pixels,
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * 4), rows_per_image: None },
+            size,
+        );
+        self.fill_levels(gpu, &texture, levels, format, encoded);
+        Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+    }
+
+    /// Every level from the one above it. The device filters in linear light, whatever the format stores.
+    fn fill_levels(
+        &mut self,
+        gpu: &Gpu,
+        texture: &wgpu::Texture,
+        levels: u32,
+        format: wgpu::TextureFormat,
+        encoded: bool,
+    ) {
+        let pipeline = self.pipelines[usize::from(encoded)]
+            .get_or_insert_with(|| pipeline(gpu, &self.layout, &self.module, format));
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let view = |level| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                base_mip_level: level,
+                mip_level_count: Some(1),
+                ..Default::default()
+            })
+        };
+        for level in 1..levels {
+            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("mip"),
+                layout: &self.layout,
+                entries: &[
+                    wgpu::BindGroupEntry {
+                        binding: 0,
+                        resource: wgpu::BindingResource::TextureView(&view(level - 1)),
+                    },
+                    wgpu::BindGroupEntry {
+                        binding: 1,
+                        resource: wgpu::BindingResource::Sampler(&self.sampler),
+                    },
+                ],
+            });
+            let target = view(level);
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("mip"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            });
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    module: &wgpu::ShaderModule,
+    format: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("mip"),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("mip"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vs_mip"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("fs_mip"),
+            compilation_options: Default::default(),
+            targets: &[Some(format.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

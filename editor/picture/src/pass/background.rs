@@ -1,0 +1,44 @@
+//! The gradient behind everything.
+
+use super::{Commands, Layer, Pass, Surroundings, scene_pipeline};
+use crate::device::DeviceListener;
+use crate::gpu::Gpu;
+use crate::shaders;
+
+/// Draws it.
+#[derive(Default)]
+pub(super) struct BackgroundPass {
+    pipeline: Option<wgpu::RenderPipeline>,
+}
+
+impl DeviceListener for BackgroundPass {
+    fn on_lost(&mut self) {
+        self.pipeline = None;
+    }
+
+    fn on_reset(&mut self, gpu: &Gpu) {
+        let module = shaders::BACKGROUND.module(&gpu.device);
+        let entries = ["vs_background", "fs_background"];
+        // Blended into the empty picture, so that it writes no depth.
+        self.pipeline = Some(scene_pipeline(gpu, &module, entries, &[], Default::default(), true));
+    }
+}
+
+impl Pass for BackgroundPass {
+    fn name(&self) -> &'static str {
+        "background"
+    }
+
+    fn layer(&self) -> Layer {
+        Layer::Scene
+    }
+
+    fn prepare(&mut self, _: &Surroundings<'_>, _: &mut Commands) {}
+
+    fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
+        let Some(pipeline) = &self.pipeline else { return };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &around.gpu.frame_group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}

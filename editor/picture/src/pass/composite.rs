@@ -1,0 +1,137 @@
+//! The finished scene into the window: encoded for the screen exactly once, and only where the viewport is.
+
+use super::{Commands, Layer, Pass, Surroundings};
+use crate::device::DeviceListener;
+use crate::gpu::Gpu;
+use crate::shaders;
+
+/// Copies it.
+#[derive(Default)]
+pub(super) struct CompositePass {
+    resources: Option<Resources>,
+}
+
+struct Resources {
+    pipeline: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+    place: wgpu::Buffer,
+    /// For the scene's texture it was made for.
+    group: Option<(wgpu::TextureView, wgpu::BindGroup)>,
+}
+
+impl DeviceListener for CompositePass {
+    fn on_lost(&mut self) {
+        self.resources = None;
+    }
+
+    fn on_reset(&mut self, gpu: &Gpu) {
+        let layout = layout(gpu);
+        let place = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("place"),
+            size: 16,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.resources = Some(Resources { pipeline: pipeline(gpu, &layout), layout, place, group: None });
+    }
+}
+
+impl Pass for CompositePass {
+    fn name(&self) -> &'static str {
+        "composite"
+    }
+
+    fn layer(&self) -> Layer {
+        Layer::Window
+    }
+
+    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
+        let (Some(resources), Some(view)) = (&mut self.resources, around.scene_view) else { return };
+        let [x, y, ..] = around.scene.look.viewport;
+        // WGSL twin: `Place` in `shaders/composite.wgsl`.
+        let place = [x as f32, y as f32, 0.0, 0.0];
+        around.gpu.queue.write_buffer(&resources.place, 0, bytemuck::bytes_of(&place));
+        if resources.group.as_ref().is_none_or(|(known, _)| known != view) {
+            let group = around.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("composite"),
+                layout: &resources.layout,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(view) },
+                    wgpu::BindGroupEntry { binding: 1, resource: resources.place.as_entire_binding() },
+                ],
+            });
+            resources.group = Some((view.clone(), group));
+        }
+    }
+
+    fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
+        let Some(resources) = &self.resources else { return };
+        let (Some((_, group)), Some(_)) = (&resources.group, around.scene_view) else { return };
+        // The window may have become smaller than the viewport was laid out for.
+        let [x, y, width, height] = around.scene.look.viewport;
+        let [window_width, window_height] = around.window_size;
+        let width = width.min(window_width.saturating_sub(x));
+        let height = height.min(window_height.saturating_sub(y));
+        if width > 0 && height > 0 {
+            pass.set_pipeline(&resources.pipeline);
+            pass.set_bind_group(0, group, &[]);
+            pass.set_scissor_rect(x, y, width, height);
+            pass.draw(0..3, 0..1);
+            pass.set_scissor_rect(0, 0, window_width, window_height);
+        }
+    }
+}
+
+fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty,
+        count: None,
+    };
+    let texture = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let uniform = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: wgpu::BufferSize::new(16),
+    };
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("composite"),
+        entries: &[entry(0, texture), entry(1, uniform)],
+    })
+}
+
+fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
+    let module = shaders::COMPOSITE.module(&gpu.device);
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("composite"),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    let encode = if gpu.window_format.is_srgb() { "fs_plain" } else { "fs_encode" };
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("composite"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vs_composite"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(encode),
+            compilation_options: Default::default(),
+            targets: &[Some(gpu.window_format.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

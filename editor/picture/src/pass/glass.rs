@@ -1,0 +1,45 @@
+//! The surfaces of the model that one can look through: after the solid ones and the ground.
+
+use super::{Commands, Layer, Pass, Surroundings};
+use crate::device::DeviceListener;
+use crate::gpu::Gpu;
+use crate::model::GpuModel;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// Draws them from back to front.
+pub(super) struct GlassPass {
+    model: Rc<RefCell<GpuModel>>,
+}
+
+impl GlassPass {
+    /// Of this model, which the pass of solid surfaces prepares.
+    pub(super) fn new(model: Rc<RefCell<GpuModel>>) -> Self {
+        Self { model }
+    }
+}
+
+/// The model is a listener of its own.
+impl DeviceListener for GlassPass {
+    fn on_lost(&mut self) {}
+
+    fn on_reset(&mut self, _: &Gpu) {}
+}
+
+impl Pass for GlassPass {
+    fn name(&self) -> &'static str {
+        "glass"
+    }
+
+    fn layer(&self) -> Layer {
+        Layer::Scene
+    }
+
+    fn prepare(&mut self, _: &Surroundings<'_>, _: &mut Commands) {}
+
+    fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
+        if let Some(posed) = around.scene.model().filter(|_| around.scene.look.surface) {
+            self.model.borrow().draw_blended(posed, around.gpu, pass);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Bones in their pose, over the surface or hidden by it.
+
+use super::{Commands, Layer, Pass, Surroundings, scene_pipeline};
+use crate::body::{BodyVertex, triangles};
+use crate::device::DeviceListener;
+use crate::gpu::Gpu;
+use crate::shaders;
+use crate::shape::{Body, BoneInstance};
+use wgpu::util::DeviceExt;
+
+/// The slice of depth that is kept for bones in front: nearer than all else, yet among themselves still in order.
+const IN_FRONT: std::ops::Range<f32> = 0.9..1.0;
+
+/// Draws them.
+#[derive(Default)]
+pub(super) struct SkeletonPass {
+    resources: Option<Resources>,
+}
+
+struct Resources {
+    outline: wgpu::RenderPipeline,
+    solid: wgpu::RenderPipeline,
+    line: wgpu::RenderPipeline,
+    /// In the order of [`Body::ALL`].
+    bodies: [(wgpu::Buffer, u32); 4],
+    /// In the order of [`Body::ALL`]; grow with the skeleton.
+    instances: [Option<wgpu::Buffer>; 4],
+}
+
+impl DeviceListener for SkeletonPass {
+    fn on_lost(&mut self) {
+        self.resources = None;
+    }
+
+    fn on_reset(&mut self, gpu: &Gpu) {
+        let module = shaders::SKELETON.module(&gpu.device);
+        let corner = wgpu::VertexBufferLayout {
+            array_stride: size_of::<BodyVertex>() as u64,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x3, 2 => Float32x3],
+        };
+        let bone = wgpu::VertexBufferLayout {
+            array_stride: size_of::<BoneInstance>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &wgpu::vertex_attr_array![
+                3 => Float32x3, 4 => Float32, 5 => Float32x3, 6 => Uint32, 7 => Float32x3, 8 => Float32
+            ],
+        };
+        let without = |face| wgpu::PrimitiveState { cull_mode: Some(face), ..Default::default() };
+        let (inside, outside) = (without(wgpu::Face::Front), without(wgpu::Face::Back));
+        let buffers = [Some(corner), Some(bone.clone())];
+        let outline = scene_pipeline(gpu, &module, ["vs_outline", "fs_outline"], &buffers, inside, false);
+        let solid = scene_pipeline(gpu, &module, ["vs_bone", "fs_bone"], &buffers, outside, false);
+        let line =
+            scene_pipeline(gpu, &module, ["vs_line", "fs_line"], &[Some(bone)], Default::default(), true);
+        let bodies = Body::ALL.map(|body| {
+            let corners = triangles(body);
+            let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("body"),
+                contents: bytemuck::cast_slice(&corners),
+                usage: wgpu::BufferUsages::VERTEX,
+            });
+            (buffer, corners.len() as u32)
+        });
+        self.resources = Some(Resources { outline, solid, line, bodies, instances: [const { None }; 4] });
+    }
+}
+
+impl Pass for SkeletonPass {
+    fn name(&self) -> &'static str {
+        "skeleton"
+    }
+
+    fn layer(&self) -> Layer {
+        Layer::Scene
+    }
+
+    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
+        let model = around.scene.model().filter(|_| around.scene.look.skeleton);
+        let (Some(resources), Some(model)) = (&mut self.resources, model) else { return };
+        for (body, buffer) in Body::ALL.into_iter().zip(&mut resources.instances) {
+            let bytes: &[u8] = bytemuck::cast_slice(model.shape().instances(body));
+            if bytes.is_empty() {
+                continue;
+            }
+            if buffer.as_ref().is_none_or(|buffer| buffer.size() < bytes.len() as u64) {
+                let room = model.shape().capacity() * size_of::<BoneInstance>();
+                *buffer = Some(around.gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some("bones"),
+                    size: room as u64,
+                    usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+                    mapped_at_creation: false,
+                }));
+            }
+            if let Some(buffer) = buffer {
+                around.gpu.queue.write_buffer(buffer, 0, bytes);
+            }
+        }
+    }
+
+    fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
+        let (Some(resources), Some(model)) = (&self.resources, around.scene.model()) else { return };
+        let look = &around.scene.look;
+        if !look.skeleton {
+            return;
+        }
+        let size = around.scene.size();
+        if look.bones_in_front {
+            pass.set_viewport(0.0, 0.0, size.x, size.y, IN_FRONT.start, IN_FRONT.end);
+        }
+        pass.set_bind_group(0, &around.gpu.frame_group, &[]);
+        for (index, body) in Body::ALL.into_iter().enumerate() {
+            let count = model.shape().instances(body).len() as u32;
+            let (corners, corner_count) = &resources.bodies[index];
+            let Some(instances) = resources.instances[index].as_ref().filter(|_| count > 0) else { continue };
+            if body == Body::Line {
+                pass.set_pipeline(&resources.line);
+                pass.set_vertex_buffer(0, instances.slice(..));
+                pass.draw(0..6, 0..count);
+            } else {
+                pass.set_vertex_buffer(0, corners.slice(..));
+                pass.set_vertex_buffer(1, instances.slice(..));
+                for pipeline in [&resources.outline, &resources.solid] {
+                    pass.set_pipeline(pipeline);
+                    pass.draw(0..*corner_count, 0..count);
+                }
+            }
+        }
+        pass.set_viewport(0.0, 0.0, size.x, size.y, 0.0, 1.0);
+    }
+}

@@ -1,0 +1,47 @@
+//! The solid surfaces of the model.
+
+use super::{Commands, Layer, Pass, Surroundings};
+use crate::device::DeviceListener;
+use crate::gpu::Gpu;
+use crate::model::GpuModel;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// Draws them, and takes the model to the device for whoever draws the rest.
+pub(super) struct SurfacePass {
+    model: Rc<RefCell<GpuModel>>,
+}
+
+impl SurfacePass {
+    /// Of this model.
+    pub(super) fn new(model: Rc<RefCell<GpuModel>>) -> Self {
+        Self { model }
+    }
+}
+
+/// The model is a listener of its own.
+impl DeviceListener for SurfacePass {
+    fn on_lost(&mut self) {}
+
+    fn on_reset(&mut self, _: &Gpu) {}
+}
+
+impl Pass for SurfacePass {
+    fn name(&self) -> &'static str {
+        "surface"
+    }
+
+    fn layer(&self) -> Layer {
+        Layer::Scene
+    }
+
+    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
+        self.model.borrow_mut().prepare(around.gpu, around.scene.model());
+    }
+
+    fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
+        if let Some(posed) = around.scene.model().filter(|_| around.scene.look.surface) {
+            self.model.borrow().draw_solid(posed, around.gpu, pass);
+        }
+    }
+}

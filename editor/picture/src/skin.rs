@@ -1,0 +1,53 @@
+//! Choosing a bone by the skin that it moves.
+
+use super::posed::PosedModel;
+use crate::camera::Ray;
+use crate::pick::{SkinHit, pick_skin};
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_anim::hit::{HitPose, HitTree};
+use dragonfly_document::bones::HiddenBones;
+use std::sync::Arc;
+
+/// Made at the first click that needs it: most of its cost is the tree over the triangles, which stays.
+pub(super) struct SkinPicker {
+    /// None where the triangles are too many for a tree.
+    tree: Option<(Evaluator, HitPose)>,
+    hits: Vec<SkinHit>,
+}
+
+impl SkinPicker {
+    pub(super) fn new(model: &PosedModel) -> Self {
+        let data = &model.loaded().model;
+        let tree = HitTree::of(data)
+            .ok()
+            .map(|tree| (Evaluator::new(Arc::clone(data)), HitPose::new(Arc::new(tree))));
+        Self { tree, hits: Vec::new() }
+    }
+
+    /// The bones that move the skin under a ray most, the nearest first, in the pose that `model` has.
+    pub(super) fn pick(
+        &mut self,
+        model: &PosedModel,
+        ray: &Ray,
+        hidden: &HiddenBones,
+        out: &mut Vec<BoneIndex>,
+    ) {
+        let Some((evaluator, pose)) = &mut self.tree else { return };
+        let (take, time) = model.at();
+        if evaluator.animation_mut().data().takes.len() == model.takes().len() {
+            for (index, take) in model.takes().iter().enumerate() {
+                evaluator.animation_mut().replace_take(index, Arc::clone(take));
+            }
+        }
+        // As it is drawn: with what is pending, and bones held still.
+        evaluator.pose_with(take, time, |poses| {
+            for (pose, shown) in poses.iter_mut().zip(model.poses()) {
+                *pose = *shown;
+            }
+        });
+        pose.refit(evaluator);
+        pick_skin(pose, evaluator, ray, hidden, &mut self.hits);
+        out.extend(self.hits.iter().map(|hit| hit.bone));
+    }
+}

@@ -1,0 +1,60 @@
+//! A second connection to an X server, and the window's name there.
+
+#![allow(unsafe_code)]
+
+use super::connection::MainDisplay;
+use std::ffi::c_int;
+use std::num::NonZeroU32;
+use std::ptr::NonNull;
+use std::sync::Arc;
+use wgpu::rwh::{
+    DisplayHandle, HandleError, RawDisplayHandle, RawWindowHandle, WindowHandle, XcbDisplayHandle,
+    XcbWindowHandle,
+};
+use x11rb::xcb_ffi::XCBConnection;
+
+/// A connection that the main thread does not know; clones are the same connection.
+#[derive(Clone)]
+pub(super) struct Own {
+    connection: Arc<XCBConnection>,
+    screen: c_int,
+}
+
+impl Own {
+    /// Connects to the server that the environment names, as the main thread did; `None` where it talks to another system,
+    /// or the server takes nobody more.
+    pub(super) fn beside(shared: &MainDisplay) -> Option<Self> {
+        let RawDisplayHandle::Xlib(_) = shared.display_handle().ok()?.as_raw() else { return None };
+        match XCBConnection::connect(None) {
+            Ok((connection, screen)) => {
+                Some(Self { connection: Arc::new(connection), screen: c_int::try_from(screen).ok()? })
+            }
+            Err(error) => {
+                tracing::warn!(%error, "no second connection to the X server; a click may be heard late");
+                None
+            }
+        }
+    }
+
+    /// The connection as drivers want it.
+    pub(super) fn display_handle(&self) -> DisplayHandle<'_> {
+        let connection = NonNull::new(self.connection.get_raw_xcb_connection());
+        let raw = XcbDisplayHandle::new(connection, self.screen);
+        // SAFETY: it is an open connection, closed when the last clone of `self` is dropped; the handle borrows from one.
+        unsafe { DisplayHandle::borrow_raw(raw.into()) }
+    }
+
+    /// The same window, for this connection.
+    pub(super) fn window_handle<'a>(
+        &self,
+        handle: WindowHandle<'a>,
+    ) -> Result<WindowHandle<'a>, HandleError> {
+        let RawWindowHandle::Xlib(window) = handle.as_raw() else { return Err(HandleError::NotSupported) };
+        let number = |number| u32::try_from(number).ok().and_then(NonZeroU32::new);
+        let mut raw = XcbWindowHandle::new(number(window.window).ok_or(HandleError::Unavailable)?);
+        raw.visual_id = number(window.visual_id);
+        // SAFETY: the server numbers windows, for all of its connections alike, and this one is borrowed no longer than it
+        // was from the handle given.
+        Ok(unsafe { WindowHandle::borrow_raw(raw.into()) })
+    }
+}

@@ -1,0 +1,27 @@
+//! The window of the program as a target for the graphics thread's frames.
+
+use dragonfly_picture::TargetWindow;
+use std::sync::Arc;
+use winit::raw_window_handle::{DisplayHandle, HandleError, HasDisplayHandle, HasWindowHandle, WindowHandle};
+use winit::window::Window;
+
+/// A window of winit that the graphics thread presents frames in.
+pub(super) struct WinitWindow(pub(super) Arc<Window>);
+
+impl HasDisplayHandle for WinitWindow {
+    fn display_handle(&self) -> Result<DisplayHandle<'_>, HandleError> {
+        self.0.display_handle()
+    }
+}
+
+impl HasWindowHandle for WinitWindow {
+    fn window_handle(&self) -> Result<WindowHandle<'_>, HandleError> {
+        self.0.window_handle()
+    }
+}
+
+impl TargetWindow for WinitWindow {
+    fn pre_present_notify(&self) {
+        self.0.pre_present_notify();
+    }
+}

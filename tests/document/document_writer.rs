@@ -1,0 +1,155 @@
+//! A document in a program of its own, edited by a script that everybody knows, one deed after the other, and each said
+//! when it is done: to be killed, or to have its power cut. It is this file of tests, started again.
+
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, NewKey, TakeRef};
+use dragonfly_document::history::{Edited, Gesture};
+use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Then};
+use dragonfly_kit::document::desk::{Desk, fox_at, rename, turn};
+use dragonfly_kit::random::Random;
+use dragonfly_kit::writer::{Writer, nanoseconds};
+use std::io::Write;
+use std::path::Path;
+use std::time::{Duration, Instant, SystemTime};
+
+/// The folder to work in, for the program that is started.
+const CHILD: &str = "DRAGONFLY_DOCUMENT_CHILD";
+
+/// The number of the first deed that it does.
+const FIRST: &str = "DRAGONFLY_DOCUMENT_CHILD_FIRST";
+
+/// It ends by itself after so long, whatever becomes of the test.
+const LIMIT: Duration = Duration::from_secs(30);
+
+/// Something that is done to a document.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Deed {
+    Change(Change),
+    Save,
+}
+
+/// Deed number `number` of the script: everything that a person does, drags of several edits among it.
+pub(crate) fn deed(number: u32) -> Deed {
+    // Of five deeds in a row, some are one drag.
+    let gesture = Gesture(u64::from(number / 5));
+    if Random::new(u64::from(number / 5)).below(3) == 0 {
+        let end = number % 5 == 4;
+        return Deed::Change(if end {
+            Change::Release(gesture)
+        } else {
+            Change::Edit(turn(number as f32 * 0.01), Some(gesture))
+        });
+    }
+    let mut random = Random::new(u64::from(number) + 1_000_000);
+    let take = || TakeRef::Index(1);
+    let bone = || BoneRef::Name("b_Neck_04".to_owned());
+    let pose = || BonePose {
+        bone: bone(),
+        translation: None,
+        rotation: Some([0.0, 0.1, 0.0, 1.0]),
+        scale: Some([1.0, 1.0, 1.0 + number as f32 * 1e-4]),
+    };
+    Deed::Change(match random.below(16) {
+        0 => Change::Undo,
+        1 => Change::Redo,
+        2 => Change::GoTo(random.below(8)),
+        3 => return Deed::Save,
+        4 => Change::Cancel(gesture),
+        5 | 6 => Change::Edit(rename(&format!("take {number}")), None),
+        7 => {
+            let (time, bones, properties) = (0.01 + random.unit() * 0.5, vec![bone()], Vec::new());
+            let value = NewKey::default();
+            Change::Edit(
+                Edit::AddKeys { take: take(), time, bones, properties, value, keyed_only: false },
+                None,
+            )
+        }
+        8 => Change::Edit(Edit::Pend { take: take(), time: random.unit() * 0.5, poses: vec![pose()] }, None),
+        9 => Change::Edit(Edit::ReverseTake { take: TakeRef::Index(2) }, None),
+        _ => Change::Edit(turn(random.unit() * 3.0), None),
+    })
+}
+
+/// Does a deed to takes in memory, as the document does it to its own.
+pub(crate) fn done_to(edited: &mut Edited, deed: &Deed) {
+    match deed {
+        Deed::Save => edited.mark_saved(),
+        Deed::Change(Change::Edit(edit, gesture)) => drop(edited.apply(edit.clone(), *gesture)),
+        Deed::Change(Change::Release(_)) => {}
+        Deed::Change(Change::Cancel(gesture)) => drop(edited.cancel(*gesture)),
+        Deed::Change(Change::Undo) => drop(edited.undo()),
+        Deed::Change(Change::Redo) => drop(edited.redo()),
+        Deed::Change(Change::GoTo(steps)) => drop(edited.go_to(*steps)),
+    }
+}
+
+/// Not a promise of its own: what the program does that is started.
+#[test]
+fn a_document_is_edited_until_it_is_killed() {
+    let Some(folder) = std::env::var_os(CHILD) else { return };
+    let number = std::env::var(FIRST).ok().and_then(|first| first.parse().ok());
+    edit_on(Path::new(&folder), number);
+}
+
+fn edit_on(folder: &Path, first: Option<u32>) {
+    let mut out = std::io::stdout();
+    // With the time when it was done: when it is read says less.
+    let mut say = |what: &str| {
+        let line = format!("{what} {}\n", nanoseconds(SystemTime::now()));
+        out.write_all(line.as_bytes()).and_then(|()| out.flush()).is_ok()
+    };
+    say("\nstarted");
+    let (mut desk, names) = come_back(folder);
+    let mut number = first.unwrap_or(names);
+    let began = Instant::now();
+    while began.elapsed() < LIMIT {
+        // Without a script the takes themselves count the deeds.
+        let done = if first.is_some() { deed(number) } else { named(number + 1) };
+        match &done {
+            Deed::Save => drop(desk.save(SaveTo::Own)),
+            Deed::Change(change) => {
+                desk.change(change.clone());
+                // Answered behind it, when it is done and recorded.
+                desk.tell(DocumentMessage::Leave(Then::Quit));
+                desk.hears(|reply| matches!(reply, DocumentReply::Leave(..)).then_some(()));
+            }
+        }
+        number += 1;
+        if !say(&format!("e {number}")) {
+            break;
+        }
+    }
+}
+
+/// A deed whose number can be read in the takes.
+fn named(number: u32) -> Deed {
+    Deed::Change(Change::Edit(rename(&number.to_string()), None))
+}
+
+/// Opens the document in `folder` as a person does who wants their work back; and the number in the name of its take.
+pub(crate) fn come_back(folder: &Path) -> (Desk, u32) {
+    let mut desk = Desk::new(&folder.join("autosave"));
+    let mut view = desk.open(&fox_at(&folder.join("Fox.glb")));
+    // What is offered is said before the model is shown.
+    if let Some(offer) = desk.offered_already().into_iter().next() {
+        desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+        let generation = view.generation;
+        view = desk.shows(|view| view.generation > generation);
+    }
+    let number = view.takes[0].name.parse().unwrap_or(0);
+    (desk, number)
+}
+
+/// Starts it with the script from deed `first` on.
+pub(crate) fn start(folder: &Path, first: u32) -> Writer {
+    Writer::of(&test(), &[(CHILD, folder.as_os_str()), (FIRST, first.to_string().as_ref())])
+}
+
+/// Starts it with deeds that can be counted.
+pub(crate) fn start_counting(folder: &Path) -> Writer {
+    Writer::of(&test(), &[(CHILD, folder.as_os_str())])
+}
+
+fn test() -> String {
+    let module = module_path!().split_once("::").expect("a module of the tests").1;
+    format!("{module}::a_document_is_edited_until_it_is_killed")
+}

@@ -1,0 +1,128 @@
+//! What edits cost: memory and time in proportion to what they touch.
+
+use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, KeySet, Property, TakeRef};
+use dragonfly_document::history::{Edited, Gesture};
+use dragonfly_kit::counting;
+use dragonfly_kit::document::made_take::pose;
+use glam::{Mat4, Quat, Vec3};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A take of so many bones with so many keys in each of their channels; one column of times.
+fn model(bones: u32, keys: usize) -> AnimationData {
+    let bone = |bone: u32| Bone {
+        name: format!("bone {bone}"),
+        parent: bone.checked_sub(1),
+        rest: Transform::IDENTITY,
+        rest_matrix: None,
+        offset: Mat4::IDENTITY,
+        node: None,
+    };
+    let times: Arc<[f32]> = (0..keys).map(|key| key as f32 / 120.0).collect();
+    let linear = Interpolation::Linear;
+    let track = |bone| Track {
+        bone,
+        translation: Channel::new(Arc::clone(&times), vec![Vec3::ONE; keys], linear),
+        rotation: Channel::new(Arc::clone(&times), vec![Quat::IDENTITY; keys], linear),
+        scale: Channel::new(Arc::clone(&times), vec![Vec3::ONE; keys], linear),
+    };
+    let length = (keys - 1) as f32 / 120.0;
+    let take = Take { length, tracks: (0..bones).map(track).collect(), ..Take::default() };
+    AnimationData {
+        skeleton: Arc::new(Skeleton { bones: (0..bones).map(bone).collect() }),
+        takes: vec![Arc::new(take)],
+    }
+}
+
+fn turned(bone: u32, by: f32) -> BonePose {
+    let rotation = Some(Quat::from_rotation_x(by).to_array());
+    BonePose { bone: BoneRef::Index(bone), rotation, ..pose("") }
+}
+
+#[test]
+fn a_document_to_which_nothing_was_done_costs_next_to_nothing_beside_its_original() {
+    let (original, data) = counting::peak(|| model(50, 2000));
+    let (more, edited) = counting::peak(|| Edited::new(ModelAdapter::new(&data)));
+    assert!(more * 5 < original, "{more} bytes beside {original}");
+    assert_eq!(edited.adapter().slots().len(), 1);
+}
+
+#[test]
+fn an_edit_keeps_memory_in_proportion_to_what_it_touches() {
+    let kept = |bones: u32| {
+        let data = model(bones, 2000);
+        let mut edited = Edited::new(ModelAdapter::new(&data));
+        let (peak, ()) = counting::peak(|| {
+            let edit =
+                Edit::Set { take: TakeRef::Index(0), time: 1.0, poses: vec![turned(3, 0.5)], unstep: true };
+            edited.apply(edit, None).unwrap();
+        });
+        peak
+    };
+    // A column of rotations, and what says which columns there are: 128 bytes a bone.
+    let (few, many) = (kept(10), kept(500));
+    assert!(few < 3 * 2000 * 16, "{few}");
+    assert!(many - few < 500 * 1000, "{few} with 10 bones, {many} with 500");
+}
+
+#[test]
+fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
+    let bytes = |bones: u32, keys: usize, time: f32| {
+        let data = model(bones, keys);
+        let mut edited = Edited::new(ModelAdapter::new(&data));
+        let mut shown = Vec::new();
+        let mut most = 0;
+        for step in 0..40 {
+            let poses = vec![turned(3, step as f32 * 0.01), turned(4, step as f32 * 0.02)];
+            let edit = Edit::Set { take: TakeRef::Index(0), time, poses, unstep: true };
+            let (count, done) = counting::count(|| edited.apply(edit, Some(Gesture(1))));
+            done.unwrap();
+            // Until there is memory for what is shown at the same time, it is asked for.
+            if step >= 8 {
+                most = most.max(count.bytes);
+            }
+            // The panels and the picture show one state each.
+            if shown.len() == 2 {
+                shown.remove(0);
+            }
+            shown.push(Arc::clone(&edited.adapter().slots()[0]));
+        }
+        most
+    };
+    for time in [0.5, 0.503] {
+        let small = bytes(10, 100, time);
+        assert_eq!(small, bytes(300, 100, time), "more bones");
+        assert_eq!(small, bytes(10, 20_000, time), "more keys");
+        assert!(small < 2000, "{small} bytes a move");
+    }
+}
+
+#[test]
+fn a_hundred_thousand_keys_move_without_being_felt() {
+    let data = model(200, 1500);
+    let mut edited = Edited::new(ModelAdapter::new(&data));
+    let set = |bone| KeySet {
+        bones: vec![BoneRef::Index(bone)],
+        properties: vec![Property::Rotation],
+        at: Some((1000..1500).map(|key| key as f32 / 120.0).collect()),
+        ..KeySet::default()
+    };
+    let keys: Vec<KeySet> = (0..200).map(set).collect();
+    let quickest = (0..5)
+        .map(|step| {
+            let by = 0.01 + step as f32 * 0.1;
+            let edit = Edit::MoveKeys { take: TakeRef::Index(0), keys: keys.clone(), by };
+            let begin = Instant::now();
+            edited.apply(edit, Some(Gesture(1))).unwrap();
+            begin.elapsed()
+        })
+        .min()
+        .unwrap();
+    assert_eq!(edited.adapter().check(), Ok(()));
+    let track = &edited.adapter().slots()[0].result.tracks[7];
+    assert!((track.rotation.times[1000] - (1000.0 / 120.0 + 0.41)).abs() < 1e-4);
+    assert_eq!(track.translation.times[1000], 1000.0 / 120.0);
+    assert!(quickest.as_millis() < 250, "{quickest:?}: seconds once, milliseconds now");
+}

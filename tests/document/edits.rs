@@ -1,0 +1,421 @@
+//! Edits: what each does.
+
+use dragonfly_anim::data::{Interpolation, Take, Transform};
+use dragonfly_anim::sample::sample_take;
+use dragonfly_document::adapter::{EditError, ModelAdapter};
+use dragonfly_document::edit::{
+    Between, BonePose, EXAMPLES, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
+};
+use dragonfly_kit::document::made_take::{animation, bone, model, pose, walk};
+use dragonfly_kit::random::Random;
+use glam::{Quat, Vec3};
+use std::sync::Arc;
+
+fn set(time: f32, pose: BonePose) -> Edit {
+    Edit::Set { take: walk(), time, poses: vec![pose], unstep: false }
+}
+
+fn sampled(model: &ModelAdapter, take: &Take, time: f32) -> Vec<Transform> {
+    let mut poses = vec![Transform::IDENTITY; model.skeleton().len()];
+    sample_take(Some(take), model.skeleton(), time, &mut poses);
+    poses
+}
+
+/// Largest difference of two poses in any number; rotations with either sign.
+fn apart(a: &[Transform], b: &[Transform]) -> f32 {
+    let of = |(a, b): (&Transform, &Transform)| {
+        let turn = (a.rotation - b.rotation).length().min((a.rotation + b.rotation).length());
+        turn.max((a.translation - b.translation).length()).max((a.scale - b.scale).length())
+    };
+    a.iter().zip(b).map(of).fold(0.0, f32::max)
+}
+
+#[test]
+fn a_document_to_which_nothing_was_done_shares_everything_with_what_was_read() {
+    let animation = animation(&mut Random::new(1));
+    let model = ModelAdapter::new(&animation);
+    for (slot, take) in model.slots().iter().zip(&animation.takes) {
+        assert!(Arc::ptr_eq(&slot.original, take) && Arc::ptr_eq(&slot.result, take));
+    }
+    assert_eq!(model.check(), Ok(()));
+}
+
+#[test]
+fn a_value_that_is_set_is_what_the_result_holds_and_the_original_stays() {
+    let mut model = model(2);
+    let before = Arc::clone(&model.slots()[0].original);
+    let turn = Quat::from_rotation_y(0.7);
+    let wanted = BonePose {
+        translation: Some([1.0, 2.0, 3.0]),
+        rotation: Some(turn.to_array()),
+        scale: Some([2.0, 0.5, 1.0]),
+        ..pose("root")
+    };
+    model.apply(&set(0.25, wanted)).unwrap();
+    model.check().unwrap();
+    let slot = &model.slots()[0];
+    let track = &slot.result.tracks[0];
+    assert_eq!(track.translation.values[2], Vec3::new(1.0, 2.0, 3.0));
+    assert!((track.rotation.values[2] - turn).length() < 1e-6);
+    // A product cannot reach every number; the nearest one is a last bit away.
+    assert!((track.scale.values[2] - Vec3::new(2.0, 0.5, 1.0)).abs().max_element() < 2e-7);
+    assert_eq!(*slot.original, *before);
+    assert_eq!(slot.changes(0, Property::Translation).len(), 1);
+    // What was not touched is the same memory.
+    assert!(Arc::ptr_eq(&track.translation.times, &before.tracks[0].translation.times));
+    assert!(Arc::ptr_eq(&slot.result.tracks[1].rotation.values, &before.tracks[1].rotation.values));
+}
+
+/// In the take "stand": bone, seconds, metres along x.
+fn stands(name: &str, time: f32, x: f32, unstep: bool) -> Edit {
+    let wanted = BonePose { translation: Some([x, 0.0, 0.0]), ..pose(name) };
+    Edit::Set { take: TakeRef::Name("stand".to_owned()), time, poses: vec![wanted], unstep }
+}
+
+#[test]
+fn a_pose_put_on_what_stands_still_in_steps_is_moved_to_and_from() {
+    let mut model = model(40);
+    let between = |model: &ModelAdapter, bone: usize| {
+        let slot = &model.slots()[2];
+        let [at, middle] = [0.0, 0.25].map(|time| sampled(model, &slot.result, time)[bone].translation);
+        (at, middle)
+    };
+    let before = between(&model, 1).0;
+    model.apply(&stands("hip", 0.5, 9.0, true)).unwrap();
+    model.check().unwrap();
+    let (at, middle) = between(&model, 1);
+    assert_eq!(at, before);
+    assert!((middle - (before + Vec3::new(9.0, 0.0, 0.0)) * 0.5).length() < 1e-5, "{middle}");
+    // Only the channel that got a pose; and only where the edit says so.
+    let track = &model.slots()[2].result.tracks[1];
+    assert_eq!(track.rotation.interpolation, Interpolation::Step);
+    model.apply(&stands("root", 0.5, 9.0, false)).unwrap();
+    let (at, middle) = between(&model, 0);
+    assert_eq!(at, middle);
+}
+
+#[test]
+fn steps_that_somebody_made_stay_steps() {
+    // Keys one by one: a pose that holds, then another one.
+    let mut model = model(41);
+    model.apply(&stands("hip", 0.5, 9.0, false)).unwrap();
+    model.apply(&stands("hip", 0.7, 3.0, true)).unwrap();
+    assert_eq!(model.slots()[2].result.tracks[1].translation.interpolation, Interpolation::Step);
+    // More than two keys, however alike.
+    let hand = BonePose { translation: Some([1.0; 3]), ..pose("hand.L") };
+    model.apply(&Edit::Set { take: walk(), time: 0.3, poses: vec![hand], unstep: true }).unwrap();
+    assert_eq!(model.slots()[0].result.tracks[2].translation.interpolation, Interpolation::Step);
+}
+
+#[test]
+fn the_change_is_what_was_added_turned_and_multiplied() {
+    let mut model = model(3);
+    let wanted = BonePose {
+        translation: Some([0.5, 0.0, 0.0]),
+        rotation: Some(Quat::from_rotation_x(0.3).to_array()),
+        scale: Some([2.0, 1.0, 1.0]),
+        ..pose("hand.L")
+    };
+    model.apply(&Edit::Offset { take: walk(), time: 0.5, poses: vec![wanted], unstep: false }).unwrap();
+    model.check().unwrap();
+    let slot = &model.slots()[0];
+    let translation = slot.change(2, Property::Translation, 4);
+    assert!((translation[0] - 0.5).abs() < 1e-6 && translation[1].abs() < 1e-6, "{translation:?}");
+    let turn = Quat::from_array(slot.change(2, Property::Rotation, 4));
+    assert!(turn.angle_between(Quat::from_rotation_x(0.3)) < 1e-3, "{turn}");
+    let scale = slot.change(2, Property::Scale, 4);
+    assert!((scale[0] - 2.0).abs() < 1e-6, "{scale:?}");
+    assert_eq!(slot.change(2, Property::Translation, 3), [0.0; 4]);
+}
+
+#[test]
+fn setting_what_is_there_changes_nothing_and_resetting_gives_the_original_back() {
+    let mut model = model(4);
+    let value = model.slots()[0].original.tracks[0].translation.values[0];
+    model.apply(&set(0.0, BonePose { translation: Some(value.to_array()), ..pose("root") })).unwrap();
+    assert!(Arc::ptr_eq(&model.slots()[0].original, &model.slots()[0].result));
+    model.apply(&set(0.0, BonePose { translation: Some([9.0, 9.0, 9.0]), ..pose("root") })).unwrap();
+    let (bones, properties) = (vec![bone("root")], Vec::new());
+    let reset = |to| Edit::Reset {
+        take: walk(),
+        time: 0.0,
+        bones: bones.clone(),
+        properties: Vec::clone(&properties),
+        to,
+    };
+    model.apply(&reset(ResetTo::Original)).unwrap();
+    assert!(Arc::ptr_eq(&model.slots()[0].original, &model.slots()[0].result));
+    model.apply(&reset(ResetTo::Rest)).unwrap();
+    model.check().unwrap();
+    assert_eq!(model.slots()[0].result.tracks[0].translation.values[0], Vec3::Y);
+}
+
+#[test]
+fn a_new_key_is_an_exact_copy_of_its_predecessor_in_original_change_and_result() {
+    let mut model = model(5);
+    model.apply(&set(0.25, BonePose { translation: Some([5.0, 6.0, 7.0]), ..pose("root") })).unwrap();
+    let add = Edit::AddKeys {
+        take: walk(),
+        time: 0.3,
+        bones: vec![bone("root")],
+        properties: vec![Property::Translation],
+        value: NewKey::Predecessor,
+        keyed_only: false,
+    };
+    model.apply(&add).unwrap();
+    model.check().unwrap();
+    let slot = &model.slots()[0];
+    let [original, result] = [&slot.original, &slot.result].map(|take| &take.tracks[0].translation);
+    assert_eq!((original.times.len(), original.times[3]), (10, 0.3));
+    assert_eq!(original.values[3], original.values[2]);
+    assert_eq!(result.values[3], Vec3::new(5.0, 6.0, 7.0));
+    assert_eq!(slot.change(0, Property::Translation, 3), slot.change(0, Property::Translation, 2));
+    assert_eq!(model.apply(&add).unwrap_err(), EditError::Nothing("there are keys at that time"));
+}
+
+#[test]
+fn keys_that_keep_the_motion_leave_every_curve_where_it_was() {
+    let mut model = model(6);
+    model.apply(&set(0.5, BonePose { translation: Some([1.0, 1.0, 1.0]), ..pose("hip") })).unwrap();
+    let before = Arc::clone(&model.slots()[0].result);
+    let add = |time| Edit::AddKeys {
+        take: walk(),
+        time,
+        bones: Vec::new(),
+        properties: Vec::new(),
+        value: NewKey::Current,
+        keyed_only: false,
+    };
+    for time in [0.05, 0.33, 0.45, 0.97] {
+        model.apply(&add(time)).unwrap();
+    }
+    model.check().unwrap();
+    for step in 0..=100 {
+        let time = step as f32 * 0.01;
+        let (old, new) = (sampled(&model, &before, time), sampled(&model, &model.slots()[0].result, time));
+        // A rotation's spline is normalised between its keys, so a new key bends it a little.
+        let bound = if (old[1].rotation - new[1].rotation).length() > 2e-5 { 0.05 } else { 2e-5 };
+        assert!(apart(&old, &new) < bound, "{time}: {}", apart(&old, &new));
+    }
+}
+
+#[test]
+fn channels_with_one_column_of_times_have_one_afterwards() {
+    let mut model = model(7);
+    model
+        .apply(&Edit::AddKeys {
+            take: walk(),
+            time: 0.2,
+            bones: vec![bone("root"), bone("hip")],
+            properties: Vec::new(),
+            value: NewKey::Current,
+            keyed_only: false,
+        })
+        .unwrap();
+    let tracks = &model.slots()[0].original.tracks;
+    assert!(Arc::ptr_eq(&tracks[0].translation.times, &tracks[1].scale.times));
+    model.apply(&Edit::RetimeTake { take: walk(), start: None, length: Some(2.0) }).unwrap();
+    let tracks = &model.slots()[0].original.tracks;
+    assert!(Arc::ptr_eq(&tracks[0].translation.times, &tracks[1].scale.times));
+}
+
+#[test]
+fn moved_keys_take_the_place_of_those_they_come_to_lie_on() {
+    let mut model = model(8);
+    let values = model.slots()[0].original.tracks[0].translation.values.clone();
+    let keys = vec![KeySet { bones: vec![bone("root")], at: Some(vec![0.25]), ..KeySet::default() }];
+    model.apply(&Edit::MoveKeys { take: walk(), keys, by: 0.25 }).unwrap();
+    model.check().unwrap();
+    let channel = &model.slots()[0].original.tracks[0].translation;
+    assert_eq!(&channel.times[..4], [0.0, 0.125, 0.375, 0.5]);
+    assert_eq!(channel.values[3], values[2]);
+    assert_eq!(channel.len(), 8);
+}
+
+#[test]
+fn a_take_keeps_a_key_and_a_model_a_take() {
+    let mut model = model(9);
+    let all = Edit::DeleteKeys { take: walk(), keys: vec![KeySet::default()] };
+    assert_eq!(model.apply(&all).unwrap_err(), EditError::LastKey);
+    for name in ["walk", "stand"] {
+        model.apply(&Edit::DeleteTake { take: TakeRef::Name(name.to_owned()) }).unwrap();
+    }
+    let last = Edit::DeleteTake { take: TakeRef::Index(0) };
+    assert_eq!(model.apply(&last).unwrap_err(), EditError::LastTake);
+}
+
+#[test]
+fn ripple_makes_room_and_closing_it_again_gives_the_take_back() {
+    let mut model = model(10);
+    let before = Arc::clone(&model.slots()[0].result);
+    model.apply(&Edit::Ripple { take: walk(), from: 0.5, by: 0.25 }).unwrap();
+    model.check().unwrap();
+    assert_eq!(model.slots()[0].result.end(), 1.25);
+    assert_eq!(model.slots()[0].result.morphs[0].times[4], 0.75);
+    model.apply(&Edit::Ripple { take: walk(), from: 0.75, by: -0.25 }).unwrap();
+    model.check().unwrap();
+    let after = &model.slots()[0].result;
+    for (old, new) in before.tracks.iter().zip(&after.tracks) {
+        assert_eq!(old.rotation.values, new.rotation.values);
+    }
+}
+
+#[test]
+fn of_a_take_that_is_trimmed_to_one_time_the_pose_is_left_that_it_had_there() {
+    let mut model = model(12);
+    let before = Arc::clone(&model.slots()[0].result);
+    let trim = Edit::TrimTake { take: walk(), from: 0.3, to: 0.3, to_start: false };
+    model.apply(&trim).unwrap();
+    model.check().unwrap();
+    let after = &model.slots()[0].result;
+    assert_eq!((after.start, after.length), (0.3, 0.0));
+    assert!(apart(&sampled(&model, &before, 0.3), &sampled(&model, after, 0.3)) < 1e-5);
+}
+
+#[test]
+fn what_a_trim_leaves_can_move_to_where_the_take_began() {
+    let mut model = model(13);
+    let before = Arc::clone(&model.slots()[0].result);
+    model.apply(&Edit::TrimTake { take: walk(), from: 0.3, to: 0.8, to_start: true }).unwrap();
+    model.check().unwrap();
+    let after = &model.slots()[0].result;
+    assert_eq!(after.start, before.start);
+    assert!((after.length - 0.5).abs() < 1e-6);
+    for time in [0.0, 0.2, 0.5] {
+        assert!(apart(&sampled(&model, &before, time + 0.3), &sampled(&model, after, time)) < 1e-4, "{time}");
+    }
+}
+
+#[test]
+fn a_take_reversed_twice_is_the_take_and_once_it_runs_backwards() {
+    let mut model = model(11);
+    let before = Arc::clone(&model.slots()[0].result);
+    let reverse = Edit::ReverseTake { take: walk() };
+    model.apply(&reverse).unwrap();
+    model.check().unwrap();
+    let once = Arc::clone(&model.slots()[0].result);
+    for step in 0..=40 {
+        let time = step as f32 * 0.025;
+        let (old, new) = (sampled(&model, &before, 1.0 - time), sampled(&model, &once, time));
+        for linear_or_cubic in [0, 1, 3] {
+            let apart =
+                apart(&old[linear_or_cubic..=linear_or_cubic], &new[linear_or_cubic..=linear_or_cubic]);
+            assert!(apart < 2e-4, "{time} {linear_or_cubic}: {apart}");
+        }
+    }
+    model.apply(&reverse).unwrap();
+    let twice = &model.slots()[0].result;
+    for (old, new) in before.tracks.iter().zip(&twice.tracks) {
+        assert_eq!(old.translation.values, new.translation.values);
+    }
+    assert_eq!(before.morphs[0].weights, twice.morphs[0].weights);
+}
+
+#[test]
+fn the_two_parts_of_a_split_take_play_what_the_whole_did() {
+    let mut model = model(12);
+    let before = Arc::clone(&model.slots()[0].result);
+    model.apply(&Edit::SplitTake { take: walk(), time: 0.44, name: "end".to_owned() }).unwrap();
+    model.check().unwrap();
+    let [first, second] = [0, 1].map(|take| Arc::clone(&model.slots()[take].result));
+    assert_eq!((second.name.as_str(), second.start), ("end", 0.0));
+    assert!((first.end() - 0.44).abs() < 1e-6 && (second.end() - 0.56).abs() < 1e-6);
+    for step in 0..=44 {
+        let time = step as f32 * 0.01;
+        assert!(
+            apart(&sampled(&model, &before, time)[..1], &sampled(&model, &first, time)[..1]) < 1e-5,
+            "{time}"
+        );
+        let later = 0.44 + time;
+        assert!(
+            apart(&sampled(&model, &before, later)[..1], &sampled(&model, &second, time)[..1]) < 1e-5,
+            "{later}"
+        );
+    }
+}
+
+#[test]
+fn a_channel_made_a_spline_runs_through_its_keys_and_back_it_is_what_it_was() {
+    let mut model = model(13);
+    model
+        .apply(&set(0.5, BonePose { rotation: Some(Quat::from_rotation_z(1.0).to_array()), ..pose("root") }))
+        .unwrap();
+    let before = Arc::clone(&model.slots()[0].result);
+    let to = |interpolation| Edit::SetInterpolation {
+        take: walk(),
+        bones: vec![bone("root")],
+        properties: Vec::new(),
+        interpolation,
+    };
+    model.apply(&to(Between::CubicSpline)).unwrap();
+    model.check().unwrap();
+    let spline = Arc::clone(&model.slots()[0].result);
+    assert_eq!(spline.tracks[0].rotation.interpolation, Interpolation::CubicSpline);
+    for key in 0..9 {
+        let time = key as f32 * 0.125;
+        assert!(apart(&sampled(&model, &before, time), &sampled(&model, &spline, time)) < 1e-6, "{time}");
+    }
+    let tangents = Edit::SetTangents {
+        take: walk(),
+        time: 0.25,
+        bone: bone("root"),
+        property: Property::Translation,
+        arrive: Some(vec![1.0, 2.0, 3.0]),
+        leave: None,
+    };
+    model.apply(&tangents).unwrap();
+    model.check().unwrap();
+    assert_eq!(model.slots()[0].result.tracks[0].translation.values[6], Vec3::new(1.0, 2.0, 3.0));
+    model.apply(&to(Between::Linear)).unwrap();
+    model.check().unwrap();
+    assert_eq!(model.slots()[0].result.tracks[0].rotation.values, before.tracks[0].rotation.values);
+}
+
+#[test]
+fn every_example_reads_as_an_edit_and_writes_itself_again() {
+    let names: Vec<String> = EXAMPLES
+        .iter()
+        .map(|example| {
+            let edit: Edit = serde_json::from_str(example.json)
+                .unwrap_or_else(|error| panic!("{}: {error}", example.json));
+            let text = serde_json::to_string(&edit).unwrap();
+            assert_eq!(serde_json::from_str::<Edit>(&text).unwrap(), edit);
+            let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+            value["edit"].as_str().unwrap().to_owned()
+        })
+        .collect();
+    let mut sorted = names.clone();
+    sorted.sort();
+    sorted.dedup();
+    assert_eq!(sorted.len(), 26, "each edit has one example: {names:?}");
+}
+
+#[test]
+fn numbers_that_are_none_and_things_that_are_not_there_are_refused_and_nothing_changes() {
+    let mut model = model(14);
+    let before = Arc::clone(&model.slots()[0]);
+    let translation = |x| BonePose { translation: Some([x, 0.0, 0.0]), ..pose("root") };
+    let wrong = [
+        set(f32::NAN, translation(0.0)),
+        set(-1.0, translation(0.0)),
+        set(0.1, translation(f32::INFINITY)),
+        set(0.1, translation(1e30)),
+        set(0.1, pose("root")),
+        set(0.1, BonePose { rotation: Some([0.0; 4]), ..pose("root") }),
+        set(0.1, pose("nobody")),
+        Edit::Set { take: TakeRef::Index(7), time: 0.0, poses: vec![translation(0.0)], unstep: false },
+        Edit::MoveKeys { take: walk(), keys: vec![KeySet::default()], by: -0.5 },
+        Edit::MoveKeys { take: walk(), keys: Vec::new(), by: 0.5 },
+        Edit::ScaleKeys { take: walk(), keys: vec![KeySet::default()], about: 0.0, factor: 0.0 },
+        Edit::SnapKeys { take: walk(), keys: vec![KeySet::default()], rate: 0.0 },
+        Edit::SplitTake { take: walk(), time: 1.0, name: String::new() },
+        Edit::TrimTake { take: walk(), from: 0.5, to: 0.25, to_start: false },
+        Edit::RetimeTake { take: walk(), start: None, length: Some(1e-9) },
+        Edit::RetimeTake { take: walk(), start: Some(-1.0), length: None },
+    ];
+    for edit in wrong {
+        let error = model.apply(&edit).expect_err(&format!("{edit:?}"));
+        assert!(!error.to_string().is_empty());
+        assert!(Arc::ptr_eq(&model.slots()[0], &before), "{edit:?} changed something");
+    }
+}

@@ -1,0 +1,101 @@
+//! No image makes the program panic, hang, or eat memory, whatever has happened to its bytes.
+
+use dragonfly_anim::data::Image;
+use dragonfly_document::images::decode;
+use dragonfly_kit::mutate::Mutator;
+use dragonfly_kit::random::seed;
+use image::{ImageFormat, RgbImage, RgbaImage};
+use std::io::Cursor;
+use std::time::{Duration, Instant};
+
+/// The program decodes on threads with 2 MiB; an eighth of that leaves room.
+const STACK: usize = 256 << 10;
+/// Of one small image.
+const LONGEST: Duration = Duration::from_secs(2);
+/// Small images stay small: nothing that is decoded here may have more pixels.
+const PIXELS: u64 = 1 << 20;
+
+/// Small pictures of each kind that models carry.
+fn seeds() -> Vec<Vec<u8>> {
+    let rgba = RgbaImage::from_fn(9, 7, |x, y| image::Rgba([x as u8 * 20, y as u8 * 30, 128, 255 - x as u8]));
+    let rgb = RgbImage::from_fn(17, 16, |x, y| image::Rgb([x as u8 * 15, y as u8 * 15, 40]));
+    let grey = image::DynamicImage::from(rgb.clone()).into_luma16();
+    let encode = |write: &dyn Fn(&mut Cursor<Vec<u8>>)| {
+        let mut bytes = Cursor::new(Vec::new());
+        write(&mut bytes);
+        bytes.into_inner()
+    };
+    vec![
+        encode(&|out| rgba.write_to(out, ImageFormat::Png).unwrap()),
+        encode(&|out| rgb.write_to(out, ImageFormat::Png).unwrap()),
+        encode(&|out| grey.write_to(out, ImageFormat::Png).unwrap()),
+        encode(&|out| rgb.write_to(out, ImageFormat::Jpeg).unwrap()),
+        encode(&|out| {
+            image::DynamicImage::from(rgb.clone()).into_luma8().write_to(out, ImageFormat::Jpeg).unwrap();
+        }),
+    ]
+}
+
+/// Decodes, and says whether it could; what it gives is whole.
+fn try_decode(bytes: &[u8]) -> bool {
+    let image = Image { bytes: bytes.into(), ..Image::default() };
+    let begin = Instant::now();
+    let decoded = decode(&image, PIXELS);
+    assert!(begin.elapsed() < LONGEST, "took {:?}", begin.elapsed());
+    match decoded {
+        Ok(decoded) => {
+            assert_eq!(decoded.pixels.len() as u64, u64::from(decoded.width) * u64::from(decoded.height) * 4);
+            true
+        }
+        Err(reason) => {
+            assert!(!reason.is_empty());
+            false
+        }
+    }
+}
+
+/// Runs `work` on a stack as small as the promise says; its panic is ours.
+fn on_small_stack(work: impl FnOnce() + Send + 'static) {
+    let thread = std::thread::Builder::new().stack_size(STACK).spawn(work).unwrap();
+    if let Err(panic) = thread.join() {
+        std::panic::resume_unwind(panic);
+    }
+}
+
+#[test]
+fn twenty_thousand_damaged_images_are_pictures_or_reasons() {
+    on_small_stack(|| {
+        let seeds = seeds();
+        assert!(seeds.iter().all(|bytes| try_decode(bytes)), "each is right before it is damaged");
+        let seed = seed(41_117);
+        let mut mutator = Mutator::new(seed, &[b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"\xff\xc0", b"\xff\xda"]);
+        let mut pictures = 0;
+        for number in 0..20_000 {
+            let bytes = mutator.mutant(&seeds);
+            let tried = std::panic::catch_unwind(|| try_decode(&bytes));
+            pictures +=
+                u32::from(tried.unwrap_or_else(|_| panic!("image {number} of seed {seed}: {bytes:?}")));
+        }
+        println!("20000 images, {pictures} of them pictures, seed {seed}");
+        assert!(pictures > 100 && pictures < 19_900, "{pictures}: most are damaged, not all beyond use");
+    });
+}
+
+#[test]
+fn an_image_cut_or_changed_at_any_byte_is_a_picture_or_a_reason() {
+    on_small_stack(|| {
+        for bytes in seeds() {
+            for length in 0..bytes.len() {
+                try_decode(&bytes[..length]);
+            }
+            for position in 0..bytes.len() {
+                let old = bytes[position];
+                for new in [0x00, 0xff, old.wrapping_add(1), old.wrapping_sub(1)] {
+                    let mut changed = bytes.clone();
+                    changed[position] = new;
+                    try_decode(&changed);
+                }
+            }
+        }
+    });
+}

@@ -1,0 +1,15 @@
+//! Promises, one module each.
+
+mod document_ended;
+mod document_writer;
+mod documents;
+mod edit_cost;
+mod edits;
+mod images;
+mod keeping;
+mod old_journals;
+mod save_and_open;
+mod undo;
+
+#[global_allocator]
+static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

@@ -1,0 +1,147 @@
+//! What an earlier version of the program recorded is had back for ever. The records are kept as text, and put into the
+//! format of their time by code of the tests' own.
+//!
+//! For each version of the vocabulary of edits that was given out there is a file, which is never changed again.
+
+use dragonfly_document::edit::{EXAMPLES, Edit, TakeRef};
+use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, View};
+use dragonfly_kit::document::desk::{Desk, fox};
+use dragonfly_kit::folder::{Folder, data};
+use dragonfly_kit::store::forged::forged_with;
+use dragonfly_store::{FileStamp, RealFiles};
+use std::fs;
+use std::path::Path;
+
+/// Every edit of the first vocabulary, each of which changes something in Fox.
+fn first_edits() -> Vec<String> {
+    let text = fs::read_to_string(data("journals/edits-1.jsonl")).unwrap();
+    text.lines().map(str::to_owned).collect()
+}
+
+/// Opens Fox beside a journal with these records, and takes the work of so many steps back.
+fn had_back(name: &str, records: &[(u8, &[u8])], steps: usize) -> (Desk, View) {
+    let folder = Folder::new(name);
+    let path = fox(&folder);
+    let autosave = folder.join("autosave");
+    fs::create_dir_all(autosave.join("journals")).unwrap();
+    fs::write(autosave.join("journals/old.journal"), forged_with(&header(&path), 1, records)).unwrap();
+    let mut desk = Desk::new(&autosave);
+    desk.open(&path);
+    let offer = desk.offered().remove(0);
+    assert_eq!(offer.warnings(), [""; 0]);
+    desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    let view = desk.shows(|view| view.history.done == steps);
+    (desk, view)
+}
+
+fn header(path: &Path) -> String {
+    let stamp = serde_json::to_value(FileStamp::take(&RealFiles, path).unwrap()).unwrap();
+    let path = fs::canonicalize(path).unwrap();
+    serde_json::json!({"number": 77, "document": path, "stamp": stamp}).to_string()
+}
+
+/// Names of takes, milliseconds, keys; as `dragonfly info` told them when the edits were written down.
+fn takes(view: &View) -> Vec<(String, i32, usize)> {
+    let keys = |take: &dragonfly_anim::data::Take| {
+        let of = |track: &dragonfly_anim::data::Track| {
+            track.translation.times.len() + track.rotation.times.len() + track.scale.times.len()
+        };
+        take.tracks.iter().map(of).sum()
+    };
+    let told = |take: &std::sync::Arc<dragonfly_anim::data::Take>| {
+        (take.name.clone(), (take.length * 1000.0).round() as i32, keys(take))
+    };
+    view.takes.iter().map(told).collect()
+}
+
+fn first_takes() -> Vec<(String, i32, usize)> {
+    let takes = [
+        ("Walk", 967, 381),
+        ("Walk slowly", 2000, 381),
+        ("Look around", 1000, 525),
+        ("Look around, end", 600, 357),
+        ("Run", 1983, 525),
+    ];
+    takes.map(|(name, length, keys)| (name.to_owned(), length, keys)).into()
+}
+
+fn recorded(edit: &str) -> Vec<u8> {
+    format!(r#"{{"do":"edit","edit":{edit}}}"#).into_bytes()
+}
+
+#[test]
+fn names_that_are_refused_now_are_had_back() {
+    let rename = |take: u32, name: &str| {
+        recorded(&format!(r#"{{"edit":"rename_take","take":{take},"name":"{name}"}}"#))
+    };
+    let [nameless, same] = [rename(0, ""), rename(1, "Run")];
+    let (mut desk, view) = had_back("old-names", &[(2, &nameless), (2, &same)], 2);
+    let names: Vec<_> = takes(&view).into_iter().map(|take| take.0).collect();
+    assert_eq!(names, ["", "Run", "Run"]);
+    let again = Edit::RenameTake { take: TakeRef::Index(2), name: String::new() };
+    desk.tell(DocumentMessage::Change(Change::Edit(again, None)));
+    let refused = desk.hears(|reply| match reply {
+        DocumentReply::Refused(reason) => Some(reason.clone()),
+        _ => None,
+    });
+    assert_eq!(refused, "A take needs a name");
+}
+
+#[test]
+fn edits_of_every_version_are_done_again() {
+    let begin = br#"{"do":"begin","version":1}"#.to_vec();
+    let edits = first_edits().into_iter().map(|edit| recorded(&edit));
+    let records: Vec<Vec<u8>> = std::iter::once(begin).chain(edits).collect();
+    let records: Vec<(u8, &[u8])> = records.iter().map(|record| (2, &record[..])).collect();
+    let (mut desk, view) = had_back("old-edits", &records, records.len() - 1);
+    assert_eq!(takes(&view), first_takes());
+    desk.change(Change::GoTo(0));
+    let names: Vec<_> = takes(&desk.view()).into_iter().map(|take| take.0).collect();
+    assert_eq!(names, ["Survey", "Walk", "Run"], "and undone");
+}
+
+#[test]
+fn a_snapshot_of_every_version_is_had_back() {
+    let (edits, all) = (first_edits().join(","), first_edits().len());
+    let about = r#"{"version":1}"#;
+    let text = format!(r#"{{"about":{about},"steps":[{edits}],"done":{all},"saved":null,"has_base":false}}"#);
+    let mut snapshot = (text.len() as u32).to_le_bytes().to_vec();
+    snapshot.extend(text.bytes());
+    let (_, view) = had_back("old-snapshot", &[(1, &snapshot)], all);
+    assert_eq!(takes(&view), first_takes());
+}
+
+/// The file grows with the vocabulary until that is given out; after that a new one begins.
+#[test]
+fn no_edit_is_missing_among_those_that_are_kept() {
+    let kind = |json: &str| serde_json::from_str::<serde_json::Value>(json).unwrap()["edit"].to_string();
+    let kept: Vec<String> = first_edits().iter().map(|edit| kind(edit)).collect();
+    for example in EXAMPLES {
+        assert!(kept.contains(&kind(example.json)), "{} is not in edits-1.jsonl", kind(example.json));
+    }
+    for edit in first_edits() {
+        let value: serde_json::Value = serde_json::from_str(&edit).unwrap();
+        let again = serde_json::to_value(serde_json::from_value::<Edit>(value.clone()).unwrap()).unwrap();
+        for (field, was) in value.as_object().unwrap() {
+            assert!(alike(&again[field], was), "{field} of {edit} is {}", again[field]);
+        }
+    }
+}
+
+/// The same, where a number may have become the nearest one of 32 bits.
+fn alike(now: &serde_json::Value, was: &serde_json::Value) -> bool {
+    use serde_json::Value::{Array, Number, Object};
+    match (now, was) {
+        (Number(now), Number(was)) => {
+            let [now, was] = [now, was].map(|number| number.as_f64().unwrap_or(f64::NAN));
+            (now - was).abs() <= 1e-6 * was.abs().max(1.0)
+        }
+        (Array(now), Array(was)) => {
+            now.len() == was.len() && now.iter().zip(was).all(|(now, was)| alike(now, was))
+        }
+        (Object(now), Object(was)) => {
+            was.iter().all(|(field, was)| now.get(field).is_some_and(|now| alike(now, was)))
+        }
+        _ => now == was,
+    }
+}

@@ -1,0 +1,147 @@
+//! What was edited, saved and opened again is what was edited: every key of every take, to the bit.
+
+use crate::undo::{any_edit, same_take};
+use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::edit::BoneRef;
+use dragonfly_kit::folder::{Folder, data};
+
+use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take};
+use dragonfly_document::history::Edited;
+use dragonfly_document::{Cancel, Editable, Source};
+use dragonfly_kit::random::{Random, seed};
+use glam::Quat;
+use std::path::{Path, PathBuf};
+
+fn open(path: &Path) -> Editable {
+    match Editable::open(&Source::File(path.to_owned()), &Cancel::default()) {
+        Ok(editable) => editable,
+        Err(error) => panic!("{}: {error}", path.display()),
+    }
+}
+
+/// The models of the repository that have a skeleton of their own to edit, copied into `folder`.
+fn models(folder: &Folder) -> Vec<PathBuf> {
+    let mut models = Vec::new();
+    for entry in std::fs::read_dir(data("gltf")).expect("models").flatten() {
+        let (from, to) = (entry.path(), folder.join(&entry.file_name().to_string_lossy()));
+        if from.is_file() && from.extension().is_some_and(|end| end == "glb" || end == "gltf") {
+            std::fs::copy(&from, &to).expect("a copy");
+            models.push(to);
+        }
+    }
+    models.sort();
+    models
+}
+
+/// Tracks without keys say nothing, and a file does not keep them. Bones go by the number of their node: a node that is
+/// no joint is a bone while something animates it, so deleting its last key moves the numbers of the others.
+fn with_keys(take: &Take, skeleton: &Skeleton) -> Take {
+    let mut take = take.clone();
+    for track in &mut take.tracks {
+        let bone = skeleton.bones.get(track.bone as usize).expect("a bone");
+        track.bone = bone.node.expect("a node of the file");
+        of_one_key(&mut track.translation);
+        of_one_key(&mut track.rotation);
+        of_one_key(&mut track.scale);
+        in_one_hemisphere(&mut track.rotation);
+    }
+    take.tracks.retain(|track| {
+        !(track.translation.is_empty() && track.rotation.is_empty() && track.scale.is_empty())
+    });
+    take.morphs.retain(|morph| !morph.times.is_empty());
+    take
+}
+
+/// q and -q are one rotation; reading a file chooses the one nearer to the key before, where no spline goes through them.
+fn in_one_hemisphere(channel: &mut Channel<Quat>) {
+    if channel.interpolation != Interpolation::CubicSpline {
+        let mut values = channel.values.to_vec();
+        for at in 1..values.len() {
+            if values[at].dot(values[at - 1]) < 0.0 {
+                values[at] = -values[at];
+            }
+        }
+        channel.values = values.into();
+    }
+}
+
+/// A spline has two keys at least (glTF 2.0, 3.11); of one key only the value counts.
+fn of_one_key<T: Copy>(channel: &mut Channel<T>) {
+    if channel.len() == 1 && channel.interpolation == Interpolation::CubicSpline {
+        channel.values = [channel.values[1]].into();
+    }
+    if channel.len() < 2 {
+        channel.interpolation = Interpolation::Linear;
+    }
+}
+
+#[test]
+fn any_edits_saved_and_opened_again_give_the_same_takes() {
+    let folder = Folder::new("save-and-open");
+    let (first, mut saved_edits) = (seed(70), 0);
+    for (place, path) in models(&folder).iter().enumerate() {
+        let number = first + place as u64;
+        let mut random = Random::new(number);
+        let mut editable = open(path);
+        let bones: Vec<BoneRef> =
+            (0..editable.model.animation.skeleton.len() as u32).map(BoneRef::Index).collect();
+        let mut edited = Edited::new(ModelAdapter::new(&editable.model.animation));
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        for round in 0..4 {
+            for _ in 0..12 {
+                let edit = any_edit(&mut random, edited.adapter().slots().len().max(1), &bones);
+                saved_edits += usize::from(edited.apply(edit, None).is_ok());
+            }
+            let plan = editable.plan(edited.adapter()).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let written = editable.save(edited.adapter(), &plan, path);
+            written.unwrap_or_else(|error| panic!("{name}, seed {number}: {error}"));
+            let again = open(path);
+            let now: Vec<_> = edited.adapter().results().collect();
+            let then = &again.model.animation.takes;
+            assert_eq!(now.len(), then.len(), "{name}, seed {number}, round {round}: takes");
+            for (now, then) in now.into_iter().zip(then) {
+                let skeletons = [&editable.model, &again.model].map(|model| &model.animation.skeleton);
+                let (now, then) = (with_keys(now, skeletons[0]), with_keys(then, skeletons[1]));
+                assert!(
+                    same_take(&now, &then),
+                    "{name}, seed {number}, round {round}, take {:?}: {}",
+                    now.name,
+                    difference(&now, &then)
+                );
+            }
+        }
+    }
+    assert!(saved_edits > 100, "only {saved_edits} edits could be done");
+}
+
+/// Where two takes part, in a line.
+fn difference(now: &Take, then: &Take) -> String {
+    if now.name != then.name || (now.start, now.length) != (then.start, then.length) {
+        let range = |take: &Take| format!("{:?} {}+{}", take.name, take.start, take.length);
+        return format!("{} became {}", range(now), range(then));
+    }
+    let bones = |take: &Take| take.tracks.iter().map(|track| track.bone).collect::<Vec<_>>();
+    if bones(now) != bones(then) {
+        return format!("tracks of {:?} became {:?}", bones(now), bones(then));
+    }
+    for (a, b) in now.tracks.iter().zip(&then.tracks) {
+        let keys = |track: &dragonfly_anim::data::Track| {
+            [
+                (track.translation.len(), track.translation.interpolation),
+                (track.rotation.len(), track.rotation.interpolation),
+                (track.scale.len(), track.scale.interpolation),
+            ]
+        };
+        if keys(a) != keys(b) {
+            return format!("bone {}: {:?} became {:?}", a.bone, keys(a), keys(b));
+        }
+        if format!("{a:?}") != format!("{b:?}") {
+            let (a_text, b_text) = (format!("{a:?}"), format!("{b:?}"));
+            let at = a_text.bytes().zip(b_text.bytes()).position(|(a, b)| a != b).unwrap_or(0);
+            let part =
+                |text: &str| text.get(at.saturating_sub(60)..(at + 60).min(text.len())).map(str::to_owned);
+            return format!("bone {}: {:?} became {:?}", a.bone, part(&a_text), part(&b_text));
+        }
+    }
+    "morph weights".to_owned()
+}

@@ -1,0 +1,319 @@
+//! Undo and redo: to the bit, whatever was done, and by the gesture.
+
+use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
+use dragonfly_document::adapter::{ModelAdapter, Slot};
+use dragonfly_document::edit::{
+    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
+};
+use dragonfly_document::history::{Edited, Gesture};
+use dragonfly_kit::document::made_take::{BONES, animation};
+use dragonfly_kit::document::made_take::{model, pose, walk};
+use dragonfly_kit::random::{Random, seed};
+use glam::{Quat, Vec3};
+use std::sync::Arc;
+
+/// Any edit, sensible or not, of a model with so many takes and these bones.
+pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> Edit {
+    let take = TakeRef::Index(random.below(takes));
+    let time = random.choice(&[0.0, 0.125, 0.3, 0.5, 0.77, 1.0, 1.3]);
+    let bone = bones[random.below(bones.len())].clone();
+    let bones = if random.below(3) == 0 { Vec::new() } else { vec![bone.clone()] };
+    let property = random.choice(&Property::ALL);
+    let properties = if random.below(2) == 0 { Vec::new() } else { vec![property] };
+    let keys = || {
+        let (from, to) = (Some(time - 0.3), Some(time + 0.2));
+        vec![KeySet { bones: bones.clone(), properties: properties.clone(), from, to, ..KeySet::default() }]
+    };
+    let three = |random: &mut Random| [0; 3].map(|_| random.between(-2.0, 2.0));
+    let poses = vec![BonePose {
+        bone: bone.clone(),
+        translation: (random.below(2) == 0).then(|| three(random)),
+        rotation: (random.below(2) == 0).then(|| [0; 4].map(|_| random.between(-1.0, 1.0))),
+        scale: (random.below(3) == 0).then(|| three(random)),
+    }];
+    let name = format!("take {}", random.below(100));
+    match random.below(28) {
+        26 | 27 => Edit::PasteKeys { take, time, channels: vec![any_channel(random, bone, property)] },
+        22 | 23 => Edit::Pend { take, time, poses },
+        24 => Edit::KeyPending {
+            take,
+            time: (random.below(2) == 0).then_some(time),
+            bones,
+            unstep: random.below(2) == 0,
+        },
+        25 if random.below(2) == 0 => Edit::DropPending { take, time: None, bones },
+        25 => {
+            let [mirrored, pending, unstep] = std::array::from_fn(|_| random.below(2) == 0);
+            Edit::Paste { take, time, poses, mirrored, pending, unstep }
+        }
+        0..=2 => Edit::Set { take, time, poses, unstep: random.below(2) == 0 },
+        3 => Edit::Offset { take, time, poses, unstep: random.below(2) == 0 },
+        4 => Edit::Reset {
+            take,
+            time,
+            bones,
+            properties,
+            to: random.choice(&[ResetTo::Original, ResetTo::Rest]),
+        },
+        5 | 6 => {
+            let value = random.choice(&[NewKey::Predecessor, NewKey::Current]);
+            Edit::AddKeys {
+                take,
+                time: random.between(0.0, 1.5),
+                bones,
+                properties,
+                value,
+                keyed_only: false,
+            }
+        }
+        7 => Edit::DeleteKeys { take, keys: keys() },
+        8 => Edit::MoveKeys { take, keys: keys(), by: random.between(-0.2, 0.4) },
+        9 => Edit::ScaleKeys {
+            take,
+            keys: keys(),
+            about: time,
+            factor: random.choice(&[0.5, 2.0, -1.0, 0.01]),
+        },
+        10 => Edit::DuplicateKeys { take, keys: keys(), by: random.between(-0.2, 0.5) },
+        11 => Edit::Ripple { take, from: time, by: random.between(-0.3, 0.3) },
+        12 => Edit::SnapKeys { take, keys: keys(), rate: random.choice(&[8.0, 24.0, 30.0]) },
+        13 => {
+            let interpolation = random.choice(&[Between::Step, Between::Linear, Between::CubicSpline]);
+            Edit::SetInterpolation { take, bones, properties, interpolation }
+        }
+        14 => {
+            let numbers = if property == Property::Rotation { 4 } else { 3 };
+            let arrive = Some((0..numbers).map(|_| random.between(-1.0, 1.0)).collect());
+            Edit::SetTangents { take, time, bone, property, arrive, leave: None }
+        }
+        15 => {
+            let copy = (random.below(3) > 0).then_some(take);
+            Edit::CreateTake { name, copy, at: (random.below(2) == 0).then(|| random.below(4)) }
+        }
+        16 => Edit::DeleteTake { take },
+        17 => Edit::RenameTake { take, name },
+        18 => Edit::MoveTake { take, to: random.below(4) },
+        19 => Edit::SplitTake { take, time, name },
+        20 => Edit::TrimTake { take, from: time * 0.5, to: time, to_start: random.below(2) == 0 },
+        _ if random.below(2) == 0 => Edit::ReverseTake { take },
+        _ => Edit::RetimeTake {
+            take,
+            start: Some(random.between(0.0, 0.5)),
+            length: Some(random.between(0.1, 2.0)),
+        },
+    }
+}
+
+fn any_channel(random: &mut Random, bone: BoneRef, property: Property) -> CopiedChannel {
+    let count = if property == Property::Rotation { 4 } else { 3 };
+    let numbers = |random: &mut Random| (0..count).map(|_| random.between(0.1, 1.0)).collect::<Vec<f32>>();
+    let keys = (0..random.below(4)).map(|_| CopiedKey {
+        after: random.choice(&[0.0, 0.125, 0.3, 0.77]),
+        value: numbers(random),
+        arrive: (random.below(2) == 0).then(|| numbers(random)),
+        leave: (random.below(2) == 0).then(|| numbers(random)),
+    });
+    let keys = keys.collect();
+    let interpolation = random.choice(&[Between::Step, Between::Linear, Between::CubicSpline]);
+    CopiedChannel { bone, property, interpolation, keys }
+}
+
+/// Are two documents the same in everything that can be seen, every number to the bit?
+fn same(a: &ModelAdapter, b: &ModelAdapter) -> bool {
+    let slots = a.slots().len() == b.slots().len();
+    slots && a.slots().iter().zip(b.slots()).all(|(a, b)| Arc::ptr_eq(a, b) || same_slot(a, b))
+}
+
+fn same_slot(a: &Slot, b: &Slot) -> bool {
+    let changes = |slot: &Slot| -> Vec<_> {
+        slot.changed()
+            .map(|(bone, property)| (bone, property, slot.changes(bone, property).to_vec()))
+            .collect()
+    };
+    (a.id, a.origin) == (b.id, b.origin)
+        && same_take(&a.original, &b.original)
+        && same_take(&a.result, &b.result)
+        && changes(a) == changes(b)
+        && a.pending() == b.pending()
+}
+
+pub(crate) fn same_take(a: &Take, b: &Take) -> bool {
+    fn same_channel<T: Copy, const N: usize>(
+        a: &Channel<T>,
+        b: &Channel<T>,
+        numbers: fn(T) -> [f32; N],
+    ) -> bool {
+        let bits = |value: T| numbers(value).map(f32::to_bits);
+        a.interpolation == b.interpolation
+            && a.values.len() == b.values.len()
+            && same_numbers(&a.times, &b.times)
+            && (Arc::ptr_eq(&a.values, &b.values)
+                || a.values.iter().zip(b.values.iter()).all(|(a, b)| bits(*a) == bits(*b)))
+    }
+    let tracks = |(a, b): (&Track, &Track)| {
+        a.bone == b.bone
+            && same_channel(&a.translation, &b.translation, |vector: Vec3| vector.to_array())
+            && same_channel(&a.rotation, &b.rotation, |rotation: Quat| rotation.to_array())
+            && same_channel(&a.scale, &b.scale, |vector: Vec3| vector.to_array())
+    };
+    let morphs = |(a, b): (&MorphTrack, &MorphTrack)| {
+        a.interpolation == b.interpolation
+            && same_numbers(&a.times, &b.times)
+            && same_numbers(&a.weights, &b.weights)
+    };
+    a.name == b.name
+        && same_numbers(&[a.start, a.length], &[b.start, b.length])
+        && (a.tracks.len(), a.morphs.len()) == (b.tracks.len(), b.morphs.len())
+        && a.tracks.iter().zip(&b.tracks).all(tracks)
+        && a.morphs.iter().zip(&b.morphs).all(morphs)
+}
+
+fn same_numbers(a: &[f32], b: &[f32]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
+#[test]
+fn whatever_was_done_undo_leads_back_to_the_bit_and_redo_forth_again() {
+    let first = seed(900);
+    let bones = BONES.map(|name| BoneRef::Name(name.to_owned()));
+    for number in first..first + 200 {
+        let mut random = Random::new(number);
+        let mut edited = Edited::new(ModelAdapter::new(&animation(&mut random)));
+        let mut states = vec![edited.adapter().clone()];
+        for _ in 0..500 {
+            let edit = any_edit(&mut random, edited.adapter().slots().len(), &bones);
+            let before = edited.adapter().clone();
+            if edited.apply(edit.clone(), None).is_ok() {
+                states.push(edited.adapter().clone());
+            } else {
+                assert!(
+                    same(&before, edited.adapter()),
+                    "seed {number}: {edit:?} failed and changed something"
+                );
+            }
+            if let Err(broken) = edited.adapter().check() {
+                panic!("seed {number}: {edit:?}: {broken}");
+            }
+        }
+        assert!(states.len() > 100, "seed {number}: only {} edits could be done", states.len());
+        for (back, state) in states.iter().enumerate().rev().skip(1) {
+            assert!(edited.undo() && edited.adapter().check().is_ok(), "seed {number}: undo to {back}");
+            assert!(same(state, edited.adapter()), "seed {number}: undo to {back}");
+        }
+        assert!(!edited.undo());
+        for (forth, state) in states.iter().enumerate().skip(1) {
+            assert!(edited.redo() && same(state, edited.adapter()), "seed {number}: redo to {forth}");
+        }
+        assert!(edited.go_to(0) && same(&states[0], edited.adapter()), "seed {number}: back to the begin");
+    }
+}
+
+#[test]
+fn all_edits_of_a_gesture_are_one_step_and_each_begins_where_the_gesture_began() {
+    let mut edited = Edited::new(model(15));
+    let start = edited.adapter().clone();
+    let gesture = Some(Gesture(1));
+    let lift = |by| {
+        let poses = vec![BonePose { translation: Some([0.0, by, 0.0]), ..pose("root") }];
+        Edit::Offset { take: walk(), time: 0.5, poses, unstep: false }
+    };
+    for step in 1..=10 {
+        edited.apply(lift(step as f32 * 0.1), gesture).unwrap();
+    }
+    assert_eq!(edited.steps().0.len(), 1);
+    let change = edited.adapter().slots()[0].change(0, Property::Translation, 4);
+    assert!((change[1] - 1.0).abs() < 1e-6, "{change:?}");
+    let state = edited.adapter().clone();
+    assert!(edited.apply(lift(f32::NAN), gesture).is_err());
+    assert!(same(edited.adapter(), &state));
+    edited.undo();
+    assert!(same(edited.adapter(), &start));
+    edited.redo();
+    edited.cancel(Gesture(1));
+    assert!(same(edited.adapter(), &start));
+    assert_eq!(edited.labels(), [None, None]);
+}
+
+#[test]
+fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
+    let first = seed(930);
+    for number in first..first + 300 {
+        let mut random = Random::new(number);
+        let mut edited = Edited::new(ModelAdapter::new(&animation(&mut random)));
+        for _ in 0..random.below(4) {
+            let bones = BONES.map(|name| BoneRef::Name(name.to_owned()));
+            let edit = any_edit(&mut random, edited.adapter().slots().len(), &bones);
+            let _ = edited.apply(edit, None);
+        }
+        let start = edited.clone();
+        let take = TakeRef::Index(random.below(edited.adapter().slots().len()));
+        let time = random.choice(&[0.0, 0.125, 0.3, 0.41, 1.3]);
+        let names: Vec<&str> = BONES.into_iter().filter(|_| random.below(2) == 0).collect();
+        let parts: Vec<[bool; 3]> = names.iter().map(|_| [0; 3].map(|_| random.below(2) == 0)).collect();
+        let offset = random.below(3) == 0;
+        let mut shown = Vec::new();
+        for _ in 0..random.below(12) {
+            let three = |random: &mut Random| [0; 3].map(|_| random.between(-2.0, 2.0));
+            let poses: Vec<BonePose> = names
+                .iter()
+                .zip(&parts)
+                .map(|(name, parts)| BonePose {
+                    translation: parts[0].then(|| three(&mut random)),
+                    rotation: parts[1].then(|| [0; 4].map(|_| random.between(-1.0, 1.0))),
+                    scale: parts[2].then(|| three(&mut random)),
+                    ..pose(name)
+                })
+                .collect();
+            let take = take.clone();
+            let edit = if offset {
+                Edit::Offset { take, time, poses, unstep: true }
+            } else {
+                Edit::Set { take, time, poses, unstep: true }
+            };
+            let mut alone = start.clone();
+            let before = edited.adapter().clone();
+            let done = edited.apply(edit.clone(), Some(Gesture(5)));
+            assert_eq!(done, alone.apply(edit, Some(Gesture(5))), "seed {number}");
+            let wanted = if done.is_ok() { alone.adapter() } else { &before };
+            assert!(same(wanted, edited.adapter()), "seed {number}");
+            assert_eq!(edited.adapter().check(), Ok(()), "seed {number}");
+            drop((before, alone));
+            // What is still shown stays as it was.
+            let now = edited.adapter().slots().to_vec();
+            let looks: Vec<Slot> = now.iter().map(|slot| Slot::clone(slot)).collect();
+            shown.push((now, looks));
+            if random.below(3) == 0 {
+                shown.clear();
+            }
+            for (slots, looks) in &shown {
+                assert!(slots.iter().zip(looks).all(|(slot, look)| same_slot(slot, look)), "seed {number}");
+            }
+        }
+        let end = edited.adapter().clone();
+        let steps = edited.steps().1;
+        if steps > start.steps().1 {
+            edited.undo();
+            assert!(same(start.adapter(), edited.adapter()), "seed {number}: undo");
+            edited.redo();
+            assert!(same(&end, edited.adapter()), "seed {number}: redo");
+        }
+    }
+}
+
+#[test]
+fn a_document_knows_whether_it_is_as_it_was_saved() {
+    let mut edited = Edited::new(model(16));
+    let name = |name: &str| Edit::RenameTake { take: TakeRef::Index(0), name: name.to_owned() };
+    assert!(edited.is_saved());
+    edited.apply(name("a"), None).unwrap();
+    edited.mark_saved();
+    edited.apply(name("b"), None).unwrap();
+    assert!(!edited.is_saved());
+    edited.undo();
+    assert!(edited.is_saved());
+    edited.undo();
+    edited.apply(name("c"), None).unwrap();
+    // The saved state cannot be reached any more, also with as many steps done.
+    assert!(!edited.is_saved());
+    assert_eq!(edited.labels(), [Some("Rename take"), None]);
+}

@@ -1,0 +1,276 @@
+//! A document in its thread, as the window has it, without a window: what it is told, what it says, what it shows.
+
+use crate::folder::{Folder, data};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::{
+    Change, Document, DocumentHandle, DocumentMessage, DocumentReply, Offer, SaveOrder, SaveTo, SavedFile,
+    Setup, Source, View,
+};
+use dragonfly_runtime::{Captured, Context, Receiver, Thread};
+use dragonfly_store::{Autosave, RealFiles, Vfs};
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+const SOON: Duration = Duration::from_secs(60);
+
+#[derive(Clone, Default)]
+struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+
+impl Receiver for Heard {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
+        self.0.borrow_mut().push(reply);
+    }
+}
+
+#[derive(Clone, Default)]
+struct Shown(Rc<RefCell<Option<View>>>);
+
+impl Receiver for Shown {
+    type Message = View;
+
+    fn receive(&mut self, view: View, _thread: &mut Context) {
+        *self.0.borrow_mut() = Some(view);
+    }
+}
+
+/// The document, and who listens to it.
+pub struct Desk {
+    main: Captured,
+    document: DocumentHandle,
+    heard: Heard,
+    shown: Shown,
+}
+
+/// An autosave folder of a test.
+pub fn autosave_in(folder: &Path) -> Autosave {
+    autosave_with(folder, RealFiles)
+}
+
+/// An autosave folder of a test on the file system `files`.
+pub fn autosave_with(folder: &Path, files: impl Vfs + 'static) -> Autosave {
+    Autosave::new(Arc::new(files), Some(folder.to_owned())).expect("the folder is given")
+}
+
+/// A copy of Fox in a folder of the test's own.
+pub fn fox(folder: &Folder) -> PathBuf {
+    let path = folder.join("Fox.glb");
+    std::fs::copy(data("gltf/Fox.glb"), &path).expect("a file");
+    path
+}
+
+/// Fox at a place of the test's own, copied there unless it is there already.
+pub fn fox_at(path: &Path) -> PathBuf {
+    if !path.exists() {
+        let bytes = std::fs::read(data("gltf/Fox.glb")).expect("a file");
+        // On the disk, whatever becomes of the machine.
+        dragonfly_store::replace(path, &bytes).expect("a file");
+    }
+    path.to_owned()
+}
+
+/// The program is killed: what is in its folders at this moment is all that is left, here in another folder. The file
+/// itself stays where it is, as it would.
+pub fn killed(autosave: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("a folder");
+    for entry in std::fs::read_dir(autosave).expect("the autosave folder").flatten() {
+        let target = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            killed(&entry.path(), &target);
+        } else {
+            std::fs::copy(entry.path(), target).expect("a copy");
+        }
+    }
+}
+
+/// Turns the head of the fox in its first take.
+pub fn turn(angle: f32) -> Edit {
+    let (sine, cosine) = (angle / 2.0).sin_cos();
+    let pose = BonePose {
+        bone: BoneRef::Name("b_Head_05".to_owned()),
+        translation: None,
+        rotation: Some([0.0, 0.0, sine, cosine]),
+        scale: None,
+    };
+    Edit::Set { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false }
+}
+
+/// An edit that renames the first take.
+pub fn rename(name: &str) -> Edit {
+    Edit::RenameTake { take: TakeRef::Index(0), name: name.to_owned() }
+}
+
+impl Desk {
+    /// A document that keeps its journals in `autosave`.
+    pub fn new(autosave: &Path) -> Self {
+        Self::with(Setup { autosave: Some(autosave_in(autosave)), ..Setup::default() })
+    }
+
+    /// Starts a document with `setup`.
+    pub fn with(setup: Setup) -> Self {
+        let (heard, shown) = (Heard::default(), Shown::default());
+        let mut main = Thread::capture("main", || {});
+        let replies = main.context().register_receiver(heard.clone());
+        let picture = main.context().register_receiver(shown.clone());
+        let document = Document::start_with(setup, replies, picture).expect("a thread");
+        Self { main, document, heard, shown }
+    }
+
+    /// Waits for something that it says, and takes it.
+    #[track_caller]
+    pub fn hears<T>(&mut self, mut what: impl FnMut(&DocumentReply) -> Option<T>) -> T {
+        let mut found = None;
+        let heard = Rc::clone(&self.heard.0);
+        let deadline = Instant::now() + SOON;
+        while found.is_none() {
+            self.main.iterate();
+            let mut heard = heard.borrow_mut();
+            if let Some(place) = heard.iter().position(|reply| what(reply).is_some()) {
+                found = what(&heard.remove(place));
+            }
+            drop(heard);
+            assert!(found.is_some() || Instant::now() < deadline, "heard only {:#?}", self.said());
+            std::thread::park_timeout(Duration::from_millis(1));
+        }
+        found.expect("found")
+    }
+
+    /// Everything that it said so far and nobody took.
+    pub fn said(&mut self) -> Vec<String> {
+        self.main.iterate();
+        let heard = self.heard.0.borrow();
+        heard.iter().filter(|reply| !is_large(reply)).map(|reply| format!("{reply:?}")).collect()
+    }
+
+    /// Sends a message to the document.
+    pub fn tell(&self, message: DocumentMessage) {
+        assert!(self.document.send(message));
+    }
+
+    /// Opens a file, and waits until it is shown.
+    #[track_caller]
+    pub fn open(&mut self, path: &Path) -> View {
+        self.open_source(Source::File(path.to_owned()))
+    }
+
+    /// Opens `source` and returns the view of it.
+    #[track_caller]
+    pub fn open_source(&mut self, source: Source) -> View {
+        let before = self.shown.0.borrow().as_ref().map_or(0, |view| view.generation);
+        self.tell(DocumentMessage::Open(source));
+        self.hears(|reply| match reply {
+            DocumentReply::Opened(_) => Some(()),
+            DocumentReply::Failed { reason, .. } => panic!("{reason}"),
+            _ => None,
+        });
+        self.shows(|view| view.generation > before)
+    }
+
+    /// Waits until this is shown.
+    #[track_caller]
+    pub fn shows(&mut self, what: impl Fn(&View) -> bool) -> View {
+        let deadline = Instant::now() + SOON;
+        while !self.shown.0.borrow().as_ref().is_some_and(&what) {
+            self.main.iterate();
+            assert!(Instant::now() < deadline, "it is not shown; heard {:#?}", self.said());
+            std::thread::park_timeout(Duration::from_millis(1));
+        }
+        let view = self.shown.0.borrow().clone();
+        view.expect("shown")
+    }
+
+    /// The newest view, behind everything that was told so far.
+    #[track_caller]
+    pub fn view(&mut self) -> View {
+        self.tell(DocumentMessage::Plan(None));
+        self.hears(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
+        // A view goes out at the end of the iteration, so another question is behind it.
+        self.tell(DocumentMessage::Plan(None));
+        self.hears(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
+        self.main.iterate();
+        self.shown.0.borrow().clone().expect("something is open")
+    }
+
+    /// Sends a change to the document.
+    pub fn change(&self, change: Change) {
+        self.tell(DocumentMessage::Change(change));
+    }
+
+    /// Sends an edit as a step of its own.
+    pub fn edit(&self, edit: Edit) {
+        self.change(Change::Edit(edit, None));
+    }
+
+    /// Saves, which must succeed.
+    #[track_caller]
+    pub fn save(&mut self, to: SaveTo) -> SavedFile {
+        self.tell(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
+        self.hears(|reply| match reply {
+            DocumentReply::Saved(saved) => Some(saved.clone()),
+            DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
+            _ => None,
+        })
+    }
+
+    /// The unsaved work that it offers.
+    #[track_caller]
+    pub fn offered(&mut self) -> Vec<Offer> {
+        self.hears(|reply| match reply {
+            DocumentReply::Offers(offers) => Some(offers.clone()),
+            _ => None,
+        })
+    }
+
+    /// The unsaved work that it has offered so far.
+    pub fn offered_already(&mut self) -> Vec<Offer> {
+        self.main.iterate();
+        let mut heard = self.heard.0.borrow_mut();
+        let place = heard.iter().position(|reply| matches!(reply, DocumentReply::Offers(_)));
+        match place.map(|place| heard.remove(place)) {
+            Some(DocumentReply::Offers(offers)) => offers,
+            _ => Vec::new(),
+        }
+    }
+
+    /// Waits for a sentence with this in it.
+    #[track_caller]
+    pub fn warned(&mut self, word: &str) -> String {
+        self.hears(|reply| match reply {
+            DocumentReply::Warned(text) | DocumentReply::Told(text) if text.contains(word) => {
+                Some(text.clone())
+            }
+            _ => None,
+        })
+    }
+
+    /// Ends it in order.
+    pub fn end(self) {
+        drop(self);
+    }
+}
+
+impl Drop for Desk {
+    fn drop(&mut self) {
+        self.document.stop();
+        let ended = Thread::wait_for(&[self.document.thread().clone()], Instant::now() + SOON);
+        assert!(ended.is_ok() || std::thread::panicking(), "{ended:?}");
+    }
+}
+
+/// Would it fill pages?
+fn is_large(reply: &DocumentReply) -> bool {
+    matches!(reply, DocumentReply::View(_) | DocumentReply::Opened(_) | DocumentReply::Loading { .. })
+}
+
+/// Are the takes the same, number by number, in their three forms?
+#[track_caller]
+pub fn same_takes(one: &View, other: &View) {
+    assert_eq!(one.takes.len(), other.takes.len());
+    for (one, other) in one.takes.iter().zip(other.takes.iter()) {
+        assert!(one == other, "take {} is another one", one.name);
+    }
+}

@@ -1,0 +1,77 @@
+//! File systems of a test's own: small ones, full ones, and ones whose power is cut.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// May this process mount? Says why not, once for each test that asks.
+pub fn may_mount(test: &str) -> bool {
+    let root = rustix::process::geteuid().is_root();
+    if !root {
+        println!("{test}: skipped, only root may mount");
+    }
+    root
+}
+
+/// A mounted file system, gone when the test ends.
+#[derive(Debug)]
+pub struct Mounted(PathBuf);
+
+impl Mounted {
+    /// A file system in memory of so many bytes; `None`, and a printed reason, when the system refuses.
+    pub fn in_memory(at: &Path, bytes: usize) -> Option<Self> {
+        Self::mount(at, &["-t", "tmpfs", "-o", &format!("size={bytes}"), "tmpfs"])
+    }
+
+    /// The file system in the file `image`.
+    pub fn image(at: &Path, image: &Path) -> Option<Self> {
+        Self::mount(at, &["-o", "loop", &image.to_string_lossy()])
+    }
+
+    fn mount(at: &Path, arguments: &[&str]) -> Option<Self> {
+        std::fs::create_dir_all(at).expect("a folder");
+        said(Command::new("mount").args(arguments).arg(at)).then(|| Self(at.to_path_buf()))
+    }
+
+    /// The folder at which the file system is mounted.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// Nothing can be written to it any more, or it can again.
+    pub fn read_only(&self, read_only: bool) {
+        let option = if read_only { "remount,ro" } else { "remount,rw" };
+        assert!(said(Command::new("mount").args(["-o", option]).arg(&self.0)));
+    }
+}
+
+impl Drop for Mounted {
+    fn drop(&mut self) {
+        if !said(Command::new("umount").arg(&self.0)) {
+            // Something is still open: it goes when that is closed.
+            said(Command::new("umount").arg("-l").arg(&self.0));
+        }
+    }
+}
+
+/// Did the command succeed? What it complains of is printed.
+pub fn said(command: &mut Command) -> bool {
+    match command.output() {
+        Ok(output) if output.status.success() => true,
+        Ok(output) => {
+            println!("{command:?}: {}", String::from_utf8_lossy(&output.stderr).trim());
+            false
+        }
+        Err(error) => {
+            println!("{command:?}: {error}");
+            false
+        }
+    }
+}
+
+/// An empty folder where waiting for the disk takes no time, if there is such a place: for tests that fail calls by
+/// the thousand, and cut no power.
+pub fn quick_folder(name: &str) -> crate::folder::Folder {
+    let memory = Path::new("/dev/shm");
+    let place = if memory.is_dir() { memory.join(format!("dragonfly-{name}")) } else { PathBuf::from(name) };
+    crate::folder::Folder::new(&place.to_string_lossy())
+}

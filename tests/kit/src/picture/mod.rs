@@ -1,0 +1,5 @@
+//! Devices and pictures for tests.
+
+pub mod complaints;
+pub mod images;
+pub mod studio;

@@ -1,0 +1,164 @@
+//! Power cuts: a real file system of its own is stopped as if the machine had lost power, mounted again, and looked at.
+
+use crate::folder::{Folder, takes_long};
+use crate::mounted::{Mounted, may_mount, said};
+use crate::random::{Random, seed};
+use crate::writer::{Found, Said, Writer, nanoseconds};
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::time::{Duration, SystemTime};
+
+/// Cuts the power of file systems: `EXT4_IOC_SHUTDOWN` on a folder in one, with flag 1 (what its own journal holds is
+/// still written) or 2 (nothing is written any more). It waits beside the test, so that a cut takes no time to begin.
+const CUTTER: &str = r"
+import fcntl, os, struct, sys
+print('ready', flush=True)
+for line in sys.stdin:
+    flag, path = line.rstrip('\n').split(' ', 1)
+    folder = os.open(path, os.O_RDONLY)
+    fcntl.ioctl(folder, 0x8004587d, struct.pack('I', int(flag)))
+    os.close(folder)
+    print('cut', flush=True)
+";
+
+struct Cutter {
+    child: Child,
+    orders: ChildStdin,
+    answers: BufReader<ChildStdout>,
+}
+
+impl Cutter {
+    fn start() -> Option<Self> {
+        let mut command = Command::new("python3");
+        command.args(["-c", CUTTER]).stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut child = command.spawn().inspect_err(|error| println!("python3: {error}")).ok()?;
+        let orders = child.stdin.take()?;
+        let answers = BufReader::new(child.stdout.take()?);
+        let mut cutter = Self { child, orders, answers };
+        cutter.hears("ready").then_some(cutter)
+    }
+
+    fn hears(&mut self, word: &str) -> bool {
+        let mut line = String::new();
+        self.answers.read_line(&mut line).is_ok() && line.trim() == word
+    }
+
+    fn cut(&mut self, disk: &Mounted, flag: u32) -> bool {
+        writeln!(self.orders, "{flag} {}", disk.path().display()).is_ok() && self.hears("cut")
+    }
+}
+
+impl Drop for Cutter {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// The outcome of a number of power cuts.
+#[derive(Debug, Default)]
+pub struct Cuts {
+    /// Number of cuts made.
+    pub cuts: usize,
+    /// Number of cuts before which at least one save was reported.
+    pub with_saves: usize,
+    /// Edits in the journal after the last cut.
+    pub edits: u32,
+    /// Edits in the saved file after the last cut.
+    pub saves: u32,
+    /// Edits reported as done that were lost.
+    pub lost: u32,
+    /// Age of the oldest edit that was lost, in nanoseconds.
+    pub oldest: u128,
+    /// Cuts in which something was said to be on the disk after the cut had begun, and was lost.
+    pub late: usize,
+}
+
+/// Cuts the power `cuts` times while a program works on the disk; `None`, and a printed reason, where that cannot be
+/// had.
+pub fn cut(
+    name: &str,
+    cuts: usize,
+    work: fn(&Path) -> Writer,
+    look: fn(&Path, &Said, usize) -> Found,
+) -> Option<Cuts> {
+    if !may_mount(name) {
+        return None;
+    }
+    let seed = seed(0x6375_7473);
+    println!("DRAGONFLY_SEED={seed}");
+    let mut random = Random::new(seed);
+    let folder = Folder::new(name);
+    let image = folder.join("disk.img");
+    fs::File::create(&image).unwrap().set_len(64 << 20).unwrap();
+    if !said(Command::new("mkfs.ext4").args(["-q", "-F"]).arg(&image)) {
+        println!("skipped: no ext4 can be made");
+        return None;
+    }
+    let Some(mut cutter) = Cutter::start() else {
+        println!("skipped: no python3");
+        return None;
+    };
+    let mut all = Cuts { cuts, ..Cuts::default() };
+    for cut in 0..cuts {
+        let Some(disk) = Mounted::image(&folder.join("disk"), &image) else {
+            assert_eq!(cut, 0, "the file system cannot be mounted any more");
+            println!("skipped: no image can be mounted");
+            return None;
+        };
+        let mut writer = work(disk.path());
+        writer.working();
+        std::thread::park_timeout(Duration::from_micros(random.below(400_000) as u64));
+        // What is said to be done from here on may be said without power: a call that is under way may yet succeed.
+        let began = nanoseconds(SystemTime::now());
+        let flag = 1 + random.below(2) as u32;
+        let is_cut = cutter.cut(&disk, flag);
+        let said = writer.kill_and_believe(began);
+        drop(disk);
+        if !is_cut {
+            println!("skipped: the power of this file system cannot be cut");
+            return None;
+        }
+        let disk = Mounted::image(&folder.join("disk"), &image).expect("it can be mounted after a cut");
+        let found = look(disk.path(), &said, cut);
+        drop(disk);
+        let place = format!(
+            "cut {cut} with flag {flag}: {found:?}, said {} edits, {} on the disk, {} saved; {:?}",
+            said.edits, said.synced, said.saved, said.complaint
+        );
+        assert!(found.edits >= said.synced, "{place}");
+        assert!(found.saved >= said.saved, "{place}");
+        let more = found.edits >= all.edits && found.saved >= all.saves;
+        assert!(more, "{place}: what was had back once is still there");
+        if let Some((_, at)) = said.times.iter().find(|(edit, _)| *edit > found.edits) {
+            all.oldest = all.oldest.max(began - at);
+        }
+        all.lost += said.edits.saturating_sub(found.edits);
+        all.with_saves += usize::from(said.saved > 0);
+        all.late += usize::from(found.edits.max(found.saved) < said.late);
+        (all.edits, all.saves) = (found.edits, found.saved);
+    }
+    println!("{name}: {all:?}");
+    Some(all)
+}
+
+/// What depends on the time that a program gets is asked up to three times: a machine that has much else to do may keep
+/// it waiting. What must hold always was asserted at each cut.
+pub fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, holds: impl Fn(&Cuts) -> bool) {
+    let mut seen = Vec::new();
+    for _ in 0..3 {
+        let Some(all) = cuts() else { return };
+        if holds(&all) {
+            return;
+        }
+        seen.push(all);
+    }
+    panic!("{otherwise}: {seen:?}");
+}
+
+/// How many cuts: `few`, or very many when asked to take long.
+pub fn times(few: usize) -> usize {
+    if takes_long() { 500 } else { few }
+}

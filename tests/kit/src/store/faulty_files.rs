@@ -1,0 +1,256 @@
+//! A file system that fails at one call, or from one call on, as disks do once in years.
+
+use dragonfly_store::{Attribute, FileData, RealFiles, Vfs, VfsFile};
+use std::ffi::OsString;
+use std::fmt::{self, Debug, Formatter};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The error that a call returns instead of being done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// An error of the device.
+    Io,
+    /// The disk is full.
+    Full,
+    /// The call was interrupted by a signal.
+    Interrupted,
+    /// Half of the bytes are transferred; only for reads and writes.
+    Short,
+    /// The file system is read-only.
+    ReadOnly,
+    /// Permission denied.
+    Denied,
+}
+
+impl Fault {
+    /// Every fault.
+    pub const ALL: [Self; 6] =
+        [Self::Io, Self::Full, Self::Interrupted, Self::Short, Self::ReadOnly, Self::Denied];
+
+    /// Returns whether callers are expected to retry, so that no one notices the fault.
+    pub fn is_harmless(self) -> bool {
+        matches!(self, Self::Interrupted | Self::Short)
+    }
+
+    fn error(self) -> Option<io::Error> {
+        use rustix::io::Errno;
+        let number = match self {
+            Self::Io => Errno::IO,
+            Self::Full => Errno::NOSPC,
+            Self::Interrupted => Errno::INTR,
+            Self::Short => return None,
+            Self::ReadOnly => Errno::ROFS,
+            Self::Denied => Errno::ACCESS,
+        };
+        Some(number.into())
+    }
+}
+
+/// What somebody else does meanwhile.
+struct Meddling(Box<dyn Fn() + Send + Sync>);
+
+impl Debug for Meddling {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        out.write_str("somebody else")
+    }
+}
+
+/// How many calls there were, and which is to fail.
+#[derive(Debug)]
+struct Plan {
+    calls: AtomicU64,
+    from: u64,
+    to: u64,
+    fault: Fault,
+    meddling: Option<Meddling>,
+}
+
+impl Plan {
+    /// Counts a call; `Ok(true)` when only half of it is to be done.
+    fn call(&self) -> io::Result<bool> {
+        let call = self.calls.fetch_add(1, Ordering::Relaxed) + 1;
+        if !(self.from..=self.to).contains(&call) {
+            return Ok(false);
+        }
+        if let Some(Meddling(act)) = &self.meddling {
+            act();
+            return Ok(false);
+        }
+        self.fault.error().map_or(Ok(true), Err)
+    }
+}
+
+/// The real file system, but for the calls that fail.
+#[derive(Clone, Debug)]
+pub struct FaultyFiles(Arc<Plan>);
+
+impl FaultyFiles {
+    /// Call `number`, counted from 1, comes to `fault`.
+    pub fn once(number: u64, fault: Fault) -> Self {
+        Self::between(number, number, fault)
+    }
+
+    /// Call `number` and all that follow come to `fault`.
+    pub fn from(number: u64, fault: Fault) -> Self {
+        Self::between(number, u64::MAX, fault)
+    }
+
+    /// Right before call `number` somebody else does something; no call fails.
+    pub fn meddling(number: u64, act: impl Fn() + Send + Sync + 'static) -> Self {
+        let meddling = Some(Meddling(Box::new(act)));
+        let calls = AtomicU64::new(0);
+        Self(Arc::new(Plan { calls, from: number, to: number, fault: Fault::Io, meddling }))
+    }
+
+    /// All calls from one to another come to `fault`.
+    pub fn between(from: u64, to: u64, fault: Fault) -> Self {
+        Self(Arc::new(Plan { calls: AtomicU64::new(0), from, to, fault, meddling: None }))
+    }
+
+    /// Calls made so far.
+    pub fn calls(&self) -> u64 {
+        self.0.calls.load(Ordering::Relaxed)
+    }
+
+    fn file(&self, file: io::Result<Box<dyn VfsFile>>) -> io::Result<Box<dyn VfsFile>> {
+        Ok(Box::new(FaultyFile { file: file?, plan: Arc::clone(&self.0) }))
+    }
+}
+
+#[derive(Debug)]
+struct FaultyFile {
+    file: Box<dyn VfsFile>,
+    plan: Arc<Plan>,
+}
+
+impl Vfs for FaultyFiles {
+    fn create_new(&self, path: &Path, private: bool) -> io::Result<Box<dyn VfsFile>> {
+        self.0.call()?;
+        self.file(RealFiles.create_new(path, private))
+    }
+
+    fn open(&self, path: &Path) -> io::Result<Box<dyn VfsFile>> {
+        self.0.call()?;
+        self.file(RealFiles.open(path))
+    }
+
+    fn open_to_write(&self, path: &Path) -> io::Result<Box<dyn VfsFile>> {
+        self.0.call()?;
+        self.file(RealFiles.open_to_write(path))
+    }
+
+    fn metadata(&self, path: &Path) -> io::Result<FileData> {
+        self.0.call()?;
+        RealFiles.metadata(path)
+    }
+
+    fn read_link(&self, path: &Path) -> io::Result<PathBuf> {
+        self.0.call()?;
+        RealFiles.read_link(path)
+    }
+
+    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
+        self.0.call()?;
+        RealFiles.resolve(path)
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.0.call()?;
+        RealFiles.rename(from, to)
+    }
+
+    fn rename_to_new(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.0.call()?;
+        RealFiles.rename_to_new(from, to)
+    }
+
+    fn remove(&self, path: &Path) -> io::Result<()> {
+        self.0.call()?;
+        RealFiles.remove(path)
+    }
+
+    fn create_folder(&self, path: &Path) -> io::Result<()> {
+        self.0.call()?;
+        RealFiles.create_folder(path)
+    }
+
+    fn sync_folder(&self, path: &Path) -> io::Result<()> {
+        self.0.call()?;
+        RealFiles.sync_folder(path)
+    }
+
+    fn list(&self, path: &Path) -> io::Result<Vec<OsString>> {
+        self.0.call()?;
+        RealFiles.list(path)
+    }
+}
+
+impl VfsFile for FaultyFile {
+    fn metadata(&self) -> io::Result<FileData> {
+        self.plan.call()?;
+        self.file.metadata()
+    }
+
+    fn read_at(&self, bytes: &mut [u8], offset: u64) -> io::Result<usize> {
+        let whole = if self.plan.call()? { bytes.len().div_ceil(2) } else { bytes.len() };
+        self.file.read_at(&mut bytes[..whole], offset)
+    }
+
+    fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<usize> {
+        match self.plan.call() {
+            Ok(short) => {
+                let whole = if short { bytes.len().div_ceil(2) } else { bytes.len() };
+                self.file.write_at(&bytes[..whole], offset)
+            }
+            // A disk that fails has often done a part of it.
+            Err(error) if error.kind() != io::ErrorKind::Interrupted => {
+                let _ = self.file.write_at(&bytes[..bytes.len() / 3], offset);
+                Err(error)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn set_size(&self, size: u64) -> io::Result<()> {
+        self.plan.call()?;
+        self.file.set_size(size)
+    }
+
+    fn sync_data(&self) -> io::Result<()> {
+        self.plan.call()?;
+        self.file.sync_data()
+    }
+
+    fn sync_all(&self) -> io::Result<()> {
+        self.plan.call()?;
+        self.file.sync_all()
+    }
+
+    fn try_lock(&self) -> io::Result<bool> {
+        self.plan.call()?;
+        self.file.try_lock()
+    }
+
+    fn set_owner(&self, owner: Option<u32>, group: u32) -> io::Result<()> {
+        self.plan.call()?;
+        self.file.set_owner(owner, group)
+    }
+
+    fn set_mode(&self, mode: u32) -> io::Result<()> {
+        self.plan.call()?;
+        self.file.set_mode(mode)
+    }
+
+    fn attributes(&self) -> io::Result<Vec<Attribute>> {
+        self.plan.call()?;
+        self.file.attributes()
+    }
+
+    fn set_attribute(&self, name: &[u8], value: &[u8]) -> io::Result<()> {
+        self.plan.call()?;
+        self.file.set_attribute(name, value)
+    }
+}

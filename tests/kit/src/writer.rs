@@ -1,0 +1,140 @@
+//! A process of its own that works as fast as it can and reports what is done, to be killed or to have its power cut.
+
+use std::ffi::OsStr;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+/// Longer than it ever takes to start on a busy machine; and the writer ends by itself after it.
+pub const LIMIT: Duration = Duration::from_secs(30);
+
+/// The process while it runs.
+pub struct Writer {
+    child: Child,
+    lines: Receiver<String>,
+    early: Vec<String>,
+}
+
+/// The clock on the wall, which two programs share.
+pub fn nanoseconds(time: SystemTime) -> u128 {
+    time.duration_since(UNIX_EPOCH).expect("after 1970").as_nanos()
+}
+
+/// What the program said was done.
+#[derive(Debug, Default)]
+pub struct Said {
+    /// Edits that counted as done.
+    pub edits: u32,
+    /// Of them, those said to be on the disk.
+    pub synced: u32,
+    /// Edits in the file that was saved last.
+    pub saved: u32,
+    /// Edits said to be on the disk, by one that was not to be believed any more.
+    pub late: u32,
+    /// When each of the edits was done: number and [`nanoseconds`].
+    pub times: Vec<(u32, u128)>,
+    /// What went wrong.
+    pub complaint: Option<String>,
+}
+
+/// The state of the disk after the process was stopped.
+#[derive(Debug)]
+pub struct Found {
+    /// Number of edits found in the journal.
+    pub edits: u32,
+    /// Number of edits found in the saved file.
+    pub saved: u32,
+}
+
+fn program() -> std::path::PathBuf {
+    std::env::current_exe().expect("a running test has a file")
+}
+
+impl Writer {
+    /// Starts another test of this file, told by its environment what to do, which says what it does as this one does.
+    pub fn of(test: &str, environment: &[(&str, &OsStr)]) -> Self {
+        Self::run_test(Command::new(program()).envs(environment.iter().copied()), test)
+    }
+
+    fn run_test(command: &mut Command, test: &str) -> Self {
+        let mut child = command
+            .args([test, "--exact", "--nocapture", "--test-threads=1"])
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the test's own file can be started");
+        let out = BufReader::new(child.stdout.take().expect("piped"));
+        let (sender, lines) = channel();
+        let read = move || {
+            for line in out.lines().map_while(Result::ok) {
+                if sender.send(line).is_err() {
+                    break;
+                }
+            }
+        };
+        std::thread::Builder::new().name("reader".to_owned()).spawn(read).expect("a thread");
+        Self { child, lines, early: Vec::new() }
+    }
+
+    /// Returns when the first edit is done.
+    #[track_caller]
+    pub fn working(&mut self) {
+        let done = |line: &str| ["e ", "s ", "x "].iter().any(|kind| line.starts_with(kind));
+        while !self.early.last().is_some_and(|line| done(line)) {
+            self.early.push(self.lines.recv_timeout(LIMIT).expect("it works"));
+        }
+    }
+
+    /// The process id.
+    pub fn process(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Kills it; all that it said.
+    pub fn kill(self) -> Said {
+        self.kill_and_believe(u128::MAX)
+    }
+
+    /// All that it said, once it ended because somebody else killed it.
+    pub fn ended(self) -> Said {
+        self.end_and_believe(u128::MAX)
+    }
+
+    /// Kills it; what it said was done before `end`, in [`nanoseconds`].
+    pub fn kill_and_believe(mut self, end: u128) -> Said {
+        self.child.kill().expect("it runs");
+        self.end_and_believe(end)
+    }
+
+    fn end_and_believe(mut self, end: u128) -> Said {
+        self.child.wait().expect("it ends");
+        let mut said = Said::default();
+        // What was in the pipe was said before it was killed.
+        for line in self.early.drain(..).chain(self.lines.iter()) {
+            let Some((rest, time)) = line.rsplit_once(' ') else { continue };
+            let Some((kind, rest)) = rest.split_once(' ') else { continue };
+            if kind == "x" {
+                said.complaint = Some(rest.to_owned());
+            }
+            let (Ok(number), Ok(time)) = (rest.parse(), time.parse()) else { continue };
+            if time >= end {
+                if kind == "y" || kind == "s" {
+                    said.late = number;
+                }
+                continue;
+            }
+            match kind {
+                "e" => {
+                    said.edits = number;
+                    said.times.push((number, time));
+                }
+                "y" => said.synced = number,
+                "s" => said.saved = number,
+                _ => {}
+            }
+        }
+        said
+    }
+}

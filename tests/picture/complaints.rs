@@ -1,0 +1,34 @@
+//! An error that the graphics library finds in what it is asked to do fails the test during which it happened.
+
+use dragonfly_kit::picture::complaints::none_in;
+use dragonfly_kit::picture::studio;
+use std::ffi::OsStr;
+
+/// What must not be: a buffer that is used in a way it was not made for.
+fn provoke(studio: &mut dragonfly_picture::Studio) {
+    let gpu = studio.stage().device().gpu();
+    let _ = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("a mistake on purpose"),
+        size: 16,
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::VERTEX,
+        mapped_at_creation: false,
+    });
+}
+
+#[test]
+fn an_error_of_ours_fails_the_test_that_made_it() {
+    const NAME: &str = "complaints::an_error_of_ours_fails_the_test_that_made_it";
+    // In a process of its own, as the error fails every test beside it, and must.
+    dragonfly_kit::process::alone(NAME, || {
+        let Some(mut studio) = studio::studio() else { return };
+        provoke(&mut studio);
+        let failed = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| drop(studio)));
+        assert!(failed.is_err(), "an error of ours was not noticed");
+    });
+}
+
+#[test]
+#[should_panic(expected = "unexpected graphics error")]
+fn a_line_about_an_error_of_ours_fails_the_test_that_started_the_program() {
+    none_in("ERROR dragonfly_picture::fault: unexpected graphics error error=…", [OsStr::new("DISPLAY")]);
+}

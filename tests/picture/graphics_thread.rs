@@ -1,0 +1,322 @@
+//! The graphics thread, turned by hand: it draws when something changed, answers what it is asked, and rests otherwise.
+
+use dragonfly_anim::data::{ModelData, Take};
+use dragonfly_document::{Document, DocumentReply, Source, View};
+use dragonfly_kit::document::arm;
+use dragonfly_kit::eventually;
+use dragonfly_kit::picture::complaints::NoComplaints;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::playback::Playback;
+use dragonfly_picture::scene::Scene;
+use dragonfly_picture::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
+use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
+use glam::Vec3;
+use image::RgbaImage;
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+const SIZE: [u32; 2] = [320, 200];
+
+/// Keeps what the main thread is told.
+#[derive(Default)]
+struct Replies(Vec<GraphicsReply>);
+
+impl Receiver for Replies {
+    type Message = GraphicsReply;
+
+    fn receive(&mut self, message: GraphicsReply, _: &mut Context) {
+        self.0.push(message);
+    }
+}
+
+/// Both threads, in one.
+struct Bench {
+    main: Captured,
+    thread: Captured,
+    graphics: GraphicsHandle,
+    replies: Rc<RefCell<Replies>>,
+    // Dropped last, when the device is gone.
+    _watch: NoComplaints,
+}
+
+impl Bench {
+    /// Before the graphics thread was turned for the first time.
+    fn begin(parameters: DeviceParameters) -> Self {
+        let watch = NoComplaints::expect();
+        let mut main = Thread::capture("main", || {});
+        let thread = Thread::capture("graphics", || {});
+        let replies = Rc::new(RefCell::new(Replies::default()));
+        let address = main.context().register_receiver(Rc::clone(&replies));
+        let graphics = Graphics::start_in(thread.handle(), parameters, SIZE, address);
+        Self { main, thread, graphics, replies, _watch: watch }
+    }
+
+    /// `None` without an adapter.
+    fn new() -> Option<Self> {
+        let mut bench = Self::begin(DeviceParameters::default());
+        bench.settle();
+        match &bench.take()[..] {
+            [GraphicsReply::Fatal(reason), ..] => {
+                eprintln!("skipped: {reason}");
+                None
+            }
+            [GraphicsReply::Ready { .. }, ..] => Some(bench),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Shows the arm.
+    fn with_arm() -> Option<Self> {
+        let mut bench = Self::new()?;
+        bench.graphics.show(View::opened(1, arm::loaded()));
+        bench.graphics.set_camera(Camera { target: Vec3::Y * 1.5, distance: 8.0, ..Camera::default() });
+        bench.graphics.set_look(Look { viewport: [20, 10, 280, 180], skeleton: true, ..Look::default() });
+        bench.settle();
+        Some(bench)
+    }
+
+    /// Turns the graphics thread until it rests, a little while at most.
+    fn settle(&mut self) {
+        let end = Instant::now() + Duration::from_secs(20);
+        while self.turn() != Next::OnMessage {
+            assert!(Instant::now() < end, "the graphics thread finds no rest");
+        }
+    }
+
+    /// One turn, when it is due.
+    fn turn(&mut self) -> Next {
+        let next = self.thread.iterate();
+        if let Next::At(when) = next {
+            std::thread::park_timeout(when.saturating_duration_since(Instant::now()));
+        }
+        next
+    }
+
+    fn take(&mut self) -> Vec<GraphicsReply> {
+        self.main.iterate();
+        std::mem::take(&mut self.replies.borrow_mut().0)
+    }
+
+    fn frames(&mut self) -> u64 {
+        let frames = self.take().into_iter().filter_map(|reply| match reply {
+            GraphicsReply::Statistics { frames, .. } => Some(frames),
+            _ => None,
+        });
+        frames.max().unwrap_or(0)
+    }
+
+    /// The whole window.
+    fn capture(&mut self, path: &Path) -> RgbaImage {
+        self.graphics.capture(path.to_owned());
+        self.settle();
+        let written = self.take().into_iter().find_map(|reply| match reply {
+            GraphicsReply::Captured(written) => Some(written),
+            _ => None,
+        });
+        image::open(written.unwrap().unwrap()).unwrap().into_rgba8()
+    }
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    folder.join(name)
+}
+
+/// Panels with a word on them, as egui paints them.
+fn panels(context: &egui::Context, word: &str) -> PanelsFrame {
+    let input = egui::RawInput {
+        screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(320.0, 200.0))),
+        ..egui::RawInput::default()
+    };
+    let output = context.run_ui(input, |ui| {
+        ui.heading(word);
+    });
+    PanelsFrame {
+        size: SIZE,
+        pixels_per_point: 1.0,
+        jobs: context.tessellate(output.shapes, 1.0),
+        textures: output.textures_delta,
+    }
+}
+
+#[test]
+fn a_frame_is_drawn_only_when_something_changes() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    assert_eq!(bench.turn(), Next::OnMessage, "nothing moves, so nothing wakes the thread");
+    let now = Instant::now();
+    let playing = Playback { take: Some(0), length: arm::LENGTH, playing: true, ..Playback::rest(now) };
+    bench.graphics.play(playing);
+    let end = now + Duration::from_millis(800);
+    while Instant::now() < end {
+        assert_ne!(bench.turn(), Next::OnMessage, "playing goes on by itself");
+    }
+    assert!(bench.frames() > 5);
+    bench.graphics.play(playing.with(false, 1.0, playing.repeat, Instant::now()));
+    bench.settle();
+}
+
+#[test]
+fn a_minimised_window_costs_nothing() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    bench.graphics.resize([0, 0]);
+    bench.graphics.play(Playback {
+        take: Some(0),
+        length: arm::LENGTH,
+        playing: true,
+        ..Playback::rest(Instant::now())
+    });
+    bench.settle();
+    bench.graphics.resize(SIZE);
+    assert_ne!(bench.turn(), Next::OnMessage, "it goes on where the window comes back");
+}
+
+#[test]
+fn panels_come_back_after_a_loss_with_everything_else() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    let context = egui::Context::default();
+    // The second frame brings no textures, and the first is never drawn: its textures must not be lost.
+    bench.graphics.show_panels(panels(&context, "first"));
+    bench.graphics.show_panels(panels(&context, "second"));
+    let before = bench.capture(&scratch("before-loss.png"));
+    assert!(before.pixels().any(|pixel| pixel.0[..3].iter().all(|&value| value > 140)), "there is text");
+    for _ in 0..3 {
+        bench.graphics.lose_device();
+        bench.settle();
+        let recovered = |reply: &GraphicsReply| matches!(reply, GraphicsReply::Recovered { .. });
+        assert!(bench.take().iter().any(recovered));
+    }
+    let after = bench.capture(&scratch("after-loss.png"));
+    assert_eq!(dragonfly_kit::picture::images::difference(&before, &after), 0);
+}
+
+#[test]
+fn panels_that_no_device_will_show_are_forgotten_in_peace() {
+    let none = DeviceParameters { backends: wgpu::Backends::empty(), ..DeviceParameters::default() };
+    let mut bench = Bench::begin(none);
+    let context = egui::Context::default();
+    // Before it is known that there is none, and after.
+    bench.graphics.show_panels(panels(&context, "early"));
+    bench.settle();
+    assert!(matches!(&bench.take()[..], [GraphicsReply::Fatal(_)]), "the window must hear of it, to end");
+    let context = egui::Context::default();
+    bench.graphics.show_panels(panels(&context, "late"));
+    bench.settle();
+    // And when the thread ends with drawings on their way.
+    bench.graphics.show_panels(panels(&egui::Context::default(), "never"));
+}
+
+#[test]
+fn a_question_gets_its_answer_and_the_newest_camera_wins() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    for distance in 1..50 {
+        let camera = Camera {
+            target: Vec3::Y * 1.5,
+            distance: distance as f32,
+            yaw: 0.0,
+            pitch: 0.0,
+            ..Camera::default()
+        };
+        bench.graphics.set_camera(camera);
+    }
+    bench.graphics.set_camera(Camera {
+        target: Vec3::Y * 1.5,
+        distance: 8.0,
+        yaw: 0.0,
+        pitch: 0.0,
+        ..Camera::default()
+    });
+    // The middle of the viewport is the middle of the second bone.
+    bench.graphics.pick([20.0 + 140.0, 10.0 + 90.0], 7);
+    bench.settle();
+    let picked = bench.take().into_iter().find_map(|reply| match reply {
+        GraphicsReply::Picked { bone, ticket } => Some((bone, ticket)),
+        _ => None,
+    });
+    assert_eq!(picked, Some((Some(1), 7)));
+}
+
+/// Hears the document, when its thread gets to it.
+struct Panels(Rc<RefCell<Vec<DocumentReply>>>);
+
+impl Receiver for Panels {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
+        self.0.borrow_mut().push(reply);
+    }
+}
+
+#[test]
+fn a_model_is_shown_while_the_main_thread_stands_still() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    let path = scratch("stalled.png");
+    let before = bench.capture(&path);
+    let heard = Rc::new(RefCell::new(Vec::new()));
+    let replies = bench.main.context().register_receiver(Panels(Rc::clone(&heard)));
+    let document = Document::start(replies, bench.graphics.views().clone()).unwrap();
+    document.open(Source::BuiltIn);
+    // From here on nobody turns the main thread.
+    eventually(Duration::from_secs(30), || {
+        bench.graphics.capture(path.clone());
+        bench.settle();
+        let now = image::open(&path).unwrap().into_rgba8();
+        dragonfly_kit::picture::images::difference(&before, &now) > 100
+    });
+    assert!(heard.borrow().is_empty());
+    bench.main.iterate();
+    assert!(
+        heard.borrow().iter().any(|reply| matches!(reply, DocumentReply::View(_))),
+        "then it hears of it"
+    );
+    document.stop();
+    Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
+}
+
+#[test]
+fn a_changed_take_is_shown_as_if_it_had_been_opened_like_that() {
+    let Some(mut bench) = Bench::with_arm() else { return };
+    let opened = View::opened(1, arm::loaded());
+    let still = Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) };
+    let changed = View { generation: 2, takes: [Arc::new(still.clone())].into(), ..opened.clone() };
+    let mut model = ModelData::clone(&opened.loaded.model);
+    model.animation.takes = vec![Arc::new(still)];
+    let mut reopened = Arc::into_inner(arm::loaded()).unwrap();
+    reopened.model = Arc::new(model);
+    let end = Playback { take: Some(0), length: arm::LENGTH, ..Playback::rest(Instant::now()) };
+    bench.graphics.play(end.seek(arm::LENGTH, end.anchor));
+    let [bent, straight, like_that, again] =
+        [opened.clone(), changed, View::opened(3, Arc::new(reopened)), opened].map(|view| {
+            bench.graphics.show(view);
+            bench.capture(&scratch("takes.png"))
+        });
+    assert!(dragonfly_kit::picture::images::difference(&bent, &straight) > 100);
+    assert_eq!(dragonfly_kit::picture::images::difference(&straight, &like_that), 0);
+    assert_eq!(dragonfly_kit::picture::images::difference(&bent, &again), 0);
+}
+
+#[test]
+fn a_changed_take_keeps_what_the_device_has_of_the_model() {
+    let opened = View::opened(1, arm::loaded());
+    let mut scene = Scene::new(Instant::now());
+    let mut shown = |view: &View| {
+        scene.show(view);
+        scene.playback = Playback { take: Some(0), length: arm::LENGTH, ..Playback::rest(Instant::now()) };
+        scene.playback = scene.playback.seek(arm::LENGTH, Instant::now());
+        scene.prepare(Instant::now());
+        let model = scene.model().unwrap();
+        (Arc::as_ptr(model.loaded()), model.items().as_ptr(), model.to_root().to_vec())
+    };
+    let (model, items, bent) = shown(&opened);
+    let still = Arc::new(Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) });
+    // As many as before, one more, none.
+    for takes in [vec![Arc::clone(&still)], vec![still; 2], Vec::new()] {
+        let changed = View { generation: 2, takes: takes.into(), ..opened.clone() };
+        let (same, kept, straight) = shown(&changed);
+        assert_eq!((same, kept), (model, items), "nothing was made anew, so nothing is uploaded");
+        assert_ne!(straight, bent);
+        assert_eq!(shown(&opened).2, bent);
+    }
+}

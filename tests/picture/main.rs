@@ -1,0 +1,20 @@
+//! Promises, one module each.
+
+mod camera;
+mod complaints;
+mod device_loss;
+mod ghost_skins;
+mod graphics_thread;
+mod no_allocation;
+mod picking;
+mod picking_many;
+mod picking_scene;
+mod picking_skin;
+mod picture;
+mod playback;
+mod shaders;
+mod skinning_on_device;
+mod surfaces;
+
+#[global_allocator]
+static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

@@ -1,0 +1,277 @@
+//! The journal: what was appended can be had back, what is due is brought to the disk, and one program at a time has it.
+
+use dragonfly_kit::counting;
+use dragonfly_kit::folder::Folder;
+use dragonfly_kit::mounted::quick_folder;
+use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
+use dragonfly_store::{
+    Autosave, Claim, Entry, Fate, FileStamp, Journal, JournalError, LONGEST_UNSYNCED, Life, Opening, Owner,
+    Reading, RealFiles, Recoverable, SaveOptions, Vfs, save_document,
+};
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// An autosave folder below `folder`.
+pub(crate) fn autosave(folder: &Folder, files: impl Vfs + 'static) -> Autosave {
+    Autosave::new(Arc::new(files), Some(folder.join("autosave"))).expect("the folder is given")
+}
+
+/// The new journal of a document.
+#[track_caller]
+pub(crate) fn begin(autosave: &Autosave, document: Option<&Path>, stamp: Option<&FileStamp>) -> Journal {
+    match autosave.begin(document, stamp).expect("a journal") {
+        Opening::New(journal) => *journal,
+        Opening::Found(found) => panic!("there is one already: {found:?}"),
+    }
+}
+
+/// The only journal there is.
+#[track_caller]
+pub(crate) fn only(autosave: &Autosave) -> Recoverable {
+    let found = autosave.recoverable().expect("the folder can be read");
+    assert_eq!(found.len(), 1, "{found:?}");
+    found.into_iter().next().expect("one")
+}
+
+pub(crate) fn edits<'a>(texts: impl IntoIterator<Item = &'a str>) -> Vec<Entry> {
+    texts.into_iter().map(|text| Entry::Edit(text.as_bytes().to_vec())).collect()
+}
+
+#[test]
+fn what_was_appended_is_had_back_in_order() {
+    let folder = quick_folder("journal-order");
+    let autosave = autosave(&folder, RealFiles);
+    let mut journal = begin(&autosave, None, None);
+    let now = Instant::now();
+    for text in ["one", "", "three"] {
+        journal.append(text.as_bytes(), now).unwrap();
+    }
+    let long = vec![7; 3 << 20];
+    journal.append(&long, now).unwrap();
+    // Not even brought to the disk: dropped as a killed program drops it.
+    drop(journal);
+    let found = only(&autosave);
+    assert_eq!((found.work, found.unsaved, found.life), (4, 4, Life::Gone));
+    assert_eq!((&found.reading, &found.file), (&Reading::Whole, &Fate::Unsaved));
+    assert_eq!(found.owner, Some(Owner::this()));
+    assert!(found.is_offered());
+    let mut wanted = edits(["one", "", "three"]);
+    wanted.push(Entry::Edit(long));
+    assert_eq!(autosave.entries(&found).unwrap(), wanted);
+    let mut resumed = autosave.keep(&found, Claim::IfFree).unwrap();
+    assert_eq!((resumed.entries, resumed.cut), (wanted.clone(), 0));
+    resumed.journal.append(b"five", now).unwrap();
+    resumed.journal.close().unwrap();
+    wanted.extend(edits(["five"]));
+    assert_eq!(autosave.entries(&only(&autosave)).unwrap(), wanted);
+}
+
+#[test]
+fn a_record_is_due_after_a_fifth_of_a_second_or_at_the_end_of_the_gesture() {
+    let folder = quick_folder("journal-due");
+    let mut journal = begin(&autosave(&folder, RealFiles), None, None);
+    let start = Instant::now();
+    let after = |milliseconds| start + Duration::from_millis(milliseconds);
+    assert_eq!(journal.next_due(), None);
+    journal.end_of_gesture(start);
+    assert_eq!(journal.next_due(), None, "nothing was appended");
+    journal.append(b"one", start).unwrap();
+    journal.append(b"two", after(150)).unwrap();
+    assert_eq!(journal.next_due(), Some(start + LONGEST_UNSYNCED), "the first one counts");
+    assert!(!journal.sync_if_due(after(199)).unwrap());
+    assert!(journal.sync_if_due(after(200)).unwrap());
+    assert_eq!(journal.next_due(), None);
+    assert!(!journal.sync_if_due(after(900)).unwrap());
+    journal.append(b"three", after(1000)).unwrap();
+    journal.end_of_gesture(after(1001));
+    assert_eq!(journal.next_due(), Some(after(1001)));
+    assert!(journal.sync_if_due(after(1001)).unwrap());
+    assert_eq!(LONGEST_UNSYNCED, Duration::from_millis(200));
+}
+
+#[test]
+fn a_snapshot_takes_the_place_of_all_before_it() {
+    let folder = quick_folder("journal-compact");
+    let autosave = autosave(&folder, RealFiles);
+    let mut journal = begin(&autosave, None, None);
+    let now = Instant::now();
+    for number in 0..500_u32 {
+        journal.append(&number.to_le_bytes(), now).unwrap();
+    }
+    let long = journal.size();
+    journal.compact(b"all of it").unwrap();
+    assert!(journal.size() < long / 10, "{} of {long}", journal.size());
+    assert_eq!((journal.unsaved(), journal.next_due()), (1, None));
+    journal.append(b"more", now).unwrap();
+    drop(journal);
+    let wanted = [vec![Entry::Snapshot(b"all of it".to_vec())], edits(["more"])].concat();
+    assert_eq!(autosave.entries(&only(&autosave)).unwrap(), wanted);
+    // A program that was killed in the middle left one half done.
+    let found = only(&autosave);
+    fs::write(found.journal.with_extension("compact"), "half").unwrap();
+    let mut journal = autosave.keep(&found, Claim::IfFree).unwrap().journal;
+    journal.compact(b"again").unwrap();
+    drop(journal);
+    assert_eq!(autosave.entries(&only(&autosave)).unwrap(), [Entry::Snapshot(b"again".to_vec())]);
+    assert_eq!(fs::read_dir(autosave.journals()).unwrap().count(), 1);
+}
+
+#[test]
+fn what_is_in_the_file_is_no_unsaved_work_and_its_history_stays() {
+    let folder = quick_folder("journal-saved");
+    let autosave = autosave(&folder, RealFiles);
+    let path = folder.join("fox.glb");
+    fs::write(&path, "as read").unwrap();
+    let stamp = FileStamp::take(&RealFiles, &path).unwrap();
+    let mut journal = begin(&autosave, Some(&path), Some(&stamp));
+    assert_eq!(journal.document().as_deref(), Some(fs::canonicalize(&path).unwrap().as_path()));
+    let now = Instant::now();
+    journal.append(b"one", now).unwrap();
+    let saved = save_document(&RealFiles, &mut journal, &path, b"saved", &SaveOptions::default()).unwrap();
+    assert_eq!(saved.notices, Vec::<String>::new());
+    assert_eq!((journal.unsaved(), journal.stamp()), (0, Some(&saved.stamp)));
+    journal.append(b"two", now).unwrap();
+    assert_eq!(journal.unsaved(), 1);
+    // A copy elsewhere is not the document.
+    save_document(&RealFiles, &mut journal, &folder.join("copy.glb"), b"copy", &SaveOptions::default())
+        .unwrap();
+    assert_eq!(journal.unsaved(), 1);
+    save_document(&RealFiles, &mut journal, &path, b"saved again", &SaveOptions::default()).unwrap();
+    journal.compact(b"all").unwrap();
+    assert_eq!(journal.unsaved(), 0, "a snapshot of what is saved is saved");
+    journal.close().unwrap();
+    let found = only(&autosave);
+    assert_eq!((found.work, found.unsaved, &found.file), (1, 0, &Fate::Same));
+    assert!(!found.is_offered());
+    // Opened again, the history is there.
+    let Opening::Found(found) = autosave.begin(Some(&path), None).unwrap() else { panic!("its history") };
+    let entries = autosave.keep(&found, Claim::IfFree).unwrap().entries;
+    assert_eq!(entries, [Entry::Snapshot(b"all".to_vec()), Entry::Saved]);
+}
+
+#[test]
+fn a_program_killed_between_file_and_journal_knows_that_it_saved() {
+    let folder = quick_folder("journal-between");
+    let autosave = autosave(&folder, RealFiles);
+    let path = folder.join("fox.glb");
+    fs::write(&path, "as read").unwrap();
+    let stamp = FileStamp::take(&RealFiles, &path).unwrap();
+    let mut journal = begin(&autosave, Some(&path), Some(&stamp));
+    journal.append(b"one", Instant::now()).unwrap();
+    journal.saving(b"saved").unwrap();
+    drop(journal);
+    let found = only(&autosave);
+    assert_eq!((found.unsaved, &found.file), (1, &Fate::Same), "killed before");
+    dragonfly_store::replace(&path, b"saved").unwrap();
+    let found = only(&autosave);
+    assert_eq!((found.unsaved, &found.file), (0, &Fate::Same), "killed after");
+    let mut journal = autosave.keep(&found, Claim::IfFree).unwrap().journal;
+    assert_eq!(journal.unsaved(), 0);
+    journal.append(b"two", Instant::now()).unwrap();
+    drop(journal);
+    let found = only(&autosave);
+    assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &Fate::Same));
+    // It was written down, for the time when the file does not tell any more.
+    fs::write(&path, "somebody else's").unwrap();
+    let found = only(&autosave);
+    assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &Fate::Changed));
+}
+
+#[test]
+fn a_journal_without_work_leaves_nothing() {
+    let folder = quick_folder("journal-nothing");
+    let autosave = autosave(&folder, RealFiles);
+    assert_eq!(autosave.recoverable().unwrap(), [], "there is no folder yet");
+    begin(&autosave, None, None).close().unwrap();
+    assert_eq!(fs::read_dir(autosave.journals()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_failed_record_is_not_there_and_the_next_one_is() {
+    let folder = quick_folder("journal-failed");
+    for number in 1.. {
+        let _ = fs::remove_dir_all(folder.join("autosave"));
+        let files = FaultyFiles::from(number, Fault::Full);
+        let autosave = autosave(&folder, files.clone());
+        let Ok(Opening::New(mut journal)) = autosave.begin(None, None) else { continue };
+        let now = Instant::now();
+        let first = journal.append(b"first", now).is_ok();
+        let error = journal.append(&[9; 100_000], now);
+        drop(journal);
+        // A disk that is full for good: what could not be cut off is no work all the same.
+        let sound = crate::journal::autosave(&folder, RealFiles);
+        let found = only(&sound);
+        assert_eq!(sound.entries(&found).unwrap().len(), usize::from(first) + usize::from(error.is_ok()));
+        let mut journal = sound.keep(&found, Claim::IfFree).unwrap().journal;
+        journal.append(b"next", now).unwrap();
+        drop(journal);
+        assert_eq!(sound.entries(&only(&sound)).unwrap().last(), edits(["next"]).last());
+        if files.calls() < number {
+            break;
+        }
+    }
+}
+
+#[test]
+fn after_an_error_of_the_disk_nothing_is_recorded_before_a_snapshot() {
+    let folder = quick_folder("journal-broken");
+    let now = Instant::now();
+    let mut met = 0;
+    for number in 1..40 {
+        let _ = fs::remove_dir_all(folder.join("autosave"));
+        let autosave = autosave(&folder, FaultyFiles::once(number, Fault::Io));
+        let Ok(Opening::New(mut journal)) = autosave.begin(None, None) else { continue };
+        if journal.append(b"one", now).is_err() || journal.sync().is_ok() {
+            continue;
+        }
+        met += 1;
+        let error = journal.append(b"two", now).unwrap_err();
+        assert!(matches!(error, JournalError::Broken { .. }), "{error}");
+        // The disk would say now that all is well. It is not asked.
+        assert!(matches!(journal.sync().unwrap_err(), JournalError::Broken { .. }));
+        assert!(journal.broken().is_some());
+        journal.compact(b"one, two").unwrap();
+        journal.append(b"three", now).unwrap();
+        journal.sync().unwrap();
+        drop(journal);
+        let wanted = [vec![Entry::Snapshot(b"one, two".to_vec())], edits(["three"])].concat();
+        assert_eq!(autosave.entries(&only(&autosave)).unwrap(), wanted);
+    }
+    assert_eq!(met, 1, "the call that brings it to the disk failed in one of the runs");
+}
+
+#[test]
+fn appending_allocates_nothing() {
+    let folder = quick_folder("journal-allocations");
+    let mut journal = begin(&autosave(&folder, RealFiles), None, None);
+    let now = Instant::now();
+    journal.append(&[1; 500], now).unwrap();
+    let (count, ()) = counting::count(|| {
+        for _ in 0..1000 {
+            journal.append(&[2; 500], now).unwrap();
+        }
+    });
+    assert_eq!(count.allocations, 0);
+}
+
+#[test]
+fn names_that_are_no_text_and_very_long_ones_are_documents_too() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = quick_folder("journal-names");
+    let autosave = autosave(&folder, RealFiles);
+    let long = "x".repeat(251) + ".glb";
+    for name in [&b"fox \xff\xfe.glb"[..], long.as_bytes(), "日本 🦊\n.glb".as_bytes(), b".hidden", b"-"]
+    {
+        let path = folder.path().join(std::ffi::OsStr::from_bytes(name));
+        dragonfly_store::replace(&path, b"model").unwrap();
+        let mut journal = begin(&autosave, Some(&path), None);
+        journal.append(b"one", Instant::now()).unwrap();
+        drop(journal);
+        let found = only(&autosave);
+        assert_eq!(found.document, Some(fs::canonicalize(&path).unwrap()));
+        autosave.discard(&found).unwrap();
+        assert_eq!(autosave.versions().of(&RealFiles, &path).unwrap(), []);
+    }
+}

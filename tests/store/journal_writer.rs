@@ -1,0 +1,185 @@
+//! A program of its own that edits and saves as fast as it can and says what is done: to be killed, or to have its power
+//! cut. It is this file of tests, started again.
+
+use dragonfly_kit::folder::Folder;
+use dragonfly_kit::random::Random;
+use dragonfly_kit::writer::{Found, LIMIT, Said, Writer, nanoseconds};
+use dragonfly_store::{
+    Autosave, Claim, Entry, Expected, Fate, FileStamp, Opening, RealFiles, Resumed, SaveOptions,
+    save_document,
+};
+use std::ffi::OsStr;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Instant, SystemTime};
+
+/// The folder to work in, for the program that is started.
+const CHILD: &str = "DRAGONFLY_STORE_CHILD";
+
+/// Set when it is only to save, without a journal: what a journal brings to the disk takes other things along.
+const ONLY_SAVES: &str = "DRAGONFLY_STORE_CHILD_ONLY_SAVES";
+
+/// The document after so many edits.
+fn document(edits: u32) -> Vec<u8> {
+    let mut bytes = format!("{edits}\n").into_bytes();
+    let mut random = Random::new(u64::from(edits));
+    bytes.extend((0..3000).flat_map(|_| random.bits().to_le_bytes()));
+    bytes
+}
+
+/// After how many edits the document at `path` was saved, which must be whole; `None` when there is none.
+#[track_caller]
+pub(crate) fn document_at(path: &Path) -> Option<u32> {
+    let bytes = fs::read(path).ok()?;
+    let number = bytes.split(|byte| *byte == b'\n').next().and_then(|line| std::str::from_utf8(line).ok());
+    let saved: u32 = number.and_then(|number| number.parse().ok()).expect("the document is whole");
+    assert!(bytes == document(saved), "the document is torn");
+    Some(saved)
+}
+
+/// Edit number `number`.
+fn edit(number: u32) -> Vec<u8> {
+    let mut bytes = number.to_le_bytes().to_vec();
+    let mut random = Random::new(u64::from(number));
+    bytes.extend((0..random.below(400)).map(|_| random.bits() as u8));
+    bytes
+}
+
+/// How many edits these entries are, which must be all from the first on.
+fn count(entries: &[Entry]) -> u32 {
+    let mut edits = 0;
+    for entry in entries {
+        match entry {
+            Entry::Snapshot(bytes) => edits = u32::from_le_bytes(bytes[..].try_into().expect("a number")),
+            Entry::Edit(bytes) => {
+                edits += 1;
+                assert!(*bytes == edit(edits), "edit {edits} is another one");
+            }
+            Entry::Saved => {}
+        }
+    }
+    edits
+}
+
+/// Not a promise of its own: what the program does that is started.
+#[test]
+fn edits_and_saves_until_it_is_killed() {
+    let Some(folder) = std::env::var_os(CHILD) else { return };
+    let mut out = std::io::stdout();
+    // With the time when it was done: when it is read says less.
+    let mut say = |what: &str| {
+        let line = format!("{what} {}\n", nanoseconds(SystemTime::now()));
+        out.write_all(line.as_bytes()).and_then(|()| out.flush()).is_ok()
+    };
+    say("\nstarted");
+    let work = if std::env::var_os(ONLY_SAVES).is_some() { save_on } else { write_on };
+    if let Err(error) = work(Path::new(&folder), &mut say) {
+        say(&format!("x {error}"));
+    }
+}
+
+type Worked = Result<(), Box<dyn std::error::Error>>;
+
+fn save_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
+    let path = folder.join("fox.glb");
+    let mut saved = document_at(&path).unwrap_or_default();
+    let began = Instant::now();
+    while began.elapsed() < LIMIT {
+        saved += 1;
+        dragonfly_store::replace(&path, &document(saved))?;
+        if !say(&format!("s {saved}")) {
+            break;
+        }
+    }
+    Ok(())
+}
+
+fn write_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
+    let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.join("autosave"))).expect("a folder");
+    let path = folder.join("fox.glb");
+    if !path.exists() {
+        dragonfly_store::replace(&path, &document(0))?;
+    }
+    let mut stamp = FileStamp::take(&RealFiles, &path)?;
+    let Resumed { mut journal, entries, .. } = match autosave.begin(Some(&path), Some(&stamp))? {
+        Opening::New(journal) => Resumed { journal: *journal, entries: Vec::new(), cut: 0 },
+        Opening::Found(found) => autosave.keep(&found, Claim::IfFree)?,
+    };
+    let mut edits = count(&entries);
+    let began = Instant::now();
+    while began.elapsed() < LIMIT {
+        edits += 1;
+        journal.append(&edit(edits), Instant::now())?;
+        let mut listens = say(&format!("e {edits}"));
+        if edits.is_multiple_of(7) {
+            journal.end_of_gesture(Instant::now());
+        }
+        if journal.sync_if_due(Instant::now())? {
+            listens &= say(&format!("y {edits}"));
+        }
+        if edits.is_multiple_of(60) {
+            journal.compact(&edits.to_le_bytes())?;
+            listens &= say(&format!("y {edits}"));
+        }
+        if edits.is_multiple_of(10) {
+            let options =
+                SaveOptions { expected: Expected::Stamp(&stamp), versions: Some(autosave.versions()) };
+            let saved = save_document(&RealFiles, &mut journal, &path, &document(edits), &options)?;
+            stamp = saved.stamp;
+            match saved.notices.first() {
+                None => listens &= say(&format!("s {edits}")),
+                Some(notice) => return Err(notice.as_str().into()),
+            }
+        }
+        if !listens {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Looks at what there is after stop number `stop`, which must be whole and fit together.
+#[track_caller]
+pub(crate) fn check(folder: &Folder, said: &Said, stop: usize) -> Found {
+    check_at(folder.path(), said, stop)
+}
+
+/// As [`check`].
+#[track_caller]
+pub(crate) fn check_at(folder: &Path, said: &Said, stop: usize) -> Found {
+    let path = folder.join("fox.glb");
+    let Some(saved) = document_at(&path) else {
+        assert_eq!((said.edits, said.saved), (0, 0), "stop {stop}: the document is gone");
+        return Found { edits: 0, saved: 0 };
+    };
+    let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.join("autosave"))).expect("a folder");
+    let found = autosave.recoverable().expect("the folder can be read");
+    // Stopped while it made its first journal, it left none, or one without anything in it.
+    let Some(found) = found.into_iter().find(|found| found.work > 0) else {
+        assert_eq!((said.edits, saved), (0, 0), "stop {stop}: the journal is gone");
+        return Found { edits: 0, saved };
+    };
+    let edits = count(&autosave.entries(&found).expect("the journal can be read"));
+    assert!(saved <= edits, "stop {stop}: {saved} edits are in the document, {edits} in the journal");
+    // Nobody else wrote it, so the journal knows it, however the program was stopped.
+    assert_eq!(found.file, Fate::Same, "stop {stop}: {found:?}");
+    assert_eq!(found.unsaved == 0, saved == edits, "stop {stop}: {found:?}, {saved} of {edits} saved");
+    Found { edits, saved }
+}
+
+/// Starts a writer that edits and saves in `folder`.
+pub(crate) fn start(folder: &Path) -> Writer {
+    start_with(&[(CHILD, folder.as_os_str())])
+}
+
+/// Starts a writer that only saves in `folder`.
+pub(crate) fn start_saving(folder: &Path) -> Writer {
+    start_with(&[(CHILD, folder.as_os_str()), (ONLY_SAVES, OsStr::new("1"))])
+}
+
+fn start_with(environment: &[(&str, &OsStr)]) -> Writer {
+    let module = module_path!().split_once("::").expect("a module of the tests").1;
+    Writer::of(&format!("{module}::edits_and_saves_until_it_is_killed"), environment)
+}

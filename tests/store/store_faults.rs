@@ -1,0 +1,230 @@
+//! Whatever call of the system fails while saving, the old file or the new one is there, whole, nothing is left beside
+//! it, the error says so, and the next save goes well.
+
+use dragonfly_kit::folder::Folder;
+use dragonfly_kit::mounted::quick_folder;
+use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
+use dragonfly_store::{
+    Expected, FileStamp, FileState, RealFiles, SaveError, SaveOptions, VersionLimits, Versions, save,
+};
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, chown, symlink};
+use std::path::{Path, PathBuf};
+
+const OLD: &[u8] = b"the old file, which somebody worked on for a week";
+
+/// Longer than a piece of a copy.
+fn new() -> Vec<u8> {
+    (0..100_000_u32).map(|number| number as u8).collect()
+}
+
+/// A file to be saved over, and how.
+struct Case {
+    name: &'static str,
+    /// Makes what is there; the path to save to.
+    make: fn(&Path) -> PathBuf,
+    /// Names in the folder before and after.
+    names: &'static [&'static str],
+    old: Option<&'static [u8]>,
+}
+
+const CASES: [Case; 4] = [
+    Case { name: "nothing", make: |folder| folder.join("model.glb"), names: &["model.glb"], old: None },
+    Case {
+        name: "a file",
+        make: |folder| {
+            let path = folder.join("model.glb");
+            fs::write(&path, OLD).unwrap();
+            fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
+            // As root, so that the owner must be set too.
+            let _ = chown(&path, Some(4242), Some(4242));
+            let file = fs::File::open(&path).unwrap();
+            let _ = rustix::fs::fsetxattr(&file, "user.note", b"mine", rustix::fs::XattrFlags::empty());
+            path
+        },
+        names: &["model.glb"],
+        old: Some(OLD),
+    },
+    Case {
+        name: "a link",
+        make: |folder| {
+            fs::write(folder.join("real.glb"), OLD).unwrap();
+            symlink("real.glb", folder.join("model.glb")).unwrap();
+            folder.join("model.glb")
+        },
+        names: &["model.glb", "real.glb"],
+        old: Some(OLD),
+    },
+    Case {
+        name: "one of two names",
+        make: |folder| {
+            fs::write(folder.join("model.glb"), OLD).unwrap();
+            fs::hard_link(folder.join("model.glb"), folder.join("other.glb")).unwrap();
+            folder.join("model.glb")
+        },
+        names: &["model.glb", "other.glb"],
+        old: Some(OLD),
+    },
+];
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// A folder of its own inside `all`, with the case's files and a place for versions.
+fn prepared(all: &Folder, case: &Case) -> (PathBuf, PathBuf, Versions) {
+    let folder = all.join("documents");
+    let versions = all.join("versions");
+    let _ = fs::remove_dir_all(&folder);
+    let _ = fs::remove_dir_all(&versions);
+    fs::create_dir_all(&folder).unwrap();
+    let path = (case.make)(&folder);
+    (folder, path, Versions::new(versions, VersionLimits::default()))
+}
+
+#[test]
+fn every_call_that_can_fail_leaves_the_old_file_or_the_new_one() {
+    let all = quick_folder("store-faults");
+    let new = new();
+    let mut runs = 0;
+    for case in &CASES {
+        for fault in Fault::ALL {
+            for number in 1.. {
+                let (folder, path, versions) = prepared(&all, case);
+                let stamp = case.old.map(|_| FileStamp::take(&RealFiles, &path).unwrap());
+                let expected = stamp.as_ref().map_or(Expected::Nothing, Expected::Stamp);
+                let files = FaultyFiles::once(number, fault);
+                let saved = save(&files, &path, &new, &SaveOptions { expected, versions: Some(&versions) });
+                let place = format!("{}, call {number}, {fault:?}: {saved:?}", case.name);
+                assert_eq!(names(&folder), names_after(case, &saved), "{place}");
+                let content = fs::read(&path).ok();
+                match &saved {
+                    Ok(_) => assert!(content.as_ref() == Some(&new), "{place}"),
+                    Err(SaveError::Unconfirmed { .. }) => assert!(content.as_ref() == Some(&new), "{place}"),
+                    Err(SaveError::Torn { .. }) => panic!("{place}"),
+                    Err(error) => {
+                        assert!(content.as_deref() == case.old, "{place}");
+                        assert!(error.to_string().contains(".glb: "), "{place}: {error}");
+                    }
+                }
+                assert!(saved.is_ok() || !fault.is_harmless(), "{place}");
+                if files.calls() < number {
+                    assert!(saved.is_ok(), "{place}");
+                    break;
+                }
+                save(&RealFiles, &path, &new, &SaveOptions::default()).expect(&place);
+                assert!(fs::read(&path).unwrap() == new, "{place}");
+                runs += 1;
+            }
+        }
+    }
+    println!("{runs} failing calls");
+    assert!(runs > 4 * 6 * 15, "only {runs} calls failed");
+}
+
+fn names_after(case: &Case, saved: &Result<dragonfly_store::Saved, SaveError>) -> Vec<String> {
+    let there = case.old.is_some() || matches!(saved, Ok(_) | Err(SaveError::Unconfirmed { .. }));
+    case.names.iter().filter(|_| there).map(|name| (*name).to_owned()).collect()
+}
+
+#[test]
+fn a_disk_that_fails_for_good_leaves_the_old_content_or_the_new_one_whole() {
+    let all = quick_folder("store-faults-for-good");
+    let new = new();
+    for case in &CASES {
+        for fault in [Fault::Io, Fault::Full, Fault::ReadOnly, Fault::Denied] {
+            for number in 1.. {
+                let (folder, path, versions) = prepared(&all, case);
+                let files = FaultyFiles::from(number, fault);
+                let options = SaveOptions { versions: Some(&versions), ..SaveOptions::default() };
+                let saved = save(&files, &path, &new, &options);
+                let place = format!("{}, from call {number}, {fault:?}: {saved:?}", case.name);
+                let content = fs::read(&path).ok();
+                match &saved {
+                    Ok(_) | Err(SaveError::Unconfirmed { .. }) => {
+                        assert!(content.as_ref() == Some(&new), "{place}");
+                    }
+                    // A file with two names, whose disk failed in the middle: its old content is beside it.
+                    Err(SaveError::Torn { old, .. }) => {
+                        assert_eq!(case.name, "one of two names", "{place}");
+                        assert!(fs::read(old).unwrap() == OLD, "{place}");
+                        let error = save(&RealFiles, &path, &new, &options).unwrap_err();
+                        assert!(matches!(error, SaveError::CutOff { .. }), "{error}");
+                        dragonfly_store::put_back(&RealFiles, &path).unwrap();
+                        assert!(fs::read(&path).unwrap() == OLD, "{place}");
+                        assert_eq!(names(&folder), case.names, "{place}");
+                    }
+                    Err(_) => assert!(content.as_deref() == case.old, "{place}"),
+                }
+                if files.calls() < number {
+                    break;
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_another_program_writes_while_a_save_is_under_way_is_noticed_until_the_last_call() {
+    let all = quick_folder("store-meddling");
+    let new = new();
+    let theirs = b"what another program wrote meanwhile";
+    for case in &CASES[1..] {
+        let mut overwritten = 0;
+        for number in 1.. {
+            let (_, path, _) = prepared(&all, case);
+            let stamp = FileStamp::take(&RealFiles, &path).unwrap();
+            let other = path.clone();
+            let files = FaultyFiles::meddling(number, move || fs::write(&other, theirs).unwrap());
+            let options = SaveOptions { expected: Expected::Stamp(&stamp), ..SaveOptions::default() };
+            let saved = save(&files, &path, &new, &options);
+            let content = fs::read(&path).unwrap();
+            let place = format!("{}, call {number}: {saved:?}", case.name);
+            if files.calls() < number {
+                break;
+            }
+            match saved {
+                Err(error) => {
+                    assert!(matches!(error, SaveError::Changed { .. }), "{place}");
+                    assert!(content == theirs, "{place}");
+                }
+                Ok(saved) if content == new => {
+                    overwritten += 1;
+                    assert_eq!(saved.stamp.state(&RealFiles, &path).unwrap(), FileState::Same, "{place}");
+                }
+                // They were later than we; the next save will notice.
+                Ok(saved) => {
+                    assert_eq!(saved.stamp.state(&RealFiles, &path).unwrap(), FileState::Changed, "{place}");
+                }
+            }
+        }
+        // Between looking and moving, no system lets one do both at once. In place, it is while it is written.
+        let most = if case.name == "one of two names" { 5 } else { 1 };
+        assert!((1..=most).contains(&overwritten), "{}: {overwritten}", case.name);
+    }
+}
+
+#[test]
+fn what_another_program_makes_while_a_new_file_is_saved_is_never_overwritten() {
+    let all = quick_folder("store-meddling-new");
+    let theirs = b"what another program made meanwhile";
+    let mut met = 0;
+    for number in 1.. {
+        let (folder, path, _) = prepared(&all, &CASES[0]);
+        let other = path.clone();
+        let files = FaultyFiles::meddling(number, move || fs::write(&other, theirs).unwrap());
+        let options = SaveOptions { expected: Expected::Nothing, ..SaveOptions::default() };
+        let saved = save(&files, &path, &new(), &options);
+        if files.calls() < number {
+            break;
+        }
+        assert!(fs::read(&path).unwrap() == theirs, "call {number}: {saved:?}");
+        assert_eq!(names(&folder), ["model.glb"], "call {number}: {saved:?}");
+        met += usize::from(matches!(saved, Err(SaveError::Exists { .. })));
+    }
+    assert!(met > 5, "{met}");
+}
