@@ -92,6 +92,7 @@ pub mod blend;
 pub mod bounds;
 #[doc(alias("validate", "lint"))]
 pub mod check;
+pub mod compare;
 #[doc(alias("compression", "codec"))]
 pub mod compressed;
 pub mod data;

@@ -2,7 +2,7 @@
 
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use dragonfly_document::adapter::ModelAdapter;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, KeySet, Property, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, KeySet, MoveKeys, Property, SetPose, TakeRef};
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::counting;
 use glam::{Mat4, Quat, Vec3};
@@ -97,20 +97,21 @@ pub(crate) fn run() {
         let keys = chosen();
         measure(&format!("editor/edits/drag_100_000_keys, {name}"), 9, |run| {
             let by = 0.01 + run as f32 * 0.25;
-            let edit = Edit::MoveKeys { take: take(), keys: keys.clone(), by };
+            let edit = Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by });
             edited.apply(edit, Some(Gesture(1))).expect("keys at the end move freely");
         });
         let mut edited = Edited::new(ModelAdapter::new(data));
         measure(&format!("editor/edits/move_100_000_keys_among_others, {name}"), 5, |run| {
             let by = -10.0 - run as f32;
-            let edit = Edit::MoveKeys { take: take(), keys: keys.clone(), by };
+            let edit = Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by });
             edited.apply(edit, Some(Gesture(1))).expect("keys move among others");
         });
     }
     let mut edited = Edited::new(ModelAdapter::new(&same));
     let keys = one_by_one();
     measure("editor/edits/drag_100_000_keys_named_one_by_one", 5, |run| {
-        let edit = Edit::MoveKeys { take: take(), keys: keys.clone(), by: 0.01 + run as f32 * 0.25 };
+        let edit =
+            Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by: 0.01 + run as f32 * 0.25 });
         edited.apply(edit, Some(Gesture(1))).expect("keys at the end move freely");
     });
     for (name, time) in [("a_key", 300.0), ("no_key", 300.004)] {
@@ -119,7 +120,7 @@ pub(crate) fn run() {
         measure(&format!("editor/edits/drag_a_pose_where_there_is_{name}"), 200, |run| {
             let rotation = Some(Quat::from_rotation_x(run as f32 * 0.01).to_array());
             let pose = BonePose { bone: BoneRef::Index(7), translation: None, rotation, scale: None };
-            let edit = Edit::Set { take: take(), time, poses: vec![pose], unstep: false };
+            let edit = Edit::SetPose(SetPose { take: take(), time, poses: vec![pose], unstep: false });
             edited.apply(edit, Some(Gesture(1))).expect("a pose can be set");
             // What the panels and the picture still show.
             if shown.len() == 2 {

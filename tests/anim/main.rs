@@ -12,6 +12,7 @@ mod bounds;
 mod budget;
 mod chains;
 mod check;
+mod compare;
 mod compressed;
 mod cross_fades;
 mod damage;

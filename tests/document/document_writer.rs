@@ -1,9 +1,9 @@
 //! A document in a program of its own, edited by a script that everybody knows, one deed after the other, and each said
 //! when it is done: to be killed, or to have its power cut. It is this file of tests, started again.
 
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, NewKey, TakeRef};
+use dragonfly_document::edit::{AddKeys, BonePose, BoneRef, Edit, NewKey, ReverseTake, SetPending, TakeRef};
 use dragonfly_document::history::{Edited, Gesture};
-use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo, Then};
+use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo};
 use dragonfly_kit::document::desk::{Desk, fox_at, rename, turn};
 use dragonfly_kit::random::Random;
 use dragonfly_kit::writer::{Writer, nanoseconds};
@@ -59,12 +59,15 @@ pub(crate) fn deed(number: u32) -> Deed {
             let (time, bones, properties) = (0.01 + random.unit() * 0.5, vec![bone()], Vec::new());
             let value = NewKey::default();
             Change::Edit(
-                Edit::AddKeys { take: take(), time, bones, properties, value, keyed_only: false },
+                Edit::AddKeys(AddKeys { take: take(), time, bones, properties, value, keyed_only: false }),
                 None,
             )
         }
-        8 => Change::Edit(Edit::Pend { take: take(), time: random.unit() * 0.5, poses: vec![pose()] }, None),
-        9 => Change::Edit(Edit::ReverseTake { take: TakeRef::Index(2) }, None),
+        8 => Change::Edit(
+            Edit::SetPending(SetPending { take: take(), time: random.unit() * 0.5, poses: vec![pose()] }),
+            None,
+        ),
+        9 => Change::Edit(Edit::ReverseTake(ReverseTake { take: TakeRef::Index(2) }), None),
         _ => Change::Edit(turn(random.unit() * 3.0), None),
     })
 }
@@ -109,8 +112,10 @@ fn edit_on(folder: &Path, first: Option<u32>) {
             Deed::Change(change) => {
                 desk.change(change.clone());
                 // Answered behind it, when it is done and recorded.
-                desk.tell(DocumentMessage::Leave(Then::Quit));
-                desk.hears(|reply| matches!(reply, DocumentReply::Leave(..)).then_some(()));
+                desk.tell(DocumentMessage::Quit);
+                desk.hears(|reply| {
+                    matches!(reply, DocumentReply::Unsaved(_) | DocumentReply::MayQuit).then_some(())
+                });
             }
         }
         number += 1;

@@ -1,7 +1,7 @@
 //! The document thread opens, fails, gives up, and always says so.
 
 use dragonfly_anim::data::Image;
-use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use dragonfly_document::{
     Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Opened, Progress, Setup,
     Source, View, images, load_model,
@@ -308,7 +308,10 @@ fn an_edit_is_shown_to_panels_and_picture_alike_and_a_wrong_one_is_refused_with_
     let opened = newest().unwrap();
     assert!(opened.history.saved && opened.history.steps.is_empty());
     let rename = |take: usize| {
-        Change::Edit(Edit::RenameTake { take: TakeRef::Index(take), name: "Stroll".to_owned() }, None)
+        Change::Edit(
+            Edit::RenameTake(RenameTake { take: TakeRef::Index(take), name: "Stroll".to_owned() }),
+            None,
+        )
     };
     document.change(rename(0));
     wait(&|| newest().is_some_and(|view| view.generation == 2));

@@ -2,7 +2,7 @@
 
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use dragonfly_document::adapter::ModelAdapter;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, KeySet, Property, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, KeySet, MoveKeys, Property, SetPose, TakeRef};
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::counting;
 use dragonfly_kit::document::made_take::pose;
@@ -55,8 +55,12 @@ fn an_edit_keeps_memory_in_proportion_to_what_it_touches() {
         let data = model(bones, 2000);
         let mut edited = Edited::new(ModelAdapter::new(&data));
         let (peak, ()) = counting::peak(|| {
-            let edit =
-                Edit::Set { take: TakeRef::Index(0), time: 1.0, poses: vec![turned(3, 0.5)], unstep: true };
+            let edit = Edit::SetPose(SetPose {
+                take: TakeRef::Index(0),
+                time: 1.0,
+                poses: vec![turned(3, 0.5)],
+                unstep: true,
+            });
             edited.apply(edit, None).unwrap();
         });
         peak
@@ -76,7 +80,7 @@ fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
         let mut most = 0;
         for step in 0..40 {
             let poses = vec![turned(3, step as f32 * 0.01), turned(4, step as f32 * 0.02)];
-            let edit = Edit::Set { take: TakeRef::Index(0), time, poses, unstep: true };
+            let edit = Edit::SetPose(SetPose { take: TakeRef::Index(0), time, poses, unstep: true });
             let (count, done) = counting::count(|| edited.apply(edit, Some(Gesture(1))));
             done.unwrap();
             // Until there is memory for what is shown at the same time, it is asked for.
@@ -113,7 +117,7 @@ fn a_hundred_thousand_keys_move_without_being_felt() {
     let quickest = (0..5)
         .map(|step| {
             let by = 0.01 + step as f32 * 0.1;
-            let edit = Edit::MoveKeys { take: TakeRef::Index(0), keys: keys.clone(), by };
+            let edit = Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys: keys.clone(), by });
             let begin = Instant::now();
             edited.apply(edit, Some(Gesture(1))).unwrap();
             begin.elapsed()

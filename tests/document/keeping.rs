@@ -115,9 +115,10 @@ fn the_history_survives_saving_closing_and_starting_again() {
         desk.change(Change::GoTo(3));
         assert!(desk.view().history.saved);
         // Back where it was saved nothing needs to be asked or offered.
-        desk.tell(DocumentMessage::Leave(Then::Quit));
+        desk.tell(DocumentMessage::Quit);
         assert!(!desk.hears(|reply| match reply {
-            DocumentReply::Leave(_, unsaved) => Some(*unsaved),
+            DocumentReply::Unsaved(_) => Some(true),
+            DocumentReply::MayQuit => Some(false),
             _ => None,
         }));
         desk.end();
@@ -340,7 +341,7 @@ fn an_autosave_folder_that_cannot_be_written_is_said_once_and_work_goes_on() {
     }
     desk.save(SaveTo::Own);
     assert!(desk.view().history.saved);
-    assert!(!desk.said().iter().any(|said| said.contains("not recorded")), "{:?}", desk.said());
+    assert!(!desk.said().iter().any(|said| said.contains("recorded")), "{:?}", desk.said());
 }
 
 #[test]
@@ -360,9 +361,10 @@ fn a_disk_that_fails_at_any_call_and_is_well_again_loses_no_step() {
             }
             let before = desk.view();
             let said = desk.said();
-            let troubled = said.iter().any(|said| said.contains("not recorded"));
+            let troubled =
+                said.iter().any(|said| said.contains("not recorded") || said.contains("not being recorded"));
             assert_eq!(before.history.done, 6, "{kind:?} {call}");
-            if said.iter().any(|said| said.contains("not recorded at present")) {
+            if said.iter().any(|said| said.contains("not being recorded")) {
                 desk.warned("Unsaved work is recorded again");
             }
             let second = folder.join(&format!("{kind:?}-{call}-second"));
@@ -371,7 +373,7 @@ fn a_disk_that_fails_at_any_call_and_is_well_again_loses_no_step() {
             }
             let mut after = Desk::new(&second);
             after.open(&path);
-            if troubled && !said.iter().any(|said| said.contains("at present")) {
+            if troubled && !said.iter().any(|said| said.contains("not being recorded")) {
                 // It was said that nothing is recorded.
                 continue;
             }
@@ -477,7 +479,7 @@ fn work_on_a_file_that_was_moved_goes_on_where_it_is_now() {
     assert_eq!(before.history, after.history);
     assert_eq!((after.file.title.as_str(), after.file.path.as_deref()), ("renamed.glb", Some(&*moved)));
     assert_eq!(fs::read(&moved).unwrap(), bytes, "nobody saved");
-    desk.warned("Brought back the unsaved work of renamed.glb: 2 steps");
+    desk.warned("Restored the unsaved work of renamed.glb: 2 steps");
     // Killed again it is offered for the file where it is now, and only once.
     let third = folder.join("third");
     killed(&second, &third);
@@ -527,4 +529,28 @@ fn work_on_a_file_that_is_gone_is_had_on_another_one_beside_it() {
     assert_eq!(view.takes[0].name, "An older one");
     assert_eq!(view.takes[0].tracks, before.takes[0].tracks);
     assert!(!view.history.saved && fs::read(&other).unwrap() == bytes);
+}
+
+#[test]
+fn opening_a_model_asks_first_while_something_is_unsaved() {
+    let folder = Folder::new("opening-asks");
+    let mut desk = Desk::new(&folder.join("autosave"));
+    let open = |desk: &mut Desk, anyway| {
+        desk.tell(DocumentMessage::Open { source: Source::BuiltIn, anyway });
+        desk.hears(|reply| match reply {
+            DocumentReply::Unsaved(then) => {
+                assert_eq!(*then, Then::Open(Source::BuiltIn));
+                Some(false)
+            }
+            DocumentReply::Opened(_) => Some(true),
+            _ => None,
+        })
+    };
+    assert!(open(&mut desk, false), "nothing was open");
+    assert!(open(&mut desk, false), "nothing is unsaved");
+    desk.edit(rename("Hover"));
+    assert!(!open(&mut desk, false), "an edit is unsaved");
+    assert_eq!(desk.view().history.done, 1, "the model stays open");
+    assert!(open(&mut desk, true), "the user has decided");
+    assert_eq!(desk.view().history.done, 0);
 }

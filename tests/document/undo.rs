@@ -3,7 +3,7 @@
 use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
 use dragonfly_document::adapter::{ModelAdapter, Slot};
 use dragonfly_document::edit::{
-    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, KeySet, NewKey, Property, ResetTo, TakeRef,
+    Arbitrary, BonePose, BoneRef, Edit, OffsetPose, Property, RenameTake, SetPose, TakeRef,
 };
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::document::made_take::{BONES, animation};
@@ -12,110 +12,9 @@ use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// Any edit, sensible or not, of a model with so many takes and these bones.
+/// Any edit, sensible or not, of a model with this number of takes and these bones.
 pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> Edit {
-    let take = TakeRef::Index(random.below(takes));
-    let time = random.choice(&[0.0, 0.125, 0.3, 0.5, 0.77, 1.0, 1.3]);
-    let bone = bones[random.below(bones.len())].clone();
-    let bones = if random.below(3) == 0 { Vec::new() } else { vec![bone.clone()] };
-    let property = random.choice(&Property::ALL);
-    let properties = if random.below(2) == 0 { Vec::new() } else { vec![property] };
-    let keys = || {
-        let (from, to) = (Some(time - 0.3), Some(time + 0.2));
-        vec![KeySet { bones: bones.clone(), properties: properties.clone(), from, to, ..KeySet::default() }]
-    };
-    let three = |random: &mut Random| [0; 3].map(|_| random.between(-2.0, 2.0));
-    let poses = vec![BonePose {
-        bone: bone.clone(),
-        translation: (random.below(2) == 0).then(|| three(random)),
-        rotation: (random.below(2) == 0).then(|| [0; 4].map(|_| random.between(-1.0, 1.0))),
-        scale: (random.below(3) == 0).then(|| three(random)),
-    }];
-    let name = format!("take {}", random.below(100));
-    match random.below(28) {
-        26 | 27 => Edit::PasteKeys { take, time, channels: vec![any_channel(random, bone, property)] },
-        22 | 23 => Edit::Pend { take, time, poses },
-        24 => Edit::KeyPending {
-            take,
-            time: (random.below(2) == 0).then_some(time),
-            bones,
-            unstep: random.below(2) == 0,
-        },
-        25 if random.below(2) == 0 => Edit::DropPending { take, time: None, bones },
-        25 => {
-            let [mirrored, pending, unstep] = std::array::from_fn(|_| random.below(2) == 0);
-            Edit::Paste { take, time, poses, mirrored, pending, unstep }
-        }
-        0..=2 => Edit::Set { take, time, poses, unstep: random.below(2) == 0 },
-        3 => Edit::Offset { take, time, poses, unstep: random.below(2) == 0 },
-        4 => Edit::Reset {
-            take,
-            time,
-            bones,
-            properties,
-            to: random.choice(&[ResetTo::Original, ResetTo::Rest]),
-        },
-        5 | 6 => {
-            let value = random.choice(&[NewKey::Predecessor, NewKey::Current]);
-            Edit::AddKeys {
-                take,
-                time: random.between(0.0, 1.5),
-                bones,
-                properties,
-                value,
-                keyed_only: false,
-            }
-        }
-        7 => Edit::DeleteKeys { take, keys: keys() },
-        8 => Edit::MoveKeys { take, keys: keys(), by: random.between(-0.2, 0.4) },
-        9 => Edit::ScaleKeys {
-            take,
-            keys: keys(),
-            about: time,
-            factor: random.choice(&[0.5, 2.0, -1.0, 0.01]),
-        },
-        10 => Edit::DuplicateKeys { take, keys: keys(), by: random.between(-0.2, 0.5) },
-        11 => Edit::Ripple { take, from: time, by: random.between(-0.3, 0.3) },
-        12 => Edit::SnapKeys { take, keys: keys(), rate: random.choice(&[8.0, 24.0, 30.0]) },
-        13 => {
-            let interpolation = random.choice(&[Between::Step, Between::Linear, Between::CubicSpline]);
-            Edit::SetInterpolation { take, bones, properties, interpolation }
-        }
-        14 => {
-            let numbers = if property == Property::Rotation { 4 } else { 3 };
-            let arrive = Some((0..numbers).map(|_| random.between(-1.0, 1.0)).collect());
-            Edit::SetTangents { take, time, bone, property, arrive, leave: None }
-        }
-        15 => {
-            let copy = (random.below(3) > 0).then_some(take);
-            Edit::CreateTake { name, copy, at: (random.below(2) == 0).then(|| random.below(4)) }
-        }
-        16 => Edit::DeleteTake { take },
-        17 => Edit::RenameTake { take, name },
-        18 => Edit::MoveTake { take, to: random.below(4) },
-        19 => Edit::SplitTake { take, time, name },
-        20 => Edit::TrimTake { take, from: time * 0.5, to: time, to_start: random.below(2) == 0 },
-        _ if random.below(2) == 0 => Edit::ReverseTake { take },
-        _ => Edit::RetimeTake {
-            take,
-            start: Some(random.between(0.0, 0.5)),
-            length: Some(random.between(0.1, 2.0)),
-        },
-    }
-}
-
-fn any_channel(random: &mut Random, bone: BoneRef, property: Property) -> CopiedChannel {
-    let count = if property == Property::Rotation { 4 } else { 3 };
-    let numbers = |random: &mut Random| (0..count).map(|_| random.between(0.1, 1.0)).collect::<Vec<f32>>();
-    let keys = (0..random.below(4)).map(|_| CopiedKey {
-        after: random.choice(&[0.0, 0.125, 0.3, 0.77]),
-        value: numbers(random),
-        arrive: (random.below(2) == 0).then(|| numbers(random)),
-        leave: (random.below(2) == 0).then(|| numbers(random)),
-    });
-    let keys = keys.collect();
-    let interpolation = random.choice(&[Between::Step, Between::Linear, Between::CubicSpline]);
-    CopiedChannel { bone, property, interpolation, keys }
+    Arbitrary::new(&mut || random.bits(), takes, bones).edit()
 }
 
 /// Are two documents the same in everything that can be seen, every number to the bit?
@@ -215,7 +114,7 @@ fn all_edits_of_a_gesture_are_one_step_and_each_begins_where_the_gesture_began()
     let gesture = Some(Gesture(1));
     let lift = |by| {
         let poses = vec![BonePose { translation: Some([0.0, by, 0.0]), ..pose("root") }];
-        Edit::Offset { take: walk(), time: 0.5, poses, unstep: false }
+        Edit::OffsetPose(OffsetPose { take: walk(), time: 0.5, poses, unstep: false })
     };
     for step in 1..=10 {
         edited.apply(lift(step as f32 * 0.1), gesture).unwrap();
@@ -266,9 +165,9 @@ fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
                 .collect();
             let take = take.clone();
             let edit = if offset {
-                Edit::Offset { take, time, poses, unstep: true }
+                Edit::OffsetPose(OffsetPose { take, time, poses, unstep: true })
             } else {
-                Edit::Set { take, time, poses, unstep: true }
+                Edit::SetPose(SetPose { take, time, poses, unstep: true })
             };
             let mut alone = start.clone();
             let before = edited.adapter().clone();
@@ -303,7 +202,7 @@ fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
 #[test]
 fn a_document_knows_whether_it_is_as_it_was_saved() {
     let mut edited = Edited::new(model(16));
-    let name = |name: &str| Edit::RenameTake { take: TakeRef::Index(0), name: name.to_owned() };
+    let name = |name: &str| Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
     assert!(edited.is_saved());
     edited.apply(name("a"), None).unwrap();
     edited.mark_saved();

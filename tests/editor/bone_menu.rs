@@ -2,7 +2,7 @@
 
 use crate::workbench::{Window, Workbench};
 use dragonfly_document::Change;
-use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use egui::{Event, Key, Modifiers, PointerButton, Popup, Pos2};
 use egui_kittest::kittest::Queryable;
 
@@ -59,7 +59,7 @@ fn the_tree_stays_as_it_is_under_a_menu_and_after_an_edit() {
     window.run_steps(3);
     let generation = window.state().state.view.as_ref().map(|view| view.generation);
     window.state_mut().change(Change::Edit(
-        Edit::RenameTake { take: TakeRef::Index(0), name: "Look around".to_owned() },
+        Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: "Look around".to_owned() }),
         None,
     ));
     window.run_steps(3);

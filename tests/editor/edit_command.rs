@@ -104,7 +104,7 @@ fn a_name_that_says_another_format_is_refused() {
     for ending in ["gltf", "fbx", "DFM"] {
         let out = text(&folder.join(&format!("out.{ending}")));
         let said = run(["edit", &fox(), "--edits", &edits, "-o", &out]).expect(2);
-        assert!(said.stderr.contains("the file is a .glb and stays one"), "{}", said.stderr);
+        assert!(said.stderr.contains("the format of the file stays .glb"), "{}", said.stderr);
         assert!(!std::path::Path::new(&out).exists());
     }
     // What is no format, or the same in other letters, is the person's to choose.

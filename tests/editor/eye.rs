@@ -6,7 +6,7 @@ use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::{self, Id};
 use dragonfly_document::Change;
-use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use dragonfly_kit::document::fixture;
 use egui::Modifiers;
 use egui_kittest::kittest::Queryable;
@@ -43,7 +43,7 @@ fn an_eye_hides_a_bone_and_shows_it_again_with_shift_all_below_it() {
 fn a_long_name_of_a_take_ends_before_the_buttons_of_the_picture() {
     let mut animator = Animator::new(fixture::full());
     let long = "walk ".repeat(60);
-    let rename = Edit::RenameTake { take: TakeRef::Index(0), name: long.clone() };
+    let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: long.clone() });
     animator.request(Request::Change(Change::Edit(rename, None)));
     animator.steps(2);
     let viewport = animator.harness.state().state.viewport;

@@ -69,10 +69,10 @@ fn the_list_follows_and_draws_only_what_is_seen() {
     let mut window = window();
     for step in 0..3000 {
         let name = format!("Take {step}");
-        let edit = dragonfly_document::edit::Edit::RenameTake {
+        let edit = dragonfly_document::edit::Edit::RenameTake(dragonfly_document::edit::RenameTake {
             take: dragonfly_document::edit::TakeRef::Index(0),
             name,
-        };
+        });
         // Without a frame in between, as a script does it.
         window.state_mut().edited.as_mut().unwrap().apply(edit, None).unwrap();
     }

@@ -205,9 +205,10 @@ fn what_has_no_file_asks_where_and_leaving_asks_only_while_something_is_unsaved(
     let folder = Folder::new("saving-nowhere");
     let mut desk = Desk::new(&folder.join("autosave"));
     let leave = |desk: &mut Desk| {
-        desk.tell(DocumentMessage::Leave(Then::Quit));
+        desk.tell(DocumentMessage::Quit);
         desk.hears(|reply| match reply {
-            DocumentReply::Leave(Then::Quit, unsaved) => Some(*unsaved),
+            DocumentReply::Unsaved(Then::Quit) => Some(true),
+            DocumentReply::MayQuit => Some(false),
             _ => None,
         })
     };

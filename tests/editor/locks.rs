@@ -6,7 +6,10 @@ use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, TakeRef};
+use dragonfly_document::edit::{
+    BonePose, BoneRef, DeleteKeys, DropPending, Edit, KeyPending, PastePose, Property, RetimeTake,
+    SetPending, TakeRef, TrimTake,
+};
 use dragonfly_document::posing::clipboard;
 use egui_kittest::kittest::Queryable;
 
@@ -29,8 +32,12 @@ fn turned(bone: u32) -> BonePose {
 /// Bones of the edit that was asked for last.
 fn bones(animator: &Animator) -> Vec<BoneRef> {
     match animator.edits().last() {
-        Some(Edit::Paste { poses, .. }) => poses.iter().map(|pose| pose.bone.clone()).collect(),
-        Some(Edit::KeyPending { bones, .. } | Edit::DropPending { bones, .. }) => bones.clone(),
+        Some(Edit::PastePose(PastePose { poses, .. })) => {
+            poses.iter().map(|pose| pose.bone.clone()).collect()
+        }
+        Some(Edit::KeyPending(KeyPending { bones, .. }) | Edit::DropPending(DropPending { bones, .. })) => {
+            bones.clone()
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -58,7 +65,7 @@ fn what_is_typed_for_a_drag_that_was_refused_is_no_command() {
     // Afterwards keys mean what they mean.
     animator.harness.key_press(egui::Key::X);
     animator.steps(2);
-    assert!(matches!(animator.edits()[..], [Edit::DeleteKeys { .. }]), "{:?}", animator.edits());
+    assert!(matches!(animator.edits()[..], [Edit::DeleteKeys(DeleteKeys { .. })]), "{:?}", animator.edits());
 }
 
 #[test]
@@ -98,7 +105,7 @@ fn what_is_pending_of_a_locked_bone_is_neither_keyed_nor_dropped() {
         let mut animator = Animator::with_bone(LEFT);
         animator.request(Request::Seek(0.5));
         let poses = vec![turned(LEFT), turned(RIGHT)];
-        let pend = Edit::Pend { take: TakeRef::Index(0), time: 0.5, poses };
+        let pend = Edit::SetPending(SetPending { take: TakeRef::Index(0), time: 0.5, poses });
         animator.request(Request::Change(Change::Edit(pend, None)));
         lock(&mut animator, LEFT, true);
         animator.request(Request::Command(command));
@@ -158,8 +165,8 @@ fn what_is_done_to_the_whole_take_goes_for_locked_bones_too() {
     assert_eq!(after, animator.times(RIGHT as usize));
     let take = TakeRef::Index(0);
     for edit in [
-        Edit::RetimeTake { take: take.clone(), start: None, length: Some(2.0) },
-        Edit::TrimTake { take, from: 0.5, to: 1.5, to_start: false },
+        Edit::RetimeTake(RetimeTake { take: take.clone(), start: None, length: Some(2.0) }),
+        Edit::TrimTake(TrimTake { take, from: 0.5, to: 1.5, to_start: false }),
     ] {
         animator.request(Request::Change(Change::Edit(edit, None)));
         assert_eq!(animator.times(LEFT as usize), animator.times(RIGHT as usize), "in step");

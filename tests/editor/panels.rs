@@ -4,7 +4,7 @@ use crate::shots;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, FileView, Progress, Stage, View};
 use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
@@ -153,7 +153,7 @@ fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
     assert!(animator.said().starts_with("Given up: Move"), "{}", animator.said());
     // Several steps at once.
     for name in ["a", "b"] {
-        let rename = Edit::RenameTake { take: TakeRef::Index(0), name: name.to_owned() };
+        let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
         animator.request(Request::Change(Change::Edit(rename, None)));
     }
     animator.request(Request::Change(Change::GoTo(0)));

@@ -3,7 +3,7 @@
 use crate::nasty;
 use crate::workbench::{Window, Workbench, button};
 use dragonfly_document::adapter::ModelAdapter;
-use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::edit::{CreateTake, Edit, RenameTake, SplitTake, TakeRef};
 use dragonfly_document::history::Edited;
 use dragonfly_kit::document::fixture;
 use dragonfly_kit::folder::takes_long;
@@ -167,9 +167,9 @@ fn any_text_is_a_name_or_is_refused_and_changes_nothing() {
         let name = nasty::any(&mut random);
         let take = TakeRef::Index(random.below(3));
         let edit = match random.below(3) {
-            0 => Edit::RenameTake { take, name: name.clone() },
-            1 => Edit::CreateTake { name: name.clone(), copy: Some(take), at: None },
-            _ => Edit::SplitTake { take, time: 0.3, name: name.clone() },
+            0 => Edit::RenameTake(RenameTake { take, name: name.clone() }),
+            1 => Edit::CreateTake(CreateTake { name: name.clone(), copy: Some(take), at: None }),
+            _ => Edit::SplitTake(SplitTake { take, time: 0.3, name: name.clone() }),
         };
         if edited.apply(edit, None).is_ok() {
             kept += 1;

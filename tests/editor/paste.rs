@@ -7,7 +7,9 @@ use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{Bone, Skeleton, Transform};
 use dragonfly_document::Change;
 use dragonfly_document::bones::{MirrorGuess, MirrorPairs};
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, ResetTo};
+use dragonfly_document::edit::{
+    BonePose, BoneRef, Edit, PastePose, Property, ResetPose, ResetTo, SetPending, SetPose,
+};
 use dragonfly_document::posing::clipboard::{from_text, to_text};
 use dragonfly_document::posing::mirror::Mirror;
 use dragonfly_kit::document::fixture;
@@ -134,13 +136,8 @@ fn names_that_count_against_each_other_are_paired_by_where_the_bones_stand() {
 #[test]
 fn pasting_puts_on_what_there_is_and_passes_over_other_models_bones() {
     let mut model = model(1);
-    let paste = |poses: Vec<BonePose>, mirrored, pending| Edit::Paste {
-        take: walk(),
-        time: 0.3,
-        poses,
-        mirrored,
-        pending,
-        unstep: false,
+    let paste = |poses: Vec<BonePose>, mirrored, pending| {
+        Edit::PastePose(PastePose { take: walk(), time: 0.3, poses, mirrored, pending, unstep: false })
     };
     let moved = |name: &str| BonePose { translation: Some([1.0, 2.0, 3.0]), ..pose(name) };
     model.apply(&paste(vec![moved("tail of another model"), moved("hand.L")], false, false)).unwrap();
@@ -186,8 +183,10 @@ fn copying_and_pasting_between_the_panels_and_the_clipboard() {
     assert!(matches!(copied[0].bone, BoneRef::Name(_)), "a name means the same in another model");
     state.execute(Request::Seek(0.5));
     let pasted = state.execute(Request::PastePose { text, mirrored: true });
-    let Some(Effect::Change(Change::Edit(Edit::Paste { poses, mirrored: true, pending: false, .. }, None))) =
-        pasted
+    let Some(Effect::Change(Change::Edit(
+        Edit::PastePose(PastePose { poses, mirrored: true, pending: false, .. }),
+        None,
+    ))) = pasted
     else {
         panic!("{pasted:?}")
     };
@@ -228,15 +227,19 @@ fn resetting_goes_back_to_the_original_or_to_rest_with_keys_or_without() {
         other => panic!("{other:?}"),
     };
     let rest = edit(state.execute(Request::Command(Id::RestRotation)));
-    let Edit::Set { poses, .. } = rest else { panic!("{rest:?}") };
+    let Edit::SetPose(SetPose { poses, .. }) = rest else { panic!("{rest:?}") };
     assert!(poses[0].rotation.is_some() && poses[0].translation.is_none());
     let keyed = {
         let slot = state.slot().unwrap();
         Property::ALL.into_iter().any(|property| slot.key_at(1, property, state.time()).is_some())
     };
     let original = edit(state.execute(Request::Command(Id::ResetPose)));
-    assert_eq!(keyed, matches!(original, Edit::Reset { to: ResetTo::Original, .. }), "{original:?}");
+    assert_eq!(
+        keyed,
+        matches!(original, Edit::ResetPose(ResetPose { to: ResetTo::Original, .. })),
+        "{original:?}"
+    );
     state.settings.auto_key = false;
     let original = edit(state.execute(Request::Command(Id::ResetPose)));
-    assert!(matches!(original, Edit::Pend { .. }));
+    assert!(matches!(original, Edit::SetPending(SetPending { .. })));
 }

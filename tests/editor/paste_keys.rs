@@ -11,7 +11,8 @@ use dragonfly_document::Change;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{
-    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, Property, TakeRef,
+    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, PasteKeys, Property, SetPending, SetPose,
+    TakeRef,
 };
 use dragonfly_kit::document::made_take::{model, walk};
 use dragonfly_kit::random::{Random, seed};
@@ -49,7 +50,7 @@ fn of<T: Copy>(values: &[T], keys: usize, key: usize, numbers: fn(T) -> Vec<f32>
 }
 
 fn paste(take: TakeRef, time: f32, channels: Vec<CopiedChannel>) -> Edit {
-    Edit::PasteKeys { take, time, channels }
+    Edit::PasteKeys(PasteKeys { take, time, channels })
 }
 
 #[test]
@@ -64,7 +65,9 @@ fn keys_put_back_where_they_were_are_the_same_to_the_bit_with_tangents_and_chang
             rotation: Some([0.1, 0.2, 0.3, 0.9]),
             scale: None,
         };
-        model.apply(&Edit::Set { take: walk(), time: 0.3, poses: vec![turned], unstep: false }).unwrap();
+        model
+            .apply(&Edit::SetPose(SetPose { take: walk(), time: 0.3, poses: vec![turned], unstep: false }))
+            .unwrap();
         let take = model.slots()[0].result.clone();
         let from = random.between(0.0, 0.8);
         let selection = selected(&take, [from, from + random.between(0.0, 0.5)]);
@@ -166,7 +169,7 @@ fn what_cannot_be_a_key_is_refused_and_other_models_bones_are_passed_over() {
     model.apply(&paste(walk(), 0.5, both)).unwrap();
     // Where one comes, nothing waits any more.
     let wait = BonePose { bone: BoneRef::Index(0), translation: Some([5.0; 3]), rotation: None, scale: None };
-    model.apply(&Edit::Pend { take: walk(), time: 0.9, poses: vec![wait] }).unwrap();
+    model.apply(&Edit::SetPending(SetPending { take: walk(), time: 0.9, poses: vec![wait] })).unwrap();
     model.apply(&paste(walk(), 0.8, one("root", Between::Linear, vec![key(0.1, &[2.0; 3])]))).unwrap();
     assert_eq!(model.slots()[0].pending_poses(), 0);
     assert_eq!(ModelAdapter::check(&model), Ok(()));

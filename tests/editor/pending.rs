@@ -8,7 +8,10 @@ use dragonfly::panels::{Effect, Request, State};
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::sample::sample_take;
 use dragonfly_document::adapter::ModelAdapter;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, NewKey, Property, TakeRef};
+use dragonfly_document::edit::{
+    AddKeys, BonePose, BoneRef, CreateTake, DropPending, Edit, KeyPending, NewKey, OffsetPose, Property,
+    RetimeTake, ReverseTake, RippleKeys, SetPending, SetPose, SplitTake, TakeRef,
+};
 use dragonfly_document::history::Edited;
 use dragonfly_document::{Change, View};
 use dragonfly_kit::document::fixture;
@@ -23,11 +26,11 @@ fn moved(name: &str, to: [f32; 3]) -> BonePose {
 }
 
 fn pend(time: f32, poses: Vec<BonePose>) -> Edit {
-    Edit::Pend { take: walk(), time, poses }
+    Edit::SetPending(SetPending { take: walk(), time, poses })
 }
 
 fn key(time: Option<f32>) -> Edit {
-    Edit::KeyPending { take: walk(), time, bones: Vec::new(), unstep: false }
+    Edit::KeyPending(KeyPending { take: walk(), time, bones: Vec::new(), unstep: false })
 }
 
 /// What is pending, as (time, bone, channel, first number).
@@ -90,9 +93,9 @@ fn dropping_takes_away_what_is_named_and_undo_brings_it_back() {
     edited.apply(pend(0.3, vec![moved("hip", [1.0; 3]), moved("root", [2.0; 3])]), None).unwrap();
     let take = walk();
     let bones = vec![BoneRef::Name("hip".to_owned())];
-    edited.apply(Edit::DropPending { take: take.clone(), time: None, bones }, None).unwrap();
+    edited.apply(Edit::DropPending(DropPending { take: take.clone(), time: None, bones }), None).unwrap();
     assert_eq!(waiting(edited.adapter()), [(0.3, 0, Property::Translation, 2.0)]);
-    edited.apply(Edit::DropPending { take, time: Some(0.3), bones: Vec::new() }, None).unwrap();
+    edited.apply(Edit::DropPending(DropPending { take, time: Some(0.3), bones: Vec::new() }), None).unwrap();
     assert_eq!(waiting(edited.adapter()), []);
     edited.go_to(1);
     assert_eq!(edited.adapter().pending_poses(), 2);
@@ -109,13 +112,23 @@ fn a_key_that_is_set_counts_more_than_what_was_pending_there() {
     let turn = BonePose { rotation: Some([0.0, 0.6, 0.0, 0.8]), ..moved("hip", [1.0, 0.0, 0.0]) };
     model.apply(&pend(0.3, vec![turn])).unwrap();
     model
-        .apply(&Edit::Set { take: walk(), time: 0.3, poses: vec![moved("hip", [5.0; 3])], unstep: false })
+        .apply(&Edit::SetPose(SetPose {
+            take: walk(),
+            time: 0.3,
+            poses: vec![moved("hip", [5.0; 3])],
+            unstep: false,
+        }))
         .unwrap();
     assert_eq!(waiting(&model), [(0.3, 1, Property::Rotation, 0.0)]);
     // An offset goes on top of what is seen.
     model.apply(&pend(0.5, vec![moved("root", [1.0, 2.0, 3.0])])).unwrap();
     model
-        .apply(&Edit::Offset { take: walk(), time: 0.5, poses: vec![moved("root", [1.0; 3])], unstep: false })
+        .apply(&Edit::OffsetPose(OffsetPose {
+            take: walk(),
+            time: 0.5,
+            poses: vec![moved("root", [1.0; 3])],
+            unstep: false,
+        }))
         .unwrap();
     let mut poses = vec![Transform::IDENTITY; 5];
     sample_take(Some(&model.slots()[0].result), model.skeleton(), 0.5, &mut poses);
@@ -131,16 +144,18 @@ fn pending_poses_go_along_with_the_take() {
     let times = |model: &ModelAdapter, take: usize| -> Vec<f32> {
         model.slots()[take].pending().iter().map(|at| at.time).collect()
     };
-    model.apply(&Edit::RetimeTake { take: walk(), start: Some(1.0), length: Some(2.0) }).unwrap();
+    model.apply(&Edit::RetimeTake(RetimeTake { take: walk(), start: Some(1.0), length: Some(2.0) })).unwrap();
     assert_eq!(times(&model, 0), [1.5, 2.5]);
-    model.apply(&Edit::ReverseTake { take: walk() }).unwrap();
+    model.apply(&Edit::ReverseTake(ReverseTake { take: walk() })).unwrap();
     assert_eq!(times(&model, 0), [1.5, 2.5]);
     assert_eq!(waiting(&model)[0].3, 2.0, "the later one is the earlier one now");
-    model.apply(&Edit::Ripple { take: walk(), from: 2.0, by: 0.5 }).unwrap();
+    model.apply(&Edit::RippleKeys(RippleKeys { take: walk(), from: 2.0, by: 0.5 })).unwrap();
     assert_eq!(times(&model, 0), [1.5, 3.0]);
-    model.apply(&Edit::SplitTake { take: walk(), time: 2.0, name: "end".to_owned() }).unwrap();
+    model.apply(&Edit::SplitTake(SplitTake { take: walk(), time: 2.0, name: "end".to_owned() })).unwrap();
     assert_eq!((times(&model, 0), times(&model, 1)), (vec![1.5], vec![1.0]));
-    model.apply(&Edit::CreateTake { name: "copy".to_owned(), copy: Some(walk()), at: None }).unwrap();
+    model
+        .apply(&Edit::CreateTake(CreateTake { name: "copy".to_owned(), copy: Some(walk()), at: None }))
+        .unwrap();
     assert_eq!(model.pending_poses(), 2, "a copy is of the keys");
     model.check().unwrap();
 }
@@ -156,7 +171,7 @@ fn what_cannot_be_a_pose_is_not_pending_either() {
         pend(0.0, vec![moved("nobody", [0.0; 3])]),
         pend(0.0, vec![pose("hip")]),
         pend(0.0, Vec::new()),
-        Edit::DropPending { take: walk(), time: None, bones: Vec::new() },
+        Edit::DropPending(DropPending { take: walk(), time: None, bones: Vec::new() }),
         key(Some(f32::NAN)),
     ];
     for edit in wrong {
@@ -170,7 +185,9 @@ fn pending_view(far: [f32; 3]) -> (View, Edited) {
     let view = fixture::full();
     let mut edited = Edited::new(ModelAdapter::new(&view.loaded.model.animation));
     let far = BonePose { bone: BoneRef::Index(1), translation: Some(far), rotation: None, scale: None };
-    edited.apply(Edit::Pend { take: TakeRef::Index(0), time: 0.4, poses: vec![far] }, None).unwrap();
+    edited
+        .apply(Edit::SetPending(SetPending { take: TakeRef::Index(0), time: 0.4, poses: vec![far] }), None)
+        .unwrap();
     (shown(&view, &edited), edited)
 }
 
@@ -212,9 +229,9 @@ fn auto_key_decides_whether_a_pose_becomes_a_key() {
     let pose = || {
         vec![BonePose { bone: BoneRef::Index(1), translation: Some([1.0; 3]), rotation: None, scale: None }]
     };
-    assert!(matches!(state.pose_edit(pose()), Some(Edit::Set { .. })), "on at first");
+    assert!(matches!(state.pose_edit(pose()), Some(Edit::SetPose(SetPose { .. }))), "on at first");
     state.execute(Request::Command(Id::AutoKey));
-    assert!(matches!(state.pose_edit(pose()), Some(Edit::Pend { .. })));
+    assert!(matches!(state.pose_edit(pose()), Some(Edit::SetPending(SetPending { .. }))));
     assert!(state.status.last().unwrap().text.contains("pending"));
     state.execute(Request::ShowTake(None));
     assert_eq!(state.pose_edit(pose()), None, "the rest pose is not edited");
@@ -234,11 +251,11 @@ fn the_key_command_keys_what_is_pending_here_and_else_the_selected_bones() {
         }
     };
     assert!(
-        matches!(given(state, 0.4), Edit::KeyPending { time: Some(time), .. } if (time - 0.4).abs() < 1e-6)
+        matches!(given(state, 0.4), Edit::KeyPending(KeyPending { time: Some(time), .. }) if (time - 0.4).abs() < 1e-6)
     );
     let edit = given(state, 0.5);
     assert!(
-        matches!(&edit, Edit::AddKeys { bones, value: NewKey::Current, .. } if *bones == [BoneRef::Index(2)]),
+        matches!(&edit, Edit::AddKeys(AddKeys { bones, value: NewKey::Current, .. }) if *bones == [BoneRef::Index(2)]),
         "{edit:?}"
     );
     assert_eq!(state.pending_times().collect::<Vec<_>>(), [0.4]);

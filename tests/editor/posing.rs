@@ -8,7 +8,7 @@ use dragonfly_anim::data::{BoneIndex, Transform};
 use dragonfly_anim::joint::{Hinge, JointLimits};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, SetPose};
 use dragonfly_document::posing::{Goal, Hold, IkMode, look_at, poses_of_drag};
 use dragonfly_kit::counting;
 use dragonfly_kit::document::fixture;
@@ -299,7 +299,7 @@ fn commands_pin_free_and_turn() {
     assert!(state.status.last().unwrap().text.contains("last the one they shall look at"));
     state.selection.choose(&[6, 4], Choice::Replace);
     let effect = state.execute(Request::Command(Id::LookAt));
-    let Some(Effect::Change(Change::Edit(Edit::Set { poses, .. }, None))) = effect else {
+    let Some(Effect::Change(Change::Edit(Edit::SetPose(SetPose { poses, .. }), None))) = effect else {
         panic!("{effect:?}")
     };
     assert!(poses.len() == 1 && poses[0].rotation.is_some() && poses[0].translation.is_none());

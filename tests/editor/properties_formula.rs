@@ -7,7 +7,7 @@ use dragonfly::panels::properties::turn;
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::joint::EulerOrder;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, SetPose, TakeRef};
 use dragonfly_kit::random::{Random, seed};
 use egui::Key;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -56,9 +56,10 @@ fn what_is_typed_is_the_pose_that_the_rules_say() {
         let mut angle = || f64::from(random.between(-179.0, 179.0));
         let rotation = Some(turn::rotation(order, [angle(), angle(), angle()]).as_quat().to_array());
         let poses = vec![BonePose { bone: BoneRef::Index(3), translation: None, rotation, scale: None }];
-        window
-            .state_mut()
-            .change(Change::Edit(Edit::Set { take: TakeRef::Index(0), time, poses, unstep: false }, None));
+        window.state_mut().change(Change::Edit(
+            Edit::SetPose(SetPose { take: TakeRef::Index(0), time, poses, unstep: false }),
+            None,
+        ));
         window.run_steps(2);
         let column = random.choice(&["change", "result"]);
         let (channel, axis) = (random.choice(&["Translation", "Rotation", "Scale"]), random.below(3));

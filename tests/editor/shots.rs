@@ -4,7 +4,7 @@ use crate::workbench;
 use crate::workbench::Workbench;
 use dragonfly::panels::{Request, style};
 use dragonfly_document::Change;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, ReverseTake, SetPose, TakeRef};
 use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -53,18 +53,21 @@ fn edited() -> Workbench {
     let turn = |bone: u32, x: f32| {
         let rotation = Some(glam::Quat::from_rotation_x(x).to_array());
         let poses = vec![BonePose { bone: BoneRef::Index(bone), translation: None, rotation, scale: None }];
-        Change::Edit(Edit::Set { take: take(), time: 1.3, poses, unstep: true }, None)
+        Change::Edit(Edit::SetPose(SetPose { take: take(), time: 1.3, poses, unstep: true }), None)
     };
     for step in 0..14 {
         bench.change(turn(step + 1, 0.1 * step as f32));
     }
-    bench.change(Change::Edit(Edit::RenameTake { take: take(), name: "Look around".to_owned() }, None));
+    bench.change(Change::Edit(
+        Edit::RenameTake(RenameTake { take: take(), name: "Look around".to_owned() }),
+        None,
+    ));
     if let Some(edited) = &mut bench.edited {
         edited.mark_saved();
     }
     bench.change(turn(3, 0.7));
-    bench.change(Change::Edit(Edit::ReverseTake { take: take() }, None));
-    bench.change(Change::Edit(Edit::ReverseTake { take: take() }, None));
+    bench.change(Change::Edit(Edit::ReverseTake(ReverseTake { take: take() }), None));
+    bench.change(Change::Edit(Edit::ReverseTake(ReverseTake { take: take() }), None));
     bench.change(Change::GoTo(16));
     bench
 }

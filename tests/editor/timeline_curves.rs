@@ -6,7 +6,10 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::KeysRequest;
 use dragonfly_anim::data::Interpolation;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{Between, BonePose, BoneRef, Edit, Property, TakeRef};
+use dragonfly_document::edit::{
+    Between, BonePose, BoneRef, Edit, MoveKeys, Property, SetInterpolation, SetPose, SetPoses, SetTangents,
+    TakeRef,
+};
 use egui::{Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::EulerRot;
@@ -38,7 +41,9 @@ fn a_key_dragged_up_changes_one_angle_as_one_step() {
     let after = angle(&animator, 8);
     assert!(after > before + 3.0, "{before} → {after}");
     assert!((angle(&animator, 7) - animator_angle(7)).abs() < 0.01, "the key beside stays");
-    assert!(matches!(animator.edits().last(), Some(Edit::Set { poses, .. }) if poses[0].rotation.is_some()));
+    assert!(
+        matches!(animator.edits().last(), Some(Edit::SetPose(SetPose { poses, .. })) if poses[0].rotation.is_some())
+    );
     assert_eq!(animator.edited.steps().0.len(), 1);
     assert_eq!(animator.selected(), 1);
 }
@@ -60,7 +65,7 @@ fn several_keys_are_dragged_up_together_and_escape_takes_it_back() {
     for (key, before) in before.iter().enumerate() {
         assert!((angle(&animator, key) - before - by).abs() < 0.02, "key {key}");
     }
-    assert!(matches!(animator.edits().last(), Some(Edit::SetMany { at, .. }) if at.len() == 41));
+    assert!(matches!(animator.edits().last(), Some(Edit::SetPoses(SetPoses { at, .. })) if at.len() == 41));
     animator.harness.key_down(Key::Escape);
     animator.steps(3);
     animator.release(at);
@@ -77,7 +82,11 @@ fn a_key_dragged_sidewards_changes_its_time() {
     let by = animator.x_in(animator.curves(), 0.045) - animator.x_in(animator.curves(), 0.0);
     animator.drag(at, at + vec2(by, 0.0));
     animator.release(at + vec2(by, 0.0));
-    assert!(matches!(animator.edits().last(), Some(Edit::MoveKeys { .. })), "{:?}", animator.edits());
+    assert!(
+        matches!(animator.edits().last(), Some(Edit::MoveKeys(MoveKeys { .. }))),
+        "{:?}",
+        animator.edits()
+    );
     assert!((animator.times(3)[8] - animator.key(8)).abs() > 0.01);
 }
 
@@ -85,12 +94,12 @@ fn a_key_dragged_sidewards_changes_its_time() {
 fn a_tangent_is_dragged_by_its_end_and_alt_breaks_it() {
     for broken in [false, true] {
         let mut animator = Animator::with_bone(3);
-        let edit = Edit::SetInterpolation {
+        let edit = Edit::SetInterpolation(SetInterpolation {
             take: dragonfly_document::edit::TakeRef::Index(0),
             bones: Vec::new(),
             properties: vec![Property::Rotation],
             interpolation: Between::CubicSpline,
-        };
+        });
         animator.request(Request::Change(dragonfly_document::Change::Edit(edit, None)));
         animator.steps(4);
         let rotation = || animator.edited.adapter().slots()[0].result.tracks[3].rotation.clone();
@@ -107,7 +116,7 @@ fn a_tangent_is_dragged_by_its_end_and_alt_breaks_it() {
         }
         animator.drag(end, end - vec2(0.0, 25.0));
         animator.release(end - vec2(0.0, 25.0));
-        let Some(Edit::SetTangents { arrive, leave, .. }) = animator.edits().last() else {
+        let Some(Edit::SetTangents(SetTangents { arrive, leave, .. })) = animator.edits().last() else {
             panic!("{:?}", animator.edits().last())
         };
         assert!(leave.is_some());
@@ -199,7 +208,7 @@ fn the_numbers_of_a_key_are_dragged_as_one_step_and_given_up_with_escape() {
 
 /// Turns a key of bone 3 about z, as a gizmo would.
 fn turn(animator: &mut Animator, key: usize, degrees: f32) {
-    let edit = Edit::Set {
+    let edit = Edit::SetPose(SetPose {
         take: TakeRef::Index(0),
         time: animator.key(key),
         poses: vec![BonePose {
@@ -209,7 +218,7 @@ fn turn(animator: &mut Animator, key: usize, degrees: f32) {
             scale: None,
         }],
         unstep: false,
-    };
+    });
     animator.request(Request::Change(Change::Edit(edit, None)));
     animator.steps(2);
 }

@@ -5,7 +5,7 @@ use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, Deed, KeysRequest};
 use dragonfly_document::Change;
-use dragonfly_document::edit::Edit;
+use dragonfly_document::edit::{DuplicateKeys, Edit, MoveKeys, RippleKeys, ScaleKeys, SetInterpolation};
 use dragonfly_kit::document::fixture;
 use dragonfly_picture::playback::Repeat;
 use egui::{Key, Modifiers, PointerButton, pos2, vec2};
@@ -96,7 +96,7 @@ fn a_dragged_key_goes_to_the_nearest_frame_as_one_step() {
     assert!((moved - grabbed - 0.03).abs() <= FRAME / 2.0 + 1e-3, "{moved}");
     assert_eq!(animator.edited.steps().0.len(), 1, "one step, however many edits");
     assert_eq!(animator.selected(), 1, "what was dragged is selected where it is now");
-    assert!(animator.edits().iter().all(|edit| matches!(edit, Edit::MoveKeys { .. })));
+    assert!(animator.edits().iter().all(|edit| matches!(edit, Edit::MoveKeys(MoveKeys { .. }))));
     assert!(animator.harness.state().state.keys.drag().is_none());
 }
 
@@ -167,7 +167,7 @@ fn alt_drags_a_copy_and_two_makes_room() {
     animator.drag(animator.at(animator.key(8), 2), to);
     animator.release(to);
     assert_eq!(animator.times(3).len(), 42);
-    assert!(matches!(animator.edits().last(), Some(Edit::DuplicateKeys { .. })));
+    assert!(matches!(animator.edits().last(), Some(Edit::DuplicateKeys(DuplicateKeys { .. }))));
     assert_eq!(animator.selected(), 1, "the copy");
 
     let mut animator = Animator::with_bone(3);
@@ -176,7 +176,7 @@ fn alt_drags_a_copy_and_two_makes_room() {
     let to = animator.at(animator.key(9), 2);
     animator.drag(animator.at(animator.key(8), 2), to);
     animator.release(to);
-    let Some(Edit::Ripple { from, by, .. }) = animator.edits().last() else {
+    let Some(Edit::RippleKeys(RippleKeys { from, by, .. })) = animator.edits().last() else {
         panic!("{:?}", animator.edits())
     };
     assert!((from - animator.key(8)).abs() < 1e-4 && *by > 0.0);
@@ -325,7 +325,7 @@ fn scale_by_the_end(alt: bool) {
     animator.hold(if alt { Modifiers::ALT } else { Modifiers::NONE });
     animator.drag(grip, end);
     animator.release(end);
-    let Some(Edit::ScaleKeys { about, factor, .. }) = animator.edits().last() else {
+    let Some(Edit::ScaleKeys(ScaleKeys { about, factor, .. })) = animator.edits().last() else {
         panic!("{:?}", animator.edits())
     };
     let stays = if alt { 0.0 } else { animator.key(1) };
@@ -385,7 +385,7 @@ fn commands_do_to_the_selected_keys_what_they_say() {
     animator.request(Request::Command(Id::SelectAllKeys));
     assert_eq!(animator.selected(), 41, "of the bone that is listed");
     animator.request(Request::Command(Id::InterpolateSpline));
-    assert!(matches!(animator.edits().last(), Some(Edit::SetInterpolation { .. })));
+    assert!(matches!(animator.edits().last(), Some(Edit::SetInterpolation(SetInterpolation { .. }))));
     animator.request(Request::Command(Id::SnapKeys));
     assert!(animator.times(3).iter().all(|time| (time * 30.0 - (time * 30.0).round()).abs() < 1e-3));
     let left = animator.times(3).len();

@@ -5,7 +5,7 @@ use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{KeysRequest, MarkerDeed};
-use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, FileView};
 use dragonfly_kit::document::fixture;
 use egui::{PointerButton, vec2};
@@ -116,7 +116,7 @@ fn markers_go_with_a_file_that_is_saved_elsewhere_and_with_a_take_that_is_rename
     state.read_markers("");
     marker(&mut animator, MarkerDeed::Add(0.5));
     let first = animator.harness.state_mut().state.unsaved_markers().unwrap();
-    let rename = Edit::RenameTake { take: TakeRef::Index(0), name: "March".to_owned() };
+    let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: "March".to_owned() });
     animator.request(Request::Change(Change::Edit(rename, None)));
     animator.steps(2);
     let state = &mut animator.harness.state_mut().state;

@@ -5,7 +5,7 @@ use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::saving::Deed;
 use dragonfly::panels::{Effect, Request};
-use dragonfly_document::edit::Edit;
+use dragonfly_document::edit::{Edit, RenameTake};
 use dragonfly_document::history::Edited;
 use dragonfly_document::{Change, Then};
 use dragonfly_kit::random::{Random, seed};
@@ -164,8 +164,10 @@ fn whoever_saves_closes_or_undoes_in_the_middle_of_a_drag_does_so_without_it() {
     ];
     for (number, way) in ways.into_iter().enumerate() {
         let mut animator = Animator::with_bone(3);
-        let rename =
-            Edit::RenameTake { take: dragonfly_document::edit::TakeRef::Index(0), name: "Sneak".to_owned() };
+        let rename = Edit::RenameTake(RenameTake {
+            take: dragonfly_document::edit::TakeRef::Index(0),
+            name: "Sneak".to_owned(),
+        });
         animator.request(Request::Change(Change::Edit(rename, None)));
         let before = animator.edited.clone();
         let keys = [animator.at(animator.key(4), 0), animator.at(animator.key(9), 0)];

@@ -122,7 +122,7 @@ fn work_on_a_file_that_was_renamed_goes_on_in_the_file_that_is_chosen() {
         editor.hears("said that it is another file", 1, SOON);
         screen.press(key::ENTER);
         portal.answer(&portal.question(SOON), &Answer::File(address(&moved)));
-        editor.hears("Brought back the unsaved work of Füchsin & mehr.glb: 2 steps", 1, SOON);
+        editor.hears("Restored the unsaved work of Füchsin & mehr.glb: 2 steps", 1, SOON);
         screen.window("• Füchsin & mehr.glb", SOON);
         editor.kill();
     }
@@ -137,6 +137,6 @@ fn work_on_a_file_that_was_renamed_goes_on_in_the_file_that_is_chosen() {
     screen.press_with(key::CONTROL, key::of('a'));
     screen.type_path(back.to_str().expect("a name"));
     screen.press(key::ENTER);
-    editor.hears("Brought back the unsaved work of Fox.glb: 2 steps", 1, SOON);
+    editor.hears("Restored the unsaved work of Fox.glb: 2 steps", 1, SOON);
     editor.kill();
 }

@@ -195,7 +195,7 @@ fn however_the_window_ends_all_that_was_done_comes_back() {
             visit.editor.hears("offered unsaved work", 1, SOON);
             visit.screen.press(key::ENTER);
             let what = if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
-            visit.editor.hears(&format!("Brought back the unsaved work of Fox.glb: {what}"), 1, SOON);
+            visit.editor.hears(&format!("Restored the unsaved work of Fox.glb: {what}"), 1, SOON);
             visit.go_to_the_start();
             // Until the picture is that of this moment, and a click meets what is seen.
             settled(&visit.screen, [300, 90, 680, 360]);

@@ -87,7 +87,7 @@ fn a_thread_that_fails_again_and_again_ends_the_program_in_order_and_the_next_st
         visit.again(None);
         visit.editor.hears("offered unsaved work", 1, SOON);
         visit.screen.press(key::ENTER);
-        visit.editor.hears("Brought back the unsaved work of Fox.glb: 1 step", 1, SOON);
+        visit.editor.hears("Restored the unsaved work of Fox.glb: 1 step", 1, SOON);
         visit.go_to_the_start();
         visit.save();
         visit.end();

@@ -104,7 +104,7 @@ fn a_window_that_was_killed_gives_its_work_back_and_saves_what_the_command_line_
     let mut editor = bench.open(&mut screen);
     editor.hears("offered unsaved work", 1, SOON);
     screen.press(key::ENTER);
-    editor.hears("Brought back the unsaved work of Fox.glb: 3 steps", 1, SOON);
+    editor.hears("Restored the unsaved work of Fox.glb: 3 steps", 1, SOON);
     screen.window("• Fox.glb", SOON);
     control(&mut screen, key::S);
     editor.hears("Saved Fox.glb", 1, SOON);
@@ -231,7 +231,7 @@ fn a_mistake_in_the_program_costs_no_work_and_the_window_goes_on() {
     editor.hears("A mistake in the program closed the document", 1, SOON);
     editor.hears("offered unsaved work", 1, SOON);
     screen.press(key::ENTER);
-    editor.hears("Brought back the unsaved work of Fox.glb: 2 steps", 1, SOON);
+    editor.hears("Restored the unsaved work of Fox.glb: 2 steps", 1, SOON);
     control(&mut screen, key::S);
     editor.hears("Saved Fox.glb", 1, SOON);
     assert!(takes(&bench.file).results().any(|take| take.name == "Stroll"));

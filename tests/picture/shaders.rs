@@ -17,7 +17,7 @@ fn every_shader_is_valid() {
 
 #[test]
 fn every_file_is_in_the_list() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders");
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "wgsl") {

@@ -3,6 +3,7 @@
 //! A rule is a function from files to complaints. Each is also run on planted files that break it, so that a rule which
 //! never complains is noticed.
 
+mod crates;
 mod direction;
 mod layout;
 mod licences;

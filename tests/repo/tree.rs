@@ -36,8 +36,8 @@ impl File {
 
 /// The folder that holds everything.
 pub(crate) fn root() -> PathBuf {
-    let editor = Path::new(env!("CARGO_MANIFEST_DIR"));
-    editor.parent().expect("the editor's folder lies in the root").to_path_buf()
+    let kit = Path::new(env!("CARGO_MANIFEST_DIR"));
+    kit.ancestors().nth(2).expect("the manifest is in tests/kit").to_path_buf()
 }
 
 /// Every file that is or will be part of the project: what git knows, or would know after `git add`.

@@ -1,97 +1,38 @@
-//! What an edit was done to, in the words of the model: for the list of the history.
+//! Names of the bones and the take that an edit changes, for the list of the history.
 
 use super::adapter::ModelAdapter;
-use super::edit::{BonePose, BoneRef, Edit};
-use crate::bones::MirrorPairs;
-use std::collections::BTreeSet;
+use super::edit::{Edit, EditedBones};
+use dragonfly_anim::data::BoneIndex;
 use std::sync::Arc;
 
-/// Longest name in a list, letters; a name may have any length.
+/// Length of the longest name in a list, in characters. Longer names are cut.
 const LONGEST: usize = 60;
 
-/// Bone or number of bones, then the take: `head · Walk`. Empty where the edit names neither.
+/// Returns the bone or the number of bones, then the take: `head · Walk`. Empty where the edit names neither.
 pub(super) fn about(adapter: &ModelAdapter, edit: &Edit) -> Arc<str> {
-    let take = match edit {
-        Edit::CreateTake { name, .. } => Some(name.clone()),
-        Edit::RenameTake { take, name } => {
-            // Both names, since one alone says little.
-            let before = adapter.take(take).map(|slot| slot.original.name.clone());
-            return before
-                .map_or_else(|_| "".into(), |before| format!("{} → {}", short(&before), short(name)).into());
-        }
-        _ => edit.take().and_then(|take| adapter.take(take).ok()).map(|slot| slot.original.name.clone()),
-    };
-    let parts = [bones(adapter, edit), take.map(|take| short(&take))];
+    let parts = [bones(adapter, edit), edit.take_title(adapter).map(|take| shortened(&take))];
     parts.into_iter().flatten().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  ·  ").into()
 }
 
 fn bones(adapter: &ModelAdapter, edit: &Edit) -> Option<String> {
-    let indices: Vec<BoneRef>;
-    let named: Vec<&BoneRef> = match edit {
-        Edit::Set { poses, .. } | Edit::Offset { poses, .. } | Edit::Pend { poses, .. } => {
-            poses.iter().map(|pose| &pose.bone).collect()
-        }
-        Edit::SetMany { at, .. } => {
-            let all = at.iter().flat_map(|at| &at.poses).filter_map(|pose| adapter.bone(&pose.bone).ok());
-            indices = all.collect::<BTreeSet<u32>>().into_iter().map(BoneRef::Index).collect();
-            indices.iter().collect()
-        }
-        Edit::Paste { poses, mirrored, .. } => {
-            indices = changed_by_paste(adapter, poses, *mirrored);
-            indices.iter().collect()
-        }
-        Edit::KeyPending { bones, .. }
-        | Edit::DropPending { bones, .. }
-        | Edit::Reset { bones, .. }
-        | Edit::AddKeys { bones, .. }
-        | Edit::SetInterpolation { bones, .. } => bones.iter().collect(),
-        Edit::SetTangents { bone, .. } => vec![bone],
-        Edit::PasteKeys { channels, .. } => {
-            let found: BTreeSet<u32> =
-                channels.iter().filter_map(|channel| adapter.bone(&channel.bone).ok()).collect();
-            indices = found.into_iter().map(BoneRef::Index).collect();
-            indices.iter().collect()
-        }
-        Edit::DeleteKeys { keys, .. }
-        | Edit::MoveKeys { keys, .. }
-        | Edit::ScaleKeys { keys, .. }
-        | Edit::DuplicateKeys { keys, .. }
-        | Edit::SnapKeys { keys, .. } => keys.iter().flat_map(|set| &set.bones).collect(),
-        _ => Vec::new(),
+    let bones = match edit.bones(adapter.skeleton()) {
+        EditedBones::Named(bones) => bones,
+        EditedBones::All | EditedBones::WholeTake => return None,
     };
-    match named.as_slice() {
-        [] => None,
-        [one] => bone_name(adapter, one),
-        several => {
-            // One may be named more than once, with other channels or times.
-            let apart: BTreeSet<u32> = several.iter().filter_map(|bone| adapter.bone(bone).ok()).collect();
-            match apart.len() {
-                1 => bone_name(adapter, several[0]),
-                count => Some(format!("{count} bones")),
-            }
-        }
+    match bones.len() {
+        0 => None,
+        1 => bones.first().map(|&bone| bone_name(adapter, bone)),
+        count => Some(format!("{count} bones")),
     }
 }
 
-fn bone_name(adapter: &ModelAdapter, bone: &BoneRef) -> Option<String> {
-    let bone = adapter.bone(bone).ok()?;
+fn bone_name(adapter: &ModelAdapter, bone: BoneIndex) -> String {
     let name = adapter.skeleton().bones.get(bone as usize).map_or("", |bone| bone.name.as_str());
-    Some(if name.is_empty() { format!("Bone {bone}") } else { short(name) })
+    if name.is_empty() { format!("Bone {bone}") } else { shortened(name) }
 }
 
-/// The bones that get a pasted pose: with a mirrored one those on the other side. What this model lacks is passed over.
-fn changed_by_paste(adapter: &ModelAdapter, poses: &[BonePose], mirrored: bool) -> Vec<BoneRef> {
-    let pairs = mirrored.then(|| MirrorPairs::of(adapter.skeleton()));
-    let found = poses.iter().filter_map(|pose| adapter.bone(&pose.bone).ok());
-    let changed = found.filter_map(|bone| match &pairs {
-        Some(pairs) => pairs.mirror_of(bone),
-        None => Some(bone),
-    });
-    changed.map(BoneRef::Index).collect()
-}
-
-/// The begin of a name.
-fn short(name: &str) -> String {
+/// Returns the name, cut to the longest one in a list.
+pub(crate) fn shortened(name: &str) -> String {
     match name.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}…", &name[..end]),
         None => name.to_owned(),
@@ -101,7 +42,7 @@ fn short(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edit::{EXAMPLES, TakeRef};
+    use crate::edit::{BonePose, BoneRef, EDITS, PastePose, TakeRef};
     use dragonfly_anim::data::{AnimationData, Bone, Skeleton, Take, Transform};
     use glam::Mat4;
 
@@ -126,8 +67,8 @@ mod tests {
         let skeleton = Skeleton { bones: vec![bone("b_Head_05"), bone(&long)] };
         let takes = vec![take("Survey"), take(&long)];
         let adapter = ModelAdapter::new(&AnimationData { skeleton: Arc::new(skeleton), takes });
-        for example in EXAMPLES {
-            let text = about(&adapter, &serde_json::from_str(example.json).expect("an edit"));
+        for kind in EDITS {
+            let text = about(&adapter, &serde_json::from_str(kind.example.json).expect("an edit"));
             assert!(text.chars().count() <= 2 * LONGEST + 8, "{text}");
         }
     }
@@ -144,7 +85,7 @@ mod tests {
                 BonePose { bone, translation: None, rotation: None, scale: None }
             };
             let poses = bones.iter().map(pose).collect();
-            let edit = Edit::Paste {
+            let edit = PastePose {
                 take: TakeRef::Index(0),
                 time: 0.0,
                 poses,
@@ -152,7 +93,7 @@ mod tests {
                 pending: false,
                 unstep: false,
             };
-            about(&adapter, &edit).to_string()
+            about(&adapter, &edit.into()).to_string()
         };
         assert_eq!(paste(false, &["hand.L"]), "hand.L  ·  Walk");
         assert_eq!(paste(true, &["hand.L"]), "hand.R  ·  Walk");

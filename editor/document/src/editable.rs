@@ -1,4 +1,4 @@
-//! A file that is edited: its data, and what it takes to save it without touching the rest.
+//! A file that is edited: its data, and everything needed to save it without changing the rest.
 
 use super::adapter::{ModelAdapter, Slot, TakeId};
 use super::load::{LoadError, Source, file_name};
@@ -22,27 +22,27 @@ use std::sync::Arc;
 pub struct Editable {
     /// File name without folder.
     pub title: String,
-    /// Where it is; `None` for the built-in model.
+    /// Its path; `None` for the built-in model.
     pub path: Option<PathBuf>,
     /// The data as it was read.
     pub model: Arc<ModelData>,
-    /// What is not shown or was mended, one sentence each.
+    /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
-    /// What a save starts from, in the way of the file's format.
+    /// The opened file, which later saves start from.
     file: EditableFile,
-    /// What the file was when it was read or saved last.
+    /// State of the file when it was last read or saved.
     stamp: Option<FileStamp>,
-    /// Its takes as they are in the file now.
+    /// The model with the takes that are in the file now.
     on_disk: Arc<ModelData>,
-    /// Once it was saved: which animation of the file each take is.
+    /// Index of each take among the animations of the file, once it was saved.
     places: Option<HashMap<TakeId, usize>>,
 }
 
-/// A file that is written: where, and what.
+/// Path and contents of a file to write.
 pub type Written = (PathBuf, Vec<u8>);
 
 impl Editable {
-    /// Opens `source` to edit it: no texture is decoded.
+    /// Opens `source` to edit it without decoding textures.
     pub fn open(source: &Source, cancel: &Cancel) -> Result<Self, LoadError> {
         let (name, bytes, path) = match source {
             Source::BuiltIn => ("dragonfly.glb".to_owned(), DRAGONFLY_GLB.to_vec(), None),
@@ -56,12 +56,12 @@ impl Editable {
             Some(path) => Some(Folder::of(path).map_err(|error| wrong(error.to_string()))?),
             None => None,
         };
-        // Before it is looked at: what changes from now on is somebody else's doing.
+        // Taken before the file is read: any later change was made by another program.
         let stamp = path.as_deref().and_then(|path| FileStamp::take(&RealFiles, path).ok());
         let door: &dyn AssetFs = door.as_ref().map_or(&NoFiles, |folder| folder);
         let imported = import::read(&name, &bytes, door, &|_| {}, cancel)?;
         if stamp.as_ref().is_some_and(|stamp| !stamp.is_of(&bytes)) {
-            return Err(wrong("file: it changed while it was read".to_owned()));
+            return Err(wrong("the file changed while it was read; open it again".to_owned()));
         }
         let file = imported.format.edit(&name, bytes, door, &ReadOptions::default());
         let file = file.map_err(|error| wrong(error.to_string()))?;
@@ -70,7 +70,7 @@ impl Editable {
         Ok(Self { title: source.title(), path, model, warnings, file, stamp, on_disk, places: None })
     }
 
-    /// The file behind `loaded`, which was made of `bytes` while the file had this stamp.
+    /// Returns the file of `loaded`, which was read from `bytes` while the file had this stamp.
     pub(super) fn of(
         source: &Source,
         bytes: Vec<u8>,
@@ -92,7 +92,7 @@ impl Editable {
         })
     }
 
-    /// What saving the takes of `adapter` will write.
+    /// Returns what saving the takes of `adapter` would write.
     pub fn plan(&self, adapter: &ModelAdapter) -> Result<SavePlan, ExportError> {
         let takes: Vec<EditedTake> = adapter
             .slots()
@@ -102,12 +102,12 @@ impl Editable {
         self.file.plan(&self.on_disk, &takes)
     }
 
-    /// What taking away everything that earlier saves left unused will write.
+    /// Returns what removing the unused data of earlier saves would write.
     pub fn compact(&self) -> Result<SavePlan, ExportError> {
         self.file.compact(&self.on_disk)
     }
 
-    /// Which animation of the file a take is.
+    /// Returns the index of a take among the animations of the file.
     fn place(&self, slot: &Slot) -> Option<usize> {
         match &self.places {
             None => slot.origin,
@@ -115,12 +115,12 @@ impl Editable {
         }
     }
 
-    /// Everything that a save as `output` writes, in the order in which to write it: what is beside the file first, the
-    /// file itself last, so that it never names what is not there. Files that the model needs go along to another folder.
+    /// Returns all files that saving as `output` writes, in that order. The file itself is last, so that it never refers to a file that does
+    /// not exist. Files that the model needs are copied along to another folder.
     ///
     /// # Errors
     ///
-    /// What stands in the way, with its place.
+    /// The path and the reason why it is impossible.
     pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, String> {
         let Some((main, beside)) = plan.files.split_last() else { return Ok(Vec::new()) };
         let folder = folder_of(output);
@@ -136,7 +136,7 @@ impl Editable {
         plan.files.len() > 1 || !self.file.neighbors().is_empty()
     }
 
-    /// Files that the model needs and that are not in `folder`.
+    /// Returns the files that the model needs and that are missing in `folder`.
     fn taken_along(&self, folder: &Path) -> Result<Vec<Written>, String> {
         let Some(from) = self.path.as_deref().map(folder_of) else { return Ok(Vec::new()) };
         if std::fs::canonicalize(from).ok() == std::fs::canonicalize(folder).ok() {
@@ -146,13 +146,13 @@ impl Editable {
         let mut found = Vec::new();
         for name in self.file.neighbors() {
             let target = folder.join(&name);
-            // What could not be read when the model was opened was a warning then.
+            // A file that cannot be read was a warning when the model was opened.
             let Ok(bytes) = door.read(&name, FILE_BYTES) else { continue };
             match read_file(&target, FILE_BYTES) {
                 Ok(there) if there == bytes => {}
                 _ if target.exists() => {
                     return Err(format!(
-                        "{}: is another file than the one the model needs",
+                        "{}: a file of this name exists and is not the one that the model needs; choose another folder",
                         target.display()
                     ));
                 }
@@ -162,12 +162,12 @@ impl Editable {
         Ok(found)
     }
 
-    /// Saves as `output`; the file that was opened is only overwritten while nobody else has changed it. What it is on
-    /// the disk from now on is what later saves begin with.
+    /// Saves as `output`. The opened file is overwritten only if no other program has changed it. Later saves are relative to what was
+    /// written.
     ///
     /// # Errors
     ///
-    /// What went wrong, with its place; the old file is whole then.
+    /// The path and the reason. The old file is unchanged then.
     pub fn save(
         &mut self,
         adapter: &ModelAdapter,
@@ -181,28 +181,28 @@ impl Editable {
         Ok(saved.files)
     }
 
-    /// Is this the file that was opened?
+    /// Returns whether this is the path of the opened file.
     pub(super) fn is_own(&self, path: &Path) -> bool {
         self.path.as_deref().is_some_and(|own| same_file(own, path))
     }
 
-    /// The ending of its name.
+    /// Returns the file extension.
     pub fn ending(&self) -> String {
         let ending = self.path.as_deref().and_then(|path| path.extension()?.to_str().map(str::to_owned));
         ending.unwrap_or_else(|| self.file.format().extension().to_owned())
     }
 
-    /// What the file was when it was read or saved last.
+    /// Returns the state of the file when it was last read or saved.
     pub(super) fn stamp(&self) -> Option<&FileStamp> {
         self.stamp.as_ref()
     }
 
-    /// Says which animation of the file each take is, of takes that do not begin with those of the file.
+    /// Sets the index of each take among the animations of the file, for takes that did not come from the file.
     pub(super) fn set_places(&mut self, places: HashMap<TakeId, usize>) {
         self.places = Some(places);
     }
 
-    /// From now on it has no file of its own: the next save asks where.
+    /// Detaches the document from its file: the next save asks for a path.
     pub(super) fn forget_file(&mut self) {
         self.stamp = None;
     }
@@ -211,7 +211,7 @@ impl Editable {
     ///
     /// # Errors
     ///
-    /// What went wrong; what was there is whole then, unless the error says otherwise.
+    /// The reason. Existing files are unchanged then, unless the error names them.
     pub(super) fn save_with(
         &mut self,
         adapter: &ModelAdapter,
@@ -248,13 +248,15 @@ impl Editable {
             self.title = file_name(&main);
             self.path = Some(main);
             if let Err(reason) = self.begin_again(adapter, bytes) {
-                saved.notices.push(format!("what was written cannot be saved again: {reason}"));
+                saved
+                    .notices
+                    .push(format!("the saved file cannot be edited further: {reason}; open it again"));
             }
         }
         Ok(saved)
     }
 
-    /// The file is `bytes` now, with the takes of `adapter`.
+    /// Makes later saves relative to `bytes`, which have the takes of `adapter`.
     fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
         let file = opened(self.file.format(), &self.title, bytes, self.path.as_deref());
         self.file = file.map_err(|error| error.to_string())?;
@@ -266,13 +268,13 @@ impl Editable {
     }
 }
 
-/// Which take of a file each one is, if the file has them all in this order.
+/// Returns the index of each take in a file that has them all in this order.
 pub(super) fn places(adapter: &ModelAdapter) -> HashMap<TakeId, usize> {
     adapter.slots().iter().enumerate().map(|(place, slot)| (slot.id, place)).collect()
 }
 
 impl fmt::Debug for Editable {
-    /// Its name; what it holds would fill pages.
+    /// Writes only the name: the data would fill pages.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "Editable({})", self.title)
     }
@@ -297,8 +299,9 @@ pub(super) fn same_file(a: &Path, b: &Path) -> bool {
     matches!((std::fs::canonicalize(a), std::fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Makes the folder that `path` lies in, where the model wants one that is not there.
+/// Creates the folder of `path` if it does not exist.
 pub fn make_folder(path: &Path) -> Result<(), String> {
     let folder = folder_of(path);
-    std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))
+    std::fs::create_dir_all(folder)
+        .map_err(|error| format!("{}: the folder cannot be created: {error}", folder.display()))
 }

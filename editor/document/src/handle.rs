@@ -1,21 +1,21 @@
-//! The document, as other threads see it.
+//! The handle by which other threads send messages to the document.
 
 use super::message::DocumentMessage;
 use super::{Change, Source};
 use dragonfly_runtime::{Address, Thread, ThreadHandle};
 
-/// The document, as other threads see it: the same names, as messages.
+/// A handle to the document thread. Each method sends the message of the same name.
 pub struct DocumentHandle {
     pub(super) thread: ThreadHandle,
     pub(super) address: Address<DocumentMessage>,
-    /// `None` where somebody else owns the thread.
+    /// The thread, where this handle owns it.
     pub(super) _owner: Option<Thread>,
 }
 
 impl DocumentHandle {
     /// See [`DocumentMessage::Open`].
     pub fn open(&self, source: Source) {
-        self.send(DocumentMessage::Open(source));
+        self.send(DocumentMessage::Open { source, anyway: false });
     }
 
     /// See [`DocumentMessage::CancelLoading`].
@@ -28,22 +28,22 @@ impl DocumentHandle {
         self.send(DocumentMessage::Change(change));
     }
 
-    /// Its thread.
+    /// Returns the document thread.
     pub fn thread(&self) -> &ThreadHandle {
         &self.thread
     }
 
-    /// Ends the thread behind what it was told so far; jobs are cancelled.
+    /// Stops the thread after the messages that were sent so far. Jobs are cancelled.
     pub fn stop(&self) {
         self.thread.remote_stop();
     }
 
-    /// Tells it anything; `false` when nobody hears any more.
+    /// Sends a message. Returns `false` if the thread has stopped.
     pub fn send(&self, message: DocumentMessage) -> bool {
-        let heard = self.address.send(message).is_ok();
-        if !heard {
+        let sent = self.address.send(message).is_ok();
+        if !sent {
             tracing::error!("the document thread has stopped");
         }
-        heard
+        sent
     }
 }

@@ -1,86 +1,86 @@
-//! Undo and redo of everything, as a list in which one can go to any place.
+//! Undo and redo of every edit, as a list of steps.
 
 use super::about::about;
-use super::adapter::{Drag, EditError, Inverse, ModelAdapter};
+use super::adapter::{EditError, Inverse, ModelAdapter, PoseDrag};
 use super::edit::Edit;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Tells one gesture (a drag, a slider held) from all others.
+/// Identifies one gesture, for example a drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct Gesture(pub u64);
 
-/// Steps that are kept at most.
+/// Maximum number of steps.
 pub const MAX_STEPS: usize = 10_000;
-/// Bytes that all steps keep at most, about; beyond, the oldest go.
+/// Maximum size of all steps in bytes, about. The oldest steps are removed beyond it.
 pub const MAX_BYTES: usize = 256 << 20;
 
 /// One step of the history.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// What was done; of a gesture, what it came to.
+    /// The edit; of a gesture, its last one.
     pub edit: Edit,
-    /// Which gesture made it.
+    /// The gesture that made it.
     pub gesture: Option<Gesture>,
-    /// What it was done to, as people call it: bone, take. Known when it was done; names may change later.
+    /// Names of bones and take, at the time of the edit.
     pub about: Arc<str>,
-    /// Leads back where the step is done, forth where it is undone.
+    /// Undoes the step where it is applied, and redoes it where it is undone.
     inverse: Inverse,
-    /// Of the inverse, about; as it was made.
+    /// Size of the inverse in bytes, about, when the step was made.
     bytes: usize,
 }
 
-/// A model's takes with everything that was done to them.
+/// A model's takes with their history.
 #[derive(Clone, Debug)]
 pub struct Edited {
     adapter: ModelAdapter,
     steps: VecDeque<Step>,
-    /// Steps that are done; those behind are undone.
+    /// Number of steps that are applied; those after are undone.
     done: usize,
-    /// How many steps were done when it was saved; `None` where no undo and no redo leads there any more.
+    /// Number of steps that were applied at the last save; `None` where neither undo nor redo leads there.
     saved: Option<usize>,
-    /// Of all steps, about.
+    /// Size of all steps in bytes, about.
     bytes: usize,
-    /// Were steps forgotten because there were too many?
+    /// Whether the oldest steps were removed because there were too many.
     cut: bool,
-    /// Where the last step is a pose that may still be dragged.
-    drag: Option<Drag>,
+    /// State of the drag, where the last step is a pose that is being dragged.
+    drag: Option<PoseDrag>,
 }
 
 impl Edited {
-    /// Takes to which nothing was done yet.
+    /// Creates an empty history.
     pub fn new(adapter: ModelAdapter) -> Self {
         Self { adapter, steps: VecDeque::new(), done: 0, saved: Some(0), bytes: 0, cut: false, drag: None }
     }
 
-    /// The takes as they are now.
+    /// Returns the takes as they are now.
     pub fn adapter(&self) -> &ModelAdapter {
         &self.adapter
     }
 
-    /// All steps, the first one first, and how many of them are done.
+    /// Returns all steps, the first one first, and how many of them are applied.
     pub fn steps(&self) -> (&VecDeque<Step>, usize) {
         (&self.steps, self.done)
     }
 
-    /// [`Self::apply`] where a person or a program asks for it now, and not a journal of what was done before.
+    /// Applies an edit of the user or of a program, as [`Self::apply`] does for edits of a journal, if it is allowed now.
     ///
     /// # Errors
     ///
-    /// Why it cannot be done or asked for; nothing has changed then.
+    /// The reason why it cannot be applied or is not allowed; nothing has changed then.
     pub fn ask(&mut self, edit: Edit, gesture: Option<Gesture>) -> Result<(), EditError> {
         self.adapter.allows(&edit)?;
         self.apply(edit, gesture)
     }
 
-    /// Does an edit as a step of its own, or as the newest form of a gesture: all edits of one gesture are one step,
-    /// and each is meant for the document as it was when the gesture began.
+    /// Applies an edit as a step. All edits of one gesture are one step: each replaces the one before, and applies to the document as it was
+    /// when the gesture started.
     ///
-    /// What was undone is forgotten.
+    /// Undone steps are removed.
     ///
     /// # Errors
     ///
-    /// Why it cannot be done; nothing has changed then, and a gesture stays as it was before.
+    /// The reason why it cannot be applied; nothing has changed then, and a gesture keeps its edit before.
     pub fn apply(&mut self, edit: Edit, gesture: Option<Gesture>) -> Result<(), EditError> {
         let goes_on = gesture.is_some()
             && self.done == self.steps.len()
@@ -93,7 +93,7 @@ impl Edited {
             if let Some(step) = self.steps.back_mut() {
                 step.edit = edit;
             }
-            // As it was saved it is not any more.
+            // The saved state is not the present one any more.
             self.saved = self.saved.filter(|&saved| saved < self.done);
             return Ok(());
         }
@@ -102,7 +102,7 @@ impl Edited {
             adapter.revert(step.inverse.clone());
         }
         let about = match self.steps.back().filter(|_| goes_on) {
-            // A gesture is about one thing, and while it lasts nothing is named anew.
+            // A gesture changes the same bones all the time, so its text stays.
             Some(step) => Arc::clone(&step.about),
             None => about(&adapter, &edit),
         };
@@ -112,7 +112,7 @@ impl Edited {
         if self.saved.is_some_and(|saved| saved > self.steps.len()) {
             self.saved = None;
         }
-        self.drag = gesture.and_then(|_| Drag::of(&self.adapter, &edit, &inverse));
+        self.drag = gesture.and_then(|_| PoseDrag::of(&self.adapter, &edit, &inverse));
         let bytes = inverse.bytes();
         self.bytes += bytes;
         self.steps.push_back(Step { edit, gesture, about, inverse, bytes });
@@ -121,7 +121,7 @@ impl Edited {
         Ok(())
     }
 
-    /// Takes a gesture back as if it had never begun; was it the last step?
+    /// Removes the step of a gesture, as if it had never started. Returns whether it was the last step.
     pub fn cancel(&mut self, gesture: Gesture) -> bool {
         let is_last = self.done == self.steps.len();
         let its_step = self.steps.back().is_some_and(|step| step.gesture == Some(gesture));
@@ -132,17 +132,17 @@ impl Edited {
         is_last && its_step
     }
 
-    /// Undoes the last step; is there one?
+    /// Undoes the last step. Returns whether there is one.
     pub fn undo(&mut self) -> bool {
         self.go_to(self.done.wrapping_sub(1))
     }
 
-    /// Does the next step again; is there one?
+    /// Redoes the next step. Returns whether there is one.
     pub fn redo(&mut self) -> bool {
         self.go_to(self.done + 1)
     }
 
-    /// Undoes or does again until `done` steps are done; are there as many?
+    /// Undoes or redoes until exactly `done` steps are applied. Returns whether there are that many.
     pub fn go_to(&mut self, done: usize) -> bool {
         if done > self.steps.len() {
             return false;
@@ -157,43 +157,44 @@ impl Edited {
         true
     }
 
-    /// What undo would take back, and what redo would bring back: for the menu.
+    /// Returns the labels of the steps that undo and redo would affect, for the menu.
     pub fn labels(&self) -> [Option<&'static str>; 2] {
         let label = |at: usize| self.steps.get(at).map(|step| step.edit.label());
         [label(self.done.wrapping_sub(1)), label(self.done)]
     }
 
-    /// It is on the disk as it is now.
+    /// Marks the present state as saved.
     pub fn mark_saved(&mut self) {
         self.saved = Some(self.done);
     }
 
-    /// Steps done or undone since it was saved or opened; all that were done where no undo leads back there.
+    /// Returns the number of steps applied or undone since it was saved or opened; of all applied ones where undo does not lead back
+    /// there.
     pub fn unsaved_steps(&self) -> usize {
         self.saved.map_or(self.done, |saved| self.done.abs_diff(saved))
     }
 
-    /// Is it as it was saved or opened?
+    /// Returns whether it is as it was saved or opened.
     pub fn is_saved(&self) -> bool {
         self.saved == Some(self.done)
     }
 
-    /// How many steps were done when it was saved; `None` where no undo and no redo leads there any more.
+    /// Returns the number of steps that were applied at the last save; `None` where neither undo nor redo leads there.
     pub fn saved(&self) -> Option<usize> {
         self.saved
     }
 
-    /// Says where it was saved, of steps that were brought back; nowhere where there are not so many.
+    /// Sets the saved state of restored steps; none where there are fewer steps.
     pub fn set_saved(&mut self, saved: Option<usize>) {
         self.saved = saved.filter(|saved| *saved <= self.steps.len());
     }
 
-    /// Were the first steps forgotten because there were too many?
+    /// Returns whether the oldest steps were removed because there were too many.
     pub fn is_cut(&self) -> bool {
         self.cut
     }
 
-    /// What comes from now on belongs to no gesture before.
+    /// Ends the last gesture: later edits are separate steps.
     pub fn end_gesture(&mut self) {
         if let Some(step) = self.steps.back_mut() {
             step.gesture = None;
@@ -205,7 +206,7 @@ impl Edited {
     }
 
     fn forget_oldest(&mut self) {
-        // The newest step stays, however large it is.
+        // The newest step is kept, however large it is.
         while self.steps.len() > 1 && (self.steps.len() > MAX_STEPS || self.bytes > MAX_BYTES) {
             self.bytes -= self.steps.pop_front().map_or(0, |step| step.bytes);
             self.done -= 1;

@@ -1,4 +1,4 @@
-//! Opening a model: bytes, data, pixels; with progress, cancellable, the same for window and command line.
+//! Opening a model: bytes, data, pixels; with progress, cancelable, for window and command line.
 
 use super::{Cancel, DoorError, Editable, LoadedModel, Progress, Stage, read_file};
 use super::{images, import};
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// What to open.
+/// The model to open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// The model that is part of the program.
@@ -21,7 +21,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// File name without folder, or "Dragonfly" for the built-in model.
+    /// Returns the file name without folder, or "Dragonfly" for the built-in model.
     pub fn title(&self) -> String {
         match self {
             Self::BuiltIn => "Dragonfly".to_owned(),
@@ -30,36 +30,36 @@ impl Source {
     }
 }
 
-/// Why a model could not be opened; says the place and the reason.
+/// The reason why a model could not be opened, with its place.
 #[derive(Debug, Error)]
 pub enum LoadError {
-    /// The file itself.
+    /// The file could not be read.
     #[error("{}: file: {reason}", path.display())]
     File {
-        /// Which.
+        /// The path.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         reason: DoorError,
     },
-    /// Its contents.
+    /// Its contents are wrong.
     #[error("{title}: {reason}")]
     Format {
-        /// Which.
+        /// The title.
         title: String,
-        /// Where in it, and why.
+        /// Place in the file, and reason.
         reason: String,
     },
-    /// Somebody asked to stop.
+    /// It was cancelled.
     #[error("cancelled")]
     Cancelled,
 }
 
-/// A model that is open: what is shown, and what it takes to save it.
+/// An open model: the data to show, and everything needed to save it.
 #[derive(Debug)]
 pub struct Opened {
-    /// What is shown.
+    /// The data to show.
     pub loaded: LoadedModel,
-    /// The file behind it, from the same bytes; why it cannot be saved, where it cannot.
+    /// Its file, from the same bytes; or the reason why it cannot be saved.
     pub editable: Result<Editable, String>,
 }
 
@@ -70,15 +70,15 @@ impl From<LoadedModel> for Opened {
     }
 }
 
-/// A way to open a model, such as [`open_model`].
+/// A function that opens a model, such as [`open_model`].
 pub type Loader = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
 
-/// Opens `source` to be shown. `progress` hears how far it is; raising `cancel` ends it at the next step.
+/// Opens `source` to show it. `progress` is called with the progress; raising `cancel` stops it at the next step.
 ///
-/// What is wrong but bearable becomes a warning of the model.
+/// Errors that can be tolerated become warnings of the model.
 ///
 /// # Errors
-/// Place and reason.
+/// The place and the reason.
 pub fn load_model(
     source: &Source,
     progress: &mut dyn FnMut(Progress),
@@ -88,10 +88,10 @@ pub fn load_model(
     read.load(progress, cancel)
 }
 
-/// Opens `source` to be shown and edited: read once, imported once. The rest is as in [`load_model`].
+/// Opens `source` to show and edit it. It is read once and imported once, otherwise as by [`load_model`].
 ///
 /// # Errors
-/// Place and reason.
+/// The place and the reason.
 pub fn open_model(
     source: &Source,
     progress: &mut dyn FnMut(Progress),
@@ -109,7 +109,7 @@ pub fn open_model(
 struct Read<'a> {
     source: &'a Source,
     bytes: Vec<u8>,
-    /// What the file was before it was read.
+    /// State of the file before it was read.
     before: Option<FileData>,
 }
 
@@ -126,16 +126,16 @@ impl<'a> Read<'a> {
         Ok(Self { source, bytes, before })
     }
 
-    /// What the file is now that it was read; none where there is no file.
+    /// Returns the state of the file now that it was read; `None` where there is no file.
     fn stamp(&self) -> Result<Option<FileStamp>, LoadError> {
         let (Source::File(path), Some(before)) = (self.source, &self.before) else { return Ok(None) };
         match FileStamp::of_read(&RealFiles, path, before, &self.bytes) {
             Ok(stamp) => Ok(Some(stamp)),
             Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => Err(LoadError::Format {
                 title: self.source.title(),
-                reason: "file: it changed while it was read".to_owned(),
+                reason: "the file changed while it was read; open it again".to_owned(),
             }),
-            // What cannot be asked for now will be noticed when it is saved.
+            // A change that cannot be detected now will be noticed when the file is saved.
             Err(_) => Ok(None),
         }
     }
@@ -144,7 +144,7 @@ impl<'a> Read<'a> {
         progress(Progress { stage: Stage::Reading, done: 0.0 });
         check(cancel)?;
         let imported = {
-            // The importer may only look at its listener, so the listener is lent to it inside a cell.
+            // The importer takes its listener by shared reference, so the listener is in a cell.
             let progress = RefCell::new(&mut *progress);
             let understanding = |done: f32| {
                 let done = 0.1 + 0.4 * done.clamp(0.0, 1.0);
@@ -180,7 +180,7 @@ fn check(cancel: &Cancel) -> Result<(), LoadError> {
     if cancel.is_cancelled() { Err(LoadError::Cancelled) } else { Ok(()) }
 }
 
-/// The last part of `path`; all of it when there is none.
+/// Returns the last part of `path`, or all of it where it has no parts.
 pub(super) fn file_name(path: &Path) -> String {
     path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }

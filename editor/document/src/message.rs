@@ -1,102 +1,109 @@
-//! What other threads may tell the document, and what it tells them.
+//! The messages that other threads send to the document, and its replies.
 
 use super::job::JobNews;
-use super::recovering::{Decision, Scan};
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
+use super::scan::{Decision, RecoveryScan};
 use super::{Change, LoadedModel, Offer, Progress, Source, View};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What other threads may tell the document.
+/// A message to the document.
 #[derive(Debug)]
 pub enum DocumentMessage {
-    /// Opens a model in place of the one that is open; what is being loaded is given up. What is not saved stays in the
-    /// journal.
-    Open(Source),
-    /// Gives up what is being loaded.
+    /// Opens a model in place of the open one. A model that is still loading is cancelled. Where the open one has unsaved work,
+    /// the document replies [`DocumentReply::Unsaved`] instead.
+    Open {
+        /// The model to open.
+        source: Source,
+        /// Opens it without asking: the user has decided. Unsaved work stays in the journal.
+        anyway: bool,
+    },
+    /// Cancels loading.
     CancelLoading,
-    /// Edits what is open, undoes, does again.
+    /// Applies an edit, undoes or redoes.
     Change(Change),
     /// Saves.
     Save(SaveOrder),
-    /// What would a save write? And what is to come once a person has seen it?
+    /// Requests the list of what a save would change, and the save that follows once the user has seen it.
     Plan(Option<SaveOrder>),
-    /// Goes back to what was saved.
+    /// Reverts to the saved state.
     Revert,
-    /// The person wants to go on to this: is anything unsaved in the way?
-    Leave(Then),
-    /// The person does not want what is not saved: it goes into the bin when the document is closed.
+    /// Asks whether the program may end: the reply is [`DocumentReply::MayQuit`] or [`DocumentReply::Unsaved`].
+    Quit,
+    /// Discards the unsaved work: its journal goes to the trash folder when the document is closed.
     DoNotSave,
-    /// Did somebody else change the file?
+    /// Checks whether another program changed the file.
     LookAtFile,
-    /// Looks for unsaved work of an earlier time, and says so if there is none.
+    /// Searches for unsaved work of earlier sessions, and replies also if there is none.
     Search,
-    /// What becomes of unsaved work of an earlier time.
+    /// The user's decision about unsaved work of an earlier session.
     Decide(Box<Offer>, Decision),
-    /// The file that unsaved work of an earlier time is about is here now; the work goes on there, if it is that file.
+    /// The present path of the file that unsaved work belongs to. If it is that file, the work is restored there.
     FoundAt(Box<Offer>, PathBuf),
-    /// From a job; `ticket` tells whether anybody still waits for it.
+    /// News of the loading job with this ticket; that of a cancelled job is ignored.
     #[doc(hidden)]
     News(u64, NewsBox),
-    /// From the search for unsaved work.
+    /// The result of a search for unsaved work.
     #[doc(hidden)]
     Found(ScanBox),
 }
 
-/// What a job says, opaque to others.
+/// News of a job, opaque to other crates.
 #[derive(Debug)]
 pub struct NewsBox(pub(super) Box<JobNews>);
 
-/// What was found, opaque to others.
+/// The result of a search for unsaved work, opaque to other crates.
 #[derive(Debug)]
-pub struct ScanBox(pub(super) Scan);
+pub struct ScanBox(pub(super) RecoveryScan);
 
-/// What the document tells the main thread, for the panels.
+/// A reply of the document to the main thread, for the panels.
 #[derive(Debug)]
 pub enum DocumentReply {
-    /// The newest state; it takes the place of one that still waits, so it may overtake what else is said.
+    /// The newest state. It replaces one that is still queued, so it may overtake other replies.
     View(View),
-    /// What was on its way is open: said once for each, in order with the other answers.
+    /// A model has been opened: sent once for each, in order with the other replies.
     Opened(Arc<LoadedModel>),
-    /// A model is on its way.
+    /// A model is loading.
     Loading {
         /// Its title.
         title: String,
-        /// How far it is.
+        /// The progress so far.
         progress: Progress,
     },
-    /// Loading was given up on request; what was open still is.
+    /// Loading was cancelled; the open model stays.
     Cancelled,
-    /// Loading failed; what was open still is.
+    /// Loading failed; the open model stays.
     Failed {
-        /// What was to be opened.
+        /// The model that was to be opened.
         source: Source,
-        /// Place and reason.
+        /// Path and reason.
         reason: String,
     },
-    /// An edit could not be done, and nothing changed.
+    /// An edit could not be applied, and nothing changed.
     Refused(String),
-    /// It was saved.
+    /// The document was saved.
     Saved(SavedFile),
-    /// It was not; the order comes back.
+    /// The document was not saved; with the order that failed.
     NotSaved(SaveOrder, NotSaved),
-    /// What a save would write, a line each, or why it could not be; and what comes once that was seen.
+    /// What a save would change, one line each, or why it is impossible; and the save that follows once the user has seen it.
     Plan(Result<String, String>, Option<SaveOrder>),
-    /// Something unsaved is in the way (`true`), or nothing.
-    Leave(Then, bool),
-    /// Somebody else changed the file, or it is gone.
+    /// Something was not done because the open model has unsaved work: the user decides.
+    Unsaved(Then),
+    /// Nothing is unsaved: the program may end.
+    MayQuit,
+    /// Another program changed or deleted the file.
     FileChanged(FileState),
-    /// Unsaved work of an earlier time can be had back.
+    /// Unsaved work of an earlier session can be restored.
     Offers(Vec<Offer>),
-    /// The file at this path is not the one that the work was done on.
+    /// The file at this path is not the one that the unsaved work belongs to.
     OtherFile(Box<Offer>, PathBuf),
-    /// A person looked for unsaved work, and there is none.
+    /// The user searched for unsaved work, and there is none.
     NothingToOffer,
-    /// Something that a person should know, quietly.
+    /// A message for the status line.
     Told(String),
-    /// Something that they must know.
+    /// A warning for the status line.
     Warned(String),
-    /// The document was lost by a mistake in the program; what was recorded of it is offered.
+    /// An internal error closed the document. Recorded work is offered.
     Lost,
 }

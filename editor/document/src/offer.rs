@@ -1,4 +1,4 @@
-//! Unsaved work that a person can have back, in words for them.
+//! Unsaved work of an earlier session, described for the user.
 
 use super::Source;
 use super::history::Gesture;
@@ -7,40 +7,40 @@ use dragonfly_store::{Autosave, Entry, Fate, FileStamp, Life, Reading, RealFiles
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// Labels of steps that are shown.
+/// Number of steps whose labels are shown.
 const SHOWN: usize = 5;
 
-/// Unsaved work of an earlier time.
+/// Unsaved work of an earlier session that can be restored.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Offer {
-    /// The file's name without folder, or what stands for it.
+    /// Name of the file without folder, or a substitute.
     pub title: String,
-    /// What must be opened to have the work back; `None` when that is not known.
+    /// The model to open for it; `None` where that is unknown.
     pub source: Option<Source>,
-    /// Steps that are in no file.
+    /// Number of unsaved steps.
     pub steps: usize,
-    /// What they did, the newest first, not more than a few; of steps that were saved and then undone, that they were.
+    /// Labels of the newest steps, the newest first. Steps that were saved and then undone are marked as undone.
     pub labels: Vec<String>,
-    /// The journal it is in.
+    /// The journal that contains it.
     pub found: Recoverable,
 }
 
 impl Offer {
-    /// What is in a journal.
+    /// Reads a journal.
     ///
     /// # Errors
-    /// Why it cannot be read.
+    /// The reason why it cannot be read.
     pub fn of(autosave: &Autosave, found: &Recoverable) -> Result<Self, String> {
         let entries = autosave.entries(found).map_err(|error| error.to_string())?;
-        Ok(Self::told(found, &entries))
+        Ok(Self::from_entries(found, &entries))
     }
 
-    pub(super) fn told(found: &Recoverable, entries: &[Entry]) -> Self {
-        let mut story = Story::default();
-        entries.iter().for_each(|entry| story.hear(entry));
+    pub(super) fn from_entries(found: &Recoverable, entries: &[Entry]) -> Self {
+        let mut outline = HistoryOutline::default();
+        entries.iter().for_each(|entry| outline.add(entry));
         let source = match &found.document {
             Some(path) => Some(Source::File(path.clone())),
-            None => story.about.as_ref().and_then(About::source),
+            None => outline.about.as_ref().and_then(About::source),
         };
         let title = match (&found.document, &source) {
             (None, Some(source)) => recovered(&source.title()),
@@ -49,58 +49,56 @@ impl Offer {
                 found.journal.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
             }
         };
-        let (steps, labels) = story.unsaved();
+        let (steps, labels) = outline.unsaved();
         Self { title, source, steps, labels, found: found.clone() }
     }
 
-    /// How long ago something was done in it last; `None` when a clock went backwards.
+    /// Returns the time since its last entry; `None` where the clock was set back.
     pub fn age(&self) -> Option<Duration> {
         let when = UNIX_EPOCH + Duration::from_nanos(u64::try_from(self.found.when).ok()?);
         SystemTime::now().duration_since(when).ok()
     }
 
-    /// What a person must know before they decide, a sentence each.
+    /// Returns what the user should know before deciding, one sentence each.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         match &self.found.file {
             Fate::Changed => warnings.push(
-                "The file was changed since by another program. The work is done again on what it holds now."
+                "Another program changed the file since then. The work is applied to its present contents."
                     .to_owned(),
             ),
-            Fate::Missing => warnings.push(
-                "The file is not where it was. If it was moved or renamed, open it where it is now."
-                    .to_owned(),
-            ),
-            Fate::Unknown(reason) => warnings.push(format!("The file cannot be looked at: {reason}.")),
+            Fate::Missing => warnings
+                .push("The file is missing. If it was moved or renamed, choose its present path.".to_owned()),
+            Fate::Unknown(reason) => warnings.push(format!("The file cannot be checked: {reason}.")),
             Fate::Same | Fate::Unsaved => {}
         }
         if let Reading::Cut(bytes) = self.found.reading {
             warnings.push(format!(
-                "The last {bytes} bytes of the journal are damaged. All before them is whole."
+                "The last {bytes} bytes of the journal are damaged. Everything before them is intact."
             ));
         }
         if let (Life::Elsewhere, Some(owner)) = (self.found.life, &self.found.owner) {
-            warnings.push(format!("It may still be in use by {owner}, which cannot be asked."));
+            warnings.push(format!("It may still be in use by {owner} on another computer."));
         }
         warnings
     }
 
-    /// Was the file moved, renamed or removed, so that somebody must say where it is?
+    /// Returns whether the file is missing, so that the user must choose its present path.
     pub fn is_missing(&self) -> bool {
         self.found.document.is_some() && self.found.file == Fate::Missing
     }
 
-    /// Is the file at `path` the one that the work was done on: does it hold the same?
+    /// Returns whether the file at `path` has the contents to which the work belongs.
     ///
     /// # Errors
-    /// Why it cannot be read.
+    /// The reason why it cannot be read.
     pub(super) fn is_of(&self, path: &Path) -> Result<bool, String> {
         let stamp =
             FileStamp::take(&RealFiles, path).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(self.found.held(&stamp))
     }
 
-    /// Where the file is now, if it is not where it was.
+    /// Returns the present path of the file, if it was moved.
     pub(super) fn moved_to(&self) -> Option<&Path> {
         match (&self.source, &self.found.document) {
             (Some(Source::File(path)), Some(document)) if path != document => Some(path),
@@ -108,20 +106,20 @@ impl Offer {
         }
     }
 
-    /// Can the work be had back now?
+    /// Returns whether the work can be restored now.
     pub fn can_be_kept(&self) -> bool {
         self.source.is_some() && self.found.file != Fate::Missing
     }
 }
 
-/// The title of what was opened beside the file that it came from, or never had one.
+/// Returns the title of restored work that has no file.
 pub(super) fn recovered(title: &str) -> String {
     format!("{title} (recovered)")
 }
 
-/// The history without the takes: enough to count and name its steps.
+/// A history without its data: enough to count and name its steps.
 #[derive(Debug, Default)]
-struct Story {
+struct HistoryOutline {
     about: Option<About>,
     steps: Vec<(&'static str, Option<Gesture>)>,
     done: usize,
@@ -129,8 +127,8 @@ struct Story {
     was_saved: bool,
 }
 
-impl Story {
-    fn hear(&mut self, entry: &Entry) {
+impl HistoryOutline {
+    fn add(&mut self, entry: &Entry) {
         match entry {
             Entry::Saved => (self.saved, self.was_saved) = (Some(self.done), true),
             Entry::Snapshot(bytes) => {
@@ -141,7 +139,7 @@ impl Story {
                 (self.saved, self.was_saved) = (snapshot.saved, snapshot.saved != Some(0));
             }
             Entry::Edit(bytes) => {
-                // What is not understood is told when the work is kept.
+                // An entry that cannot be read is reported when the work is restored.
                 if let Ok(recorded) = serde_json::from_slice(bytes) {
                     self.record(recorded);
                 }
@@ -178,7 +176,7 @@ impl Story {
         }
     }
 
-    /// How many steps lie between what was saved and what was there last, and what they did.
+    /// Returns the number of steps between the saved state and the last one, and their labels.
     fn unsaved(&self) -> (usize, Vec<String>) {
         let saved = match self.saved {
             Some(saved) => saved.min(self.steps.len()),
@@ -186,7 +184,7 @@ impl Story {
             None => 0,
         };
         let labels = if self.done < saved {
-            // The one that was undone last lies first.
+            // The step that was undone last is the first of them.
             let undone = self.steps[self.done..saved].iter().take(SHOWN);
             undone.map(|(label, _)| format!("{label} (undone)")).collect()
         } else {
@@ -195,7 +193,7 @@ impl Story {
         (self.done.abs_diff(saved), labels)
     }
 
-    /// What was done from a step on, the newest first.
+    /// Returns the labels of the steps from one on, the newest first.
     fn last(&self, from: usize) -> Vec<String> {
         self.steps[from..self.done].iter().rev().take(SHOWN).map(|(label, _)| (*label).to_owned()).collect()
     }

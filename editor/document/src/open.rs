@@ -1,10 +1,10 @@
-//! What is open: a model as it was read, its takes as they were edited, its file, its journal.
+//! The open document: a model as it was read, its edited takes, its file, its journal.
 
 use super::adapter::{EditError, ModelAdapter};
 use super::edit::Edit;
 use super::editable::Editable;
 use super::history::{Edited, Gesture};
-use super::keeper::Keeper;
+use super::journal_writer::JournalWriter;
 use super::offer::recovered;
 use super::recorded::{About, Recorded, Snapshot};
 use super::replay::Replayed;
@@ -14,40 +14,40 @@ use dragonfly_store::{Autosave, FileStamp};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What can be done to an open document.
+/// A change of the open document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
-    /// An edit; of a gesture, its newest form.
+    /// Apply an edit. Each edit of a gesture replaces the one before.
     Edit(Edit, Option<Gesture>),
-    /// The gesture is over: a button was released, a value entered. Its step is brought to the disk at once. Who forgets
-    /// to say so loses nothing: any other change ends it too, and so does a second without one.
+    /// End a gesture: a button was released, a value entered. Its step is flushed to the disk at once. Any other change ends it too, and so
+    /// does a second without changes.
     Release(Gesture),
-    /// The gesture as if it had never begun.
+    /// Cancel a gesture, as if it had never started.
     Cancel(Gesture),
-    /// The last step undone.
+    /// Undo the last step.
     Undo,
-    /// The next step done again.
+    /// Redo the next step.
     Redo,
-    /// As many steps done as this.
+    /// Undo or redo until exactly this many steps are applied.
     GoTo(usize),
 }
 
-/// What is open, as its owner sees it.
+/// The open document.
 pub(super) struct Open {
     pub(super) loaded: Arc<LoadedModel>,
     pub(super) edited: Edited,
-    /// As it was shown last; made anew only when a step comes or goes.
+    /// The published history; replaced only when steps change.
     history: Arc<HistoryView>,
-    /// What saves it; why nothing does, where nothing does.
+    /// The file to save, or the reason why it cannot be saved.
     pub(super) editable: Result<Editable, String>,
-    /// Where it is saved.
+    /// The path to which it is saved.
     pub(super) file: Arc<FileView>,
-    /// The takes with which the history begins; those of the file where `None`.
+    /// The takes with which the history starts; those of the file where `None`.
     pub(super) base: Option<Arc<[Arc<Take>]>>,
-    /// For the journal.
+    /// The header of its journal.
     pub(super) about: About,
-    pub(super) keeper: Keeper,
-    /// The person does not want what is not saved.
+    pub(super) journal_writer: JournalWriter,
+    /// Whether the user discarded the unsaved work.
     pub(super) unwanted: bool,
 }
 
@@ -64,28 +64,28 @@ impl Open {
             file: Arc::new(file),
             base: None,
             about: About::new(source.as_ref()),
-            keeper: Keeper::new(autosave),
+            journal_writer: JournalWriter::new(autosave),
             unwanted: false,
         };
         open.look();
         open
     }
 
-    /// Goes on with what a journal told.
+    /// Continues with the history of a journal.
     pub(super) fn go_on(&mut self, replayed: Replayed) {
         if let (Ok(editable), Some(places)) = (&mut self.editable, replayed.places()) {
             editable.set_places(places);
         }
         self.edited = replayed.edited;
         self.base = replayed.base;
-        // Of a document of its own nothing is in a file.
+        // A document without a file has nothing saved.
         if self.file.path.is_none() && self.loaded.path.is_some() {
             self.edited.set_saved(None);
         }
         self.look();
     }
 
-    /// It is no file's document any more: the next save asks where.
+    /// Detaches the document from its file: the next save asks for a path.
     pub(super) fn leave_file(&mut self) {
         let source = self.loaded.path.clone().map_or(Source::BuiltIn, Source::File);
         self.about = About::new(Some(&source));
@@ -95,30 +95,30 @@ impl Open {
         }
     }
 
-    /// What the file was when it was read or saved last.
+    /// Returns the state of the file when it was last read or saved.
     pub(super) fn stamp(&self) -> Option<FileStamp> {
         self.editable.as_ref().ok().and_then(|editable| editable.stamp().copied())
     }
 
-    /// Does it, and has it recorded; was there anything to do?
+    /// Applies the change and records it in the journal. Returns whether the document changed.
     pub(super) fn change(&mut self, change: Change, now: Instant) -> Result<bool, EditError> {
         let done = match change {
             Change::Edit(edit, gesture) => {
                 self.edited.ask(edit, gesture)?;
                 if let Some(step) = self.edited.steps().0.back() {
                     let edit = std::borrow::Cow::Borrowed(&step.edit);
-                    self.keeper.record(&self.about, &Recorded::Edit { edit, gesture }, now);
+                    self.journal_writer.record(&self.about, &Recorded::Edit { edit, gesture }, now);
                 }
                 true
             }
             Change::Release(gesture) => {
-                self.keeper.release(gesture, now);
+                self.journal_writer.release(gesture, now);
                 return Ok(false);
             }
             Change::Cancel(gesture) => {
                 let done = self.edited.cancel(gesture);
                 if done {
-                    self.keeper.record(&self.about, &Recorded::Cancel { gesture }, now);
+                    self.journal_writer.record(&self.about, &Recorded::Cancel { gesture }, now);
                 }
                 done
             }
@@ -134,17 +134,17 @@ impl Open {
         Ok(done)
     }
 
-    /// Goes through the history.
+    /// Undoes or redoes steps and records it. Returns whether anything changed.
     fn walk(&mut self, walk: impl FnOnce(&mut Edited) -> bool, now: Instant) -> bool {
         let done = walk(&mut self.edited);
         if done {
             let steps = self.edited.steps().1;
-            self.keeper.record(&self.about, &Recorded::GoTo { steps }, now);
+            self.journal_writer.record(&self.about, &Recorded::GoTo { steps }, now);
         }
         done
     }
 
-    /// Goes back, or forth, to what was saved; `false` when no undo and no redo leads there.
+    /// Undoes or redoes to the saved state. Returns `false` where neither leads there.
     pub(super) fn revert(&mut self, now: Instant) -> bool {
         let Some(saved) = self.edited.saved() else { return false };
         self.walk(|edited| edited.go_to(saved), now);
@@ -152,27 +152,27 @@ impl Open {
         true
     }
 
-    /// Does what is due on the disk.
+    /// Flushes the journal and writes a snapshot where they are due.
     pub(super) fn keep(&mut self, now: Instant) {
-        self.keeper.sync(now);
-        // Without a known place of the last save a snapshot would make the next save larger; it waits for that one.
+        self.journal_writer.sync(now);
+        // A snapshot without a known saved state would make the next save larger, so it waits for that save.
         let known = self.base.is_none() || self.edited.saved().is_some();
-        if self.keeper.wants_snapshot(now) && (known || self.keeper.has_gap()) {
+        if self.journal_writer.wants_snapshot(now) && (known || self.journal_writer.has_gap()) {
             self.snapshot(false, now);
         }
     }
 
-    /// Begins the journal anew with everything; with the takes that the history began with, if they are not those of the
-    /// file any more, or will not be (`saves`).
+    /// Replaces the contents of the journal by a snapshot. It includes the takes with which the history starts if the file no longer has
+    /// them, or will not have them after a save (`saves`).
     pub(super) fn snapshot(&mut self, saves: bool, now: Instant) {
         let base = (saves || self.base.is_some() || self.edited.is_cut()).then(|| self.beginning());
         match Snapshot::bytes(self.about.clone(), &self.edited, base.as_deref()) {
-            Ok(bytes) => self.keeper.snapshot(&bytes, self.edited.is_saved(), now),
+            Ok(bytes) => self.journal_writer.snapshot(&bytes, self.edited.is_saved(), now),
             Err(error) => tracing::error!("the history has no JSON: {error}"),
         }
     }
 
-    /// The takes with which the history begins, as bytes.
+    /// Returns the takes with which the history starts, as bytes.
     fn beginning(&self) -> Vec<u8> {
         if self.edited.is_cut() {
             let mut first = self.edited.clone();
@@ -183,15 +183,17 @@ impl Open {
         base::write(self.base.as_deref().unwrap_or(&self.loaded.model.animation.takes))
     }
 
-    /// Lets go of the journal. What is not saved stays in it, unless it is unwanted: then it goes into the bin.
+    /// Closes the journal. Unsaved work stays in it, or goes to the trash folder if the user discarded it.
     pub(super) fn close(&mut self, autosave: Option<&Autosave>) -> Result<(), String> {
         let saved = self.edited.is_saved();
         let stamp = self.stamp();
-        let (Some(mut journal), Some(autosave)) = (self.keeper.take(), autosave) else { return Ok(()) };
+        let (Some(mut journal), Some(autosave)) = (self.journal_writer.take(), autosave) else {
+            return Ok(());
+        };
         let done = if (self.unwanted && !saved) || (saved && self.file.path.is_none()) {
             if journal.is_empty() { journal.close() } else { autosave.put_away(journal).map(drop) }
         } else {
-            // Back at what was saved there is nothing to be had back, only history.
+            // In the saved state there is no work to restore, only history.
             let marked = match stamp.filter(|_| saved && journal.unsaved() > 0) {
                 Some(stamp) => journal.saved(&stamp),
                 None => Ok(()),
@@ -206,7 +208,7 @@ impl Open {
         View::of(generation, Arc::clone(&self.loaded), self.edited.adapter(), history, Arc::clone(&self.file))
     }
 
-    /// While a gesture lasts its step stays the same for who reads the list, and nothing is made.
+    /// Updates the published history. During a gesture its step stays the same, and nothing is allocated.
     pub(super) fn look(&mut self) {
         let (steps, done) = self.edited.steps();
         let last = steps.back().map(|step| (step.edit.label(), &step.about));

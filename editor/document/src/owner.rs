@@ -1,28 +1,28 @@
-//! The document thread: owns what is open, loads in jobs, publishes the newest view, keeps the journal.
+//! The document thread: owns the open document, loads models in jobs, publishes the newest view, writes the journal.
 
 use super::handle::DocumentHandle;
 use super::job::{JobNews, LoadJob};
 use super::message::{DocumentMessage, DocumentReply, NewsBox, ScanBox};
 use super::open::Open;
-use super::recovering::{Decision, Scan, Waiting};
-use super::saving::SaveOrder;
+use super::saving::{SaveOrder, Then};
+use super::scan::{Decision, RecoveryScan};
 use super::{Change, LoadError, Loader, Offer, Source, View, open_model};
 use crate::text::sentence;
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
-use dragonfly_store::{Autosave, FileState};
+use dragonfly_store::{Autosave, FileState, Recoverable};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// How a document is kept.
+/// The setup of a document.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    /// How a model is opened.
+    /// The function that opens a model.
     pub load: Loader,
-    /// Where unsaved work is recorded; nowhere when `None`.
+    /// The folder that records unsaved work; nothing is recorded where `None`.
     pub autosave: Option<Autosave>,
-    /// Panics at this change, once: for tests of what becomes of the work.
+    /// Number of the change at which it panics, once: for tests of recovery.
     pub fail_at: Option<u32>,
 }
 
@@ -32,56 +32,57 @@ impl Default for Setup {
     }
 }
 
-/// The document, as its own thread sees it.
+/// The document, on its own thread.
 pub struct Document {
     pub(super) open: Option<Open>,
     generation: u64,
-    /// Has it changed since the last view?
+    /// Whether it changed since the last view.
     changed: bool,
-    pub(super) job: Option<Running>,
+    pub(super) job: Option<LoadingModel>,
     tickets: u64,
     load: Loader,
     pub(super) autosave: Option<Autosave>,
-    /// Unsaved work of what is open, of which nothing is decided yet.
-    pub(super) waiting: Option<Waiting>,
-    /// What was found before the first model was there.
-    pub(super) scan: Option<Scan>,
-    /// Does a person wait for what is found?
+    /// Unsaved work of the open file that awaits a decision of the user.
+    pub(super) waiting: Option<Recoverable>,
+    /// Unsaved work that was found before the first model was open.
+    pub(super) scan: Option<RecoveryScan>,
+    /// Whether the user asked for the search.
     pub(super) searched: bool,
-    /// How the file was when it was said that somebody else had changed it.
+    /// The change of the file by another program that was reported last.
     noticed: Option<FileState>,
-    /// Changes until a panic that a test asked for.
+    /// Number of changes before the panic that a test requests.
     fail_at: Rc<Cell<Option<u32>>>,
     replies: Address<DocumentReply>,
-    /// The same, where the newest view takes the place of one that waits.
+    /// The same address for views: the newest view replaces one that is still queued.
     views: Address<DocumentReply>,
-    /// Who draws what is open, likewise.
+    /// The graphics thread; here too, the newest view replaces one that is still queued.
     picture: Address<View>,
-    /// Jobs send here.
+    /// The address of this document, for jobs.
     own: Address<DocumentMessage>,
 }
 
-pub(super) struct Running {
-    /// Cancelled when this is dropped.
+/// A model that is loading.
+pub(super) struct LoadingModel {
+    /// The job, which is cancelled when this is dropped.
     _job: LoadJob,
     ticket: u64,
     pub(super) source: Source,
-    /// Unsaved work that it is opened for.
+    /// The unsaved work that is restored in it.
     pub(super) offer: Option<(Offer, Decision)>,
 }
 
-/// One document, as receiver and as worker of its thread. When one of the two panics, both go on with a new one: nothing
-/// half done is seen again, and what was recorded can be had back.
-struct Shared(Rc<RefCell<Document>>);
+/// One document, as receiver and as worker of its thread. If one of the two panics, both continue with a new document: no half-applied
+/// state is seen again, and recorded work can be restored.
+struct SharedDocument(Rc<RefCell<Document>>);
 
 impl Document {
-    /// Starts the document thread; it answers to `replies`, and shows every state to `picture` without a detour. Nothing
-    /// is recorded.
+    /// Starts the document thread. It sends replies to `replies` and every state also directly to the graphics thread, `picture`. Nothing is
+    /// recorded.
     pub fn start(replies: Address<DocumentReply>, picture: Address<View>) -> std::io::Result<DocumentHandle> {
         Self::start_with(Setup::default(), replies, picture)
     }
 
-    /// The same, kept as `setup` says.
+    /// Starts the document thread with a setup.
     pub fn start_with(
         setup: Setup,
         replies: Address<DocumentReply>,
@@ -92,7 +93,7 @@ impl Document {
         Ok(DocumentHandle { _owner: Some(thread), ..handle })
     }
 
-    /// The same in a thread that somebody else owns and may turn by hand.
+    /// Starts the document in a thread that the caller owns, for example one that a test steps.
     pub fn start_in(
         thread: &ThreadHandle,
         setup: Setup,
@@ -101,7 +102,7 @@ impl Document {
     ) -> DocumentHandle {
         let address = thread.reserve_address();
         let own = address.clone();
-        // Fails only for a thread that has stopped, and then there is nobody to hear of it.
+        // Fails only if the thread has stopped, and then there is no one to report it to.
         let _ = thread.run(move |context| {
             let at = own.clone();
             let fail_at = Rc::new(Cell::new(setup.fail_at));
@@ -129,14 +130,14 @@ impl Document {
             let again = move |fresh: &mut bool| {
                 if !std::mem::replace(fresh, false) {
                     let mut lost = std::mem::replace(&mut *document.borrow_mut(), make());
-                    // It may be half done: nothing more is written, and the journal has what was done.
+                    // It may be half changed: nothing more is written. The journal has all applied edits.
                     drop(lost.open.take());
                     let mut document = document.borrow_mut();
                     (document.generation, document.tickets) = (lost.generation, lost.tickets);
                     document.reply(DocumentReply::Lost);
                     document.search();
                 }
-                Shared(Rc::clone(&document))
+                SharedDocument(Rc::clone(&document))
             };
             let (mut receives, mut works) = (true, true);
             let other = again.clone();
@@ -146,27 +147,40 @@ impl Document {
         DocumentHandle { thread: thread.clone(), address, _owner: None }
     }
 
-    /// Looks for unsaved work of an earlier time, in a thread of its own.
+    /// Searches for unsaved work of earlier sessions on a separate thread.
     fn search(&self) {
         let Some(autosave) = self.autosave.clone() else { return };
         let own = self.own.clone();
         let search = move || {
-            let _ = own.send(DocumentMessage::Found(ScanBox(Scan::of(&autosave))));
+            let _ = own.send(DocumentMessage::Found(ScanBox(RecoveryScan::of(&autosave))));
         };
         if let Err(error) = std::thread::Builder::new().name("recovery".to_owned()).spawn(search) {
-            tracing::error!("unsaved work could not be looked for: {error}");
+            tracing::error!("the search for unsaved work could not be started: {error}");
         }
     }
 
+    /// Opens a model, or replies that the open one has unsaved work.
+    fn open_or_ask(&mut self, source: Source, anyway: bool) {
+        if !anyway && self.has_unsaved_work() {
+            return self.reply(DocumentReply::Unsaved(Then::Open(source)));
+        }
+        self.open(source, None);
+    }
+
+    fn has_unsaved_work(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| !open.edited.is_saved())
+    }
+
+    /// Starts to load a model in the background; `offer` is the unsaved work that it is opened for.
     pub(super) fn open(&mut self, source: Source, offer: Option<(Offer, Decision)>) {
         self.tickets += 1;
         let (ticket, own) = (self.tickets, self.own.clone());
         let tell = move |news| {
-            // A document that has stopped does not want it any more.
+            // Fails if the document has stopped, and then the news are not needed.
             let _ = own.send(DocumentMessage::News(ticket, NewsBox(Box::new(news))));
         };
         match LoadJob::start(source.clone(), self.load, tell) {
-            Ok(job) => self.job = Some(Running { _job: job, ticket, source, offer }),
+            Ok(job) => self.job = Some(LoadingModel { _job: job, ticket, source, offer }),
             Err(error) => self.reply(DocumentReply::Failed { source, reason: error.to_string() }),
         }
     }
@@ -177,7 +191,7 @@ impl Document {
         }
     }
 
-    fn hear(&mut self, ticket: u64, news: JobNews) {
+    fn receive_news(&mut self, ticket: u64, news: JobNews) {
         let Some(running) = self.job.take_if(|running| running.ticket == ticket) else { return };
         match news {
             JobNews::Progress(progress) => {
@@ -192,10 +206,10 @@ impl Document {
                 self.open = Some(open);
                 self.reply(DocumentReply::Opened(loaded));
                 match running.offer {
-                    Some((offer, decision)) => self.bring_back(&offer, decision),
+                    Some((offer, decision)) => self.restore(&offer, decision),
                     None => self.begin_journal(),
                 }
-                self.tell_trouble();
+                self.report_trouble();
                 self.changed();
                 self.offer_late();
             }
@@ -208,13 +222,15 @@ impl Document {
         }
     }
 
-    /// Lets go of what is open, before something else takes its place or the end.
+    /// Closes the open document, before another one is opened or the program ends.
     fn close(&mut self) {
         (self.waiting, self.noticed) = (None, None);
         let Some(mut open) = self.open.take() else { return };
         if !open.edited.is_saved() && !open.unwanted && self.autosave.is_some() {
-            let text =
-                format!("What was not saved of {} can be had back when it is opened again", open.file.title);
+            let text = format!(
+                "The unsaved work of {} can be restored when the file is opened again",
+                open.file.title
+            );
             self.reply(DocumentReply::Told(text));
         }
         if let Err(reason) = open.close(self.autosave.as_ref()) {
@@ -225,7 +241,7 @@ impl Document {
     fn change(&mut self, change: Change, now: Instant) {
         if let Some(left) = self.fail_at.get() {
             self.fail_at.set(left.checked_sub(1));
-            assert!(left != 1, "a test asked for it");
+            assert!(left != 1, "a panic that a test requested");
         }
         let Some(open) = &mut self.open else {
             return self.reply(DocumentReply::Refused("Nothing is open".to_owned()));
@@ -235,7 +251,7 @@ impl Document {
             Ok(false) => {}
             Err(error) => self.reply(DocumentReply::Refused(sentence(&error.to_string()))),
         }
-        self.tell_trouble();
+        self.report_trouble();
     }
 
     fn save(&mut self, order: SaveOrder, now: Instant) {
@@ -248,7 +264,7 @@ impl Document {
             }
             Err(reason) => self.reply(DocumentReply::NotSaved(order, reason)),
         }
-        self.tell_trouble();
+        self.report_trouble();
         self.changed();
     }
 
@@ -262,45 +278,45 @@ impl Document {
         if open.revert(now) {
             self.changed();
         } else if let Some(path) = open.file.path.clone() {
-            // No undo leads there any more: it is read again.
+            // Undo does not lead there any more, so the file is read again.
             self.open(Source::File(path), None);
         } else {
             self.reply(DocumentReply::Refused(
-                "It was never saved, so there is nothing to go back to".to_owned(),
+                "The document was never saved, so there is nothing to revert to".to_owned(),
             ));
         }
     }
 
     fn look_at_file(&mut self) {
         let state = self.open.as_ref().and_then(Open::changed_on_disk);
-        // Said once; a person who went on working knows.
+        // Reported once: the user who continued knows it.
         if let Some(state) = state.filter(|state| self.noticed != Some(*state)) {
             self.reply(DocumentReply::FileChanged(state));
         }
         self.noticed = state;
     }
 
-    /// The state is another from now on; it is published when all that came with this change is done.
+    /// Marks the state as changed. It is published once all messages of this iteration are handled.
     pub(super) fn changed(&mut self) {
         self.generation += 1;
         self.changed = true;
     }
 
-    /// Shows the newest state to everybody.
+    /// Publishes the newest state.
     fn publish(&mut self) {
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
-        // As in `reply`; the picture first, because nobody has to be quick for it.
+        // Errors are ignored as in `reply`. The graphics thread comes first: it has more to do.
         let _ = self.picture.send(view.clone());
         let _ = self.views.send(DocumentReply::View(view));
     }
 
-    pub(super) fn tell_trouble(&mut self) {
-        let trouble = self.open.as_mut().map(|open| open.keeper.trouble()).unwrap_or_default();
+    pub(super) fn report_trouble(&mut self) {
+        let trouble = self.open.as_mut().map(|open| open.journal_writer.trouble()).unwrap_or_default();
         trouble.into_iter().for_each(|text| self.reply(DocumentReply::Warned(text)));
     }
 
     pub(super) fn reply(&self, reply: DocumentReply) {
-        // The main thread stops last; when it has, nobody looks any more.
+        // The main thread stops last; afterwards no one reads replies.
         let _ = self.replies.send(reply);
     }
 }
@@ -315,22 +331,23 @@ impl Drop for Document {
     }
 }
 
-impl Receiver for Shared {
+impl Receiver for SharedDocument {
     type Message = DocumentMessage;
 
     fn receive(&mut self, message: DocumentMessage, thread: &mut Context) {
         let document = &mut *self.0.borrow_mut();
         let now = thread.now();
         match message {
-            DocumentMessage::Open(source) => document.open(source, None),
+            DocumentMessage::Open { source, anyway } => document.open_or_ask(source, anyway),
             DocumentMessage::CancelLoading => document.cancel(),
             DocumentMessage::Change(change) => document.change(change, now),
             DocumentMessage::Save(order) => document.save(order, now),
             DocumentMessage::Plan(order) => document.plan(order),
             DocumentMessage::Revert => document.revert(now),
-            DocumentMessage::Leave(then) => {
-                let unsaved = document.open.as_ref().is_some_and(|open| !open.edited.is_saved());
-                document.reply(DocumentReply::Leave(then, unsaved));
+            DocumentMessage::Quit => {
+                let unsaved = document.has_unsaved_work();
+                let reply = if unsaved { DocumentReply::Unsaved(Then::Quit) } else { DocumentReply::MayQuit };
+                document.reply(reply);
             }
             DocumentMessage::DoNotSave => {
                 if let Some(open) = &mut document.open {
@@ -344,15 +361,15 @@ impl Receiver for Shared {
             }
             DocumentMessage::Decide(offer, decision) => document.decide(*offer, decision),
             DocumentMessage::FoundAt(offer, path) => document.found_at(*offer, path),
-            DocumentMessage::News(ticket, NewsBox(news)) => document.hear(ticket, *news),
+            DocumentMessage::News(ticket, NewsBox(news)) => document.receive_news(ticket, *news),
             DocumentMessage::Found(ScanBox(scan)) => document.offer(scan),
         }
     }
 }
 
-impl Worker for Shared {
-    /// Behind all messages of the iteration: however many changes they brought, one view goes out. Only then comes what
-    /// may have to wait for the disk.
+impl Worker for SharedDocument {
+    /// Runs after all messages of the iteration: publishes one view, however many changes there were, and only then does what may block on
+    /// the disk.
     fn update(&mut self, thread: &mut Context) -> bool {
         let document = &mut *self.0.borrow_mut();
         if std::mem::take(&mut document.changed) {
@@ -361,10 +378,10 @@ impl Worker for Shared {
         let now = thread.now();
         if let Some(open) = &mut document.open {
             open.keep(now);
-            if let Some(due) = open.keeper.next_due() {
+            if let Some(due) = open.journal_writer.next_due() {
                 thread.wake_at(due);
             }
-            document.tell_trouble();
+            document.report_trouble();
         }
         true
     }

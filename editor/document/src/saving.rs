@@ -1,4 +1,4 @@
-//! Saving what is open, and what is to come after.
+//! Saving the open document.
 
 use super::open::Open;
 use super::writing::{Overwrite, SaveFailure, Writing};
@@ -8,71 +8,71 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Where to.
+/// The file that a save writes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SaveTo {
-    /// Its own file.
+    /// The file of the document.
     Own,
-    /// Another file, which is its own from then on.
+    /// Another file, which becomes the file of the document.
     As(PathBuf),
-    /// Another file; its own stays what it is.
+    /// Another file; the document keeps its file.
     Copy(PathBuf),
 }
 
-/// What is to happen once nothing unsaved stands in the way.
+/// What follows once nothing is unsaved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Then {
-    /// The program ends.
+    /// End the program.
     Quit,
-    /// Another model is opened.
+    /// Open another model.
     Open(Source),
 }
 
-/// What a person wants saved.
+/// A request to save.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SaveOrder {
-    /// Where to.
+    /// The file to write.
     pub to: SaveTo,
-    /// Even if another file is there, or somebody else changed it: the person was asked.
+    /// Overwrites another file, or changes of another program: the user has decided.
     pub anyway: bool,
-    /// What comes after.
+    /// What follows.
     pub then: Option<Then>,
 }
 
 impl SaveOrder {
-    /// Saves where it was saved before.
+    /// Saves to the file of the document.
     pub fn own(then: Option<Then>) -> Self {
         Self { to: SaveTo::Own, anyway: false, then }
     }
 }
 
-/// What was saved.
+/// A completed save.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SavedFile {
-    /// Where.
+    /// The file.
     pub path: PathBuf,
-    /// Bytes of the file.
+    /// Size of the file in bytes.
     pub bytes: usize,
-    /// Files that were written beside it.
+    /// Number of other files that were written next to it.
     pub beside: usize,
-    /// A copy: what is open is as unsaved as before.
+    /// Whether it is a copy: the document is as unsaved as before.
     pub copy: bool,
-    /// What could not be kept of the old file.
+    /// Attributes of the old file that were lost, one sentence each.
     pub notices: Vec<String>,
-    /// What comes after.
+    /// What follows.
     pub then: Option<Then>,
 }
 
-/// Why nothing was saved.
+/// The reason why nothing was saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotSaved {
-    /// It never was: the person says where.
+    /// The document has no file yet: the user chooses one.
     NoFile,
-    /// Somebody else changed the file.
+    /// Another program changed the file.
     Changed,
-    /// Another file is there.
+    /// A file of this name exists already.
     Exists(PathBuf),
-    /// Anything else, with place and reason.
+    /// Any other failure, with path and reason.
     Failed(String),
 }
 
@@ -87,7 +87,7 @@ impl From<SaveFailure> for NotSaved {
 }
 
 impl Open {
-    /// What a save would write, a line each.
+    /// Returns what a save would change, one line each.
     pub(super) fn plan(&self) -> Result<String, String> {
         let editable = self.editable.as_ref().map_err(|reason| self.unsavable(reason))?;
         editable.plan(self.edited.adapter()).map(|plan| plan.to_string()).map_err(|error| error.to_string())
@@ -97,7 +97,7 @@ impl Open {
         format!("{} cannot be saved: {reason}", self.file.title)
     }
 
-    /// Saves. The journal knows of it, and keeps the history.
+    /// Saves, and records it in the journal, which keeps the history.
     pub(super) fn save(
         &mut self,
         order: &SaveOrder,
@@ -122,18 +122,18 @@ impl Open {
         let plan =
             editable.plan(self.edited.adapter()).map_err(|error| NotSaved::Failed(error.to_string()))?;
         if own {
-            // What the history begins with will not be in the file any more.
+            // The file will no longer have the takes with which the history starts.
             self.snapshot(true, now);
         }
         let overwrite = match &order.to {
             SaveTo::Own if order.anyway => Overwrite::Anything,
             SaveTo::Own => Overwrite::AsRead,
-            // Whoever chose its own name again in a dialog did not hear that somebody else changed it.
+            // A user who chose the same name in a dialog was not told that another program changed it.
             _ if own => Overwrite::AsRead,
             _ if order.anyway => Overwrite::Anything,
             _ => Overwrite::Nothing,
         };
-        let journal = if own { self.keeper.journal() } else { None };
+        let journal = if own { self.journal_writer.journal() } else { None };
         let how = Writing { overwrite, journal, versions: autosave.map(Autosave::versions), becomes: !copy };
         let Ok(editable) = &mut self.editable else { return Err(NotSaved::NoFile) };
         let saved = editable.save_with(self.edited.adapter(), &plan, &output, how)?;
@@ -152,7 +152,7 @@ impl Open {
         Ok(SavedFile { path: output, bytes, beside, copy, notices, then })
     }
 
-    /// It is the document of the file at `path` from now on; so is its journal.
+    /// Makes `path` the file of the document and of its journal.
     fn move_to(&mut self, path: &Path, autosave: Option<&Autosave>, now: Instant) {
         let title = super::load::file_name(path);
         self.file = Arc::new(FileView { title, path: Some(path.to_path_buf()) });
@@ -161,49 +161,49 @@ impl Open {
         let stamp = self.stamp();
         match autosave.begin_beside(Some(path), stamp.as_ref()) {
             Ok(journal) => {
-                let old = self.keeper.set(journal);
+                let old = self.journal_writer.set(journal);
                 self.snapshot(true, now);
-                if let (Some(journal), Some(stamp)) = (self.keeper.journal(), stamp)
+                if let (Some(journal), Some(stamp)) = (self.journal_writer.journal(), stamp)
                     && let Err(error) = journal.saved(&stamp)
                 {
                     tracing::warn!("{error}");
                 }
-                // Its work is in a file now.
+                // Its edits are in a file now.
                 if let Some(Err(error)) = old.map(|old| autosave.put_away(old)) {
                     tracing::warn!("{error}");
                 }
             }
-            Err(error) => self.keeper.never(&error),
+            Err(error) => self.journal_writer.never(&error),
         }
     }
 
-    /// Did somebody else change the file? `None` when it is as it was, or cannot be asked.
+    /// Returns how another program changed the file; `None` where it is unchanged or cannot be checked.
     pub(super) fn changed_on_disk(&self) -> Option<FileState> {
         let (path, stamp) = (self.file.path.as_deref()?, self.stamp()?);
         stamp.state(&RealFiles, path).ok().filter(|state| *state != FileState::Same)
     }
 }
 
-/// Does a name not say that the file is of another format than that with this `ending`?
+/// Checks that a name does not have the extension of another format than `ending`.
 ///
 /// # Errors
 ///
-/// Why it should not be called so.
+/// The reason why the name is wrong.
 pub fn fits(path: &Path, ending: &str) -> Result<(), String> {
     let own = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if own.eq_ignore_ascii_case(ending) || !formats().is_model_extension(own) {
         return Ok(());
     }
     Err(format!(
-        "{}: the file is a .{ending} and stays one, since every byte that was not edited is kept; give it that ending",
+        "{}: the format of the file stays .{ending}, because all bytes that were not edited are kept; use that extension",
         path.display()
     ))
 }
 
-/// `path` with the ending of the format, which is added where there is none.
+/// Returns `path` with the extension of the format, which is added where it is missing.
 fn with_ending(path: &Path, ending: &str) -> Result<PathBuf, String> {
     if path.file_name().is_none() {
-        return Err(format!("{}: is no name of a file", path.display()));
+        return Err(format!("{}: this is not a file name", path.display()));
     }
     fits(path, ending)?;
     match path.extension() {
@@ -222,12 +222,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_without_an_ending_gets_one_and_another_format_is_refused() {
+    fn a_name_without_an_extension_gets_one_and_another_format_is_refused() {
         let ending = |path: &str| with_ending(Path::new(path), "glb").map(|path| path.display().to_string());
         assert_eq!(ending("a/fox"), Ok("a/fox.glb".to_owned()));
         assert_eq!(ending("a/fox.GLB"), Ok("a/fox.GLB".to_owned()));
         assert_eq!(ending("a/fox.v2"), Ok("a/fox.v2.glb".to_owned()));
-        assert!(ending("a/fox.gltf").is_err_and(|reason| reason.contains("stays one")));
+        assert!(ending("a/fox.gltf").is_err_and(|reason| reason.contains("stays .glb")));
         assert!(ending("/").is_err());
     }
 }

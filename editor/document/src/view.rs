@@ -1,4 +1,4 @@
-//! What the document publishes: immutable, shared, never locked.
+//! The published state of the document: immutable, shared, without locks.
 
 use super::adapter::{ModelAdapter, PendingAt, Slot};
 use super::history::Edited;
@@ -8,12 +8,12 @@ use dragonfly_anim::format::Format;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Pixels ready for the device, decoded once by the job that loaded the model.
+/// An image ready for the GPU, decoded once by the job that loaded the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DecodedImage {
-    /// Pixels.
+    /// Width in pixels.
     pub width: u32,
-    /// Pixels.
+    /// Height in pixels.
     pub height: u32,
     /// RGBA, 8 bits each, rows from the top, `width * height * 4` bytes.
     pub pixels: Vec<u8>,
@@ -24,38 +24,38 @@ pub struct DecodedImage {
 pub struct LoadedModel {
     /// File name without folder, or "Dragonfly" for the built-in model.
     pub title: String,
-    /// `None` for the built-in model.
+    /// Its path; `None` for the built-in model.
     pub path: Option<PathBuf>,
     /// Format of the file that it was read from; `None` for a model that was not read from a file.
     pub format: Option<Format>,
-    /// The data as it was read; which takes there are now is in the [`View`].
+    /// The data as it was read. The present takes are in the [`View`].
     pub model: Arc<ModelData>,
-    /// How much room it takes at the begin of its first take, or in the rest pose when it has none.
+    /// Its bounds at the start of its first take, or in the rest pose where it has none.
     pub bounds: Bounds,
-    /// One an image of the model; `None` where it could not be decoded (a warning says why).
-    /// Shared, because several images of a file may name the same source.
+    /// One per image of the model; `None` where it could not be decoded, with a warning. Shared, because several images of a file may have
+    /// the same source.
     pub images: Vec<Option<Arc<DecodedImage>>>,
-    /// What is not shown or was mended, one sentence each.
+    /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
 }
 
-/// What was done so far, for the menu and the list of the history.
+/// The history, for the menu and for the list of the history.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HistoryView {
-    /// A few words for each step, the first one first.
+    /// Label of each step, the first one first.
     pub steps: Vec<&'static str>,
-    /// For each step, what it was done to: bone, take. Empty where that is not known.
+    /// Bones and take of each step; empty where unknown.
     pub about: Vec<Arc<str>>,
-    /// How many of them are done; the others can be done again.
+    /// Number of steps that are applied; the others can be redone.
     pub done: usize,
-    /// Is everything as it was opened or saved?
+    /// Whether nothing is unsaved.
     pub saved: bool,
-    /// How many steps were done when it was opened or saved; `None` where no undo and no redo leads there.
+    /// Number of steps that were applied when it was opened or saved; `None` where neither undo nor redo leads there.
     pub saved_at: Option<usize>,
 }
 
 impl HistoryView {
-    /// The history of `edited`.
+    /// Returns the history of `edited`.
     pub fn of(edited: &Edited) -> Self {
         let (steps, done) = edited.steps();
         let labels: Vec<_> = steps.iter().map(|step| step.edit.label()).collect();
@@ -63,35 +63,35 @@ impl HistoryView {
         Self { steps: labels, about, done, saved: edited.is_saved(), saved_at: edited.saved() }
     }
 
-    /// What was done last since it was opened or saved, as a sentence; `None` where nothing was.
+    /// Returns the last unsaved step as a sentence; `None` where nothing is unsaved.
     pub fn last_unsaved(&self) -> Option<String> {
         let label = |at: usize| self.steps.get(at).copied();
         match self.saved_at {
             Some(saved) if saved == self.done => None,
             Some(saved) if saved > self.done => {
-                Some(format!("Undone since it was saved: {}", label(self.done)?))
+                Some(format!("Undone since the last save: {}", label(self.done)?))
             }
-            _ => Some(format!("The last one: {}", label(self.done.checked_sub(1)?)?)),
+            _ => Some(format!("The last change: {}", label(self.done.checked_sub(1)?)?)),
         }
     }
 
-    /// What undo would take back, and what redo would bring back.
+    /// Returns the labels of the steps that undo and redo would affect.
     pub fn labels(&self) -> [Option<&'static str>; 2] {
         [self.done.checked_sub(1), Some(self.done)].map(|at| self.steps.get(at?).copied())
     }
 }
 
-/// Which file the document is saved as.
+/// The file of the document.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileView {
-    /// Its name without folder; a stand-in where there is no file yet.
+    /// Its name without folder; a substitute where there is no file yet.
     pub title: String,
-    /// Where it is; `None` for what was never saved: the first save asks where.
+    /// Its path; `None` where it was never saved: the first save asks for it.
     pub path: Option<PathBuf>,
 }
 
 impl FileView {
-    /// What the program's own folder calls it: where the file is, whole, or the name of what has none.
+    /// Returns its key in the program's settings: the absolute path, or the title where there is no file.
     pub fn key(&self) -> String {
         match &self.path {
             Some(path) => std::path::absolute(path).unwrap_or_else(|_| path.clone()).display().to_string(),
@@ -100,26 +100,26 @@ impl FileView {
     }
 }
 
-/// The newest state of the document. Panels read it; nobody changes it.
+/// The newest state of the document. Panels read it, and nothing changes it.
 #[derive(Clone, Debug)]
 pub struct View {
     /// Grows with every change.
     pub generation: u64,
     /// The model as it was opened.
     pub loaded: Arc<LoadedModel>,
-    /// Its takes as they are now. They are apart from the model, so that a change of one keeps everything else, on the
-    /// device as well: who has a model shown compares the `loaded` of two views.
+    /// Its takes as they are now. They are separate from the model, so that a change of one take leaves the model as it is, also on the GPU:
+    /// two views of one model have the same `loaded`.
     pub takes: Arc<[Arc<Take>]>,
-    /// The same takes as they were read, and what was changed of them.
+    /// The same takes with their originals and changes.
     pub slots: Arc<[Arc<Slot>]>,
-    /// What was done.
+    /// The history.
     pub history: Arc<HistoryView>,
-    /// Where it is saved.
+    /// The file of the document.
     pub file: Arc<FileView>,
 }
 
 impl View {
-    /// `loaded`, unchanged.
+    /// Returns the view of `loaded` without changes.
     pub fn opened(generation: u64, loaded: Arc<LoadedModel>) -> Self {
         let edited = Edited::new(ModelAdapter::new(&loaded.model.animation));
         let history = Arc::new(HistoryView { saved: true, saved_at: Some(0), ..HistoryView::default() });
@@ -127,7 +127,7 @@ impl View {
         Self::of(generation, loaded, edited.adapter(), history, file)
     }
 
-    /// `loaded` with its takes as they are in `adapter`.
+    /// Returns the view of `loaded` with the takes of `adapter`.
     pub(super) fn of(
         generation: u64,
         loaded: Arc<LoadedModel>,
@@ -139,12 +139,12 @@ impl View {
         Self { generation, loaded, takes, slots: adapter.slots().into(), history, file }
     }
 
-    /// The poses that are pending at a time of a take and seen there instead of what its keys say.
+    /// Returns the pending poses at a time of a take, which are shown instead of the keyed ones.
     pub fn pending(&self, take: Option<usize>, time: f32) -> Option<&PendingAt> {
         self.slots.get(take?)?.pending_at(time).map(|at| &**at)
     }
 
-    /// The takes as they are now, but for bones that are shown at rest.
+    /// Returns the takes without the tracks of bones that are shown at rest.
     pub fn takes_without(&self, still: &[BoneIndex]) -> Arc<[Arc<Take>]> {
         if still.is_empty() {
             return Arc::clone(&self.takes);
@@ -161,7 +161,7 @@ impl View {
         self.takes.iter().map(quiet).collect()
     }
 
-    /// The skeleton and the takes as they are now.
+    /// Returns the skeleton and the takes as they are now.
     pub fn animation(&self) -> AnimationData {
         let skeleton = Arc::clone(&self.loaded.model.animation.skeleton);
         AnimationData { skeleton, takes: self.takes.to_vec() }

@@ -1,52 +1,52 @@
-//! How a save writes, and what came of it.
+//! Options and results of writing a saved file.
 
 use dragonfly_store::{Journal, SaveError as DiskError, Versions};
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// What a save may overwrite.
+/// The files that a save may overwrite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overwrite {
-    /// The file as it was read or saved last.
+    /// The file, if it is unchanged since it was last read or saved.
     AsRead,
     /// No file.
     Nothing,
-    /// Whatever is there: the person was asked.
+    /// Any file: the user has decided.
     Anything,
 }
 
-/// How a save writes.
+/// Options of a save.
 pub(super) struct Writing<'a> {
     pub(super) overwrite: Overwrite,
-    /// Hears of it before and after, if it is that of the file.
+    /// The journal of the file, which records the save before and after.
     pub(super) journal: Option<&'a mut Journal>,
-    /// Where the old version goes.
+    /// Where the old version of the file is kept.
     pub(super) versions: Option<&'a Versions>,
-    /// Is what was written the file that is edited from now on?
+    /// Whether the written file becomes the file of the document.
     pub(super) becomes: bool,
 }
 
-/// What a save came to.
+/// The files that a save has written.
 #[derive(Debug, Default)]
 pub(super) struct FilesSaved {
-    /// What was written, the file itself last.
+    /// Their paths, the file itself last.
     pub(super) files: Vec<PathBuf>,
-    /// Of the file itself.
+    /// Size of the file itself.
     pub(super) bytes: usize,
-    /// What could not be kept of the old file.
+    /// Attributes of the old file that were lost, one sentence each.
     pub(super) notices: Vec<String>,
 }
 
-/// Why nothing was saved.
+/// The reason why nothing was saved.
 #[derive(Debug, Error)]
 pub(super) enum SaveFailure {
-    /// Somebody else changed it.
-    #[error("{}: was changed on the disk by another program; it was not overwritten", .0.display())]
+    /// Another program changed the file.
+    #[error("{}: another program changed this file; it was not overwritten", .0.display())]
     Changed(PathBuf),
-    /// It was to be a new file.
-    #[error("{}: exists already; it was not overwritten", .0.display())]
+    /// A file of this name exists already.
+    #[error("{}: a file of this name exists already; it was not overwritten", .0.display())]
     Exists(PathBuf),
-    /// Anything else.
+    /// Any other failure.
     #[error("{0}")]
     Other(String),
 }

@@ -67,8 +67,19 @@ impl Receiver for Replies {
                 let changes = edits.map(|edit| Effect::Change(Change::Edit(edit, None)));
                 interface.effects.extend(changes);
             }
-            // What remains was heard above.
-            _ => {}
+            // Handled by `saving::heard` above.
+            DocumentReply::Saved(_)
+            | DocumentReply::NotSaved(..)
+            | DocumentReply::Plan(..)
+            | DocumentReply::Unsaved(_)
+            | DocumentReply::MayQuit
+            | DocumentReply::FileChanged(_)
+            | DocumentReply::Offers(_)
+            | DocumentReply::OtherFile(..)
+            | DocumentReply::NothingToOffer
+            | DocumentReply::Told(_)
+            | DocumentReply::Warned(_)
+            | DocumentReply::Lost => {}
         }
         interface.redraw();
     }

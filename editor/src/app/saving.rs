@@ -39,15 +39,18 @@ impl Running {
                 let path = self.state_path();
                 path.is_none_or(|path| {
                     self.tell(DocumentMessage::DoNotSave)
-                        && self.tell(DocumentMessage::Open(Source::File(path)))
+                        && self.tell(DocumentMessage::Open { source: Source::File(path), anyway: true })
                 })
             }
             Deed::Leave(then) => return self.leave(then),
             Deed::DoNotSave(then) => {
                 self.tell(DocumentMessage::DoNotSave);
-                return self.proceed(then);
+                match then {
+                    Then::Quit => return true,
+                    Then::Open(source) => self.tell(DocumentMessage::Open { source, anyway: true }),
+                }
             }
-            Deed::Proceed(then) => return self.proceed(then),
+            Deed::QuitNow => return true,
         };
         false
     }
@@ -62,22 +65,16 @@ impl Running {
         self.document.as_ref().is_some_and(|document| document.send(message))
     }
 
-    /// Asks the document whether something unsaved is in the way. Who asks a second time before the answer is there, or
-    /// where nobody can answer, goes at once: what was recorded is offered at the next start.
+    /// Opens a model or ends the program, unless the document has unsaved work. A second request to quit before the document has
+    /// replied, or one that no document can reply to, ends the program at once: recorded work is offered at the next start.
     fn leave(&mut self, then: Then) -> bool {
-        let waits = then == Then::Quit && std::mem::replace(&mut self.leaving, true);
-        if !waits && self.tell(DocumentMessage::Leave(then.clone())) {
-            return false;
-        }
-        self.proceed(then)
-    }
-
-    fn proceed(&mut self, then: Then) -> bool {
         match then {
-            Then::Quit => return true,
-            Then::Open(source) => self.tell(DocumentMessage::Open(source)),
-        };
-        false
+            Then::Open(source) => {
+                self.tell(DocumentMessage::Open { source, anyway: false });
+                false
+            }
+            Then::Quit => std::mem::replace(&mut self.leaving, true) || !self.tell(DocumentMessage::Quit),
+        }
     }
 
     fn ask_where_it_is(&mut self, offer: Box<Offer>) {
@@ -187,11 +184,11 @@ pub(super) fn heard(interface: &mut Interface, reply: DocumentReply) -> Option<D
         DocumentReply::Plan(Err(reason), _) => {
             state.status.say(Level::Error, format!("It cannot be saved: {reason}"));
         }
-        DocumentReply::Leave(then, true) => {
+        DocumentReply::Unsaved(then) => {
             state.ask(Question::Unsaved(then));
             interface.effects.push(Effect::Stays);
         }
-        DocumentReply::Leave(then, false) => interface.effects.push(Effect::Deed(Deed::Proceed(then))),
+        DocumentReply::MayQuit => interface.effects.push(Effect::Deed(Deed::QuitNow)),
         DocumentReply::FileChanged(file) => state.ask(Question::Changed(file, None)),
         DocumentReply::Offers(offers) => offer(state, offers),
         DocumentReply::OtherFile(offer, path) => state.ask_where_it_is(offer, Some(path)),
@@ -204,7 +201,12 @@ pub(super) fn heard(interface: &mut Interface, reply: DocumentReply) -> Option<D
             state.lost = true;
             state.status.say(Level::Error, "A mistake in the program closed the document");
         }
-        other => return Some(other),
+        other @ (DocumentReply::View(_)
+        | DocumentReply::Opened(_)
+        | DocumentReply::Loading { .. }
+        | DocumentReply::Cancelled
+        | DocumentReply::Failed { .. }
+        | DocumentReply::Refused(_)) => return Some(other),
     }
     None
 }

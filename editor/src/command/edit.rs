@@ -5,7 +5,7 @@ use super::output::{print, print_json, write_file};
 use super::{Command, Failure, tell};
 use dragonfly_anim::format::SavePlan;
 use dragonfly_document::adapter::ModelAdapter;
-use dragonfly_document::edit::{EXAMPLES, Edit, VERSION, parse_lines};
+use dragonfly_document::edit::{EDITS, Edit, VERSION, parse_lines};
 use dragonfly_document::{Cancel, Editable, fits, make_folder, read_file};
 use serde::Serialize;
 use std::io::Read;
@@ -132,7 +132,8 @@ fn list(json: bool) -> Result<(), Failure> {
     #[derive(Serialize)]
     struct Entry {
         example: serde_json::Value,
-        says: &'static str,
+        #[serde(rename = "says")]
+        description: &'static str,
     }
     #[derive(Serialize)]
     struct List {
@@ -141,12 +142,16 @@ fn list(json: bool) -> Result<(), Failure> {
     }
     if !json {
         return print(|out| {
-            EXAMPLES.iter().try_for_each(|example| writeln!(out, "# {}\n{}\n", example.says, example.json))
+            EDITS
+                .iter()
+                .try_for_each(|kind| writeln!(out, "# {}\n{}\n", kind.example.description, kind.example.json))
         });
     }
     let value = |text| serde_json::from_str(text).unwrap_or_default();
-    let edits =
-        EXAMPLES.iter().map(|example| Entry { example: value(example.json), says: example.says }).collect();
+    let edits = EDITS
+        .iter()
+        .map(|kind| Entry { example: value(kind.example.json), description: kind.example.description })
+        .collect();
     print_json(&List { version: VERSION, edits })
 }
 

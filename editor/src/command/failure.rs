@@ -10,6 +10,8 @@ use std::process::ExitCode;
 pub enum Failure {
     /// Code 2: a file or an argument is wrong. Says file, place and reason.
     Input(String),
+    /// Code 1: the check found something, or the comparison a difference. The result is on stdout already.
+    Difference,
     /// Code 3: the machine cannot do it. Says what, and what to do about it.
     Machine(String),
     /// Whoever read our output has gone: nothing is wrong, and nobody is left to tell.
@@ -29,6 +31,7 @@ impl Failure {
                 tell(reason);
                 ExitCode::from(2)
             }
+            Self::Difference => ExitCode::from(1),
             Self::Machine(reason) => {
                 tell(reason);
                 ExitCode::from(3)

@@ -3,8 +3,10 @@
 //! Results go to stdout, messages and progress to stderr. Exit codes: 0 done, 1 the comparison asked for found a
 //! difference, 2 wrong input, 3 trouble of the machine.
 
+mod check;
 mod choice;
 mod demo;
+mod diff;
 mod edit;
 mod explain;
 mod failure;
@@ -36,6 +38,8 @@ trait Command {
 #[derive(Debug, clap::Subcommand)]
 enum Commands {
     Info(info::Arguments),
+    Check(check::Arguments),
+    Diff(diff::Arguments),
     Pose(pose::Arguments),
     Explain(explain::Arguments),
     Render(render::Arguments),
@@ -103,6 +107,8 @@ fn run(command_line: CommandLine) -> Result<(), Failure> {
     match command_line.command {
         None => command_line.open.run(),
         Some(Commands::Info(arguments)) => arguments.run(),
+        Some(Commands::Check(arguments)) => arguments.run(),
+        Some(Commands::Diff(arguments)) => arguments.run(),
         Some(Commands::Pose(arguments)) => arguments.run(),
         Some(Commands::Explain(arguments)) => arguments.run(),
         Some(Commands::Render(arguments)) => arguments.run(),

@@ -6,7 +6,7 @@ use super::status::Level;
 use dragonfly_anim::data::{BoneIndex, Take, Transform};
 use dragonfly_anim::sample::sample_take;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, SAME_TIME};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, SAME_TIME, SetPoses};
 use dragonfly_document::posing::{Hold, poses_of_pins};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -42,7 +42,7 @@ impl State {
             return None;
         }
         let at = times.into_iter().map(|time| PoseAt { time, poses: at_time(time) }).collect();
-        let edit = Edit::SetMany { take: name, at, unstep: true };
+        let edit = Edit::SetPoses(SetPoses { take: name, at, unstep: true });
         Some(Effect::Change(Change::Edit(edit, None)))
     }
 

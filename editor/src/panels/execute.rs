@@ -8,7 +8,7 @@ use super::saving::Deed;
 use super::settings::{IkSettings, SCALES, SPEEDS, ThemeChoice, TimelineSettings};
 use super::state::{Effect, Overlay, Request, State};
 use super::status::Level;
-use dragonfly_document::edit::{Between, Edit};
+use dragonfly_document::edit::{Between, Edit, TrimTake};
 use dragonfly_document::edit::{Property, ResetTo};
 use dragonfly_document::{Change, Source};
 use dragonfly_picture::camera::Side;
@@ -20,7 +20,10 @@ impl State {
     pub fn execute(&mut self, request: Request) -> Option<Effect> {
         let said = self.status.said();
         let effect = self.perform(request);
-        if let Some(Effect::Change(Change::Edit(Edit::TrimTake { from, to, to_start: true, .. }, _))) = effect
+        if let Some(Effect::Change(Change::Edit(
+            Edit::TrimTake(TrimTake { from, to, to_start: true, .. }),
+            _,
+        ))) = effect
         {
             // What played is all there is then, and lies elsewhere; so does the time that is shown.
             self.keys_request(KeysRequest::Range(None));

@@ -8,7 +8,10 @@ use dragonfly_anim::sample::{rest_pose, sample_track};
 use dragonfly_document::Change;
 use dragonfly_document::adapter::PendingAt;
 use dragonfly_document::bones::MirrorPairs;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, NewKey, Property, ResetTo};
+use dragonfly_document::edit::{
+    AddKeys, BonePose, BoneRef, DropPending, Edit, KeyPending, NewKey, PastePose, Property, ResetPose,
+    ResetTo,
+};
 use dragonfly_document::posing::clipboard;
 use std::sync::Arc;
 
@@ -31,7 +34,12 @@ impl State {
     pub(super) fn key_here(&mut self) -> Option<Effect> {
         let (take, time) = (self.take_ref()?, self.time());
         Some(done(if self.pending_here().is_some() {
-            Edit::KeyPending { take, time: Some(time), bones: self.pending_free(Some(time))?, unstep: true }
+            Edit::KeyPending(KeyPending {
+                take,
+                time: Some(time),
+                bones: self.pending_free(Some(time))?,
+                unstep: true,
+            })
         } else {
             self.added_keys()?
         }))
@@ -45,19 +53,19 @@ impl State {
         let (properties, value) = (Vec::new(), NewKey::Current);
         let (take, time) = (self.take_ref()?, self.time());
         let keyed_only = all && !bones.is_empty();
-        Some(Edit::AddKeys { take, time, bones, properties, value, keyed_only })
+        Some(Edit::AddKeys(AddKeys { take, time, bones, properties, value, keyed_only }))
     }
 
     /// Keys what is pending anywhere in the take.
     pub(super) fn key_pending(&mut self) -> Option<Effect> {
         let bones = self.pending_free(None)?;
-        Some(done(Edit::KeyPending { take: self.take_ref()?, time: None, bones, unstep: true }))
+        Some(done(Edit::KeyPending(KeyPending { take: self.take_ref()?, time: None, bones, unstep: true })))
     }
 
     /// Gives up what is pending in the take.
     pub(super) fn drop_pending(&mut self) -> Option<Effect> {
         let bones = self.pending_free(None)?;
-        Some(done(Edit::DropPending { take: self.take_ref()?, time: None, bones }))
+        Some(done(Edit::DropPending(DropPending { take: self.take_ref()?, time: None, bones })))
     }
 
     /// The bones whose pending poses are keyed or dropped, at one time or at all, as edits name them: all where none is
@@ -75,9 +83,11 @@ impl State {
             at.into_iter().flat_map(|at| &at.poses).map(|pose| pose.bone).collect();
         bones.sort_unstable();
         bones.dedup();
-        // Where nothing is pending the document says so.
-        let waits = !bones.is_empty();
-        if waits && !self.spare_locked(&mut bones, |bone| *bone) {
+        // The document refuses this with the message that nothing is pending.
+        if bones.is_empty() {
+            return Some(self.free_refs());
+        }
+        if !self.spare_locked(&mut bones, |bone| *bone) {
             return None;
         }
         Some(bones.into_iter().map(BoneRef::Index).collect())
@@ -136,7 +146,7 @@ impl State {
                 return None;
             }
         }
-        Some(done(Edit::Paste { take, time, poses, mirrored, pending, unstep: true }))
+        Some(done(Edit::PastePose(PastePose { take, time, poses, mirrored, pending, unstep: true })))
     }
 
     /// Takes the selected bones back to the pose that was read, or to the rest pose; these channels of them.
@@ -149,7 +159,7 @@ impl State {
         // On keys, to the bit and with its tangents.
         if to == ResetTo::Original && self.settings.auto_key && bones.iter().any(|&bone| keyed(bone)) {
             let (bones, properties) = (self.selected_refs(), properties.to_vec());
-            return Some(done(Edit::Reset { take, time, bones, properties, to }));
+            return Some(done(Edit::ResetPose(ResetPose { take, time, bones, properties, to })));
         }
         let rules = &self.loaded()?.model.animation.skeleton.bones;
         let original = &slot.original;

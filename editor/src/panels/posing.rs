@@ -3,7 +3,7 @@
 use super::state::State;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::adapter::{PendingAt, Slot};
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, SetPending, SetPose, TakeRef};
 use dragonfly_document::posing::{Hold, poses_of_drag};
 
 impl State {
@@ -22,9 +22,9 @@ impl State {
     /// The same at any time.
     pub(super) fn edit_of(&self, take: TakeRef, time: f32, poses: Vec<BonePose>) -> Edit {
         if self.settings.auto_key {
-            Edit::Set { take, time, poses, unstep: true }
+            Edit::SetPose(SetPose { take, time, poses, unstep: true })
         } else {
-            Edit::Pend { take, time, poses }
+            Edit::SetPending(SetPending { take, time, poses })
         }
     }
 

@@ -85,10 +85,10 @@ pub enum Deed {
     FoundAt(Box<Offer>, PathBuf),
     /// Looks for unsaved work.
     Search,
-    /// Goes on to this, unless something unsaved is in the way.
+    /// Opens a model or ends the program, unless the document has unsaved work.
     Leave(Then),
-    /// Goes on to this.
-    Proceed(Then),
+    /// Ends the program: nothing is unsaved.
+    QuitNow,
     /// Asks whether somebody else changed the file.
     LookAtFile,
 }

@@ -1,6 +1,6 @@
 //! What was changed of one key, and what comes of it.
 
-use super::kind::{Kind, Numbers};
+use super::kind::{ChannelKind, ChannelNumbers};
 use dragonfly_anim::data::{Channel, Interpolation};
 use serde::{Deserialize, Serialize};
 
@@ -8,38 +8,38 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct KeyChange {
     /// Added, multiplied from the left, or multiplied: the rule of the channel.
-    pub value: Numbers,
+    pub value: ChannelNumbers,
     /// Added to the in-tangent, a second; only splines have any.
-    pub arrive: Numbers,
+    pub arrive: ChannelNumbers,
     /// Added to the out-tangent.
-    pub leave: Numbers,
+    pub leave: ChannelNumbers,
 }
 
 /// In-tangent, value, out-tangent; without a spline only the value counts, and the others are zero.
-pub(super) type Triple = [Numbers; 3];
+pub(crate) type Triple = [ChannelNumbers; 3];
 
-const NONE: Numbers = [0.0; 4];
+const NONE: ChannelNumbers = [0.0; 4];
 
 impl KeyChange {
     /// A change of the value alone.
-    pub(super) fn of_value(value: Numbers) -> Self {
+    pub(crate) fn of_value(value: ChannelNumbers) -> Self {
         Self { value, arrive: NONE, leave: NONE }
     }
 
     /// Changes nothing.
-    pub(super) fn identity<K: Kind>() -> Self {
+    pub(crate) fn identity<K: ChannelKind>() -> Self {
         Self::of_value(K::IDENTITY)
     }
 
     /// Itself where it changes something.
-    pub(super) fn some<K: Kind>(self) -> Option<Self> {
+    pub(crate) fn some<K: ChannelKind>(self) -> Option<Self> {
         (self != Self::identity::<K>()).then_some(self)
     }
 
     /// What an original key becomes; what is not changed stays bit for bit.
-    pub(super) fn result<K: Kind>(&self, original: &Triple) -> Triple {
+    pub(crate) fn result<K: ChannelKind>(&self, original: &Triple) -> Triple {
         let moved = self.value != K::IDENTITY;
-        let tangent = |original: Numbers, more: Numbers| {
+        let tangent = |original: ChannelNumbers, more: ChannelNumbers| {
             let turned =
                 if moved { K::numbers(K::tangent(K::value(original), self.value)) } else { original };
             if more == NONE { turned } else { add(turned, more) }
@@ -51,7 +51,7 @@ impl KeyChange {
 
     /// The change that makes `result` of `original`, `None` inside where they are the same; nothing at all where no
     /// change does.
-    pub(super) fn between<K: Kind>(original: &Triple, result: &Triple) -> Option<Option<Self>> {
+    pub(crate) fn between<K: ChannelKind>(original: &Triple, result: &Triple) -> Option<Option<Self>> {
         let value = if K::value(original[1]) == K::value(result[1]) {
             K::IDENTITY
         } else {
@@ -65,22 +65,22 @@ impl KeyChange {
     }
 
     /// Tangents become steeper by `factor`: time runs faster by it.
-    pub(super) fn with_tangents(self, factor: f32) -> Self {
-        let scaled = |tangent: Numbers| tangent.map(|number| number * factor);
+    pub(crate) fn with_tangents(self, factor: f32) -> Self {
+        let scaled = |tangent: ChannelNumbers| tangent.map(|number| number * factor);
         Self { arrive: scaled(self.arrive), leave: scaled(self.leave), ..self }
     }
 }
 
-pub(super) fn add(a: Numbers, b: Numbers) -> Numbers {
+pub(crate) fn add(a: ChannelNumbers, b: ChannelNumbers) -> ChannelNumbers {
     std::array::from_fn(|at| a[at] + b[at])
 }
 
-pub(super) fn subtract(a: Numbers, b: Numbers) -> Numbers {
+pub(crate) fn subtract(a: ChannelNumbers, b: ChannelNumbers) -> ChannelNumbers {
     std::array::from_fn(|at| a[at] - b[at])
 }
 
 /// Key number `key` of a channel, tangents included.
-pub(super) fn triple<K: Kind>(channel: &Channel<K::Value>, key: usize) -> Triple {
+pub(crate) fn triple<K: ChannelKind>(channel: &Channel<K::Value>, key: usize) -> Triple {
     let at = |index: usize| channel.values.get(index).map_or(NONE, |&value| K::numbers(value));
     match channel.interpolation {
         Interpolation::CubicSpline => [at(key * 3), at(key * 3 + 1), at(key * 3 + 2)],
@@ -89,7 +89,7 @@ pub(super) fn triple<K: Kind>(channel: &Channel<K::Value>, key: usize) -> Triple
 }
 
 /// Puts a key into a column of values that has room for it.
-pub(super) fn put<K: Kind>(
+pub(crate) fn put<K: ChannelKind>(
     values: &mut [K::Value],
     interpolation: Interpolation,
     key: usize,

@@ -2,7 +2,7 @@
 
 use super::ModelAdapter;
 use super::change::{KeyChange, triple};
-use super::kind::{Kind, Rotation, Scale, Translation};
+use super::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use super::pending::PendingPose;
 use super::slot::{Slot, extent};
 use crate::edit::{Property, SAME_TIME};
@@ -13,7 +13,7 @@ use thiserror::Error;
 /// A promise that does not hold: a mistake in this program.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("take {take}: {what}")]
-pub struct Broken {
+pub struct BrokenInvariant {
     /// Place of the take in the list.
     pub take: usize,
     /// What does not hold.
@@ -23,25 +23,25 @@ pub struct Broken {
 impl ModelAdapter {
     /// Looks whether everything holds that must: original, changes and result correspond, untouched channels are
     /// shared, keys ascend, numbers are finite, start and length are those of the keys, no take is there twice.
-    pub fn check(&self) -> Result<(), Broken> {
+    pub fn check(&self) -> Result<(), BrokenInvariant> {
         for (take, slot) in self.slots.iter().enumerate() {
             let found = slot_is_right(slot).and_then(|()| {
                 let twice = self.slots[..take].iter().any(|other| other.id == slot.id);
                 if twice { Err(format!("{:?} is there twice", slot.id)) } else { Ok(()) }
             });
-            found.map_err(|what| Broken { take, what })?;
+            found.map_err(|what| BrokenInvariant { take, what })?;
         }
         Ok(())
     }
 }
 
-type Found = Result<(), String>;
+type CheckResult = Result<(), String>;
 
-fn ensure(holds: bool, what: impl FnOnce() -> String) -> Found {
+fn ensure(holds: bool, what: impl FnOnce() -> String) -> CheckResult {
     if holds { Ok(()) } else { Err(what()) }
 }
 
-fn slot_is_right(slot: &Slot) -> Found {
+fn slot_is_right(slot: &Slot) -> CheckResult {
     let (original, result) = (&slot.original, &slot.result);
     let unchanged = slot.changed().next().is_none();
     ensure(unchanged == Arc::ptr_eq(original, result), || "an unchanged take is its original".to_owned())?;
@@ -63,14 +63,14 @@ fn slot_is_right(slot: &Slot) -> Found {
     }
     pending_is_right(slot)?;
     for bone in 0..original.tracks.len() as u32 {
-        channel_is_right::<Translation>(slot, result, bone, Property::Translation)?;
-        channel_is_right::<Rotation>(slot, result, bone, Property::Rotation)?;
-        channel_is_right::<Scale>(slot, result, bone, Property::Scale)?;
+        channel_is_right::<TranslationChannel>(slot, result, bone, Property::Translation)?;
+        channel_is_right::<RotationChannel>(slot, result, bone, Property::Rotation)?;
+        channel_is_right::<ScaleChannel>(slot, result, bone, Property::Scale)?;
     }
     Ok(())
 }
 
-fn pending_is_right(slot: &Slot) -> Found {
+fn pending_is_right(slot: &Slot) -> CheckResult {
     let pending = slot.pending();
     let apart = pending.windows(2).all(|pair| pair[1].time - pair[0].time > SAME_TIME);
     ensure(apart, || "pending poses do not ascend in time".to_owned())?;
@@ -91,7 +91,12 @@ fn pending_is_right(slot: &Slot) -> Found {
     Ok(())
 }
 
-fn channel_is_right<K: Kind>(slot: &Slot, result: &Take, bone: u32, property: Property) -> Found {
+fn channel_is_right<K: ChannelKind>(
+    slot: &Slot,
+    result: &Take,
+    bone: u32,
+    property: Property,
+) -> CheckResult {
     let at = || format!("bone {bone}, {}", property.name());
     let track = &result.tracks[bone as usize];
     ensure(track.bone == bone, || format!("{}: the track is of bone {}", at(), track.bone))?;

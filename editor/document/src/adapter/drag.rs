@@ -5,9 +5,10 @@
 //! the one before, in memory that nobody shows any more. The result is the same to the bit.
 
 use super::change::KeyChange;
-use super::kind::{Kind, Rotation, Scale, Translation};
-use super::op::{Op, Place};
-use super::plan::{Way, changed, rotation, vector};
+use super::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
+use super::op::{ChannelAddress, Op};
+use super::plan::PoseMode;
+use super::plan::pose::{changed, rotation, vector};
 use super::slot::Slot;
 use super::{EditError, Inverse, ModelAdapter};
 use crate::edit::{BonePose, Edit, Property, TakeRef};
@@ -18,30 +19,30 @@ const KEPT: usize = 4;
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub(crate) struct Drag {
+pub(crate) struct PoseDrag {
     time: u32,
-    channels: Vec<Held>,
+    channels: Vec<HeldKey>,
     kept: Vec<Arc<Slot>>,
 }
 
 /// A key whose value the hand holds.
 #[derive(Clone, Copy, Debug)]
-struct Held {
-    place: Place,
+struct HeldKey {
+    address: ChannelAddress,
     key: u32,
     /// Its change when the gesture began.
     before: Option<KeyChange>,
 }
 
-impl Drag {
+impl PoseDrag {
     /// After `edit`, which `inverse` leads back from; `None` where the edits to come may do more than give values.
     pub(crate) fn of(adapter: &ModelAdapter, edit: &Edit, inverse: &Inverse) -> Option<Self> {
-        let (time, poses, _) = values_of(edit)?;
-        let mut held: Vec<Held> = Vec::new();
+        let (time, poses, _) = edit.values()?;
+        let mut held: Vec<HeldKey> = Vec::new();
         for op in &inverse.0 {
             match op {
-                Op::Changes(place, before) => match before[..] {
-                    [(key, before)] => held.push(Held { place: *place, key, before }),
+                Op::Changes(address, before) => match before[..] {
+                    [(key, before)] => held.push(HeldKey { address: *address, key, before }),
                     _ => return None,
                 },
                 // A key that was added for it.
@@ -59,7 +60,7 @@ impl Drag {
     /// Are these the channels that are held, each once and in their order?
     fn fits(&self, adapter: &ModelAdapter, take: &TakeRef, poses: &[BonePose]) -> bool {
         let Ok(take) = adapter.take(take).map(|slot| slot.id) else { return false };
-        let mut held = self.channels.iter().map(|held| held.place);
+        let mut held = self.channels.iter().map(|held| held.address);
         for pose in poses {
             let Ok(bone) = adapter.bone(&pose.bone) else { return false };
             for property in Property::ALL {
@@ -68,13 +69,14 @@ impl Drag {
                     Property::Rotation => pose.rotation.is_some(),
                     Property::Scale => pose.scale.is_some(),
                 };
-                if given && held.next() != Some(Place { take, bone, property }) {
+                if given && held.next() != Some(ChannelAddress { take, bone, property }) {
                     return false;
                 }
             }
         }
-        let twice =
-            |(at, held): (usize, &Held)| self.channels[..at].iter().any(|other| other.place == held.place);
+        let twice = |(at, held): (usize, &HeldKey)| {
+            self.channels[..at].iter().any(|other| other.address == held.address)
+        };
         // More than a few hundred channels are looked through no faster than they are done anew.
         held.next().is_none()
             && (1..=512).contains(&self.channels.len())
@@ -87,21 +89,21 @@ impl Drag {
     ///
     /// Why it cannot be done; nothing has changed then.
     pub(crate) fn amend(&mut self, adapter: &mut ModelAdapter, edit: &Edit) -> Option<Result<(), EditError>> {
-        let (time, poses, way) = values_of(edit)?;
+        let (time, poses, mode) = edit.values()?;
         if time.to_bits() != self.time || !self.fits(adapter, edit.take()?, poses) {
             return None;
         }
-        let take = self.channels.first()?.place.take;
+        let take = self.channels.first()?.address.take;
         let index = adapter.slots.iter().position(|slot| slot.id == take)?;
         let now = &adapter.slots[index];
-        let changes = match self.changes(now, poses, way) {
+        let changes = match self.changes(now, poses, mode) {
             Ok(changes) => changes,
             Err(error) => return Some(Err(error)),
         };
         let mut next = self.free().unwrap_or_else(|| Arc::new(Slot::clone(now)));
         let slot = Arc::make_mut(&mut next);
         for (held, change) in self.channels.iter().zip(changes) {
-            slot.set_changes(held.place.bone, held.place.property, &[(held.key, change)]);
+            slot.set_changes(held.address.bone, held.address.property, &[(held.key, change)]);
         }
         let before = std::mem::replace(&mut adapter.slots[index], next);
         if self.kept.len() == KEPT {
@@ -123,47 +125,38 @@ impl Drag {
         &self,
         slot: &Slot,
         poses: &[BonePose],
-        way: Way,
+        mode: PoseMode,
     ) -> Result<Vec<Option<KeyChange>>, EditError> {
         let mut held = self.channels.iter();
         let mut found = Vec::with_capacity(self.channels.len());
         for pose in poses {
             if let (Some(given), Some(held)) = (pose.translation, pose.translation.and_then(|_| held.next()))
             {
-                found.push(one::<Translation>(slot, held, vector("a translation", given)?, way)?);
+                found.push(one::<TranslationChannel>(slot, held, vector("a translation", given)?, mode)?);
             }
             if let (Some(given), Some(held)) = (pose.rotation, pose.rotation.and_then(|_| held.next())) {
-                found.push(one::<Rotation>(slot, held, rotation(given)?, way)?);
+                found.push(one::<RotationChannel>(slot, held, rotation(given)?, mode)?);
             }
             if let (Some(given), Some(held)) = (pose.scale, pose.scale.and_then(|_| held.next())) {
-                found.push(one::<Scale>(slot, held, vector("a scale", given)?, way)?);
+                found.push(one::<ScaleChannel>(slot, held, vector("a scale", given)?, mode)?);
             }
         }
         Ok(found)
     }
 }
 
-fn one<K: Kind>(
+fn one<K: ChannelKind>(
     slot: &Slot,
-    held: &Held,
+    held: &HeldKey,
     wanted: K::Value,
-    way: Way,
+    mode: PoseMode,
 ) -> Result<Option<KeyChange>, EditError> {
-    let Some(mut key) = slot.key::<K>(held.place.property, held.place.bone, held.key as usize) else {
+    let Some(mut key) = slot.key::<K>(held.address.property, held.address.bone, held.key as usize) else {
         return Ok(None);
     };
     key.change = held.before;
-    changed::<K>(held.place.bone, &key, |now| match way {
-        Way::Set => wanted,
-        Way::Offset => K::offset(now, wanted),
+    changed::<K>(held.address.bone, &key, |now| match mode {
+        PoseMode::Set => wanted,
+        PoseMode::Offset => K::offset(now, wanted),
     })
-}
-
-/// Time and poses of an edit that gives values.
-fn values_of(edit: &Edit) -> Option<(f32, &[BonePose], Way)> {
-    match edit {
-        Edit::Set { time, poses, .. } => Some((*time, poses, Way::Set)),
-        Edit::Offset { time, poses, .. } => Some((*time, poses, Way::Offset)),
-        _ => None,
-    }
 }

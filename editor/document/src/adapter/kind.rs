@@ -6,27 +6,27 @@ use dragonfly_anim::sample::Value;
 use glam::{Quat, Vec3};
 
 /// A number a component; a vector's fourth is 0.
-pub type Numbers = [f32; 4];
+pub type ChannelNumbers = [f32; 4];
 
 /// One of [`Property`], as a type, so that columns keep the type of their values.
-pub(super) trait Kind {
+pub(crate) trait ChannelKind {
     /// What a key holds.
-    type Value: PartialEq + Held;
+    type Value: PartialEq + ChannelValue;
     /// The change that changes nothing.
-    const IDENTITY: Numbers;
+    const IDENTITY: ChannelNumbers;
 
     fn channel(track: &Track) -> &Channel<Self::Value>;
     fn channel_mut(track: &mut Track) -> &mut Channel<Self::Value>;
     fn of(pose: &Transform) -> Self::Value;
-    fn numbers(value: Self::Value) -> Numbers;
-    fn value(numbers: Numbers) -> Self::Value;
+    fn numbers(value: Self::Value) -> ChannelNumbers;
+    fn value(numbers: ChannelNumbers) -> Self::Value;
 
     /// original + change = result (the design's rule for this channel).
-    fn result(original: Self::Value, change: Numbers) -> Self::Value;
+    fn result(original: Self::Value, change: ChannelNumbers) -> Self::Value;
     /// The same for a tangent of the original: what the rule does to a small difference.
-    fn tangent(original: Self::Value, change: Numbers) -> Self::Value;
+    fn tangent(original: Self::Value, change: ChannelNumbers) -> Self::Value;
     /// The change that leads from one to the other; `None` where there is none.
-    fn change(original: Self::Value, result: Self::Value) -> Option<Numbers>;
+    fn change(original: Self::Value, result: Self::Value) -> Option<ChannelNumbers>;
     /// A value between keys as a key may hold it.
     fn as_key(value: Self::Value) -> Self::Value {
         value
@@ -35,40 +35,40 @@ pub(super) trait Kind {
     fn offset(value: Self::Value, on_top: Self::Value) -> Self::Value;
 }
 
-pub(super) enum Translation {}
-pub(super) enum Rotation {}
-pub(super) enum Scale {}
+pub(crate) enum TranslationChannel {}
+pub(crate) enum RotationChannel {}
+pub(crate) enum ScaleChannel {}
 
-/// Calls a function that is generic over [`Kind`] with the kind of a property.
+/// Calls a function that is generic over [`ChannelKind`] with the kind of a property.
 macro_rules! with_kind {
     ($property:expr, $function:ident :: <K $(, $more:ty)*> ( $($argument:expr),* $(,)? )) => {
         match $property {
             $crate::edit::Property::Translation => {
-                $function::<$crate::adapter::kind::Translation $(, $more)*>($($argument),*)
+                $function::<$crate::adapter::kind::TranslationChannel $(, $more)*>($($argument),*)
             }
             $crate::edit::Property::Rotation => {
-                $function::<$crate::adapter::kind::Rotation $(, $more)*>($($argument),*)
+                $function::<$crate::adapter::kind::RotationChannel $(, $more)*>($($argument),*)
             }
             $crate::edit::Property::Scale => {
-                $function::<$crate::adapter::kind::Scale $(, $more)*>($($argument),*)
+                $function::<$crate::adapter::kind::ScaleChannel $(, $more)*>($($argument),*)
             }
         }
     };
 }
-pub(super) use with_kind;
+pub(crate) use with_kind;
 
-fn three(numbers: Numbers) -> Vec3 {
+fn three(numbers: ChannelNumbers) -> Vec3 {
     Vec3::new(numbers[0], numbers[1], numbers[2])
 }
 
-fn four(vector: Vec3) -> Numbers {
+fn four(vector: Vec3) -> ChannelNumbers {
     [vector.x, vector.y, vector.z, 0.0]
 }
 
 /// Translation: original + change.
-impl Kind for Translation {
+impl ChannelKind for TranslationChannel {
     type Value = Vec3;
-    const IDENTITY: Numbers = [0.0; 4];
+    const IDENTITY: ChannelNumbers = [0.0; 4];
 
     fn channel(track: &Track) -> &Channel<Vec3> {
         &track.translation
@@ -82,23 +82,23 @@ impl Kind for Translation {
         pose.translation
     }
 
-    fn numbers(value: Vec3) -> Numbers {
+    fn numbers(value: Vec3) -> ChannelNumbers {
         four(value)
     }
 
-    fn value(numbers: Numbers) -> Vec3 {
+    fn value(numbers: ChannelNumbers) -> Vec3 {
         three(numbers)
     }
 
-    fn result(original: Vec3, change: Numbers) -> Vec3 {
+    fn result(original: Vec3, change: ChannelNumbers) -> Vec3 {
         original + three(change)
     }
 
-    fn tangent(original: Vec3, _change: Numbers) -> Vec3 {
+    fn tangent(original: Vec3, _change: ChannelNumbers) -> Vec3 {
         original
     }
 
-    fn change(original: Vec3, result: Vec3) -> Option<Numbers> {
+    fn change(original: Vec3, result: Vec3) -> Option<ChannelNumbers> {
         let change = [0, 1, 2].map(|axis| addend(original[axis], result[axis]));
         Some([change[0], change[1], change[2], 0.0]).filter(|change| change.iter().all(|x| x.is_finite()))
     }
@@ -121,9 +121,9 @@ fn unit(rotation: Quat) -> Quat {
 }
 
 /// Rotation: change * original, in the space of the parent, normalised.
-impl Kind for Rotation {
+impl ChannelKind for RotationChannel {
     type Value = Quat;
-    const IDENTITY: Numbers = [0.0, 0.0, 0.0, 1.0];
+    const IDENTITY: ChannelNumbers = [0.0, 0.0, 0.0, 1.0];
 
     fn channel(track: &Track) -> &Channel<Quat> {
         &track.rotation
@@ -137,24 +137,24 @@ impl Kind for Rotation {
         pose.rotation
     }
 
-    fn numbers(value: Quat) -> Numbers {
+    fn numbers(value: Quat) -> ChannelNumbers {
         value.to_array()
     }
 
-    fn value(numbers: Numbers) -> Quat {
+    fn value(numbers: ChannelNumbers) -> Quat {
         Quat::from_array(numbers)
     }
 
-    fn result(original: Quat, change: Numbers) -> Quat {
+    fn result(original: Quat, change: ChannelNumbers) -> Quat {
         unit(Quat::from_array(change) * original)
     }
 
-    fn tangent(original: Quat, change: Numbers) -> Quat {
+    fn tangent(original: Quat, change: ChannelNumbers) -> Quat {
         // A product is linear in each factor, so a derivative goes through it.
         Quat::from_array(change) * original
     }
 
-    fn change(original: Quat, result: Quat) -> Option<Numbers> {
+    fn change(original: Quat, result: Quat) -> Option<ChannelNumbers> {
         let change = result * original.conjugate();
         (change.is_finite() && change.length_squared() > 1e-12).then(|| change.normalize().to_array())
     }
@@ -169,9 +169,9 @@ impl Kind for Rotation {
 }
 
 /// Scale: original * change, per component.
-impl Kind for Scale {
+impl ChannelKind for ScaleChannel {
     type Value = Vec3;
-    const IDENTITY: Numbers = [1.0, 1.0, 1.0, 0.0];
+    const IDENTITY: ChannelNumbers = [1.0, 1.0, 1.0, 0.0];
 
     fn channel(track: &Track) -> &Channel<Vec3> {
         &track.scale
@@ -185,23 +185,23 @@ impl Kind for Scale {
         pose.scale
     }
 
-    fn numbers(value: Vec3) -> Numbers {
+    fn numbers(value: Vec3) -> ChannelNumbers {
         four(value)
     }
 
-    fn value(numbers: Numbers) -> Vec3 {
+    fn value(numbers: ChannelNumbers) -> Vec3 {
         three(numbers)
     }
 
-    fn result(original: Vec3, change: Numbers) -> Vec3 {
+    fn result(original: Vec3, change: ChannelNumbers) -> Vec3 {
         original * three(change)
     }
 
-    fn tangent(original: Vec3, change: Numbers) -> Vec3 {
+    fn tangent(original: Vec3, change: ChannelNumbers) -> Vec3 {
         original * three(change)
     }
 
-    fn change(original: Vec3, result: Vec3) -> Option<Numbers> {
+    fn change(original: Vec3, result: Vec3) -> Option<ChannelNumbers> {
         let mut change = Self::IDENTITY;
         for axis in 0..3 {
             change[axis] = factor(original[axis], result[axis])?;
@@ -228,7 +228,7 @@ fn factor(from: f32, to: f32) -> Option<f32> {
 
 /// A channel of any of the three.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum AnyChannel {
+pub(crate) enum AnyChannel {
     /// Translation or scale.
     Vector(Channel<Vec3>),
     /// Rotation.
@@ -236,12 +236,12 @@ pub(super) enum AnyChannel {
 }
 
 /// A value type that [`AnyChannel`] knows.
-pub(super) trait Held: Value {
+pub(crate) trait ChannelValue: Value {
     fn wrap(channel: Channel<Self>) -> AnyChannel;
     fn unwrap(channel: &AnyChannel) -> Option<&Channel<Self>>;
 }
 
-impl Held for Vec3 {
+impl ChannelValue for Vec3 {
     fn wrap(channel: Channel<Self>) -> AnyChannel {
         AnyChannel::Vector(channel)
     }
@@ -251,7 +251,7 @@ impl Held for Vec3 {
     }
 }
 
-impl Held for Quat {
+impl ChannelValue for Quat {
     fn wrap(channel: Channel<Self>) -> AnyChannel {
         AnyChannel::Turn(channel)
     }
@@ -263,11 +263,11 @@ impl Held for Quat {
 
 impl Property {
     /// The change that changes nothing.
-    pub(super) fn identity(self) -> Numbers {
+    pub(crate) fn identity(self) -> ChannelNumbers {
         match self {
-            Self::Translation => Translation::IDENTITY,
-            Self::Rotation => Rotation::IDENTITY,
-            Self::Scale => Scale::IDENTITY,
+            Self::Translation => TranslationChannel::IDENTITY,
+            Self::Rotation => RotationChannel::IDENTITY,
+            Self::Scale => ScaleChannel::IDENTITY,
         }
     }
 }

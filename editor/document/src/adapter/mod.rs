@@ -16,31 +16,31 @@
 //! a file a family of edits. What an edit costs, in time and in what its inverse keeps, is in proportion to what it
 //! touches: a change of a key touches the column of its channel.
 
-mod change;
+pub(crate) mod change;
 mod check;
 mod drag;
 mod error;
-mod kind;
+pub(crate) mod kind;
 mod name;
-mod op;
+pub(crate) mod op;
 mod pending;
-mod plan;
-mod slot;
+pub(crate) mod plan;
+pub(crate) mod slot;
 mod times;
 
 pub use change::KeyChange;
-pub use check::Broken;
-pub(crate) use drag::Drag;
+pub use check::BrokenInvariant;
+pub(crate) use drag::PoseDrag;
 pub use error::EditError;
-pub use kind::Numbers;
+pub use kind::ChannelNumbers;
 pub use name::take_name;
 pub use pending::{Pending, PendingAt, PendingPose};
-pub use slot::{Changes, Slot, TakeId};
+pub use slot::{ChannelChanges, Slot, TakeId};
 
 use super::edit::{BoneRef, Edit, TakeRef};
 use dragonfly_anim::data::{AnimationData, Skeleton, Take};
 use op::Op;
-use plan::Work;
+use plan::Transaction;
 use std::sync::Arc;
 
 /// The takes of a model in their three forms. A copy is cheap: everything large is shared.
@@ -123,11 +123,7 @@ impl ModelAdapter {
     ///
     /// [`EditError::NoBone`].
     pub fn bone(&self, bone: &BoneRef) -> Result<u32, EditError> {
-        let found = match bone {
-            BoneRef::Index(index) => Some(*index).filter(|&index| (index as usize) < self.skeleton.len()),
-            BoneRef::Name(name) => self.skeleton.find(name),
-        };
-        found.ok_or_else(|| EditError::NoBone(bone.clone()))
+        bone.find_in(&self.skeleton).ok_or_else(|| EditError::NoBone(bone.clone()))
     }
 
     /// Does an edit; what undoes it.
@@ -136,8 +132,8 @@ impl ModelAdapter {
     ///
     /// Why it cannot be done; nothing has changed then.
     pub fn apply(&mut self, edit: &Edit) -> Result<Inverse, EditError> {
-        let mut work = Work::on(self.clone());
-        plan::run(&mut work, edit)?;
+        let mut work = Transaction::on(self.clone());
+        edit.plan(&mut work)?;
         let (adapter, mut undo) = work.done();
         *self = adapter;
         undo.reverse();
@@ -146,7 +142,7 @@ impl ModelAdapter {
 
     /// Undoes what `inverse` stands for; what does it again. Inverses are used in the opposite order of their edits.
     pub fn revert(&mut self, inverse: Inverse) -> Inverse {
-        let mut work = Work::on(self.clone());
+        let mut work = Transaction::on(self.clone());
         for op in inverse.0 {
             work.perform(op);
         }

@@ -28,12 +28,6 @@ impl ModelAdapter {
     ///
     /// Why not.
     pub fn allows(&self, edit: &Edit) -> Result<(), EditError> {
-        match edit {
-            Edit::RenameTake { take, name } => take_name(&self.slots, name, Some(self.take(take)?.id)),
-            Edit::CreateTake { name, .. } | Edit::SplitTake { name, .. } => {
-                take_name(&self.slots, name, None)
-            }
-            _ => Ok(()),
-        }
+        edit.allowed(self)
     }
 }

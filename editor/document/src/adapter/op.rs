@@ -4,31 +4,31 @@ use super::ModelAdapter;
 use super::change::KeyChange;
 use super::kind::AnyChannel;
 use super::pending::PendingAt;
-use super::slot::{Content, Key, Slot, TakeId};
-use super::times::Shared;
+use super::slot::{ChannelContent, KeyContent, Slot, TakeId};
+use super::times::SharedTimes;
 use crate::edit::Property;
 use dragonfly_anim::data::MorphTrack;
 use std::sync::Arc;
 
 /// One channel of one take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
-    pub(super) take: TakeId,
-    pub(super) bone: u32,
-    pub(super) property: Property,
+pub(crate) struct ChannelAddress {
+    pub(crate) take: TakeId,
+    pub(crate) bone: u32,
+    pub(crate) property: Property,
 }
 
 /// One operation; as large as what it touches.
 #[derive(Clone, Debug)]
-pub(super) enum Op {
+pub(crate) enum Op {
     /// Other changes for some keys.
-    Changes(Place, Vec<(u32, Option<KeyChange>)>),
+    Changes(ChannelAddress, Vec<(u32, Option<KeyChange>)>),
     /// Keys out (positions before) and keys in (positions after).
-    Splice(Place, Vec<u32>, Vec<(u32, Key)>),
+    Splice(ChannelAddress, Vec<u32>, Vec<(u32, KeyContent)>),
     /// Other times for some keys, ascending, whose order stays.
-    Times(Place, Vec<(u32, f32)>),
+    Times(ChannelAddress, Vec<(u32, f32)>),
     /// Another channel in place of the one that is there.
-    Replace(Place, Box<Content>),
+    Replace(ChannelAddress, Box<ChannelContent>),
     /// Other morph tracks.
     Morphs(TakeId, Vec<MorphTrack>),
     /// Other pending poses at a time, `None` for none.
@@ -43,7 +43,7 @@ pub(super) enum Op {
     Move(TakeId, usize),
 }
 
-impl Content {
+impl ChannelContent {
     /// Bytes of its columns.
     fn bytes(&self) -> usize {
         let columns = match &self.original {
@@ -56,7 +56,7 @@ impl Content {
 
 impl Op {
     /// Bytes that it keeps, about.
-    pub(super) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         size_of::<Self>()
             + match self {
                 Self::Changes(_, changes) => size_of_val(changes.as_slice()),
@@ -77,7 +77,7 @@ impl Op {
 
 impl Op {
     /// The take whose keys it makes, moves or takes away.
-    pub(super) fn keys_of(&self) -> Option<TakeId> {
+    pub(crate) fn keys_of(&self) -> Option<TakeId> {
         match self {
             Self::Splice(place, ..) | Self::Times(place, _) | Self::Replace(place, _) => Some(place.take),
             Self::Morphs(take, _) => Some(*take),
@@ -93,7 +93,7 @@ impl Op {
 
 impl ModelAdapter {
     /// Does one operation; the one that undoes it.
-    pub(super) fn perform(&mut self, op: Op, shared: &mut Shared) -> Op {
+    pub(crate) fn perform(&mut self, op: Op, shared: &mut SharedTimes) -> Op {
         match op {
             Op::Changes(place, changes) => {
                 let before = self.slot_mut(place.take).set_changes(place.bone, place.property, &changes);
@@ -137,7 +137,7 @@ impl ModelAdapter {
     }
 
     /// Looks for the begin and the end of takes whose keys lie elsewhere now, if they are still there.
-    pub(super) fn measure(&mut self, takes: &[TakeId]) {
+    pub(crate) fn measure(&mut self, takes: &[TakeId]) {
         for slot in self.slots.iter_mut().filter(|slot| takes.contains(&slot.id)) {
             Arc::make_mut(slot).measure();
         }

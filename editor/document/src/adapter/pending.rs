@@ -4,7 +4,7 @@
 //! is not in the keys nor in a saved file until somebody keys it.
 
 use super::super::edit::{Property, SAME_TIME};
-use super::kind::Numbers;
+use super::kind::ChannelNumbers;
 use dragonfly_anim::data::Transform;
 use glam::{Quat, Vec3};
 use std::sync::Arc;
@@ -14,33 +14,33 @@ use std::sync::Arc;
 pub struct PendingPose {
     /// Which bone.
     pub bone: u32,
-    values: [Option<Numbers>; 3],
+    values: [Option<ChannelNumbers>; 3],
 }
 
 impl PendingPose {
     /// Nothing of this bone.
-    pub(super) fn none(bone: u32) -> Self {
+    pub(crate) fn none(bone: u32) -> Self {
         Self { bone, values: [None; 3] }
     }
 
     /// What is pending of a channel; a vector's fourth number is 0.
-    pub fn get(&self, property: Property) -> Option<Numbers> {
+    pub fn get(&self, property: Property) -> Option<ChannelNumbers> {
         self.values[property as usize]
     }
 
-    pub(super) fn set(&mut self, property: Property, value: Option<Numbers>) {
+    pub(crate) fn set(&mut self, property: Property, value: Option<ChannelNumbers>) {
         self.values[property as usize] = value;
     }
 
     /// Is nothing pending?
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.values == [None; 3]
     }
 
     /// Puts it over the pose of its bone.
     pub fn put_on(&self, pose: &mut Transform) {
         let [translation, rotation, scale] = self.values;
-        let three = |numbers: Numbers| Vec3::new(numbers[0], numbers[1], numbers[2]);
+        let three = |numbers: ChannelNumbers| Vec3::new(numbers[0], numbers[1], numbers[2]);
         pose.translation = translation.map_or(pose.translation, three);
         pose.rotation = rotation.map_or(pose.rotation, Quat::from_array);
         pose.scale = scale.map_or(pose.scale, three);
@@ -72,7 +72,7 @@ impl PendingAt {
     }
 
     /// The entry of a bone, made where there is none.
-    pub(super) fn entry(&mut self, bone: u32) -> &mut PendingPose {
+    pub(crate) fn entry(&mut self, bone: u32) -> &mut PendingPose {
         let at = match self.poses.binary_search_by_key(&bone, |pose| pose.bone) {
             Ok(at) => at,
             Err(at) => {
@@ -98,7 +98,7 @@ impl PendingAt {
 pub type Pending = Vec<Arc<PendingAt>>;
 
 /// Where in the list the poses at `time` are; else where they would come.
-pub(super) fn place_of(pending: &[Arc<PendingAt>], time: f32) -> Result<usize, usize> {
+pub(crate) fn place_of(pending: &[Arc<PendingAt>], time: f32) -> Result<usize, usize> {
     let after = pending.partition_point(|at| at.time < time - SAME_TIME);
     match pending.get(after) {
         Some(at) if (at.time - time).abs() <= SAME_TIME => Ok(after),
@@ -107,7 +107,7 @@ pub(super) fn place_of(pending: &[Arc<PendingAt>], time: f32) -> Result<usize, u
 }
 
 /// The same poses at other times, `None` for those that go; what comes to lie at one time is put together.
-pub(super) fn remapped(pending: &[Arc<PendingAt>], to: impl Fn(f32) -> Option<f32>) -> Pending {
+pub(crate) fn remapped(pending: &[Arc<PendingAt>], to: impl Fn(f32) -> Option<f32>) -> Pending {
     let mut moved: Vec<PendingAt> = pending
         .iter()
         .filter_map(|at| Some(PendingAt { time: to(at.time)?, poses: at.poses.clone() }))

@@ -7,25 +7,25 @@ use std::sync::Arc;
 /// A file often has one column for all channels of a take. Where an edit does the same to all of them, they have one
 /// afterwards, too: in memory, and in the file that is saved.
 #[derive(Debug, Default)]
-pub(super) struct Shared(Vec<(Times, Times)>, Vec<Moved>);
+pub(crate) struct SharedTimes(Vec<(TimeColumn, TimeColumn)>, Vec<MovedTimes>);
 
 /// A column, what was moved in it, and what came of it.
-type Moved = (Times, Vec<(u32, f32)>, Times);
+type MovedTimes = (TimeColumn, Vec<(u32, f32)>, TimeColumn);
 
 /// Seconds, ascending; shared by channels.
-type Times = Arc<[f32]>;
+type TimeColumn = Arc<[f32]>;
 
 /// More columns than this are not compared: an edit that makes that many makes different ones.
 const REMEMBERED: usize = 8;
 
-impl Shared {
+impl SharedTimes {
     /// `new` as a column; the one that another channel got for the same, if any did.
-    pub(super) fn times(&mut self, old: &Times, new: Vec<f32>) -> Times {
-        let same = |(from, to): &&(Times, Times)| Arc::ptr_eq(from, old) && **to == *new;
+    pub(crate) fn times(&mut self, old: &TimeColumn, new: Vec<f32>) -> TimeColumn {
+        let same = |(from, to): &&(TimeColumn, TimeColumn)| Arc::ptr_eq(from, old) && **to == *new;
         if let Some((_, to)) = self.0.iter().find(same) {
             return Arc::clone(to);
         }
-        let new: Times = new.into();
+        let new: TimeColumn = new.into();
         if self.0.len() == REMEMBERED {
             self.0.remove(0);
         }
@@ -34,12 +34,12 @@ impl Shared {
     }
 
     /// `old` with other times for some keys; the same column again for another channel that has it.
-    pub(super) fn moved(&mut self, old: &Times, wanted: &[(u32, f32)]) -> Times {
-        let same = |(from, moved, _): &&Moved| Arc::ptr_eq(from, old) && moved == wanted;
+    pub(crate) fn moved(&mut self, old: &TimeColumn, wanted: &[(u32, f32)]) -> TimeColumn {
+        let same = |(from, moved, _): &&MovedTimes| Arc::ptr_eq(from, old) && moved == wanted;
         if let Some((.., to)) = self.1.iter().find(same) {
             return Arc::clone(to);
         }
-        let mut times: Times = Arc::from(&**old);
+        let mut times: TimeColumn = Arc::from(&**old);
         if let Some(times) = Arc::get_mut(&mut times) {
             for &(key, time) in wanted {
                 if let Some(at) = times.get_mut(key as usize) {

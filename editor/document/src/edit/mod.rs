@@ -1,327 +1,267 @@
-//! The vocabulary of edits: everything that can be done to a model's takes, as values.
+//! The vocabulary of edits: every change of a model's takes, as values.
 //!
-//! The mouse, panels, menus, the command line, scripts and standard input all make these, and nothing else changes a
+//! The mouse, panels, menus, the command line, scripts and standard input all make edits, and nothing else changes a
 //! document. In JSON an edit is an object with its name in `"edit"`:
 //!
 //! ```json
 //! {"edit": "set", "take": "Survey", "time": 0.5, "poses": [{"bone": "b_Head_05", "rotation": [0, 0, 0.26, 0.97]}]}
 //! ```
 //!
-//! Times are seconds, on the clock of the take. Bones and takes go by name or by number. A number that is not finite, a
-//! bone that there is not, a time where no key is: an error that says so, and nothing changes.
+//! Times are seconds, on the clock of the take. Bones and takes are given by name or by index. A number that is not finite,
+//! a bone that does not exist, or a time without a key is an error that names it, and nothing changes.
+//!
+//! Each kind of edit is one file with its data, plan, label, example, the bones and the take that it changes, and a
+//! generator for property tests. A new kind is such a file and a line in the list below.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
+mod add_keys;
+mod arbitrary;
+mod bones;
 mod copied;
+mod create_take;
+mod delete_keys;
+mod delete_take;
+mod drop_pending;
+mod duplicate_keys;
 mod examples;
-mod label;
+mod key_pending;
+mod kind;
 mod lines;
 mod mode;
+mod move_keys;
+mod move_take;
+mod offset_pose;
+mod paste_keys;
+mod paste_pose;
 mod pose;
+mod rename_take;
+mod reset_pose;
+mod retime_take;
+mod reverse_take;
+mod ripple_keys;
+mod scale_keys;
+mod set_interpolation;
+mod set_pending;
+mod set_pose;
+mod set_poses;
+mod set_tangents;
+mod snap_keys;
+mod split_take;
 mod target;
+mod trim_take;
 
+pub use add_keys::AddKeys;
+#[doc(hidden)]
+pub use arbitrary::Arbitrary;
+pub use bones::EditedBones;
 pub use copied::{CopiedChannel, CopiedKey};
-pub use examples::{EXAMPLES, Example};
+pub use create_take::CreateTake;
+pub use delete_keys::DeleteKeys;
+pub use delete_take::DeleteTake;
+pub use drop_pending::DropPending;
+pub use duplicate_keys::DuplicateKeys;
+pub use examples::Example;
+pub use key_pending::KeyPending;
+pub use kind::EditInfo;
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{Between, NewKey, ResetTo};
+pub use move_keys::MoveKeys;
+pub use move_take::MoveTake;
+pub use offset_pose::OffsetPose;
+pub use paste_keys::PasteKeys;
+pub use paste_pose::PastePose;
 pub use pose::{BonePose, PoseAt};
+pub use rename_take::RenameTake;
+pub use reset_pose::ResetPose;
+pub use retime_take::RetimeTake;
+pub use reverse_take::ReverseTake;
+pub use ripple_keys::RippleKeys;
+pub use scale_keys::ScaleKeys;
+pub use set_interpolation::SetInterpolation;
+pub use set_pending::SetPending;
+pub use set_pose::SetPose;
+pub use set_poses::SetPoses;
+pub use set_tangents::SetTangents;
+pub use snap_keys::SnapKeys;
+pub use split_take::SplitTake;
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
+pub use trim_take::TrimTake;
 
+use crate::adapter::plan::{PoseMode, Transaction};
+use crate::adapter::{EditError, ModelAdapter};
+use dragonfly_anim::data::Skeleton;
+use kind::{EditKind, edits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Grows when a reader of today could misunderstand an edit of tomorrow.
+/// Version of the vocabulary. It grows when an older reader could misunderstand a newer edit.
 pub const VERSION: u32 = 1;
 
-/// One thing done to a document.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "edit", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Edit {
-    /// Gives bones a pose at a time. Where a channel has no key there, one is added that keeps the motion.
-    Set {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds.
-        time: f32,
-        /// The poses wanted; one for each bone.
-        poses: Vec<BonePose>,
-        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
-        /// that the pose is moved to, not jumped to.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        unstep: bool,
-    },
-    /// Gives bones poses at several times at once: several [`Self::Set`] in one step.
-    SetMany {
-        /// Which take.
-        take: TakeRef,
-        /// The times, each with its poses.
-        at: Vec<PoseAt>,
-        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
-        /// that the pose is moved to, not jumped to.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        unstep: bool,
-    },
-    /// Moves, turns, scales bones on top of the pose they have at a time: translations are added (parent space),
-    /// rotations multiplied from the left (parent space), scales multiplied.
-    Offset {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds.
-        time: f32,
-        /// What comes on top; one for each bone.
-        poses: Vec<BonePose>,
-        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
-        /// that the pose is moved to, not jumped to.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        unstep: bool,
-    },
-    /// Takes changes back at a time.
-    Reset {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds.
-        time: f32,
-        /// Which bones; all where empty.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        bones: Vec<BoneRef>,
-        /// Which of their channels; all three where empty.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        properties: Vec<Property>,
-        /// What to go back to.
-        #[serde(default)]
-        to: ResetTo,
-    },
-    /// Shows bones in a pose at a time without keys: it is part of the document and of undo, and of no saved file until it
-    /// is keyed. What was pending of these channels there is replaced.
-    Pend {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds.
-        time: f32,
-        /// The poses wanted; one for each bone.
-        poses: Vec<BonePose>,
-    },
-    /// Puts copied poses on. Bones that this model has not are passed over.
-    Paste {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds.
-        time: f32,
-        /// The poses that were copied; one for each bone.
-        poses: Vec<BonePose>,
-        /// On the other side: which bone that is is guessed from names, and the pose is mirrored.
-        #[serde(default)]
-        mirrored: bool,
-        /// As pending poses instead of keys.
-        #[serde(default)]
-        pending: bool,
-        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
-        /// that the pose is moved to, not jumped to.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        unstep: bool,
-    },
-    /// Turns pending poses into keys.
-    KeyPending {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds; all times where none.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        time: Option<f32>,
-        /// Which bones; all where empty.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        bones: Vec<BoneRef>,
-        /// Channels that stand still in steps (two equal keys, as exporters write what does not move) become linear first, so
-        /// that the pose is moved to, not jumped to.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        unstep: bool,
-    },
-    /// Gives pending poses up.
-    DropPending {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds; all times where none.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        time: Option<f32>,
-        /// Which bones; all where empty.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        bones: Vec<BoneRef>,
-    },
-    /// Adds keys at a time, in the channels that have keys or, where bones are named, in the named ones.
-    AddKeys {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds.
-        time: f32,
-        /// Which bones; all where empty.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        bones: Vec<BoneRef>,
-        /// Which of their channels; all three where empty.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        properties: Vec<Property>,
-        /// What they hold.
-        #[serde(default)]
-        value: NewKey,
-        /// Only in channels that have keys, also of bones that are named.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        keyed_only: bool,
-    },
-    /// Deletes keys. The last key of a take stays.
-    DeleteKeys {
-        /// Which take.
-        take: TakeRef,
-        /// Which keys.
-        keys: Vec<KeySet>,
-    },
-    /// Moves keys in time. A key that comes to lie on another takes its place.
-    MoveKeys {
-        /// Which take.
-        take: TakeRef,
-        /// Which keys.
-        keys: Vec<KeySet>,
-        /// Seconds; negative is earlier.
-        by: f32,
-    },
-    /// Scales the times of keys about a time; tangents keep their shape. A negative factor turns them round.
-    ScaleKeys {
-        /// Which take.
-        take: TakeRef,
-        /// Which keys.
-        keys: Vec<KeySet>,
-        /// Seconds: what stays where it is.
-        about: f32,
-        /// Not zero.
-        factor: f32,
-    },
-    /// Copies keys to other times.
-    DuplicateKeys {
-        /// Which take.
-        take: TakeRef,
-        /// Which keys.
-        keys: Vec<KeySet>,
-        /// Seconds from each key to its copy.
-        by: f32,
-    },
-    /// Puts copied keys in, with exactly what they held. A key that comes to lie on another takes its place. Bones that this
-    /// model has not are passed over.
-    PasteKeys {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds: where the first of them goes, as a rule.
-        time: f32,
-        /// The keys, by channels.
-        channels: Vec<CopiedChannel>,
-    },
-    /// Moves every key at or after a time, in all channels: room is made, or taken away with what is in it.
-    Ripple {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds.
-        from: f32,
-        /// Seconds; negative closes a gap, and the keys in it go.
-        by: f32,
-    },
-    /// Moves keys to whole frames.
-    SnapKeys {
-        /// Which take.
-        take: TakeRef,
-        /// Which keys.
-        keys: Vec<KeySet>,
-        /// Frames a second, 1 to 1000; frame 0 is at 0 s.
-        rate: f32,
-    },
-    /// Says how channels find what lies between their keys.
-    SetInterpolation {
-        /// Which take.
-        take: TakeRef,
-        /// Which bones; all where empty.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        bones: Vec<BoneRef>,
-        /// Which of their channels; all three where empty.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        properties: Vec<Property>,
-        /// How.
-        interpolation: Between,
-    },
-    /// Sets the tangents of a key of a spline, in units a second; what is left out stays.
-    SetTangents {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds: which key.
-        time: f32,
-        /// Which bone.
-        bone: BoneRef,
-        /// Which channel.
-        property: Property,
-        /// Arriving; three numbers, for rotations four.
-        #[serde(default, rename = "in", skip_serializing_if = "Option::is_none")]
-        arrive: Option<Vec<f32>>,
-        /// Leaving.
-        #[serde(default, rename = "out", skip_serializing_if = "Option::is_none")]
-        leave: Option<Vec<f32>>,
-    },
-    /// Makes a take: a copy of one, or the rest pose as one key a bone.
-    CreateTake {
-        /// Its name.
-        name: String,
-        /// The take to copy; none: the rest pose.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        copy: Option<TakeRef>,
-        /// Place in the list; none: behind the copied one, or last.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        at: Option<usize>,
-    },
-    /// Deletes a take. The last one stays.
-    DeleteTake {
-        /// Which take.
-        take: TakeRef,
-    },
-    /// Gives a take another name.
-    RenameTake {
-        /// Which take.
-        take: TakeRef,
-        /// Its name from now on.
-        name: String,
-    },
-    /// Moves a take to another place in the list.
-    MoveTake {
-        /// Which take.
-        take: TakeRef,
-        /// Its place from now on.
-        to: usize,
-    },
-    /// Cuts a take in two: what lies after the time goes into a new take behind it, which begins at 0 s.
-    SplitTake {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds; both parts get a key there.
-        time: f32,
-        /// Name of the second part.
-        name: String,
-    },
-    /// Leaves what lies between two times; keys are added at the cuts, so the motion in between stays.
-    TrimTake {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds.
-        from: f32,
-        /// Seconds, not before `from`.
-        to: f32,
-        /// What is left moves to where the take began.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        to_start: bool,
-    },
-    /// Plays a take from its end: each key changes its place in the range of the take.
-    ReverseTake {
-        /// Which take.
-        take: TakeRef,
-    },
-    /// Gives a take another start and another length: all keys are moved and scaled with it.
-    RetimeTake {
-        /// Which take.
-        take: TakeRef,
-        /// Seconds; none: as it is.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        start: Option<f32>,
-        /// Seconds, more than 0; none: as it is.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        length: Option<f32>,
-    },
+edits! {
+    "set" => SetPose,
+    "set_many" => SetPoses,
+    "offset" => OffsetPose,
+    "reset" => ResetPose,
+    "pend" => SetPending,
+    "paste" => PastePose,
+    "key_pending" => KeyPending,
+    "drop_pending" => DropPending,
+    "add_keys" => AddKeys,
+    "delete_keys" => DeleteKeys,
+    "move_keys" => MoveKeys,
+    "scale_keys" => ScaleKeys,
+    "duplicate_keys" => DuplicateKeys,
+    "paste_keys" => PasteKeys,
+    "ripple" => RippleKeys,
+    "snap_keys" => SnapKeys,
+    "set_interpolation" => SetInterpolation,
+    "set_tangents" => SetTangents,
+    "create_take" => CreateTake,
+    "delete_take" => DeleteTake,
+    "rename_take" => RenameTake,
+    "move_take" => MoveTake,
+    "split_take" => SplitTake,
+    "trim_take" => TrimTake,
+    "reverse_take" => ReverseTake,
+    "retime_take" => RetimeTake,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::adapter::Slot;
+    use dragonfly_anim::data::{AnimationData, Bone, Transform};
+    use dragonfly_kit::random::{Random, seed};
+    use glam::Mat4;
+    use std::collections::BTreeSet;
+    use std::sync::Arc;
+
+    const BONES: [&str; 3] = ["hips", "hand.L", "hand.R"];
+
+    fn bone(name: &str) -> Bone {
+        let rest = Transform::IDENTITY;
+        Bone {
+            name: name.to_owned(),
+            parent: None,
+            rest,
+            rest_matrix: None,
+            offset: Mat4::IDENTITY,
+            node: None,
+        }
+    }
+
+    /// Two takes with linear and with spline channels, keys at several times, and a pending pose.
+    fn model() -> ModelAdapter {
+        let skeleton = Arc::new(Skeleton { bones: BONES.map(bone).into() });
+        let mut model = ModelAdapter::new(&AnimationData { skeleton, takes: Vec::new() });
+        for line in [
+            r#"{"edit":"create_take","name":"walk"}"#,
+            r#"{"edit":"set","take":0,"time":0.5,"poses":[{"bone":0,"translation":[0,1,0]},{"bone":1,"rotation":[1,0,0,0]}]}"#,
+            r#"{"edit":"set","take":0,"time":1,"poses":[{"bone":0,"scale":[2,1,1]},{"bone":2,"translation":[0,0,1]}]}"#,
+            r#"{"edit":"set_interpolation","take":0,"bones":[0],"interpolation":"cubic_spline"}"#,
+            r#"{"edit":"create_take","name":"run","copy":0}"#,
+            r#"{"edit":"pend","take":0,"time":0.3,"poses":[{"bone":1,"translation":[0,2,0]}]}"#,
+        ] {
+            model.apply(&serde_json::from_str(line).expect("an edit")).expect(line);
+        }
+        model
+    }
+
+    /// Asserts that two models are the same in everything that an edit can change.
+    fn assert_same(a: &ModelAdapter, b: &ModelAdapter, context: &str) {
+        let changes = |slot: &Slot| -> Vec<_> {
+            let changed = slot.changed();
+            changed.map(|(bone, property)| (bone, property, slot.changes(bone, property).to_vec())).collect()
+        };
+        assert_eq!(a.slots().len(), b.slots().len(), "{context}");
+        for (a, b) in a.slots().iter().zip(b.slots()) {
+            assert_eq!((a.id, a.origin), (b.id, b.origin), "{context}");
+            assert_eq!((&a.original, &a.result), (&b.original, &b.result), "{context}");
+            assert_eq!((changes(a), a.pending()), (changes(b), b.pending()), "{context}");
+        }
+    }
+
+    #[test]
+    fn every_kind_of_edit_has_a_name_an_example_and_a_label() {
+        let mut names = BTreeSet::new();
+        for kind in EDITS {
+            assert!(names.insert(kind.name), "{} is in the list twice", kind.name);
+            let json: serde_json::Value = serde_json::from_str(kind.example.json).expect(kind.name);
+            assert_eq!(json["edit"], kind.name);
+            let edit: Edit = serde_json::from_value(json).expect(kind.name);
+            assert!(!edit.label().is_empty(), "{}", kind.name);
+            assert!(kind.example.description.ends_with('.'), "{}", kind.name);
+        }
+    }
+
+    #[test]
+    fn every_kind_of_edit_is_read_back_as_it_was_written() {
+        let mut random = Random::new(seed(40));
+        let bones = BONES.map(|name| BoneRef::Name(name.to_owned()));
+        for kind in EDITS {
+            for _ in 0..100 {
+                let edit = (kind.arbitrary)(&mut Arbitrary::new(&mut || random.bits(), 3, &bones));
+                let json = serde_json::to_string(&edit).expect(kind.name);
+                assert!(json.starts_with(&format!(r#"{{"edit":"{}""#, kind.name)), "{json}");
+                assert_eq!(serde_json::from_str::<Edit>(&json).expect(&json), edit);
+            }
+        }
+    }
+
+    #[test]
+    fn every_kind_of_edit_can_be_applied_undone_and_redone() {
+        let mut random = Random::new(seed(41));
+        let bones = BONES.map(|name| BoneRef::Name(name.to_owned()));
+        let before = model();
+        for kind in EDITS {
+            let mut applied = 0;
+            for _ in 0..200 {
+                let edit = (kind.arbitrary)(&mut Arbitrary::new(&mut || random.bits(), 3, &bones));
+                let context = format!("{edit:?}");
+                let mut model = before.clone();
+                let Ok(undo) = model.apply(&edit) else {
+                    assert_same(&model, &before, &context);
+                    continue;
+                };
+                applied += 1;
+                let after = model.clone();
+                assert_eq!(after.check(), Ok(()), "{context}");
+                let redo = model.revert(undo);
+                assert_same(&model, &before, &context);
+                model.revert(redo);
+                assert_same(&model, &after, &context);
+            }
+            assert!(applied > 0, "no random {} could be applied", kind.name);
+        }
+    }
+
+    #[test]
+    fn the_bones_of_an_edit_are_those_whose_keys_it_changes() {
+        let mut random = Random::new(seed(42));
+        let names = BONES.map(|name| BoneRef::Name(name.to_owned()));
+        let before = model();
+        for kind in EDITS {
+            for _ in 0..100 {
+                let edit = (kind.arbitrary)(&mut Arbitrary::new(&mut || random.bits(), 2, &names));
+                let EditedBones::Named(named) = edit.bones(before.skeleton()) else { continue };
+                let mut after = before.clone();
+                if after.apply(&edit).is_err() {
+                    continue;
+                }
+                for (before, after) in before.slots().iter().zip(after.slots()) {
+                    let pending = |slot: &Slot, bone: u32| -> Vec<_> {
+                        let poses = slot.pending().iter().filter_map(|at| Some((at.time, *at.of(bone)?)));
+                        poses.collect()
+                    };
+                    for bone in 0..BONES.len() as u32 {
+                        let keys = [before, after].map(|slot| &slot.result.tracks[bone as usize]);
+                        let waiting = [before, after].map(|slot| pending(slot, bone));
+                        let changed = keys[0] != keys[1] || waiting[0] != waiting[1];
+                        assert!(!changed || named.contains(&bone), "{edit:?} changes bone {bone}");
+                    }
+                }
+            }
+        }
+    }
 }

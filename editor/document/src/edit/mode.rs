@@ -36,3 +36,13 @@ pub enum Between {
     /// A spline with tangents; those of a channel that had none are chosen so that it runs smoothly through its keys.
     CubicSpline,
 }
+
+impl From<Between> for dragonfly_anim::data::Interpolation {
+    fn from(between: Between) -> Self {
+        match between {
+            Between::Step => Self::Step,
+            Between::Linear => Self::Linear,
+            Between::CubicSpline => Self::CubicSpline,
+        }
+    }
+}

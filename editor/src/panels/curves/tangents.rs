@@ -6,7 +6,7 @@ use super::paint::color;
 use crate::panels::keys::intervals::keys_between;
 use crate::panels::keys::{ChannelId, Drawn, TimeScale};
 use crate::panels::theme::Theme;
-use dragonfly_document::edit::{BoneRef, Edit, TakeRef};
+use dragonfly_document::edit::{BoneRef, Edit, SetTangents, TakeRef};
 use egui::{Painter, Pos2, Rect, Stroke, Vec2, vec2};
 use std::sync::Arc;
 
@@ -141,6 +141,13 @@ impl Handle {
         let (arrive, leave) = if here { (Some(own), other) } else { (other, Some(own)) };
         let (bone, property) = self.id;
         let time = *curve.times().get(self.key)?;
-        Some(Edit::SetTangents { take, time, bone: BoneRef::Index(bone), property, arrive, leave })
+        Some(Edit::SetTangents(SetTangents {
+            take,
+            time,
+            bone: BoneRef::Index(bone),
+            property,
+            arrive,
+            leave,
+        }))
     }
 }

@@ -3,7 +3,7 @@
 use super::curve::{Curve, Numbers};
 use super::form::Form;
 use crate::panels::keys::ChannelId;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, Property, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, Property, SetPose, SetPoses, TakeRef};
 use std::collections::BTreeMap;
 
 /// A key with the numbers that it had when a drag began.
@@ -57,9 +57,10 @@ pub(super) fn value_edit(take: TakeRef, keys: &[ValueKey], component: usize, by:
     match at.len() {
         0 => None,
         // One time is what every program that reads edits knows.
-        1 => {
-            at.into_iter().next().map(|PoseAt { time, poses }| Edit::Set { take, time, poses, unstep: true })
-        }
-        _ => Some(Edit::SetMany { take, at, unstep: true }),
+        1 => at
+            .into_iter()
+            .next()
+            .map(|PoseAt { time, poses }| Edit::SetPose(SetPose { take, time, poses, unstep: true })),
+        _ => Some(Edit::SetPoses(SetPoses { take, at, unstep: true })),
     }
 }

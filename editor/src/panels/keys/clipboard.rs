@@ -11,7 +11,7 @@ use crate::panels::widgets::{count, grouped};
 use dragonfly_anim::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{Between, BoneRef, CopiedChannel, CopiedKey, Edit, Property};
+use dragonfly_document::edit::{Between, BoneRef, CopiedChannel, CopiedKey, Edit, PasteKeys, Property};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -177,7 +177,7 @@ impl State {
         });
         let (before, parts) = (self.take().map_or(0, Take::keys), parts.collect());
         self.keys.awaited = Some(Awaited { generation, before, parts });
-        Some(Effect::Change(Change::Edit(Edit::PasteKeys { take, time, channels }, None)))
+        Some(Effect::Change(Change::Edit(Edit::PasteKeys(PasteKeys { take, time, channels }), None)))
     }
 
     /// Selects keys that were pasted, once they are there.

@@ -6,7 +6,9 @@ use crate::panels::state::{Effect, State};
 use crate::panels::status::Level;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{Between, BoneRef, Edit, Property, SAME_TIME};
+use dragonfly_document::edit::{
+    Between, BoneRef, DeleteKeys, Edit, Property, RippleKeys, SAME_TIME, SetInterpolation,
+};
 use std::collections::BTreeMap;
 
 impl State {
@@ -19,7 +21,7 @@ impl State {
     pub(in crate::panels) fn delete_keys(&mut self) -> Option<Effect> {
         let keys = self.keys.selection.key_sets(self.take()?);
         let take = self.take_ref()?;
-        Some(Effect::Change(Change::Edit(Edit::DeleteKeys { take, keys }, None)))
+        Some(Effect::Change(Change::Edit(Edit::DeleteKeys(DeleteKeys { take, keys }), None)))
     }
 
     /// Does to the selected keys what a drag would.
@@ -74,8 +76,10 @@ impl State {
         // Closing takes away what lies behind the time shown, so what comes after it is moved.
         let from = if frames < 0.0 { from - step } else { from };
         // Where there is no key to move the document says so.
-        self.do_keys(Deed::Ripple { from, by: step })
-            .or(Some(Effect::Change(Change::Edit(Edit::Ripple { take, from, by: step }, None))))
+        self.do_keys(Deed::Ripple { from, by: step }).or(Some(Effect::Change(Change::Edit(
+            Edit::RippleKeys(RippleKeys { take, from, by: step }),
+            None,
+        ))))
     }
 
     /// Sets how the channels with selected keys find what lies between. Channels of different kinds are several steps.
@@ -89,14 +93,16 @@ impl State {
         for (bone, mask) in masks {
             groups.entry(mask).or_default().push(BoneRef::Index(bone));
         }
-        let edits = groups.into_iter().map(|(mask, bones)| Edit::SetInterpolation {
-            take: take.clone(),
-            bones,
-            properties: Property::ALL
-                .into_iter()
-                .filter(|&property| mask & (1 << property as u8) != 0)
-                .collect(),
-            interpolation: between,
+        let edits = groups.into_iter().map(|(mask, bones)| {
+            Edit::SetInterpolation(SetInterpolation {
+                take: take.clone(),
+                bones,
+                properties: Property::ALL
+                    .into_iter()
+                    .filter(|&property| mask & (1 << property as u8) != 0)
+                    .collect(),
+                interpolation: between,
+            })
         });
         Some(Effect::Changes(edits.map(|edit| Change::Edit(edit, None)).collect()))
     }

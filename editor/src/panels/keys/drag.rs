@@ -7,7 +7,9 @@ use super::selection::KeySelection;
 use super::shift::Shift;
 use dragonfly_anim::data::Take;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{Edit, KeySet, SAME_TIME, TakeRef};
+use dragonfly_document::edit::{
+    DuplicateKeys, Edit, KeySet, MoveKeys, RippleKeys, SAME_TIME, ScaleKeys, SnapKeys, TakeRef,
+};
 use dragonfly_document::history::Gesture;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -64,11 +66,11 @@ impl Deed {
     fn edit(&self, take: TakeRef, keys: &[KeySet]) -> Edit {
         let keys = || keys.to_vec();
         match *self {
-            Self::Move(by) => Edit::MoveKeys { take, keys: keys(), by },
-            Self::Scale { about, factor } => Edit::ScaleKeys { take, keys: keys(), about, factor },
-            Self::Duplicate(by) => Edit::DuplicateKeys { take, keys: keys(), by },
-            Self::Ripple { from, by } => Edit::Ripple { take, from, by },
-            Self::Snap(rate) => Edit::SnapKeys { take, keys: keys(), rate },
+            Self::Move(by) => Edit::MoveKeys(MoveKeys { take, keys: keys(), by }),
+            Self::Scale { about, factor } => Edit::ScaleKeys(ScaleKeys { take, keys: keys(), about, factor }),
+            Self::Duplicate(by) => Edit::DuplicateKeys(DuplicateKeys { take, keys: keys(), by }),
+            Self::Ripple { from, by } => Edit::RippleKeys(RippleKeys { take, from, by }),
+            Self::Snap(rate) => Edit::SnapKeys(SnapKeys { take, keys: keys(), rate }),
             Self::Edit(ref edit) => edit.clone(),
         }
     }

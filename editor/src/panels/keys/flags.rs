@@ -2,7 +2,7 @@
 
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_document::Change;
-use dragonfly_document::edit::{BoneRef, Edit};
+use dragonfly_document::edit::EditedBones;
 use std::collections::BTreeSet;
 
 /// One of the marks of a bone.
@@ -104,45 +104,20 @@ impl BoneFlags {
         fixed
     }
 
-    /// A locked bone that `change` would edit, if there is one.
+    /// Returns a locked bone that `change` would edit, if there is one.
     ///
-    /// What is done to a whole take (trim, split, reverse, retime, rename) is not about bones: it goes for locked ones too,
-    /// as else they would fall out of step with the others. Where several bones are meant, those who ask leave the locked
-    /// ones out, unless all of them are.
-    pub fn hinders(&self, change: &Change, skeleton: &Skeleton) -> Option<BoneIndex> {
+    /// Every kind of edit says which bones it changes. Edits of a whole take (trim, split, reverse, retime, rename) apply to locked
+    /// bones, too: they would fall out of step with the others. Where several bones are selected, the caller leaves the locked ones
+    /// out, unless all of them are locked.
+    pub fn locked_bone_in(&self, change: &Change, skeleton: &Skeleton) -> Option<BoneIndex> {
         let Change::Edit(edit, _) = change else { return None };
         if !self.any_locked() {
             return None;
         }
-        let named = |bones: &mut dyn Iterator<Item = &BoneRef>| {
-            let index = |bone: &BoneRef| match bone {
-                BoneRef::Index(index) => Some(*index),
-                BoneRef::Name(name) => skeleton.find(name),
-            };
-            bones.filter_map(index).find(|&bone| self.locked(bone))
-        };
-        let first = || self.sets[BoneFlag::Lock as usize].first().copied();
-        let list = |bones: &[BoneRef]| if bones.is_empty() { first() } else { named(&mut bones.iter()) };
-        match edit {
-            Edit::Set { poses, .. } | Edit::Offset { poses, .. } | Edit::Pend { poses, .. } => {
-                named(&mut poses.iter().map(|pose| &pose.bone))
-            }
-            Edit::Paste { poses, mirrored: false, .. } => named(&mut poses.iter().map(|pose| &pose.bone)),
-            // None named is all: who asks for that names those that are free, where any is locked.
-            Edit::KeyPending { bones, .. } | Edit::DropPending { bones, .. } => named(&mut bones.iter()),
-            Edit::SetMany { at, .. } => named(&mut at.iter().flat_map(|at| &at.poses).map(|pose| &pose.bone)),
-            Edit::Reset { bones, .. }
-            | Edit::AddKeys { bones, .. }
-            | Edit::SetInterpolation { bones, .. } => list(bones),
-            Edit::DeleteKeys { keys, .. }
-            | Edit::MoveKeys { keys, .. }
-            | Edit::ScaleKeys { keys, .. }
-            | Edit::DuplicateKeys { keys, .. }
-            | Edit::SnapKeys { keys, .. } => keys.iter().find_map(|set| list(&set.bones)),
-            Edit::PasteKeys { channels, .. } => named(&mut channels.iter().map(|channel| &channel.bone)),
-            Edit::SetTangents { bone, .. } => named(&mut std::iter::once(bone)),
-            Edit::Ripple { .. } => first(),
-            _ => None,
+        match edit.bones(skeleton) {
+            EditedBones::WholeTake => None,
+            EditedBones::All => self.of(BoneFlag::Lock).next(),
+            EditedBones::Named(bones) => bones.into_iter().find(|&bone| self.locked(bone)),
         }
     }
 }

@@ -244,7 +244,7 @@ impl State {
             Effect::Cut(_, change) => std::slice::from_ref(change),
             _ => &[],
         };
-        let locked = changes.iter().find_map(|change| self.keys.flags.hinders(change, &skeleton));
+        let locked = changes.iter().find_map(|change| self.keys.flags.locked_bone_in(change, &skeleton));
         let Some(bone) = locked else { return Some(effect) };
         self.say_locked(bone);
         self.keys.drag = None;

@@ -9,7 +9,9 @@ use super::parts::Part;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::rest_pose;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{Edit, KeySet, NewKey, Property, ResetTo};
+use dragonfly_document::edit::{
+    AddKeys, DeleteKeys, Edit, KeyPending, KeySet, NewKey, Property, ResetPose, ResetTo,
+};
 use egui::Ui;
 
 /// What a channel has at the time shown.
@@ -106,12 +108,12 @@ fn toggled(state: &State, property: Property, keyed: Keyed) -> Option<Edit> {
     Some(match keyed {
         Keyed::Here => {
             let keys = vec![KeySet { bones, properties, at: Some(vec![time]), ..KeySet::default() }];
-            Edit::DeleteKeys { take, keys }
+            Edit::DeleteKeys(DeleteKeys { take, keys })
         }
-        Keyed::Pending => Edit::KeyPending { take, time: Some(time), bones, unstep: true },
+        Keyed::Pending => Edit::KeyPending(KeyPending { take, time: Some(time), bones, unstep: true }),
         _ => {
             let value = NewKey::Current;
-            Edit::AddKeys { take, time, bones, properties, value, keyed_only: false }
+            Edit::AddKeys(AddKeys { take, time, bones, properties, value, keyed_only: false })
         }
     })
 }
@@ -128,7 +130,7 @@ pub(super) fn reset(
     let Some(take) = state.take_ref() else { return };
     if has_key {
         let (time, bones, properties) = (state.time(), state.selected_refs(), vec![property]);
-        let edit = Edit::Reset { take, time, bones, properties, to };
+        let edit = Edit::ResetPose(ResetPose { take, time, bones, properties, to });
         requests.push(Request::Change(Change::Edit(edit, None)));
         return;
     }

@@ -5,7 +5,9 @@ use super::super::state::{Effect, State};
 use super::super::status::Level;
 use dragonfly_document::Change;
 use dragonfly_document::adapter::{Slot, TakeId};
-use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::edit::{
+    CreateTake, DeleteTake, Edit, MoveTake, ReverseTake, SplitTake, TakeRef, TrimTake,
+};
 use std::sync::Arc;
 
 /// What the list of takes is about to do.
@@ -37,12 +39,12 @@ impl State {
                 self.takes.times_asked += 1;
                 return None;
             }
-            Id::DeleteTake => Edit::DeleteTake { take },
-            Id::MoveTakeUp => Edit::MoveTake { take, to: index.saturating_sub(1) },
-            Id::MoveTakeDown => Edit::MoveTake { take, to: index + 1 },
+            Id::DeleteTake => Edit::DeleteTake(DeleteTake { take }),
+            Id::MoveTakeUp => Edit::MoveTake(MoveTake { take, to: index.saturating_sub(1) }),
+            Id::MoveTakeDown => Edit::MoveTake(MoveTake { take, to: index + 1 }),
             Id::SplitTake => {
                 let name = self.unused_name(&part_of(&name), 2);
-                Edit::SplitTake { take, time: self.time(), name }
+                Edit::SplitTake(SplitTake { take, time: self.time(), name })
             }
             Id::TrimTake => {
                 let [from, to] = self.trim_range();
@@ -52,9 +54,9 @@ impl State {
                     self.status.say(Level::Info, text);
                     return None;
                 }
-                Edit::TrimTake { take, from, to, to_start: true }
+                Edit::TrimTake(TrimTake { take, from, to, to_start: true })
             }
-            Id::ReverseTake => Edit::ReverseTake { take },
+            Id::ReverseTake => Edit::ReverseTake(ReverseTake { take }),
             _ => return None,
         };
         Some(Effect::Change(Change::Edit(edit, None)))
@@ -77,7 +79,7 @@ impl State {
             None => (self.unused_name("New take", 1), None),
             Some((take, name)) => (self.unused_name(&format!("{} copy", without_copy(&name)), 1), Some(take)),
         };
-        Some(Effect::Change(Change::Edit(Edit::CreateTake { name, copy, at: None }, None)))
+        Some(Effect::Change(Change::Edit(Edit::CreateTake(CreateTake { name, copy, at: None }), None)))
     }
 
     /// `base`, or with the first number behind it that makes it a name that no take has.

@@ -13,7 +13,7 @@ use super::style::{GRID, RADIUS, ROW};
 use super::theme::Theme;
 use super::{Panel, Place, menu, search_field, widgets};
 use dragonfly_document::Change;
-use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::edit::{Edit, MoveTake, TakeRef};
 use egui::accesskit::Role;
 use egui::{
     Color32, CornerRadius, CursorIcon, Key, PointerButton, Rect, Response, ScrollArea, Sense, Stroke,
@@ -241,7 +241,7 @@ impl Takes {
         if released {
             self.moving = None;
             if to != from {
-                let edit = Edit::MoveTake { take: TakeRef::Index(from), to };
+                let edit = Edit::MoveTake(MoveTake { take: TakeRef::Index(from), to });
                 requests.push(Request::Change(Change::Edit(edit, None)));
             }
             return;

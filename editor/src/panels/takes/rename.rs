@@ -6,7 +6,7 @@ use super::super::theme::Theme;
 use super::super::widgets;
 use dragonfly_document::Change;
 use dragonfly_document::adapter::take_name;
-use dragonfly_document::edit::{Edit, TakeRef};
+use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use dragonfly_document::text::sentence;
 use egui::{CornerRadius, Frame, Id, Key, Margin, Modifiers, Rect, Stroke, StrokeKind, TextEdit, Ui};
 
@@ -92,7 +92,10 @@ impl Rename {
         let left = !first && !response.has_focus();
         // What does not fit and is left is refused by the document, which says why.
         if (enter || left) && !escape && changed {
-            let edit = Edit::RenameTake { take: TakeRef::Index(index), name: std::mem::take(&mut self.text) };
+            let edit = Edit::RenameTake(RenameTake {
+                take: TakeRef::Index(index),
+                name: std::mem::take(&mut self.text),
+            });
             requests.push(Request::Change(Change::Edit(edit, None)));
         }
         !(enter || left || escape)

@@ -9,7 +9,7 @@ use super::super::widgets;
 use crate::control::expression::Quantity;
 use dragonfly_document::Change;
 use dragonfly_document::adapter::TakeId;
-use dragonfly_document::edit::Edit;
+use dragonfly_document::edit::{Edit, RetimeTake, TrimTake};
 use dragonfly_document::history::Gesture;
 use dragonfly_picture::playback::LATEST;
 use egui::{Id, Rect, RichText, Sense, TextStyle, Ui, vec2};
@@ -46,16 +46,12 @@ impl Times {
         ui.label(RichText::new("Moves and stretches all keys").small().color(Theme::of(ui).weak));
         let heard = number(ui, "Start", start, 0.0..=LONGEST, None, rate);
         let retime = take.clone();
-        self.edit(state, start, heard, requests, |start| Edit::RetimeTake {
-            take: retime.clone(),
-            start: Some(start),
-            length: None,
+        self.edit(state, start, heard, requests, |start| {
+            Edit::RetimeTake(RetimeTake { take: retime.clone(), start: Some(start), length: None })
         });
         let heard = number(ui, "Length", length, SHORTEST..=LONGEST, locked, rate);
-        self.edit(state, length, heard, requests, |length| Edit::RetimeTake {
-            take: take.clone(),
-            start: None,
-            length: Some(length),
+        self.edit(state, length, heard, requests, |length| {
+            Edit::RetimeTake(RetimeTake { take: take.clone(), start: None, length: Some(length) })
         });
         ui.separator();
         ui.label(RichText::new("Cuts away what lies outside").small().color(Theme::of(ui).weak));
@@ -96,7 +92,7 @@ impl Times {
             .on_disabled_hover_text("All of the take lies between these times");
         if button.clicked() {
             let [from, to] = range.map(|time| time as f32);
-            let trim = Edit::TrimTake { take, from, to, to_start: true };
+            let trim = Edit::TrimTake(TrimTake { take, from, to, to_start: true });
             requests.push(Request::Change(Change::Edit(trim, None)));
             self.trim = None;
         }

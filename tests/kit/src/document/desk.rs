@@ -1,7 +1,7 @@
 //! A document in its thread, as the window has it, without a window: what it is told, what it says, what it shows.
 
 use crate::folder::{Folder, data};
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, SetPose, TakeRef};
 use dragonfly_document::{
     Change, Document, DocumentHandle, DocumentMessage, DocumentReply, Offer, SaveOrder, SaveTo, SavedFile,
     Setup, Source, View,
@@ -96,12 +96,12 @@ pub fn turn(angle: f32) -> Edit {
         rotation: Some([0.0, 0.0, sine, cosine]),
         scale: None,
     };
-    Edit::Set { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false }
+    Edit::SetPose(SetPose { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false })
 }
 
 /// An edit that renames the first take.
 pub fn rename(name: &str) -> Edit {
-    Edit::RenameTake { take: TakeRef::Index(0), name: name.to_owned() }
+    Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() })
 }
 
 impl Desk {
@@ -161,7 +161,7 @@ impl Desk {
     #[track_caller]
     pub fn open_source(&mut self, source: Source) -> View {
         let before = self.shown.0.borrow().as_ref().map_or(0, |view| view.generation);
-        self.tell(DocumentMessage::Open(source));
+        self.tell(DocumentMessage::Open { source, anyway: true });
         self.hears(|reply| match reply {
             DocumentReply::Opened(_) => Some(()),
             DocumentReply::Failed { reason, .. } => panic!("{reason}"),

@@ -1,53 +1,63 @@
 //! Keys at other times, among the keys that stay.
 
 use super::super::change::KeyChange;
-use super::super::kind::Kind;
-use super::super::op::{Op, Place};
-use super::super::slot::Key;
-use super::Work;
+use super::super::kind::ChannelKind;
+use super::super::op::{ChannelAddress, Op};
+use super::super::slot::KeyContent;
+use super::Transaction;
 use crate::edit::SAME_TIME;
 
-/// What happens to chosen keys.
+/// How keys are moved.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moving {
-    /// Do they stay where they were, too?
-    pub(super) copy: bool,
-    /// Time runs this much slower for them: tangents become as much flatter. Negative: backwards.
-    pub(super) stretch: f32,
+pub(crate) struct KeyMove {
+    /// Whether the keys also stay where they were.
+    pub(crate) copy: bool,
+    /// Factor by which time runs slower for them: tangents become flatter by it. Negative: backwards.
+    pub(crate) stretch: f32,
 }
 
-impl Moving {
-    pub(super) const WHOLE: Self = Self { copy: false, stretch: 1.0 };
+impl KeyMove {
+    /// A move to another time, and nothing else.
+    pub(crate) const PLAIN: Self = Self { copy: false, stretch: 1.0 };
 }
 
-/// Puts chosen keys at new times: `chosen` are positions, ascending, each with its time to be.
+/// Moves keys of a channel: `chosen` are positions, ascending, each with its new time.
 ///
-/// A key that comes to lie on one that stays takes its place; of two that are moved to one time, the later in the list
-/// stays.
-pub(super) fn arrange<K: Kind>(work: &mut Work, place: Place, chosen: &[(u32, f32)], moving: Moving) {
-    let slot = work.slot(place.take);
-    let times = slot.times(place.bone, place.property);
-    if !moving.copy && moving.stretch == 1.0 && stays_in_order(times, chosen) {
-        return work.perform(Op::Times(place, chosen.to_vec()));
+/// A key that is already at a new time is overwritten; of two keys that are moved to one time, the later in the list stays.
+pub(crate) fn arrange<K: ChannelKind>(
+    work: &mut Transaction,
+    address: ChannelAddress,
+    chosen: &[(u32, f32)],
+    how: KeyMove,
+) {
+    let slot = work.slot(address.take);
+    let times = slot.times(address.bone, address.property);
+    if !how.copy && how.stretch == 1.0 && stays_in_order(times, chosen) {
+        return work.perform(Op::Times(address, chosen.to_vec()));
     }
-    let key = |at: u32| slot.key::<K>(place.property, place.bone, at as usize);
-    let mut moved: Vec<Key> = chosen
+    let key = |at: u32| slot.key::<K>(address.property, address.bone, at as usize);
+    let mut moved: Vec<KeyContent> = chosen
         .iter()
-        .filter_map(|&(at, time)| Some(Key { time, ..stretched(key(at)?, moving.stretch) }))
+        .filter_map(|&(at, time)| Some(KeyContent { time, ..stretched(key(at)?, how.stretch) }))
         .collect();
     moved.sort_by(|a, b| a.time.total_cmp(&b.time));
-    // Of neighbours at one time the last counts.
+    // Of neighbors at one time the last counts.
     moved.reverse();
     moved.dedup_by(|next, kept| (kept.time - next.time).abs() <= SAME_TIME);
     moved.reverse();
-    let away = if moving.copy { Vec::new() } else { chosen.iter().map(|&(at, _)| at).collect() };
-    lay(work, place, moved, away);
+    let away = if how.copy { Vec::new() } else { chosen.iter().map(|&(at, _)| at).collect() };
+    insert_keys_overwriting(work, address, moved, away);
 }
 
-/// Puts keys, ascending and apart from each other, among those of a channel, of which those at `remove` go. What one comes
-/// to lie on goes, too.
-pub(super) fn lay(work: &mut Work, place: Place, keys: Vec<Key>, mut remove: Vec<u32>) {
-    let times = work.slot(place.take).times(place.bone, place.property);
+/// Inserts keys, ascending and apart from each other, into a channel and removes its keys at the positions `remove`. Keys at the times of
+/// inserted ones are overwritten.
+pub(crate) fn insert_keys_overwriting(
+    work: &mut Transaction,
+    address: ChannelAddress,
+    keys: Vec<KeyContent>,
+    mut remove: Vec<u32>,
+) {
+    let times = work.slot(address.take).times(address.bone, address.property);
     for key in &keys {
         let near = times.partition_point(|&time| time < key.time - 2.0 * SAME_TIME);
         let there = times.iter().enumerate().skip(near);
@@ -67,10 +77,10 @@ pub(super) fn lay(work: &mut Work, place: Place, keys: Vec<Key>, mut remove: Vec
         .enumerate()
         .map(|(position, key)| (before(position, key.time) as u32, key))
         .collect();
-    work.perform(Op::Splice(place, remove, insert));
+    work.perform(Op::Splice(address, remove, insert));
 }
 
-/// Does no key come to another place among the others, nor on another one? Then its column of values stays as it is.
+/// Returns whether the order of all keys stays and no two come together. The column of values stays as it is then.
 fn stays_in_order(times: &[f32], chosen: &[(u32, f32)]) -> bool {
     let apart = |before: f32, after: f32| after - before > SAME_TIME;
     chosen.iter().enumerate().all(|(index, &(at, time))| {
@@ -83,13 +93,13 @@ fn stays_in_order(times: &[f32], chosen: &[(u32, f32)]) -> bool {
             Some(&(key, time)) if key as usize == at + 1 => Some(time),
             _ => times.get(at + 1).copied(),
         };
-        // Keys that were nearer than that before are no reason to rearrange, but are not worth a rule of their own.
+        // Keys that were nearer than that before would need no new order, but are too rare for a rule of their own.
         before.is_none_or(|before| apart(before, time)) && after.is_none_or(|after| apart(time, after))
     })
 }
 
-/// The same key where time runs `stretch` times slower.
-pub(super) fn stretched(key: Key, stretch: f32) -> Key {
+/// Returns the same key where time runs `stretch` times slower.
+pub(crate) fn stretched(key: KeyContent, stretch: f32) -> KeyContent {
     if stretch == 1.0 {
         return key;
     }
@@ -98,10 +108,10 @@ pub(super) fn stretched(key: Key, stretch: f32) -> Key {
     let original = [scaled(arrive), value, scaled(leave)];
     let change = key.change.map(|change| change.with_tangents(1.0 / stretch));
     if stretch > 0.0 {
-        return Key { original, change, ..key };
+        return KeyContent { original, change, ..key };
     }
-    // Backwards, what arrived leaves.
+    // Backwards, in-tangents become out-tangents.
     let [arrive, value, leave] = original;
     let change = change.map(|change| KeyChange { arrive: change.leave, leave: change.arrive, ..change });
-    Key { original: [leave, value, arrive], change, ..key }
+    KeyContent { original: [leave, value, arrive], change, ..key }
 }

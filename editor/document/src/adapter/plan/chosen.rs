@@ -1,13 +1,13 @@
 //! Which keys are meant: many sets of keys, each looked up once.
 
-use super::super::op::Place;
+use super::super::op::ChannelAddress;
 use super::super::slot::TakeId;
-use super::{EditError, Work, finite};
+use super::{EditError, Transaction, finite};
 use crate::edit::{BoneRef, KeySet, Property, SAME_TIME};
 use std::collections::HashMap;
 
 /// Sets that name the same channels; the times of all of them together.
-struct Group<'a> {
+struct KeyGroup<'a> {
     bones: &'a [BoneRef],
     properties: &'a [Property],
     /// Seconds, ascending once all are there.
@@ -16,17 +16,21 @@ struct Group<'a> {
     ranges: Vec<&'a KeySet>,
 }
 
-impl Work {
+impl Transaction {
     /// The keys that are meant: the channels with any, and which of theirs, ascending. Takes time in proportion to the
     /// sets and to the keys that they hold, whatever else there is.
-    pub(super) fn keys(&self, take: TakeId, sets: &[KeySet]) -> Result<Vec<(Place, Vec<u32>)>, EditError> {
-        let mut found: Vec<(Place, Vec<u32>)> = Vec::new();
-        let mut places: HashMap<(u32, Property), usize> = HashMap::new();
+    pub(crate) fn keys(
+        &self,
+        take: TakeId,
+        sets: &[KeySet],
+    ) -> Result<Vec<(ChannelAddress, Vec<u32>)>, EditError> {
+        let mut found: Vec<(ChannelAddress, Vec<u32>)> = Vec::new();
+        let mut indices: HashMap<(u32, Property), usize> = HashMap::new();
         for group in groups(sets)? {
-            for place in self.channels(take, (group.bones, group.properties))? {
-                let times = self.slot(take).times(place.bone, place.property);
-                let index = *places.entry((place.bone, place.property)).or_insert_with(|| {
-                    found.push((place, Vec::new()));
+            for address in self.channels(take, (group.bones, group.properties))? {
+                let times = self.slot(take).times(address.bone, address.property);
+                let index = *indices.entry((address.bone, address.property)).or_insert_with(|| {
+                    found.push((address, Vec::new()));
                     found.len() - 1
                 });
                 let keys = &mut found[index].1;
@@ -49,18 +53,18 @@ impl Work {
 
 /// Sets one after the other that name the same channels are one group, so that a key named by itself costs no more than
 /// one in a list.
-fn groups(sets: &[KeySet]) -> Result<Vec<Group<'_>>, EditError> {
-    let mut groups: Vec<Group<'_>> = Vec::new();
+fn groups(sets: &[KeySet]) -> Result<Vec<KeyGroup<'_>>, EditError> {
+    let mut groups: Vec<KeyGroup<'_>> = Vec::new();
     for set in sets {
         for number in set.at.iter().flatten().chain(&set.from).chain(&set.to) {
             finite("a time", *number)?;
         }
-        let same = |group: &&mut Group<'_>| group.bones == set.bones && group.properties == set.properties;
+        let same = |group: &&mut KeyGroup<'_>| group.bones == set.bones && group.properties == set.properties;
         let group = match groups.last_mut().filter(same) {
             Some(_) => groups.last_mut(),
             None => {
                 let (bones, properties) = (&set.bones, &set.properties);
-                groups.push(Group { bones, properties, at: Vec::new(), ranges: Vec::new() });
+                groups.push(KeyGroup { bones, properties, at: Vec::new(), ranges: Vec::new() });
                 groups.last_mut()
             }
         };

@@ -12,7 +12,7 @@ fn per_key(track: &MorphTrack) -> usize {
 
 /// The track with its keys at other times, `None` for a key that goes; the order of the times may turn round as a
 /// whole. Where time runs `stretch` times slower, tangents become as much flatter.
-pub(super) fn mapped(track: &MorphTrack, to: impl Fn(f32) -> Option<f32>, stretch: f32) -> MorphTrack {
+pub(crate) fn mapped(track: &MorphTrack, to: impl Fn(f32) -> Option<f32>, stretch: f32) -> MorphTrack {
     let width = per_key(track);
     let mut keys: Vec<(f32, usize)> =
         track.times.iter().enumerate().filter_map(|(key, &time)| Some((to(time)?, key))).collect();
@@ -43,7 +43,7 @@ fn put(weights: &mut Vec<f32>, values: &[f32], track: &MorphTrack, stretch: f32)
 }
 
 /// What lies between two times, with keys at both where the track goes on there; one key where it has none inside.
-pub(super) fn between(track: &MorphTrack, from: f32, to: f32) -> MorphTrack {
+pub(crate) fn between(track: &MorphTrack, from: f32, to: f32) -> MorphTrack {
     let (Some(&first), Some(&last)) = (track.times.first(), track.times.last()) else { return track.clone() };
     let width = per_key(track);
     let (mut times, mut weights) = (Vec::new(), Vec::new());

@@ -1,110 +1,69 @@
-//! Poses at a time: set, offset, reset.
+//! Poses of bones at a time.
 
 use super::super::change::KeyChange;
-use super::super::kind::{Kind, Numbers, Rotation, Scale, Translation, with_kind};
-use super::super::op::{Op, Place};
-use super::super::slot::Key;
+use super::super::kind::{ChannelKind, ChannelNumbers, RotationChannel, ScaleChannel, TranslationChannel};
+use super::super::op::{ChannelAddress, Op};
+use super::super::slot::KeyContent;
 use super::keys::insert;
 use super::pending::overwritten;
-use super::{EditError, Named, Work, finite, key_at, key_time, rest, unstep};
-use crate::edit::{BonePose, NewKey, PoseAt, Property, ResetTo, TakeRef};
+use super::{EditError, Transaction, finite, key_at, key_time, unstep};
+use crate::edit::{BonePose, NewKey, Property, TakeRef};
 use glam::{Quat, Vec3};
 
-pub(super) fn set(
-    work: &mut Work,
-    take: &TakeRef,
-    time: f32,
-    poses: &[BonePose],
-    unstep: bool,
-) -> Result<(), EditError> {
-    each(work, take, time, poses, Way::Set, unstep)
-}
-
-pub(super) fn set_many(
-    work: &mut Work,
-    take: &TakeRef,
-    at: &[PoseAt],
-    unstep: bool,
-) -> Result<(), EditError> {
-    if at.is_empty() {
-        return Err(EditError::Nothing("no pose is given"));
-    }
-    at.iter().try_for_each(|at| each(work, take, at.time, &at.poses, Way::Set, unstep))
-}
-
-pub(super) fn offset(
-    work: &mut Work,
-    take: &TakeRef,
-    time: f32,
-    poses: &[BonePose],
-    unstep: bool,
-) -> Result<(), EditError> {
-    each(work, take, time, poses, Way::Offset, unstep)
-}
-
-pub(super) fn reset(
-    work: &mut Work,
-    take: &TakeRef,
-    time: f32,
-    named: Named<'_>,
-    to: ResetTo,
-) -> Result<(), EditError> {
-    let take = work.take(take)?;
-    finite("a time", time)?;
-    let places = work.channels(take, named)?;
-    let channels: Vec<_> = places.iter().map(|place| (place.bone, place.property)).collect();
-    let mut met = overwritten(work, take, time, &channels);
-    for place in places {
-        let Ok(key) = key_at(work.slot(take).times(place.bone, place.property), time) else { continue };
-        met = true;
-        match to {
-            ResetTo::Original => {
-                work.perform(Op::Changes(place, vec![(key as u32, None)]));
-            }
-            ResetTo::Rest => with_kind!(place.property, to_rest::<K>(work, place, key))?,
-        }
-    }
-    if met { Ok(()) } else { Err(EditError::Nothing("there is no key at that time")) }
-}
-
-fn to_rest<K: Kind>(work: &mut Work, place: Place, key: usize) -> Result<(), EditError> {
-    let rest = rest::<K>(work, place.bone);
-    change_key::<K>(work, place, key, |_| rest)
-}
-
-/// What becomes of the value that is there.
+/// What a given pose does with the value of a channel.
 #[derive(Clone, Copy, Debug)]
-pub(in super::super) enum Way {
+pub(crate) enum PoseMode {
+    /// Replaces it.
     Set,
+    /// Is applied on top of it.
     Offset,
 }
 
-fn each(
-    work: &mut Work,
+/// Gives bones their poses at a time.
+pub(crate) fn pose_bones(
+    work: &mut Transaction,
     take: &TakeRef,
     time: f32,
     poses: &[BonePose],
-    way: Way,
+    mode: PoseMode,
     unstep: bool,
 ) -> Result<(), EditError> {
     let take = work.take(take)?;
     key_time(time, work.slot(take))?;
     let mut touched = Vec::new();
     for pose in poses {
-        let bone = work.bone(&pose.bone)?;
-        if bone as usize >= work.slot(take).original.tracks.len() {
-            return Err(EditError::NoTrack(bone));
-        }
-        let place = |property| Place { take, bone, property };
+        let bone = work.track(take, &pose.bone)?;
+        let address = |property| ChannelAddress { take, bone, property };
         if let Some(translation) = pose.translation {
             let wanted = vector("a translation", translation)?;
-            one::<Translation>(work, place(Property::Translation), time, wanted, way, unstep)?;
+            pose_channel::<TranslationChannel>(
+                work,
+                address(Property::Translation),
+                time,
+                wanted,
+                mode,
+                unstep,
+            )?;
         }
         if let Some(numbers) = pose.rotation {
-            one::<Rotation>(work, place(Property::Rotation), time, rotation(numbers)?, way, unstep)?;
+            pose_channel::<RotationChannel>(
+                work,
+                address(Property::Rotation),
+                time,
+                rotation(numbers)?,
+                mode,
+                unstep,
+            )?;
         }
         if let Some(scale) = pose.scale {
-            one::<Scale>(work, place(Property::Scale), time, vector("a scale", scale)?, way, unstep)?;
+            pose_channel::<ScaleChannel>(
+                work,
+                address(Property::Scale),
+                time,
+                vector("a scale", scale)?,
+                mode,
+                unstep,
+            )?;
         }
         let given = [pose.translation.is_some(), pose.rotation.is_some(), pose.scale.is_some()];
         let given = Property::ALL.into_iter().zip(given).filter(|(_, given)| *given);
@@ -114,49 +73,49 @@ fn each(
     if !touched.is_empty() { Ok(()) } else { Err(EditError::Nothing("no pose is given")) }
 }
 
-/// Gives a channel a pose at a time, where need be with a key that is added.
-pub(super) fn one<K: Kind>(
-    work: &mut Work,
-    place: Place,
+/// Gives a channel a value at a time. Adds a key where there is none.
+pub(crate) fn pose_channel<K: ChannelKind>(
+    work: &mut Transaction,
+    address: ChannelAddress,
     time: f32,
     wanted: K::Value,
-    way: Way,
+    mode: PoseMode,
     unstep: bool,
 ) -> Result<(), EditError> {
     if unstep {
-        unstep::channel::<K>(work, place);
+        unstep::channel::<K>(work, address);
     }
-    // On top of what is shown there.
+    // An offset applies on top of the pose that is shown.
     let pending =
-        work.slot(place.take).pending_at(time).and_then(|at| at.of(place.bone)?.get(place.property));
-    let key = match key_at(work.slot(place.take).times(place.bone, place.property), time) {
+        work.slot(address.take).pending_at(time).and_then(|at| at.of(address.bone)?.get(address.property));
+    let key = match key_at(work.slot(address.take).times(address.bone, address.property), time) {
         Ok(key) => key,
-        Err(_) => insert::<K>(work, place, time, NewKey::Current),
+        Err(_) => insert::<K>(work, address, time, NewKey::Current),
     };
-    change_key::<K>(work, place, key, |now| match way {
-        Way::Set => wanted,
-        Way::Offset => K::offset(pending.map_or(now, K::value), wanted),
+    change_key::<K>(work, address, key, |now| match mode {
+        PoseMode::Set => wanted,
+        PoseMode::Offset => K::offset(pending.map_or(now, K::value), wanted),
     })
 }
 
-/// Gives a key another value; its tangents keep what was changed of them.
-fn change_key<K: Kind>(
-    work: &mut Work,
-    place: Place,
+/// Gives a key another value; the changes of its tangents stay.
+pub(crate) fn change_key<K: ChannelKind>(
+    work: &mut Transaction,
+    address: ChannelAddress,
     key: usize,
     wanted: impl FnOnce(K::Value) -> K::Value,
 ) -> Result<(), EditError> {
-    let found = work.slot(place.take).key::<K>(place.property, place.bone, key);
+    let found = work.slot(address.take).key::<K>(address.property, address.bone, key);
     let Some(found) = found else { return Ok(()) };
-    let change = changed::<K>(place.bone, &found, wanted)?;
-    work.perform(Op::Changes(place, vec![(key as u32, change)]));
+    let change = changed::<K>(address.bone, &found, wanted)?;
+    work.perform(Op::Changes(address, vec![(key as u32, change)]));
     Ok(())
 }
 
-/// The change that gives a key another value, and nothing else; none where it is the original then.
-pub(in super::super) fn changed<K: Kind>(
+/// Returns the change that gives a key another value and keeps its tangents; `None` where the key becomes the original again.
+pub(crate) fn changed<K: ChannelKind>(
     bone: u32,
-    found: &Key,
+    found: &KeyContent,
     wanted: impl FnOnce(K::Value) -> K::Value,
 ) -> Result<Option<KeyChange>, EditError> {
     let now = found.change.map_or(found.original, |change| change.result::<K>(&found.original))[1];
@@ -174,22 +133,24 @@ pub(in super::super) fn changed<K: Kind>(
     Ok(change.some::<K>())
 }
 
-/// q and -q are the same rotation; the one that keeps a spline from turning the long way.
-fn near<K: Kind>(wanted: K::Value, now: Numbers) -> K::Value {
+/// q and -q are the same rotation; the one that keeps a spline from turning the long mode.
+fn near<K: ChannelKind>(wanted: K::Value, now: ChannelNumbers) -> K::Value {
     let numbers = K::numbers(wanted);
-    let turn = K::IDENTITY == Rotation::IDENTITY;
+    let turn = K::IDENTITY == RotationChannel::IDENTITY;
     let dot: f32 = numbers.iter().zip(now).map(|(a, b)| a * b).sum();
     if turn && dot < 0.0 { K::value(numbers.map(|number| -number)) } else { wanted }
 }
 
-pub(in super::super) fn vector(what: &'static str, numbers: [f32; 3]) -> Result<Vec3, EditError> {
+/// Returns the vector if its components are usable numbers.
+pub(crate) fn vector(what: &'static str, numbers: [f32; 3]) -> Result<Vec3, EditError> {
     for number in numbers {
         finite(what, number)?;
     }
     Ok(Vec3::from_array(numbers))
 }
 
-pub(in super::super) fn rotation(numbers: [f32; 4]) -> Result<Quat, EditError> {
+/// Returns the rotation, normalized.
+pub(crate) fn rotation(numbers: [f32; 4]) -> Result<Quat, EditError> {
     for number in numbers {
         finite("a rotation", number)?;
     }
@@ -198,6 +159,23 @@ pub(in super::super) fn rotation(numbers: [f32; 4]) -> Result<Quat, EditError> {
     if !(length > 1e-6 && length.is_finite()) {
         return Err(EditError::NoRotation);
     }
-    // What is unit already stays as it was given, to the bit.
+    // A quaternion of unit length stays as given, to the bit.
     Ok(if (length - 1.0).abs() <= 1e-6 { rotation } else { rotation.normalize() })
+}
+
+/// Returns the numbers of a value or of a tangent of a channel: three, for rotations four.
+pub(crate) fn numbers(
+    what: &'static str,
+    given: &[f32],
+    property: Property,
+) -> Result<ChannelNumbers, EditError> {
+    let wanted = if property == Property::Rotation { 4 } else { 3 };
+    if given.len() != wanted {
+        return Err(EditError::Count { what, wanted, given: given.len() });
+    }
+    let mut numbers = [0.0; 4];
+    for (number, &given) in numbers.iter_mut().zip(given) {
+        *number = finite(what, given)?;
+    }
+    Ok(numbers)
 }

@@ -1,16 +1,20 @@
 //! The channels of a slot: their columns, the changes beside them, and the result of both.
 
-use super::{Changes, Content, Key, Slot};
+use super::{ChannelChanges, ChannelContent, KeyContent, Slot};
 use crate::adapter::change::{KeyChange, put, triple};
-use crate::adapter::kind::{Held, Kind};
-use crate::adapter::times::Shared;
+use crate::adapter::kind::{ChannelKind, ChannelValue};
+use crate::adapter::times::SharedTimes;
 use crate::edit::Property;
 use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::Value;
 use std::sync::Arc;
 
 /// Puts one change into a list; the one that was there.
-pub(super) fn exchange(changes: &mut Changes, key: u32, change: Option<KeyChange>) -> Option<KeyChange> {
+pub(super) fn exchange(
+    changes: &mut ChannelChanges,
+    key: u32,
+    change: Option<KeyChange>,
+) -> Option<KeyChange> {
     match (changes.binary_search_by_key(&key, |(key, _)| *key), change) {
         (Ok(at), Some(change)) => Some(std::mem::replace(&mut changes[at].1, change)),
         (Ok(at), None) => Some(changes.remove(at).1),
@@ -23,7 +27,7 @@ pub(super) fn exchange(changes: &mut Changes, key: u32, change: Option<KeyChange
 }
 
 /// Makes the result of a channel anew: of the keys in `touched`, or of all.
-pub(super) fn refresh<K: Kind>(
+pub(super) fn refresh<K: ChannelKind>(
     slot: &mut Slot,
     property: Property,
     bone: u32,
@@ -62,21 +66,21 @@ pub(super) fn refresh<K: Kind>(
     *result = Channel { values, ..original };
 }
 
-pub(super) fn spliced<K: Kind>(
+pub(super) fn spliced<K: ChannelKind>(
     slot: &mut Slot,
     property: Property,
     bone: u32,
     remove: &[u32],
-    insert: &[(u32, Key)],
-    shared: &mut Shared,
-) -> Vec<(u32, Key)> {
-    let taken: Vec<(u32, Key)> =
+    insert: &[(u32, KeyContent)],
+    shared: &mut SharedTimes,
+) -> Vec<(u32, KeyContent)> {
+    let taken: Vec<(u32, KeyContent)> =
         remove.iter().filter_map(|&at| Some((at, slot.key::<K>(property, bone, at as usize)?))).collect();
     let old = slot.original_of::<K>(bone).cloned().unwrap_or_default();
     let (per_key, keys) = (old.values_per_key(), (old.len() + insert.len()).saturating_sub(taken.len()));
     let mut times = Vec::with_capacity(keys);
     let mut values: Vec<K::Value> = Vec::with_capacity(keys * per_key);
-    let mut changes = Changes::new();
+    let mut changes = ChannelChanges::new();
     let mut old_changes = slot.changes(bone, property).iter().peekable();
     let mut inserted = insert.iter().peekable();
     // What stays stays in runs, and a run is copied as a whole.
@@ -110,11 +114,11 @@ fn runs(keys: usize, gone: &[u32]) -> impl Iterator<Item = (usize, usize)> + '_ 
 }
 
 /// Puts in the keys whose place has come.
-fn put_in<K: Kind>(
-    inserted: &mut std::iter::Peekable<std::slice::Iter<'_, (u32, Key)>>,
+fn put_in<K: ChannelKind>(
+    inserted: &mut std::iter::Peekable<std::slice::Iter<'_, (u32, KeyContent)>>,
     times: &mut Vec<f32>,
     values: &mut Vec<K::Value>,
-    changes: &mut Changes,
+    changes: &mut ChannelChanges,
     interpolation: Interpolation,
 ) {
     while let Some((at, key)) = inserted.next_if(|(place, _)| *place as usize <= times.len()) {
@@ -127,7 +131,7 @@ fn put_in<K: Kind>(
 }
 
 /// Other times for some keys, which stay in their order; the times from before.
-pub(super) fn retimed<K: Kind>(slot: &mut Slot, bone: u32, times: &Arc<[f32]>) {
+pub(super) fn retimed<K: ChannelKind>(slot: &mut Slot, bone: u32, times: &Arc<[f32]>) {
     let original = Arc::make_mut(&mut slot.original);
     K::channel_mut(&mut original.tracks[bone as usize]).times = Arc::clone(times);
     if slot.changes.is_empty() {
@@ -138,8 +142,13 @@ pub(super) fn retimed<K: Kind>(slot: &mut Slot, bone: u32, times: &Arc<[f32]>) {
     }
 }
 
-pub(super) fn replaced<K: Kind>(slot: &mut Slot, property: Property, bone: u32, content: Content) -> Content {
-    let before = Content {
+pub(super) fn replaced<K: ChannelKind>(
+    slot: &mut Slot,
+    property: Property,
+    bone: u32,
+    content: ChannelContent,
+) -> ChannelContent {
+    let before = ChannelContent {
         original: K::Value::wrap(slot.original_of::<K>(bone).cloned().unwrap_or_default()),
         changes: slot.changes(bone, property).to_vec(),
     };
@@ -150,12 +159,12 @@ pub(super) fn replaced<K: Kind>(slot: &mut Slot, property: Property, bone: u32, 
 }
 
 /// Puts an original channel and its changes in, and makes the result.
-fn put_channel<K: Kind>(
+fn put_channel<K: ChannelKind>(
     slot: &mut Slot,
     property: Property,
     bone: u32,
     original: Channel<K::Value>,
-    changes: Changes,
+    changes: ChannelChanges,
 ) {
     if changes.is_empty() {
         slot.changes.remove(&(bone, property));

@@ -3,9 +3,9 @@
 mod channel;
 
 use super::change::{KeyChange, Triple, triple};
-use super::kind::{AnyChannel, Kind, Numbers, with_kind};
+use super::kind::{AnyChannel, ChannelKind, ChannelNumbers, with_kind};
 use super::pending::{Pending, PendingAt, place_of};
-use super::times::Shared;
+use super::times::SharedTimes;
 use crate::edit::{Property, SAME_TIME};
 use channel::{exchange, refresh, replaced, retimed, spliced};
 use dragonfly_anim::data::{Channel, MorphTrack, Take};
@@ -17,22 +17,22 @@ use std::sync::Arc;
 pub struct TakeId(pub u32);
 
 /// The changes of one channel: which key, and what of it; ascending, none that changes nothing.
-pub type Changes = Vec<(u32, KeyChange)>;
+pub type ChannelChanges = Vec<(u32, KeyChange)>;
 
 /// A key with everything that belongs to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Key {
+pub(crate) struct KeyContent {
     /// Seconds.
-    pub(super) time: f32,
-    pub(super) original: Triple,
-    pub(super) change: Option<KeyChange>,
+    pub(crate) time: f32,
+    pub(crate) original: Triple,
+    pub(crate) change: Option<KeyChange>,
 }
 
 /// A whole channel: its original and its changes.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Content {
-    pub(super) original: AnyChannel,
-    pub(super) changes: Changes,
+pub(crate) struct ChannelContent {
+    pub(crate) original: AnyChannel,
+    pub(crate) changes: ChannelChanges,
 }
 
 /// One take in its three forms. Where nothing was changed, all of it is shared: original and result are one.
@@ -46,12 +46,12 @@ pub struct Slot {
     pub original: Arc<Take>,
     /// Original + changes: what is shown and saved.
     pub result: Arc<Take>,
-    changes: BTreeMap<(u32, Property), Arc<Changes>>,
+    changes: BTreeMap<(u32, Property), Arc<ChannelChanges>>,
     pending: Pending,
 }
 
 impl Slot {
-    pub(super) fn unchanged(id: TakeId, origin: Option<usize>, take: Arc<Take>) -> Self {
+    pub(crate) fn unchanged(id: TakeId, origin: Option<usize>, take: Arc<Take>) -> Self {
         Self {
             id,
             origin,
@@ -63,7 +63,7 @@ impl Slot {
     }
 
     /// The same take under another number, made here; pending poses come along.
-    pub(super) fn copied(&self, id: TakeId) -> Self {
+    pub(crate) fn copied(&self, id: TakeId) -> Self {
         Self { id, origin: None, ..self.clone() }
     }
 
@@ -73,7 +73,7 @@ impl Slot {
     }
 
     /// What was changed of the value of one key; the change that changes nothing where nothing was.
-    pub fn change(&self, bone: u32, property: Property, key: usize) -> Numbers {
+    pub fn change(&self, bone: u32, property: Property, key: usize) -> ChannelNumbers {
         self.key_change(bone, property, key).map_or(property.identity(), |change| change.value)
     }
 
@@ -100,12 +100,12 @@ impl Slot {
     }
 
     /// A take without anything pending.
-    pub(super) fn forget_pending(&mut self) {
+    pub(crate) fn forget_pending(&mut self) {
         self.pending.clear();
     }
 
     /// Puts in other pending poses at a time, `None` for none; those from before.
-    pub(super) fn set_pending(&mut self, time: f32, poses: Option<Arc<PendingAt>>) -> Option<Arc<PendingAt>> {
+    pub(crate) fn set_pending(&mut self, time: f32, poses: Option<Arc<PendingAt>>) -> Option<Arc<PendingAt>> {
         match (place_of(&self.pending, time), poses) {
             (Ok(at), Some(poses)) => Some(std::mem::replace(&mut self.pending[at], poses)),
             (Ok(at), None) => Some(self.pending.remove(at)),
@@ -117,7 +117,7 @@ impl Slot {
         }
     }
 
-    pub(super) fn key_change(&self, bone: u32, property: Property, key: usize) -> Option<KeyChange> {
+    pub(crate) fn key_change(&self, bone: u32, property: Property, key: usize) -> Option<KeyChange> {
         let changes = self.changes(bone, property);
         let at = changes.binary_search_by_key(&(key as u32), |(key, _)| *key).ok()?;
         Some(changes[at].1)
@@ -128,19 +128,24 @@ impl Slot {
         self.changes.keys().copied()
     }
 
-    pub(super) fn original_of<K: Kind>(&self, bone: u32) -> Option<&Channel<K::Value>> {
+    pub(crate) fn original_of<K: ChannelKind>(&self, bone: u32) -> Option<&Channel<K::Value>> {
         self.original.tracks.get(bone as usize).map(K::channel)
     }
 
-    pub(super) fn key<K: Kind>(&self, property: Property, bone: u32, key: usize) -> Option<Key> {
+    pub(crate) fn key<K: ChannelKind>(
+        &self,
+        property: Property,
+        bone: u32,
+        key: usize,
+    ) -> Option<KeyContent> {
         let channel = self.original_of::<K>(bone)?;
         let time = *channel.times.get(key)?;
         let change = self.key_change(bone, property, key);
-        Some(Key { time, original: triple::<K>(channel, key), change })
+        Some(KeyContent { time, original: triple::<K>(channel, key), change })
     }
 
     /// Times of a channel's keys.
-    pub(super) fn times(&self, bone: u32, property: Property) -> &Arc<[f32]> {
+    pub(crate) fn times(&self, bone: u32, property: Property) -> &Arc<[f32]> {
         let track = &self.original.tracks[bone as usize];
         match property {
             Property::Translation => &track.translation.times,
@@ -150,7 +155,7 @@ impl Slot {
     }
 
     /// Gives keys other changes, `None` for none; what they had before.
-    pub(super) fn set_changes(
+    pub(crate) fn set_changes(
         &mut self,
         bone: u32,
         property: Property,
@@ -168,25 +173,25 @@ impl Slot {
 
     /// Takes keys out (ascending positions as they are) and puts others in (ascending positions as they will be);
     /// answers with the positions and keys that undo it.
-    pub(super) fn splice(
+    pub(crate) fn splice(
         &mut self,
         bone: u32,
         property: Property,
         remove: &[u32],
-        insert: &[(u32, Key)],
-        shared: &mut Shared,
-    ) -> (Vec<u32>, Vec<(u32, Key)>) {
+        insert: &[(u32, KeyContent)],
+        shared: &mut SharedTimes,
+    ) -> (Vec<u32>, Vec<(u32, KeyContent)>) {
         let taken = with_kind!(property, spliced::<K>(self, property, bone, remove, insert, shared));
         (insert.iter().map(|(at, _)| *at).collect(), taken)
     }
 
     /// Gives keys other times, without another order; their times from before.
-    pub(super) fn set_times(
+    pub(crate) fn set_times(
         &mut self,
         bone: u32,
         property: Property,
         wanted: &[(u32, f32)],
-        shared: &mut Shared,
+        shared: &mut SharedTimes,
     ) -> Vec<(u32, f32)> {
         let old = Arc::clone(self.times(bone, property));
         let before = wanted.iter().filter_map(|&(key, _)| Some((key, *old.get(key as usize)?))).collect();
@@ -196,18 +201,23 @@ impl Slot {
     }
 
     /// Puts a whole channel in the place of another; the other.
-    pub(super) fn replace(&mut self, bone: u32, property: Property, content: Content) -> Content {
+    pub(crate) fn replace(
+        &mut self,
+        bone: u32,
+        property: Property,
+        content: ChannelContent,
+    ) -> ChannelContent {
         with_kind!(property, replaced::<K>(self, property, bone, content))
     }
 
     /// Puts in other morph tracks; those from before.
-    pub(super) fn set_morphs(&mut self, morphs: Vec<MorphTrack>) -> Vec<MorphTrack> {
+    pub(crate) fn set_morphs(&mut self, morphs: Vec<MorphTrack>) -> Vec<MorphTrack> {
         let before = self.original.morphs.clone();
         self.both(|take| take.morphs.clone_from(&morphs));
         before
     }
 
-    pub(super) fn set_name(&mut self, name: &str) -> String {
+    pub(crate) fn set_name(&mut self, name: &str) -> String {
         let before = self.original.name.clone();
         self.both(|take| take.name = name.to_owned());
         before
@@ -224,7 +234,7 @@ impl Slot {
     }
 
     /// Start and length are those of the keys.
-    pub(super) fn measure(&mut self) {
+    pub(crate) fn measure(&mut self) {
         let (start, length) = extent(&self.original);
         for take in [&mut self.original, &mut self.result] {
             if take.start.to_bits() != start.to_bits() || take.length.to_bits() != length.to_bits() {
@@ -239,7 +249,7 @@ impl Slot {
 }
 
 /// Where the key at `time` is; else where one would come.
-pub(super) fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
+pub(crate) fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
     let after = times.partition_point(|&key| key < time - SAME_TIME);
     match times.get(after) {
         Some(&key) if (key - time).abs() <= SAME_TIME => Ok(after),
@@ -248,6 +258,6 @@ pub(super) fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
 }
 
 /// Seconds: the first key of any channel, and from it to the last one.
-pub(super) fn extent(take: &Take) -> (f32, f32) {
+pub(crate) fn extent(take: &Take) -> (f32, f32) {
     take.range_of_keys().map_or((0.0, 0.0), |(start, end)| (start, end - start))
 }

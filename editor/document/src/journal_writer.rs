@@ -1,7 +1,7 @@
-//! Keeps the journal of what is open: what was done is in the hands of the system before it counts as done.
+//! Writes the journal of the open document: an edit is handed to the system before it counts as applied.
 //!
-//! A journal that fails does not stop the work. It is said once, and tried again: not from where it failed, since what
-//! came meanwhile would be missing, but with a snapshot of everything.
+//! A journal that fails does not stop the work. The user is warned once, and the journal is retried with a snapshot of everything: the
+//! edits since the failure would be missing otherwise.
 
 use super::history::Gesture;
 use super::recorded::{About, Recorded};
@@ -9,74 +9,75 @@ use dragonfly_store::{Autosave, FileStamp, Journal, JournalError};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// After a failure, the journal is tried again no sooner than this.
-const AGAIN: Duration = Duration::from_secs(2);
+/// Delay before a failed journal is retried.
+const RETRY_AFTER: Duration = Duration::from_secs(2);
 
-/// A gesture whose end nobody told is over when nothing came for so long.
-const QUIET: Duration = Duration::from_secs(1);
+/// Time without edits after which a gesture counts as ended, where its end was not reported.
+const GESTURE_TIMEOUT: Duration = Duration::from_secs(1);
 
-/// A journal is not begun anew before it has so many bytes, nor before it is so many times as large as it was then.
-const LARGE: u64 = 1 << 20;
-const GROWN: u64 = 4;
+/// Size in bytes below which a journal is not compacted.
+const COMPACT_ABOVE: u64 = 1 << 20;
+/// Growth since the last compaction at which a journal is compacted.
+const COMPACT_GROWTH: u64 = 4;
 
-/// The journal of what is open, if there is one.
+/// Writes the journal of the open document, if it has one.
 #[derive(Debug, Default)]
-pub(super) struct Keeper {
+pub(super) struct JournalWriter {
     autosave: Option<Autosave>,
     journal: Option<Journal>,
-    /// The document that a journal is to be begun for when there is something to record.
+    /// The document whose journal is created with the first edit.
     wanted: Option<(Option<PathBuf>, Option<FileStamp>)>,
-    /// Was it said in this journal that this program records?
+    /// Whether this journal has the entry that names this program.
     begun: bool,
-    /// Is something missing in it? Since when, as it was tried last.
+    /// Time of the last failure, while edits are missing in the journal.
     gap: Option<Instant>,
-    /// Bytes when it was begun anew.
+    /// Size in bytes after the last compaction.
     compact: u64,
     gesture: Option<(Gesture, Instant)>,
     line: Vec<u8>,
-    /// What a person must be told, once each.
+    /// Warnings that the user has not seen yet.
     trouble: Vec<String>,
 }
 
-impl Keeper {
-    /// Keeps nothing before it has a journal.
+impl JournalWriter {
+    /// A writer without a journal.
     pub(super) fn new(autosave: Option<Autosave>) -> Self {
         Self { autosave, ..Self::default() }
     }
 
-    /// Begins a journal as soon as there is something to record.
+    /// Creates the journal with the first edit.
     pub(super) fn begin_later(&mut self, document: Option<PathBuf>, stamp: Option<FileStamp>) {
         self.wanted = Some((document, stamp));
     }
 
-    /// From now on it is this one.
+    /// Continues with this journal, and returns the one before.
     pub(super) fn set(&mut self, journal: Journal) -> Option<Journal> {
         self.compact = journal.size();
         (self.begun, self.gap, self.wanted) = (false, None, None);
         self.journal.replace(journal)
     }
 
-    /// The journal, to save with it; none while something is missing in it.
+    /// Returns the journal, to record a save in it; `None` while edits are missing in it.
     pub(super) fn journal(&mut self) -> Option<&mut Journal> {
         self.journal.as_mut().filter(|_| self.gap.is_none())
     }
 
-    /// Where the journal is.
+    /// Returns the path of the journal.
     pub(super) fn path(&self) -> Option<&Path> {
         self.journal.as_ref().map(Journal::path)
     }
 
-    /// Gives the journal away.
+    /// Returns the journal and writes no more.
     pub(super) fn take(&mut self) -> Option<Journal> {
         self.journal.take()
     }
 
-    /// What is to be said, each once.
+    /// Returns the warnings since the last call.
     pub(super) fn trouble(&mut self) -> Vec<String> {
         std::mem::take(&mut self.trouble)
     }
 
-    /// Appends what was done. When this returns, the system has it, or somebody will be told that it has not.
+    /// Appends an entry. When this returns, the system has it, or there is a warning that it has not.
     pub(super) fn record(&mut self, about: &About, recorded: &Recorded<'_>, now: Instant) {
         self.begin();
         if self.journal.is_none() || self.gap.is_some() {
@@ -97,7 +98,7 @@ impl Keeper {
         }
     }
 
-    /// The button was released: what was appended is due on the disk.
+    /// Ends a gesture: its edit is due to be flushed to the disk.
     pub(super) fn release(&mut self, gesture: Gesture, now: Instant) {
         if self.gesture.is_some_and(|(own, _)| own == gesture) {
             self.end_of_gesture(now);
@@ -132,28 +133,28 @@ impl Keeper {
     fn append(&mut self, recorded: &Recorded<'_>, now: Instant) -> Result<(), JournalError> {
         let Some(journal) = &mut self.journal else { return Ok(()) };
         self.line.clear();
-        // Fails for nothing that could be done: numbers are finite, keys are text.
+        // No edit that was applied can fail here: numbers are finite, keys are text.
         if let Err(error) = serde_json::to_writer(&mut self.line, recorded) {
             tracing::error!("an edit has no JSON: {error}");
         }
         journal.append(&self.line, now)
     }
 
-    /// There is no journal, and there will be none.
+    /// Warns that there is no journal for this document.
     pub(super) fn never(&mut self, error: &JournalError) {
         self.trouble.push(format!("Unsaved work is not recorded, so a crash would lose it: {error}"));
     }
 
     fn failed(&mut self, error: &JournalError, now: Instant) {
         if self.gap.is_none() {
-            self.trouble.push(format!("Unsaved work is not recorded at present: {error}; save to be safe"));
+            self.trouble.push(format!("Unsaved work is not being recorded: {error}; save to be safe"));
         }
         self.gap = Some(now);
     }
 
-    /// Brings to the disk what is due.
+    /// Flushes entries that are due to the disk.
     pub(super) fn sync(&mut self, now: Instant) {
-        if self.gesture.is_some_and(|(_, last)| now.saturating_duration_since(last) >= QUIET) {
+        if self.gesture.is_some_and(|(_, last)| now.saturating_duration_since(last) >= GESTURE_TIMEOUT) {
             self.end_of_gesture(now);
         }
         if self.gap.is_none()
@@ -164,21 +165,24 @@ impl Keeper {
         }
     }
 
-    /// Is a snapshot wanted: because something is missing, or because it would be much shorter than what is there?
+    /// Returns whether a snapshot is due: because edits are missing, or because it would be much smaller than the journal.
     pub(super) fn wants_snapshot(&self, now: Instant) -> bool {
         let Some(journal) = &self.journal else { return false };
         match self.gap {
-            Some(last) => now.saturating_duration_since(last) >= AGAIN,
-            None => self.gesture.is_none() && journal.size() > LARGE.max(self.compact.saturating_mul(GROWN)),
+            Some(last) => now.saturating_duration_since(last) >= RETRY_AFTER,
+            None => {
+                self.gesture.is_none()
+                    && journal.size() > COMPACT_ABOVE.max(self.compact.saturating_mul(COMPACT_GROWTH))
+            }
         }
     }
 
-    /// Is something missing in the journal?
+    /// Returns whether edits are missing in the journal.
     pub(super) fn has_gap(&self) -> bool {
         self.gap.is_some()
     }
 
-    /// Begins the journal anew with everything; is that what the file holds?
+    /// Replaces the contents of the journal by a snapshot; `saved` if the file has the same state.
     pub(super) fn snapshot(&mut self, bytes: &[u8], saved: bool, now: Instant) {
         let Some(journal) = &mut self.journal else { return };
         match journal.compact_as(bytes, saved) {
@@ -189,7 +193,7 @@ impl Keeper {
                     self.trouble.push("Unsaved work is recorded again".to_owned());
                 }
             }
-            // The old one goes on, if it can.
+            // The old journal continues, if it is intact.
             Err(error) if self.gap.is_some() || journal.broken().is_some() => self.failed(&error, now),
             Err(error) => {
                 self.compact = journal.size();
@@ -198,11 +202,11 @@ impl Keeper {
         }
     }
 
-    /// When there is something to do without being told.
+    /// Returns the time at which there is something to do without a message.
     pub(super) fn next_due(&self) -> Option<Instant> {
-        let again = self.gap.filter(|_| self.journal.is_some()).map(|last| last + AGAIN);
+        let again = self.gap.filter(|_| self.journal.is_some()).map(|last| last + RETRY_AFTER);
         let due = self.journal.as_ref().filter(|_| self.gap.is_none()).and_then(Journal::next_due);
-        let quiet = self.gesture.map(|(_, last)| last + QUIET);
+        let quiet = self.gesture.map(|(_, last)| last + GESTURE_TIMEOUT);
         [again, due, quiet].into_iter().flatten().min()
     }
 }

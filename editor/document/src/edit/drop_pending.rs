@@ -1,0 +1,54 @@
+//! Discards pending poses.
+
+use super::kind::EditKind;
+use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef};
+use crate::adapter::EditError;
+use crate::adapter::plan::{Transaction, pending};
+use dragonfly_anim::data::Skeleton;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Discards pending poses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DropPending {
+    /// The take.
+    pub take: TakeRef,
+    /// Seconds; all times where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f32>,
+    /// The bones; all where empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bones: Vec<BoneRef>,
+}
+
+impl EditKind for DropPending {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"drop_pending","take":"Walk","bones":["Head"]}"#,
+        description: "Discards all pending poses of the head.",
+    };
+
+    fn label(&self) -> &'static str {
+        "Drop pending poses"
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        Some(&self.take)
+    }
+
+    fn bones(&self, skeleton: &Skeleton) -> EditedBones {
+        EditedBones::listed(&self.bones, skeleton)
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        let take = work.take(&self.take)?;
+        for at in pending::selected(work, take, self.time, &self.bones)? {
+            pending::remove(work, take, &at);
+        }
+        Ok(())
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        Self { take: from.take(), time: from.optional(Arbitrary::time), bones: from.bones() }
+    }
+}

@@ -1,0 +1,79 @@
+//! Keys pending poses.
+
+use super::kind::EditKind;
+use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef};
+use crate::adapter::EditError;
+use crate::adapter::kind::{ChannelKind, with_kind};
+use crate::adapter::op::ChannelAddress;
+use crate::adapter::plan::{PoseMode, Transaction, pending, pose};
+use dragonfly_anim::data::Skeleton;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Turns pending poses into keys.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct KeyPending {
+    /// The take.
+    pub take: TakeRef,
+    /// Seconds; all times where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f32>,
+    /// The bones; all where empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bones: Vec<BoneRef>,
+    /// Channels that stand still in steps (two equal keys, as exporters write a channel that does not move) become linear first,
+    /// so that the bone moves to the pose instead of jumping to it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub unstep: bool,
+}
+
+impl EditKind for KeyPending {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"key_pending","take":"Walk","time":0.5}"#,
+        description: "Keys the pending poses at 0.5 s.",
+    };
+
+    fn label(&self) -> &'static str {
+        "Key pending poses"
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        Some(&self.take)
+    }
+
+    fn bones(&self, skeleton: &Skeleton) -> EditedBones {
+        EditedBones::listed(&self.bones, skeleton)
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        let take = work.take(&self.take)?;
+        for at in pending::selected(work, take, self.time, &self.bones)? {
+            for pose in &at.poses {
+                for property in Property::ALL {
+                    if let Some(value) = pose.get(property) {
+                        let address = ChannelAddress { take, bone: pose.bone, property };
+                        with_kind!(property, key::<K>(work, address, at.time, value, self.unstep))?;
+                    }
+                }
+            }
+            pending::remove(work, take, &at);
+        }
+        Ok(())
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        let time = from.optional(Arbitrary::time);
+        Self { take: from.take(), time, bones: from.bones(), unstep: from.flag() }
+    }
+}
+
+fn key<K: ChannelKind>(
+    work: &mut Transaction,
+    address: ChannelAddress,
+    time: f32,
+    value: [f32; 4],
+    unstep: bool,
+) -> Result<(), EditError> {
+    pose::pose_channel::<K>(work, address, time, K::value(value), PoseMode::Set, unstep)
+}

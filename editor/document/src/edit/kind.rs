@@ -1,0 +1,134 @@
+//! What every kind of edit provides, and the one list of all kinds.
+
+use super::{Arbitrary, EditedBones, Example, TakeRef};
+use crate::adapter::plan::{PoseMode, Transaction};
+use crate::adapter::{EditError, ModelAdapter};
+use crate::edit::BonePose;
+use dragonfly_anim::data::Skeleton;
+
+/// One kind of edit: its data, and everything that the rest of the program needs to know about it.
+///
+/// A new kind is one file with a type that implements this trait, and one line in the list of [`super::Edit`]. The history, the
+/// locks of bones, the help of the command line and the property tests follow from the list.
+pub(crate) trait EditKind: Sized {
+    /// The edit as a line of JSON, with a description; for help texts and tests.
+    const EXAMPLE: Example;
+
+    /// Returns what the history and the undo command call it, in a few words.
+    fn label(&self) -> &'static str;
+
+    /// Returns the take that it changes; `None` where it creates one.
+    fn take(&self) -> Option<&TakeRef>;
+
+    /// Returns the bones that it changes.
+    fn bones(&self, skeleton: &Skeleton) -> EditedBones;
+
+    /// Applies it as operations on a document.
+    ///
+    /// # Errors
+    ///
+    /// The reason why it cannot be applied. The transaction is dropped then.
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError>;
+
+    /// Returns a random edit of this kind, not necessarily one that can be applied; for property tests.
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self;
+
+    /// Returns the take as the list of the history names it: by default its current name.
+    fn take_title(&self, adapter: &ModelAdapter) -> Option<String> {
+        let take = adapter.take(self.take()?).ok()?;
+        Some(take.original.name.clone())
+    }
+
+    /// Checks whether users and programs may ask for it now. Journals are replayed without this check: earlier versions allowed
+    /// takes without a name.
+    ///
+    /// # Errors
+    ///
+    /// The reason why not.
+    fn allowed(&self, _adapter: &ModelAdapter) -> Result<(), EditError> {
+        Ok(())
+    }
+
+    /// Returns the time and the poses of an edit that does nothing but give values. Repeated ones of one drag are then applied
+    /// in place, see [`crate::adapter::PoseDrag`].
+    fn values(&self) -> Option<(f32, &[BonePose], PoseMode)> {
+        None
+    }
+}
+
+/// Name, example and generator of one kind of edit.
+#[derive(Clone, Copy, Debug)]
+pub struct EditInfo {
+    /// Value of `"edit"` in JSON.
+    pub name: &'static str,
+    /// The edit as a line of JSON, with a description.
+    pub example: Example,
+    /// Makes a random edit of this kind, not necessarily one that can be applied; for property tests.
+    #[doc(hidden)]
+    pub arbitrary: fn(&mut Arbitrary<'_>) -> super::Edit,
+}
+
+/// Declares [`super::Edit`] and [`super::EDITS`] from a list of `"name in JSON" => Type` lines.
+macro_rules! edits {
+    ($($name:literal => $Kind:ident,)*) => {
+        /// One change of a document's takes.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(tag = "edit")]
+        // Each variant is documented at its type, and the JSON schema takes its descriptions from there.
+        #[allow(missing_docs)]
+        pub enum Edit {
+            $(#[serde(rename = $name)] $Kind($Kind),)*
+        }
+
+        /// All kinds of edits.
+        pub const EDITS: &[EditInfo] = &[$(EditInfo {
+            name: $name,
+            example: <$Kind as EditKind>::EXAMPLE,
+            arbitrary: |from| Edit::$Kind($Kind::arbitrary(from)),
+        },)*];
+
+        impl Edit {
+            /// Returns what the history and the undo command call it, in a few words.
+            pub fn label(&self) -> &'static str {
+                match self { $(Self::$Kind(edit) => edit.label(),)* }
+            }
+
+            /// Returns the take that it changes; `None` where it creates one.
+            pub fn take(&self) -> Option<&TakeRef> {
+                match self { $(Self::$Kind(edit) => edit.take(),)* }
+            }
+
+            /// Returns the bones that it changes.
+            pub fn bones(&self, skeleton: &Skeleton) -> EditedBones {
+                match self { $(Self::$Kind(edit) => edit.bones(skeleton),)* }
+            }
+
+            /// Applies it as operations on a document.
+            pub(crate) fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+                match self { $(Self::$Kind(edit) => edit.plan(work),)* }
+            }
+
+            /// Checks whether users and programs may ask for it now.
+            pub(crate) fn allowed(&self, adapter: &ModelAdapter) -> Result<(), EditError> {
+                match self { $(Self::$Kind(edit) => edit.allowed(adapter),)* }
+            }
+
+            /// Returns the take as the list of the history names it.
+            pub(crate) fn take_title(&self, adapter: &ModelAdapter) -> Option<String> {
+                match self { $(Self::$Kind(edit) => edit.take_title(adapter),)* }
+            }
+
+            /// Returns the time and the poses of an edit that does nothing but give values.
+            pub(crate) fn values(&self) -> Option<(f32, &[BonePose], PoseMode)> {
+                match self { $(Self::$Kind(edit) => edit.values(),)* }
+            }
+        }
+
+        $(impl From<$Kind> for Edit {
+            fn from(edit: $Kind) -> Self {
+                Self::$Kind(edit)
+            }
+        })*
+    };
+}
+pub(super) use edits;

@@ -1,0 +1,139 @@
+//! Pastes a copied pose.
+
+use super::kind::EditKind;
+use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, SetPending, SetPose, TakeRef};
+use crate::adapter::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
+use crate::adapter::plan::{
+    Transaction, key_time,
+    pose::{rotation, vector},
+    rest,
+};
+use crate::adapter::{EditError, TakeId};
+use crate::bones::MirrorPairs;
+use crate::posing::mirror::Mirror;
+use dragonfly_anim::data::Channel;
+use dragonfly_anim::data::Skeleton;
+use dragonfly_anim::sample::sample_channel;
+use glam::{Quat, Vec3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Pastes copied poses. Bones that the model does not have are left out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PastePose {
+    /// The take.
+    pub take: TakeRef,
+    /// Seconds.
+    pub time: f32,
+    /// The copied poses; one for each bone.
+    pub poses: Vec<BonePose>,
+    /// Mirrored to the other side. Which bones are pairs is guessed from their names.
+    #[serde(default)]
+    pub mirrored: bool,
+    /// As pending poses instead of keys.
+    #[serde(default)]
+    pub pending: bool,
+    /// Channels that stand still in steps (two equal keys, as exporters write a channel that does not move) become linear first,
+    /// so that the bone moves to the pose instead of jumping to it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub unstep: bool,
+}
+
+impl EditKind for PastePose {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"paste","take":"Walk","time":1,"poses":[{"bone":"Hand.L","rotation":[0,0.2588190,0,0.9659258]}],"mirrored":true}"#,
+        description: "Gives the right hand the pose of the left one, mirrored.",
+    };
+
+    fn label(&self) -> &'static str {
+        if self.mirrored { "Paste pose mirrored" } else { "Paste pose" }
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        Some(&self.take)
+    }
+
+    fn bones(&self, skeleton: &Skeleton) -> EditedBones {
+        let pairs = self.mirrored.then(|| MirrorPairs::of(skeleton));
+        let given = self.poses.iter().filter_map(|pose| pose.bone.find_in(skeleton));
+        let target = |bone| pairs.as_ref().map_or(Some(bone), |pairs| pairs.mirror_of(bone));
+        EditedBones::Named(given.filter_map(target).collect())
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        let (id, time) = (work.take(&self.take)?, self.time);
+        key_time(time, work.slot(id))?;
+        let mut found = false;
+        let mut poses = Vec::new();
+        let mirror = self.mirrored.then(|| Mirror::of(work.skeleton()));
+        for pose in &self.poses {
+            // The pose may come from a model that has other bones.
+            let Ok(bone) = work.bone(&pose.bone) else { continue };
+            found = true;
+            let translation = pose.translation.map(|given| vector("a translation", given)).transpose()?;
+            let turn = pose.rotation.map(rotation).transpose()?;
+            let scale = pose.scale.map(|given| vector("a scale", given)).transpose()?;
+            let target = match &mirror {
+                None => Some((bone, translation, turn, scale)),
+                Some(mirror) => mirror.target(bone).map(|target| {
+                    let translation = translation.and_then(|given| mirror.translation(bone, given));
+                    let turn = turn.and_then(|given| mirror.rotation(bone, given));
+                    (target, translation, turn, scale.and_then(|given| mirror.scale(bone, given)))
+                }),
+            };
+            if let Some((bone, translation, turn, scale)) = target {
+                poses.push(BonePose {
+                    bone: BoneRef::Index(bone),
+                    translation: changed::<TranslationChannel>(work, id, bone, time, translation)
+                        .map(Vec3::into),
+                    rotation: changed::<RotationChannel>(work, id, bone, time, turn).map(Quat::into),
+                    scale: changed::<ScaleChannel>(work, id, bone, time, scale).map(Vec3::into),
+                });
+            }
+        }
+        if !found {
+            return Err(EditError::Nothing("none of the bones is in this model"));
+        }
+        poses.retain(|pose| pose.translation.is_some() || pose.rotation.is_some() || pose.scale.is_some());
+        if poses.is_empty() {
+            return Err(EditError::Nothing("the bones are in this pose already"));
+        }
+        let take = self.take.clone();
+        if self.pending {
+            SetPending { take, time, poses }.plan(work)
+        } else {
+            SetPose { take, time, poses, unstep: self.unstep }.plan(work)
+        }
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        let [mirrored, pending, unstep] = [(); 3].map(|()| from.flag());
+        Self { take: from.take(), time: from.time(), poses: from.poses(), mirrored, pending, unstep }
+    }
+}
+
+/// Returns the value, unless the channel has no keys and shows that value without them: pasting a pose does not key everything.
+fn changed<K: ChannelKind>(
+    work: &Transaction,
+    take: TakeId,
+    bone: u32,
+    time: f32,
+    value: Option<K::Value>,
+) -> Option<K::Value> {
+    let value = value?;
+    let slot = work.slot(take);
+    let channel: &Channel<K::Value> = K::channel(slot.result.tracks.get(bone as usize)?);
+    let waits = slot.pending_at(time).is_some_and(|at| at.of(bone).is_some());
+    if !channel.is_empty() || waits {
+        return Some(value);
+    }
+    let shown = K::numbers(sample_channel(channel, rest::<K>(work, bone), time));
+    let near = |sign: f32| {
+        let pairs = shown.iter().zip(K::numbers(value));
+        pairs.into_iter().all(|(shown, value)| (shown - sign * value).abs() <= 1e-5 * (1.0 + shown.abs()))
+    };
+    let turn = K::IDENTITY == RotationChannel::IDENTITY;
+    let same = near(1.0) || (turn && near(-1.0));
+    (!same).then_some(value)
+}

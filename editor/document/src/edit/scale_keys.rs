@@ -1,0 +1,56 @@
+//! Scales the times of keys.
+
+use super::kind::EditKind;
+use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef};
+use crate::adapter::EditError;
+use crate::adapter::plan::{KeyMove, Transaction, finite, timing::move_keys};
+use dragonfly_anim::data::Skeleton;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Scales the times of keys about a time; tangents keep their shape. A negative factor reverses their order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScaleKeys {
+    /// The take.
+    pub take: TakeRef,
+    /// The keys.
+    pub keys: Vec<KeySet>,
+    /// Seconds: the time that stays where it is.
+    pub about: f32,
+    /// Factor, not zero.
+    pub factor: f32,
+}
+
+impl EditKind for ScaleKeys {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"scale_keys","take":"Walk","keys":[{"from":0,"to":1}],"about":0,"factor":2}"#,
+        description: "Slows the first second down to half speed.",
+    };
+
+    fn label(&self) -> &'static str {
+        "Scale keys"
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        Some(&self.take)
+    }
+
+    fn bones(&self, skeleton: &Skeleton) -> EditedBones {
+        EditedBones::of_keys(&self.keys, skeleton)
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        let (about, factor) = (finite("the time", self.about)?, finite("the factor", self.factor)?);
+        if factor == 0.0 {
+            return Err(EditError::Number { what: "the factor", value: factor });
+        }
+        let scaled = KeyMove { copy: false, stretch: factor };
+        move_keys(work, &self.take, &self.keys, scaled, |time| about + (time - about) * factor)
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        let factor = from.choice([0.5, 2.0, -1.0, 0.01]);
+        Self { take: from.take(), keys: from.keys(), about: from.time(), factor }
+    }
+}

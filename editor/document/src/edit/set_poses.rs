@@ -1,0 +1,59 @@
+//! Sets poses at several times.
+
+use super::kind::EditKind;
+use super::set_pose::pose_label;
+use super::{Arbitrary, EditedBones, Example, PoseAt, TakeRef};
+use crate::adapter::EditError;
+use crate::adapter::plan::{PoseMode, Transaction, pose};
+use dragonfly_anim::data::Skeleton;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Gives bones poses at several times at once, as one step of the history.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SetPoses {
+    /// The take.
+    pub take: TakeRef,
+    /// The times, each with its poses.
+    pub at: Vec<PoseAt>,
+    /// Channels that stand still in steps (two equal keys, as exporters write a channel that does not move) become linear first,
+    /// so that the bone moves to the pose instead of jumping to it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub unstep: bool,
+}
+
+impl EditKind for SetPoses {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"set_many","take":"Walk","at":[{"time":0.25,"poses":[{"bone":"Head","translation":[0,1,0]}]},{"time":0.5,"poses":[{"bone":"Head","translation":[0,1.1,0]}]}]}"#,
+        description: "Sets the position of the head at 0.25 s and at 0.5 s, in one step.",
+    };
+
+    fn label(&self) -> &'static str {
+        self.at.first().map_or("Pose", |at| pose_label(&at.poses))
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        Some(&self.take)
+    }
+
+    fn bones(&self, skeleton: &Skeleton) -> EditedBones {
+        let poses = self.at.iter().flat_map(|at| &at.poses);
+        EditedBones::named(poses.map(|pose| &pose.bone), skeleton)
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        if self.at.is_empty() {
+            return Err(EditError::Nothing("no pose is given"));
+        }
+        let mut each = self.at.iter();
+        each.try_for_each(|at| {
+            pose::pose_bones(work, &self.take, at.time, &at.poses, PoseMode::Set, self.unstep)
+        })
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        let at = (0..from.below(3)).map(|_| PoseAt { time: from.time(), poses: from.poses() }).collect();
+        Self { take: from.take(), at, unstep: from.flag() }
+    }
+}

@@ -1,0 +1,53 @@
+//! Moves keys to whole frames.
+
+use super::kind::EditKind;
+use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef};
+use crate::adapter::EditError;
+use crate::adapter::plan::{KeyMove, Transaction, timing::move_keys};
+use dragonfly_anim::data::Skeleton;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Moves keys to whole frames.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SnapKeys {
+    /// The take.
+    pub take: TakeRef,
+    /// The keys.
+    pub keys: Vec<KeySet>,
+    /// Frames per second, 1 to 1000; frame 0 is at 0 s.
+    pub rate: f32,
+}
+
+impl EditKind for SnapKeys {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"snap_keys","take":"Walk","keys":[{}],"rate":30}"#,
+        description: "Moves all keys to whole frames.",
+    };
+
+    fn label(&self) -> &'static str {
+        "Snap keys to frames"
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        Some(&self.take)
+    }
+
+    fn bones(&self, skeleton: &Skeleton) -> EditedBones {
+        EditedBones::of_keys(&self.keys, skeleton)
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        if !(1.0..=1000.0).contains(&self.rate) {
+            return Err(EditError::Number { what: "the frame rate", value: self.rate });
+        }
+        let rate = f64::from(self.rate);
+        let nearest = |time: f32| ((f64::from(time) * rate).round() / rate) as f32;
+        move_keys(work, &self.take, &self.keys, KeyMove::PLAIN, nearest)
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        Self { take: from.take(), keys: from.keys(), rate: from.choice([8.0, 24.0, 30.0]) }
+    }
+}

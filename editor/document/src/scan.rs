@@ -1,0 +1,77 @@
+//! The search for unsaved work of an earlier session, and what the user decides about it.
+
+use super::offer::Offer;
+use dragonfly_store::{Autosave, Bounds, Reading};
+
+/// What to do with unsaved work of an earlier session.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decision {
+    /// Restore it, with its history.
+    Keep,
+    /// Open it as a separate document that has no file yet. Its journal stays as it is.
+    Beside,
+    /// Move it to the trash folder.
+    Discard,
+    /// Leave it where it is and offer it again next time.
+    Later,
+}
+
+/// How many journals with nothing but history are kept.
+const HISTORIES: Bounds = Bounds { least: 20, most: 200, bytes: 1 << 30 };
+
+/// The unsaved work in the autosave folder.
+#[derive(Debug, Default)]
+pub(super) struct RecoveryScan {
+    pub(super) offers: Vec<Offer>,
+    /// Messages about journals that cannot be read.
+    pub(super) unreadable: Vec<String>,
+}
+
+impl RecoveryScan {
+    /// Searches the whole folder, and deletes the oldest journals with nothing but history.
+    pub(super) fn of(autosave: &Autosave) -> Self {
+        let mut scan = Self::default();
+        if let Err(error) = autosave.tidy(HISTORIES) {
+            tracing::warn!("{error}");
+        }
+        let found = match autosave.recoverable() {
+            Ok(found) => found,
+            Err(error) => {
+                scan.unreadable.push(error.to_string());
+                return scan;
+            }
+        };
+        for found in found {
+            match &found.reading {
+                Reading::Newer(version) => scan.unreadable.push(format!(
+                    "{}: unsaved work of a newer version of this program (format {version}) cannot be read; the file was not changed",
+                    found.journal.display()
+                )),
+                Reading::Damaged(reason) => scan.unreadable.push(format!(
+                    "{}: the unsaved work cannot be read: {reason}; the file was not changed",
+                    found.journal.display()
+                )),
+                Reading::Whole | Reading::Cut(_) if found.is_offered() => match Offer::of(autosave, &found) {
+                    Ok(offer) if offer.steps > 0 => scan.offers.push(offer),
+                    Ok(_) => {}
+                    Err(reason) => scan.unreadable.push(reason),
+                },
+                Reading::Whole | Reading::Cut(_) => {}
+            }
+        }
+        scan
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_folder_has_no_unsaved_work() {
+        let folder = std::env::temp_dir().join(format!("dragonfly-nothing-{}", std::process::id()));
+        let autosave = Autosave::new(std::sync::Arc::new(dragonfly_store::RealFiles), Some(folder)).unwrap();
+        let scan = RecoveryScan::of(&autosave);
+        assert!(scan.offers.is_empty() && scan.unreadable.is_empty(), "{scan:?}");
+    }
+}

@@ -1,0 +1,143 @@
+//! `dragonfly check FILE…`: everything wrong with models, as a list with places.
+
+use super::choice::{load, plain, source};
+use super::output::{print, print_json};
+use super::table::count;
+use super::{Command, Failure};
+use dragonfly_anim::check::{Severity, check};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+/// Check models against 33 rules: broken data, probable mistakes, oddities
+#[derive(Clone, Debug, clap::Args)]
+#[command(after_help = "\
+Findings are errors (what is shown is a stand-in, or wrong), warnings (allowed, but probably not meant) and notes.\n\
+Warnings of the import are listed as well. Exit code 1: findings at or above --deny.\n\n\
+Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json")]
+pub(super) struct Arguments {
+    /// Models (.glb, .gltf, .dfm), or `demo:` for the built-in dragonfly
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Exit with 1 for findings of this severity or worse
+    #[arg(long, value_name = "SEVERITY", default_value = "error")]
+    deny: Deny,
+    /// One JSON document instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+/// The mildest severity that fails a check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Deny {
+    /// Errors and warnings fail.
+    Warning,
+    /// Only errors fail.
+    Error,
+}
+
+impl Deny {
+    fn denies(self, severity: Severity) -> bool {
+        match severity {
+            Severity::Error => true,
+            Severity::Warning => self == Self::Warning,
+            Severity::Note => false,
+        }
+    }
+}
+
+impl Command for Arguments {
+    fn run(self) -> Result<(), Failure> {
+        let mut reports = Vec::with_capacity(self.files.len());
+        let mut failure = None;
+        for file in &self.files {
+            match Report::of(file, self.deny) {
+                Ok(report) => reports.push(report),
+                // The files after it are checked too; the first unreadable one decides the exit code.
+                Err(error) => {
+                    if let Some(earlier) = failure.replace(error) {
+                        earlier.report();
+                    }
+                }
+            }
+        }
+        let denied = reports.iter().any(|report| report.denied > 0);
+        if self.json {
+            print_json(&reports)?;
+        } else {
+            print(|out| reports.iter().try_for_each(|report| report.write(out)))?;
+        }
+        match failure {
+            Some(error) => Err(error),
+            None if denied => Err(Failure::Difference),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The findings in one file.
+#[derive(Serialize)]
+struct Report {
+    file: String,
+    errors: usize,
+    warnings: usize,
+    notes: usize,
+    /// Findings at or above the severity that fails the check.
+    #[serde(skip)]
+    denied: usize,
+    findings: Vec<Row>,
+}
+
+/// One finding.
+#[derive(Serialize)]
+struct Row {
+    severity: &'static str,
+    rule: &'static str,
+    place: String,
+    text: String,
+}
+
+impl Report {
+    fn of(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
+        let loaded = load(&source(file))?;
+        let mut report =
+            Self { file: loaded.title, errors: 0, warnings: 0, notes: 0, denied: 0, findings: Vec::new() };
+        let imported = loaded.warnings.into_iter();
+        for text in imported {
+            report.add(
+                deny,
+                Severity::Warning,
+                Row { severity: "", rule: "IMPORT", place: String::new(), text },
+            );
+        }
+        for finding in check(&loaded.model) {
+            let row =
+                Row { severity: "", rule: finding.rule, place: finding.path.to_string(), text: finding.text };
+            report.add(deny, finding.severity, row);
+        }
+        Ok(report)
+    }
+
+    fn add(&mut self, deny: Deny, severity: Severity, row: Row) {
+        let (number, name) = match severity {
+            Severity::Error => (&mut self.errors, "error"),
+            Severity::Warning => (&mut self.warnings, "warning"),
+            Severity::Note => (&mut self.notes, "note"),
+        };
+        *number += 1;
+        self.denied += usize::from(deny.denies(severity));
+        self.findings.push(Row { severity: name, ..row });
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let errors = count(self.errors, "error", "errors");
+        let warnings = count(self.warnings, "warning", "warnings");
+        let notes = count(self.notes, "note", "notes");
+        writeln!(out, "{}: {errors}, {warnings}, {notes}", plain(&self.file))?;
+        for Row { severity, rule, place, text } in &self.findings {
+            let place = if place.is_empty() { String::new() } else { format!("{}: ", plain(place)) };
+            writeln!(out, "  {severity}: {place}{} ({rule})", plain(text))?;
+        }
+        Ok(())
+    }
+}

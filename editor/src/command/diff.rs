@@ -1,0 +1,243 @@
+//! `dragonfly diff A B`: how far the takes of two files are apart.
+
+use super::choice::{finite, load, plain, source};
+use super::info::named;
+use super::output::{print, print_json};
+use super::table::{Side, Table, count};
+use super::{Command, Failure};
+use dragonfly_anim::compare::{BoneDifference, Peak, TakeDifference, compare_takes, pair_bones};
+use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+/// Bones listed for a take in the text; the JSON has all of them.
+const BONES_SHOWN: usize = 5;
+/// Smaller angles count as equal, degrees.
+const ANGLE_TOLERANCE: f32 = 0.01;
+/// Smaller differences of a morph weight count as equal.
+const WEIGHT_TOLERANCE: f32 = 1e-4;
+/// Millimetres in a unit of the scene, which is a metre.
+const MILLIMETRES: f32 = 1000.0;
+
+/// Compare the takes of two files: which differ, which bones, how far in mm and degrees, and when
+#[derive(Clone, Debug, clap::Args)]
+#[command(after_help = "\
+Takes and bones are paired by name. Distances are between joints in scene space, where a unit counts as a metre; angles\n\
+are between rotations in scene space. Exit code 1: a take or bone has no counterpart, or a difference is above the tolerance.\n\n\
+Examples:\n  dragonfly diff Fox.glb Fox2.glb\n  dragonfly diff Fox.glb Fox2.glb --tolerance 0.5 --json")]
+pub(super) struct Arguments {
+    /// A model, or `demo:` for the built-in dragonfly
+    #[arg(value_name = "A")]
+    first: PathBuf,
+    /// The model to compare it with
+    #[arg(value_name = "B")]
+    second: PathBuf,
+    /// Largest distance that counts as equal, millimetres
+    #[arg(long, value_name = "MM", default_value = "0.01", value_parser = finite)]
+    tolerance: f32,
+    /// Largest angle that counts as equal, degrees
+    #[arg(long, value_name = "DEG", default_value_t = ANGLE_TOLERANCE, value_parser = finite)]
+    angle: f32,
+    /// One JSON document instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+impl Command for Arguments {
+    fn run(self) -> Result<(), Failure> {
+        let first = load(&source(&self.first))?;
+        let second = load(&source(&self.second))?;
+        let titles = [first.title.clone(), second.title.clone()];
+        let difference = Difference::of(titles, &first.model, &second.model, self.tolerance, self.angle);
+        if self.json {
+            print_json(&difference)?;
+        } else {
+            print(|out| difference.write(out))?;
+        }
+        if difference.differs { Err(Failure::Difference) } else { Ok(()) }
+    }
+}
+
+/// The comparison of two files.
+#[derive(Serialize)]
+struct Difference {
+    files: [String; 2],
+    differs: bool,
+    only_in_first: OnlyIn,
+    only_in_second: OnlyIn,
+    takes: Vec<TakeRow>,
+}
+
+/// Names without a counterpart in the other file.
+#[derive(Serialize)]
+struct OnlyIn {
+    takes: Vec<String>,
+    bones: Vec<String>,
+}
+
+impl OnlyIn {
+    fn is_empty(&self) -> bool {
+        self.takes.is_empty() && self.bones.is_empty()
+    }
+}
+
+/// One take that both files have.
+#[derive(Serialize)]
+struct TakeRow {
+    name: String,
+    differs: bool,
+    /// Start and end in the first and in the second file, seconds.
+    ranges: [[f32; 2]; 2],
+    largest_weight_difference: ValueAt,
+    /// Bones that differ, the one with the largest distance first.
+    bones: Vec<BoneRow>,
+}
+
+/// The largest differences of one bone.
+#[derive(Serialize)]
+struct BoneRow {
+    name: String,
+    distance_mm: ValueAt,
+    angle_degrees: ValueAt,
+}
+
+/// A value and the time at which it occurs, seconds.
+#[derive(Clone, Copy, Serialize)]
+struct ValueAt {
+    value: f32,
+    time: f32,
+}
+
+impl ValueAt {
+    fn of(peak: Peak, factor: f32) -> Self {
+        Self { value: (peak.value * factor).min(f32::MAX), time: peak.time }
+    }
+}
+
+impl Difference {
+    fn of(files: [String; 2], first: &ModelData, second: &ModelData, tolerance: f32, angle: f32) -> Self {
+        let (takes, others) = (&first.animation.takes, &second.animation.takes);
+        let (skeleton, other_skeleton) = (&*first.animation.skeleton, &*second.animation.skeleton);
+        let pairs = pair_bones(skeleton, other_skeleton);
+        let mut is_paired = vec![false; others.len()];
+        let (mut rows, mut only_takes) = (Vec::new(), Vec::new());
+        for take in takes {
+            let same = |index: &usize| !is_paired[*index] && others[*index].name == take.name;
+            let Some(index) = (0..others.len()).find(same) else {
+                only_takes.push(take.name.clone());
+                continue;
+            };
+            is_paired[index] = true;
+            let other = &others[index];
+            let difference = compare_takes((skeleton, take), (other_skeleton, other));
+            let ranges = [[take.start, take.end()], [other.start, other.end()]];
+            rows.push(TakeRow::of(take.name.clone(), ranges, &difference, skeleton, tolerance, angle));
+        }
+        let left = is_paired.iter().zip(others).filter(|(is_paired, _)| !**is_paired);
+        let only_in_first = OnlyIn { takes: only_takes, bones: names(skeleton, &pairs.only_first) };
+        let only_in_second = OnlyIn {
+            takes: left.map(|(_, take)| take.name.clone()).collect(),
+            bones: names(other_skeleton, &pairs.only_second),
+        };
+        let differs = rows.iter().any(|row: &TakeRow| row.differs)
+            || !only_in_first.is_empty()
+            || !only_in_second.is_empty();
+        Self { files, differs, only_in_first, only_in_second, takes: rows }
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        for (file, other, only) in [
+            (&self.files[0], &self.files[1], &self.only_in_first),
+            (&self.files[1], &self.files[0], &self.only_in_second),
+        ] {
+            for (names, kind) in [(&only.takes, "take"), (&only.bones, "bone")] {
+                for name in names {
+                    writeln!(out, "{}: {kind} {} is not in {}", plain(file), named(name), plain(other))?;
+                }
+            }
+        }
+        for take in &self.takes {
+            take.write(out)?;
+        }
+        if !self.differs {
+            writeln!(out, "no difference in {}", count(self.takes.len(), "take", "takes"))?;
+        }
+        Ok(())
+    }
+}
+
+impl TakeRow {
+    fn of(
+        name: String,
+        ranges: [[f32; 2]; 2],
+        difference: &TakeDifference,
+        skeleton: &Skeleton,
+        tolerance: f32,
+        angle: f32,
+    ) -> Self {
+        let differs = |bone: &&BoneDifference| {
+            bone.distance.value * MILLIMETRES > tolerance || bone.angle.value.to_degrees() > angle
+        };
+        let mut apart: Vec<&BoneDifference> = difference.bones.iter().filter(differs).collect();
+        apart.sort_by(|a, b| b.distance.value.total_cmp(&a.distance.value));
+        let bones: Vec<BoneRow> = apart
+            .into_iter()
+            .map(|bone| BoneRow {
+                name: bone_name(skeleton, bone.first),
+                distance_mm: ValueAt::of(bone.distance, MILLIMETRES),
+                angle_degrees: ValueAt::of(bone.angle, 1.0_f32.to_degrees()),
+            })
+            .collect();
+        let differs = !bones.is_empty() || difference.weight.value > WEIGHT_TOLERANCE;
+        let largest_weight_difference = ValueAt::of(difference.weight, 1.0);
+        Self { name, differs, ranges, largest_weight_difference, bones }
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        if !self.differs {
+            return Ok(());
+        }
+        writeln!(out, "take {}: {} differ", named(&self.name), count(self.bones.len(), "bone", "bones"))?;
+        let [[start, end], [other_start, other_end]] = self.ranges;
+        if [start, end] != [other_start, other_end] {
+            writeln!(out, "  range {start:.3}–{end:.3} s and {other_start:.3}–{other_end:.3} s")?;
+        }
+        let ValueAt { value, time } = self.largest_weight_difference;
+        if value > WEIGHT_TOLERANCE {
+            writeln!(out, "  morph weights differ by up to {value:.4}, at {time:.3} s")?;
+        }
+        if self.bones.is_empty() {
+            return Ok(());
+        }
+        let mut table = Table::new(&[
+            ("bone", Side::Left),
+            ("distance", Side::Right),
+            ("at", Side::Right),
+            ("angle", Side::Right),
+            ("at", Side::Right),
+        ]);
+        for bone in self.bones.iter().take(BONES_SHOWN) {
+            table.row([
+                named(&bone.name),
+                format!("{:.2} mm", bone.distance_mm.value),
+                format!("{:.3} s", bone.distance_mm.time),
+                format!("{:.2}°", bone.angle_degrees.value),
+                format!("{:.3} s", bone.angle_degrees.time),
+            ]);
+        }
+        table.write(out)?;
+        if self.bones.len() > BONES_SHOWN {
+            writeln!(out, "  … and {} more; --json lists them all", self.bones.len() - BONES_SHOWN)?;
+        }
+        Ok(())
+    }
+}
+
+fn bone_name(skeleton: &Skeleton, bone: BoneIndex) -> String {
+    skeleton.bones.get(bone as usize).map_or_else(String::new, |bone| bone.name.clone())
+}
+
+fn names(skeleton: &Skeleton, bones: &[BoneIndex]) -> Vec<String> {
+    bones.iter().map(|&bone| bone_name(skeleton, bone)).collect()
+}

@@ -1,0 +1,106 @@
+//! `dragonfly check` and `dragonfly diff`: findings and differences as text, as JSON and as an exit code.
+
+use crate::program::run;
+use dragonfly_kit::folder::{Folder, data};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("UTF-8")
+}
+
+fn fox() -> PathBuf {
+    data("gltf/Fox.glb")
+}
+
+/// A copy of Fox to which `edits` were applied, one JSON object a line.
+fn edited(folder: &Folder, name: &str, edits: &str) -> PathBuf {
+    let (lines, out) = (folder.join("edits.jsonl"), folder.join(name));
+    std::fs::write(&lines, edits).expect("written");
+    run(["edit", text(&fox()), "--edits", text(&lines), "-o", text(&out)]).expect(0);
+    out
+}
+
+#[test]
+fn a_sound_model_passes_the_check() {
+    let outcome = run(["check", "demo:"]).expect(0);
+    assert!(outcome.text().contains("0 errors, 0 warnings"), "{}", outcome.text());
+    let reports = run(["check", "demo:", text(&fox()), "--json"]).expect(0).json();
+    assert_eq!(reports.as_array().map(Vec::len), Some(2), "{reports}");
+    assert_eq!(reports[0]["errors"], 0);
+}
+
+#[test]
+fn warnings_fail_a_check_only_where_they_are_denied() {
+    let files: Vec<PathBuf> = std::fs::read_dir(data("gltf"))
+        .expect("the models")
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "glb"))
+        .collect();
+    let warned = files.iter().find_map(|path| {
+        let report = run(["check", text(path), "--json"]);
+        if report.code != Some(0) {
+            return None;
+        }
+        let report: Value = report.json();
+        (report[0]["warnings"].as_u64() > Some(0)).then(|| (path, report))
+    });
+    let (path, report) = warned.expect("a model of tests/data has a warning");
+    let denied = run(["check", text(path), "--deny", "warning"]).expect(1);
+    let listed = report[0]["findings"].as_array().expect("findings").iter();
+    for finding in listed.filter(|finding| finding["severity"] == "warning") {
+        let words = finding["text"].as_str().expect("a text");
+        assert!(denied.text().contains(words), "{words} is not in {}", denied.text());
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_does_not_hide_the_findings_of_the_others() {
+    let outcome = run(["check", "nowhere.glb", "demo:"]).expect(2);
+    assert!(outcome.stderr.contains("nowhere.glb"), "{}", outcome.stderr);
+    assert!(outcome.text().contains("0 errors"), "{}", outcome.text());
+}
+
+#[test]
+fn a_file_does_not_differ_from_itself() {
+    let outcome = run(["diff", text(&fox()), text(&fox()), "--tolerance", "0"]).expect(0);
+    assert_eq!(outcome.text(), "no difference in 3 takes\n");
+}
+
+#[test]
+fn a_changed_key_is_found_with_its_bone_its_distance_and_its_time() {
+    let folder = Folder::new("diff");
+    // Half a turn of the head at a key of the second take.
+    let edit =
+        r#"{"edit":"set","take":"Walk","time":0.0,"poses":[{"bone":"b_Head_05","rotation":[0,0,1,0]}]}"#;
+    let other = edited(&folder, "Fox2.glb", edit);
+    let outcome = run(["diff", text(&fox()), text(&other)]).expect(1);
+    assert!(
+        outcome.text().contains("take Walk: ") && outcome.text().contains("b_Head_05"),
+        "{}",
+        outcome.text()
+    );
+    assert!(!outcome.text().contains("take Survey") && !outcome.text().contains("take Run"));
+    let json = run(["diff", text(&fox()), text(&other), "--json"]).expect(1).json();
+    assert_eq!(json["differs"], true);
+    let walk = &json["takes"][1];
+    let bones = walk["bones"].as_array().expect("bones");
+    let head = bones.iter().find(|bone| bone["name"] == "b_Head_05").expect("the head");
+    assert!(head["angle_degrees"]["value"].as_f64() > Some(10.0), "{head}");
+    assert_eq!(head["distance_mm"]["value"], 0.0, "its joint stays");
+    // The rest of the body has not moved.
+    assert!(bones.iter().all(|bone| bone["name"] != "b_Hip_01"), "{walk}");
+    // With a tolerance above all differences the files count as equal.
+    run(["diff", text(&fox()), text(&other), "--tolerance", "1e9", "--angle", "181"]).expect(0);
+}
+
+#[test]
+fn takes_and_bones_without_a_counterpart_are_differences() {
+    let folder = Folder::new("diff-names");
+    let other = edited(&folder, "Fox3.glb", r#"{"edit":"rename_take","take":"Run","name":"Sprint"}"#);
+    let outcome = run(["diff", text(&fox()), text(&other)]).expect(1);
+    assert!(outcome.text().contains("Fox.glb: take Run is not in Fox3.glb"), "{}", outcome.text());
+    assert!(outcome.text().contains("Fox3.glb: take Sprint is not in Fox.glb"), "{}", outcome.text());
+    let json = run(["diff", text(&fox()), "demo:", "--json"]).expect(1).json();
+    assert!(json["only_in_first"]["bones"].as_array().is_some_and(|bones| bones.len() > 10), "{json}");
+}
