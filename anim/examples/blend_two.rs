@@ -5,20 +5,12 @@
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::blend::{CrossFade, Cycle, FadeCurve, Layer, Mask, blend};
 use dragonfly_anim::data::{AnimationData, Take, Transform};
-use dragonfly_anim::format::{AssetError, AssetFs, ReadOptions, read};
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::sample::sample_take;
 use glam::Mat4;
 use std::error::Error;
 
 const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
-
-struct NoOtherFiles;
-
-impl AssetFs for NoOtherFiles {
-    fn read(&self, _path: &str, _limit: u64) -> Result<Vec<u8>, AssetError> {
-        Err(AssetError::Missing)
-    }
-}
 
 fn take<'a>(data: &'a AnimationData, name: &str) -> Result<&'a Take, String> {
     let found = data.takes.iter().find(|take| take.name == name);
@@ -26,7 +18,7 @@ fn take<'a>(data: &'a AnimationData, name: &str) -> Result<&'a Take, String> {
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    let data = read("Fox.glb", &std::fs::read(FOX)?, &NoOtherFiles, &ReadOptions::default())?.model.animation;
+    let data = read("Fox.glb", &std::fs::read(FOX)?, &NoFiles, &ReadOptions::default())?.model.animation;
     let (skeleton, bones) = (&*data.skeleton, data.skeleton.len());
     let (walk, run, survey) = (take(&data, "Walk")?, take(&data, "Run")?, take(&data, "Survey")?);
     let neck = skeleton.find("b_Neck_04").ok_or("the fox has no neck")?;

@@ -41,7 +41,7 @@ pub(crate) fn show(path: &str) -> Result<(), Box<dyn Error>> {
         let mut pose = Pose::new(back.bones());
         back.sample(back.start() + back.length() / 2.0, &mut pose);
         if let Some(last) = pose.get(back.bones().saturating_sub(1)) {
-            println!("  half way, the last bone stands at {}", last.translation);
+            println!("  half way, the last bone is at {}", last.translation);
         }
     }
     Ok(())

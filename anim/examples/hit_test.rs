@@ -10,11 +10,11 @@ use std::sync::Arc;
 const FOX: &[u8] = include_bytes!("../../tests/data/gltf/Fox.glb");
 
 pub(crate) fn main() {
-    let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a sound file").model;
+    let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a valid file").model;
     let model = Arc::new(model);
 
     // Once per model. `tree.parts()` can be stored with it, and restored by `HitTree::from_parts`.
-    let tree = Arc::new(HitTree::of(&model).expect("a model of usual size"));
+    let tree = Arc::new(HitTree::of(&model).expect("the model is not too large"));
     let boxes = BoneBoxes::of(&model);
 
     // Once per scene.

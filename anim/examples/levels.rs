@@ -10,7 +10,7 @@ use std::sync::Arc;
 const FOX: &[u8] = include_bytes!("../../tests/data/gltf/Fox.glb");
 
 pub(crate) fn main() {
-    let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a sound file").model;
+    let model = read("Fox.glb", FOX, &NoFiles, &ReadOptions::default()).expect("a valid file").model;
 
     // Once per model: other indices for the same vertices, and the error of each level in the poses of the takes.
     let chain = levels(&model, &LevelSettings::default());

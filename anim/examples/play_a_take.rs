@@ -3,26 +3,17 @@
 //! `cargo run -p dragonfly-anim --example play_a_take [FILE.glb]`
 
 use dragonfly_anim::animation::Animation;
-use dragonfly_anim::format::{AssetError, AssetFs, ReadOptions, read};
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::sample::PlayMode;
 use std::error::Error;
 
 const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb");
 
-/// For a model in a single file: references to other files are refused.
-struct NoOtherFiles;
-
-impl AssetFs for NoOtherFiles {
-    fn read(&self, _path: &str, _limit: u64) -> Result<Vec<u8>, AssetError> {
-        Err(AssetError::Missing)
-    }
-}
-
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     // The library opens no file: the caller passes the bytes.
     let file = std::env::args().skip(1).find(|argument| argument.ends_with(".glb"));
     let bytes = std::fs::read(file.as_deref().unwrap_or(FOX))?;
-    let model = read("model.glb", &bytes, &NoOtherFiles, &ReadOptions::default())?.model;
+    let model = read("model.glb", &bytes, &NoFiles, &ReadOptions::default())?.model;
 
     let mut animation = Animation::of(&model);
     let take = model.animation.takes.last().ok_or("the file has no take")?.clone();

@@ -1,4 +1,4 @@
-//! An arm reaches for a point that moves: sample a take, solve, chain the poses again.
+//! Moves the hand of an arm to a moving point: samples a take, solves, chains the poses again.
 //!
 //! `cargo run -p dragonfly-anim --example reach_with_ik`
 

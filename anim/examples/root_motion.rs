@@ -8,7 +8,7 @@ use dragonfly_anim::sample::PlayMode;
 use glam::{Mat4, Vec3};
 
 pub(crate) fn main() {
-    // One bone at hip height that walks 1.2 m along z in a second, up and down a little.
+    // One bone at hip height that walks 1.2 m along z in a second, slightly up and down.
     let rest = Transform { translation: Vec3::Y, ..Transform::IDENTITY };
     let name = "hips".to_owned();
     let hips = Bone { name, parent: None, rest, rest_matrix: None, offset: Mat4::IDENTITY, node: None };

@@ -27,7 +27,7 @@ fn figure(names: [&str; 4], height: f32, rest: f32) -> Skeleton {
 }
 
 pub(crate) fn main() {
-    // T-pose here, arms straight down there.
+    // The source is in T-pose, the target has its arms straight down.
     let source = figure(["Hips", "LeftFoot", "LeftArm", "LeftHand"], 1.0, 0.0);
     let target = figure(["mixamorig:Hips", "foot.L", "arm.L", "hand_l"], 1.5, -FRAC_PI_2);
     let binding = SkeletonBinding::by_name(&source, &target);

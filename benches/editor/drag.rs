@@ -85,7 +85,7 @@ fn thousand(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opene
         bounds: bounds_of_pose(&model, None, 0.0),
         title: "Thousand".to_owned(),
         path: None,
-        format: "code".to_owned(),
+        format: None,
         model,
         images: Vec::new(),
         warnings: Vec::new(),

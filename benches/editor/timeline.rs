@@ -276,7 +276,7 @@ fn view() -> View {
     let loaded = LoadedModel {
         title: "large.glb".to_owned(),
         path: None,
-        format: "glb".to_owned(),
+        format: Some(dragonfly_anim::format::gltf::GLB),
         bounds: Bounds { min: -Vec3::ONE, max: Vec3::ONE, ..Bounds::default() },
         model,
         images: Vec::new(),

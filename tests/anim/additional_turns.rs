@@ -1,4 +1,4 @@
-//! Single bones do something more than the animation says.
+//! Additional transforms of single bones on top of an animation.
 
 use crate::blending::{a_pose, a_rotation, assert_sound, bits, hostile};
 use crate::support::{angle_between, assert_near, bone};
@@ -27,8 +27,8 @@ fn entry(bone: u32, transform: Transform, space: Space, mode: AdditionalMode) ->
     Additional { bone, transform, space, mode, parts: PoseParts::ALL, weight: 1.0 }
 }
 
-/// A pose with one scale for all axes, perhaps mirrored: where turns in other spaces are exact.
-fn an_even_pose() -> impl Strategy<Value = Transform> {
+/// A pose with a uniform scale, perhaps mirrored: for these, rotations in other spaces are exact.
+fn a_uniform_pose() -> impl Strategy<Value = Transform> {
     (a_pose(), 0.2_f32..2.0, any::<bool>()).prop_map(|(pose, scale, mirrored)| {
         let scale = Vec3::new(if mirrored { -scale } else { scale }, scale, scale);
         Transform { scale, ..pose }
@@ -51,7 +51,7 @@ proptest! {
 
     #[test]
     fn a_turn_in_the_scene_turns_the_bones_matrix_from_outside(
-        pose in prop::collection::vec(an_even_pose(), 4), turn in a_rotation(), by in prop::array::uniform3(-1.0_f32..1.0),
+        pose in prop::collection::vec(a_uniform_pose(), 4), turn in a_rotation(), by in prop::array::uniform3(-1.0_f32..1.0),
     ) {
         let skeleton = chain(4);
         let transform = Transform { rotation: turn, translation: Vec3::from_array(by), ..REST };
@@ -68,18 +68,18 @@ proptest! {
 
     #[test]
     fn replacing_in_the_scene_puts_the_bone_there(
-        pose in prop::collection::vec(an_even_pose(), 3), there in an_even_pose(),
+        pose in prop::collection::vec(a_uniform_pose(), 3), there in a_uniform_pose(),
     ) {
         let skeleton = chain(3);
         let mut poses = pose;
         apply(&skeleton, &[entry(2, there, Space::Root, AdditionalMode::Replace)], &mut poses);
         let (got, expected) = (matrices(&skeleton, &poses)[2], there.to_matrix());
-        // Rounding grows by what the parents scale up and down.
+        // The rounding error grows with the scales of the parents.
         prop_assert!(got.abs_diff_eq(expected, 5e-3), "{got}\n{expected}");
     }
 
     #[test]
-    fn adding_in_the_bones_space_is_the_product_of_matrices(pose in an_even_pose(), by in an_even_pose()) {
+    fn adding_in_the_bones_space_is_the_product_of_matrices(pose in a_uniform_pose(), by in a_uniform_pose()) {
         let skeleton = chain(1);
         let by = Transform { scale: Vec3::splat(by.scale.y), ..by };
         let pose = Transform { scale: Vec3::splat(pose.scale.y), ..pose };
@@ -90,7 +90,7 @@ proptest! {
 }
 
 #[test]
-fn aiming_while_running_turns_the_spine_and_what_hangs_on_it() {
+fn aiming_while_running_turns_the_spine_and_its_descendants() {
     let skeleton = chain(3);
     let running = [
         Transform { rotation: Quat::from_rotation_y(0.3), translation: Vec3::Z, ..REST },
@@ -101,7 +101,7 @@ fn aiming_while_running_turns_the_spine_and_what_hangs_on_it() {
     let mut poses = running;
     apply(&skeleton, &[Additional::turn(1, aim, Space::Root)], &mut poses);
     let (before, after) = (matrices(&skeleton, &running), matrices(&skeleton, &poses));
-    assert_eq!(after[0], before[0], "the hips run on");
+    assert_eq!(after[0], before[0], "the hips keep the running pose");
     for bone in [1, 2] {
         let axes = |matrix: Mat4| Mat3::from_mat4(matrix);
         assert!(axes(after[bone]).abs_diff_eq(Mat3::from_quat(aim) * axes(before[bone]), 1e-6));
@@ -128,7 +128,7 @@ fn the_three_spaces_turn_about_three_axes() {
         let mut poses = running;
         apply(&skeleton, &[Additional::turn(1, turn, space)], &mut poses);
         assert!(angle_between(poses[1].rotation, expected) < 1e-6, "{space:?}");
-        // Half the weight, half the angle.
+        // Half the weight gives half the angle.
         let mut half = running;
         apply(&skeleton, &[Additional { weight: 0.5, ..Additional::turn(1, turn, space) }], &mut half);
         assert!((angle_between(half[1].rotation, tilted) - 0.2).abs() < 1e-6, "{space:?}");
@@ -143,14 +143,14 @@ fn entries_are_applied_in_order() {
     let turns = [Additional::turn(0, x, Space::Parent), Additional::turn(0, y, Space::Parent)];
     apply(&skeleton, &turns, &mut poses);
     assert!(angle_between(poses[0].rotation, y * x) < 1e-6);
-    // A replacement takes away what came before it.
+    // A replacement discards what came before it.
     let still = entry(0, REST, Space::Parent, AdditionalMode::Replace);
     apply(&skeleton, &[turns[0], still], &mut poses);
     assert_eq!(poses[0], REST);
 }
 
 #[test]
-fn a_replacement_in_the_bones_space_begins_at_its_rest() {
+fn a_replacement_in_the_space_of_the_bone_starts_from_its_rest_pose() {
     let mut skeleton = chain(1);
     skeleton.bones[0].rest.rotation = Quat::from_rotation_x(0.3);
     let mut poses = [Transform { rotation: Quat::from_rotation_z(2.0), translation: Vec3::X, ..REST }];
@@ -161,7 +161,7 @@ fn a_replacement_in_the_bones_space_begins_at_its_rest() {
 }
 
 #[test]
-fn only_the_named_parts_are_touched() {
+fn only_the_selected_components_change() {
     let skeleton = chain(1);
     let running =
         Transform { translation: Vec3::new(0.1, -0.0, 0.3), scale: Vec3::new(1.0, 2.0, -1.0), ..REST };
@@ -174,7 +174,7 @@ fn only_the_named_parts_are_touched() {
 }
 
 #[test]
-fn entries_that_cannot_be_applied_are_passed_over() {
+fn entries_that_cannot_be_applied_are_skipped() {
     let skeleton = chain(2);
     let turn = Quat::from_rotation_y(0.4);
     let bent = Transform { translation: Vec3::Y, rotation: Quat::from_rotation_x(1.0), scale: Vec3::X };
@@ -187,7 +187,13 @@ fn entries_that_cannot_be_applied_are_passed_over() {
             Additional::turn(2, turn, Space::Bone),
             Additional::turn(u32::MAX, turn, Space::Root),
             entry(1, nan, Space::Parent, AdditionalMode::Replace),
-            // The bone above has no size: nothing in the scene can be said in its axes.
+            // The parent has a scale of zero: its space cannot be inverted.
+            entry(
+                1,
+                Transform { translation: Vec3::X, rotation: turn, ..REST },
+                Space::Root,
+                AdditionalMode::Add,
+            ),
             entry(
                 1,
                 Transform { translation: Vec3::X, rotation: turn, ..REST },
@@ -209,7 +215,7 @@ fn entries_that_cannot_be_applied_are_passed_over() {
 }
 
 #[test]
-fn hostile_poses_and_entries_give_numbers() {
+fn invalid_poses_and_entries_give_finite_results() {
     let seed = seed(60);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -221,7 +227,7 @@ fn hostile_poses_and_entries_give_numbers() {
         let touched = random.below(3);
         let entry = Additional {
             bone: touched as u32,
-            // Sound as often as not.
+            // Every second transform is valid.
             transform: if round % 2 == 0 {
                 hostile(&mut random)
             } else {

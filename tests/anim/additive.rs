@@ -1,4 +1,4 @@
-//! What one pose has more than another, on top of a third.
+//! Additive layers: the difference between two poses, applied to a third one.
 
 use crate::blending::{a_pose, a_pose_with_size, all_bits, assert_sound, bits, hostile};
 use crate::support::angle_between;
@@ -26,7 +26,7 @@ proptest! {
     #[test]
     fn a_difference_added_to_its_reference_is_the_pose(pose in a_pose(), reference in a_pose_with_size()) {
         let got = add_to(reference, difference_of(pose, reference), 1.0);
-        // Beside the larger of the two, where rounding happens.
+        // Relative to the larger of the two, where rounding happens.
         let size = pose.translation.length().max(reference.translation.length()).max(1.0);
         prop_assert!(got.translation.distance(pose.translation) < 1e-6 * size, "{got:?}");
         prop_assert!(angle_between(got.rotation, pose.rotation) < 1e-6, "{got:?}");
@@ -44,7 +44,7 @@ proptest! {
 }
 
 #[test]
-fn a_nod_stays_a_nod_whatever_is_below() {
+fn an_additive_nod_is_the_same_nod_on_every_base_pose() {
     let nod = Transform { rotation: Quat::from_rotation_x(0.6), ..REST };
     let reference = Transform { rotation: Quat::from_rotation_y(1.0), ..REST };
     let nodding = Transform { rotation: nod.rotation * reference.rotation, ..REST };
@@ -78,7 +78,7 @@ fn translations_are_added_and_scales_multiplied() {
 }
 
 #[test]
-fn a_scale_of_zero_has_no_factor() {
+fn a_scale_of_zero_adds_no_factor() {
     let flat = Transform { scale: Vec3::new(0.0, 1.0, -0.0), ..REST };
     assert_eq!(difference_of(REST, flat).scale, Vec3::ONE);
     assert_eq!(difference_of(flat, REST).scale, Vec3::new(0.0, 1.0, 0.0));
@@ -98,7 +98,7 @@ fn parts_without_a_difference_keep_every_bit() {
 }
 
 #[test]
-fn very_different_scales_come_back_too() {
+fn very_different_scales_are_restored() {
     let (tiny, huge) =
         (Transform { scale: Vec3::splat(1.1e-6), ..REST }, Transform { scale: Vec3::splat(3.3e4), ..REST });
     for (pose, reference) in [(tiny, huge), (huge, tiny)] {
@@ -108,13 +108,13 @@ fn very_different_scales_come_back_too() {
 }
 
 #[test]
-fn a_mask_says_which_bones_get_how_much() {
+fn a_mask_weights_the_difference_of_each_bone() {
     let step = [Transform { translation: Vec3::X, ..REST }; 4];
     let mask = Mask::from_weights([0.0, 0.5, 1.0]);
     let mut out = [REST; 5];
     add(&[REST; 5], &step, 2.0, Some(&mask), &mut out);
     assert_eq!(out.map(|pose| pose.translation.x), [0.0, 1.0, 2.0, 0.0, 0.0]);
-    // Shorter columns: the base stays, or the identity stands in.
+    // Shorter slices: the base stays, or the identity is used.
     add(&step[..2], &step[..1], 1.0, None, &mut out);
     assert_eq!(out.map(|pose| pose.translation.x), [2.0, 1.0, 0.0, 0.0, 0.0]);
     difference(&step, &[REST; 3], &mut out);
@@ -122,7 +122,7 @@ fn a_mask_says_which_bones_get_how_much() {
 }
 
 #[test]
-fn hostile_differences_add_numbers() {
+fn invalid_differences_give_finite_results() {
     let seed = seed(46);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);

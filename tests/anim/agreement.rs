@@ -1,6 +1,7 @@
-//! Poses agree with those that independent programs computed from the same files, on the open path and on the fast one.
+//! Poses agree with those that independent programs computed from the same files, on the open path and on the fast
+//! path.
 
-use crate::doors::{FolderFs, data};
+use crate::doors::{TestFolder, data};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::fast::matrix::{self, mat4};
@@ -12,14 +13,14 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Difference allowed, relative to the largest number of the matrix or point, or to 1 when that is smaller.
+/// Allowed difference, relative to the largest number of the matrix or point, or to 1 if that is smaller.
 const RELATIVE: f64 = 1e-4;
 
-/// Counts comparisons and remembers the worst.
+/// Counts comparisons and keeps the largest difference.
 #[derive(Default)]
 struct Comparison {
     numbers: usize,
-    /// Largest difference in units of what is allowed; at most 1 is agreement.
+    /// Largest difference in units of the allowed one; at most 1 is agreement.
     worst: f64,
     place: String,
 }
@@ -44,12 +45,12 @@ impl Comparison {
 fn load(path: &Path) -> ModelData {
     let bytes = std::fs::read(path).unwrap();
     let name = path.file_name().unwrap().to_str().unwrap();
-    let door = FolderFs(path.parent().unwrap().to_owned());
+    let door = TestFolder(path.parent().unwrap().to_owned());
     let imported = read(name, &bytes, &door, &ReadOptions::default());
     imported.unwrap_or_else(|error| panic!("{}: {error}", path.display())).model
 }
 
-/// One pose of the expected file against ours.
+/// Compares one pose of the expected file with ours.
 fn compare_pose(evaluator: &Evaluator, expected: &Value, place: &str, comparison: &mut Comparison) {
     let model = evaluator.model().clone();
     for (node, world) in expected["world"].as_object().unwrap() {
@@ -88,7 +89,7 @@ fn compare_pose(evaluator: &Evaluator, expected: &Value, place: &str, comparison
     }
 }
 
-/// The instance that a node is.
+/// Returns the instance of a node.
 fn instance_of(model: &ModelData, node: &str) -> usize {
     let number = Some(node.parse().unwrap());
     model
@@ -98,7 +99,7 @@ fn instance_of(model: &ModelData, node: &str) -> usize {
         .expect("every node with a mesh is shown")
 }
 
-/// The fast path of one model.
+/// A model on the fast path.
 struct Fast<'a> {
     model: &'a ModelData,
     rig: Rig,
@@ -118,7 +119,7 @@ impl<'a> Fast<'a> {
         Self { model, rig, takes, skins, pose, roots }
     }
 
-    /// Bones and joints of one pose of the expected file against those of the fast path.
+    /// Compares bones and joints of one pose of the expected file with those of the fast path.
     fn compare(&mut self, level: SimdLevel, take: usize, expected: &Value, comparison: &mut Comparison) {
         let time = expected["t"].as_f64().unwrap() as f32;
         sample(level, &self.takes[take], time, self.pose.blocks_mut());
@@ -144,7 +145,7 @@ impl<'a> Fast<'a> {
     }
 }
 
-/// A file against its expected poses: rest, and every sample of every clip there.
+/// Compares a file with its expected poses: the rest pose, and every sample of every clip.
 fn compare_file(model: &Path, expected: &Path) -> Comparison {
     let model = Arc::new(load(model));
     let expected: Value = serde_json::from_slice(&std::fs::read(expected).unwrap()).unwrap();
@@ -166,10 +167,10 @@ fn compare_file(model: &Path, expected: &Path) -> Comparison {
     comparison
 }
 
-/// Compares every `gltf__*.json` in `expected`, or its `.unitquat.json` where there is one; tells how many.
+/// Compares every `gltf__*.json` in `expected`, or its `.unitquat.json` if there is one, and returns their number.
 ///
-/// Programs that do not make rotation keys unit give other answers for files that round them to three digits; for
-/// those a second answer was computed, from keys made unit.
+/// Programs that do not normalize rotation keys give different results for files with keys rounded to three digits. For
+/// those files a second result was computed from normalized keys.
 fn compare_folder(assets: &Path, expected: &Path) -> usize {
     let mut names: Vec<String> = std::fs::read_dir(expected)
         .unwrap()
@@ -190,9 +191,15 @@ fn compare_folder(assets: &Path, expected: &Path) -> usize {
         let file = file.strip_suffix(".unitquat").unwrap_or(file);
         let model: PathBuf = assets.join(file.replace("__", "/"));
         let comparison = compare_file(&model, &path);
-        println!("{file}: {} numbers, worst {:.4} of what is allowed", comparison.numbers, comparison.worst);
+        println!(
+            "{file}: {} numbers, worst {:.4} of the allowed difference",
+            comparison.numbers, comparison.worst
+        );
         if comparison.worst > 1.0 {
-            failures.push(format!("{file}: {:.2} times too far: {}", comparison.worst, comparison.place));
+            failures.push(format!(
+                "{file}: {:.2} times the allowed difference: {}",
+                comparison.worst, comparison.place
+            ));
         }
         files += 1;
         numbers += comparison.numbers;
@@ -202,7 +209,7 @@ fn compare_folder(assets: &Path, expected: &Path) -> usize {
     files
 }
 
-/// A long rig at every bone and vertex: local poses, matrices of three rows, and skinned vertices.
+/// Checks a long rig at every bone and vertex: local poses, matrices of three rows, and skinned vertices.
 #[test]
 fn a_rig_of_67_joints_agrees_with_exact_poses() {
     let model = Arc::new(load(&data().join("bench/pab.glb")));
@@ -236,12 +243,12 @@ fn a_rig_of_67_joints_agrees_with_exact_poses() {
             }
         }
     }
-    println!("{} numbers, worst {:.4} of what is allowed", comparison.numbers, comparison.worst);
+    println!("{} numbers, worst {:.4} of the allowed difference", comparison.numbers, comparison.worst);
     assert!(comparison.numbers > 10_000 && comparison.worst <= 1.0, "{}", comparison.place);
 }
 
 #[test]
-fn poses_of_small_files_agree_with_independent_ones() {
+fn poses_of_the_files_in_the_repository_agree_with_independent_results() {
     assert!(compare_folder(&data().join("gltf"), &data().join("expected")) >= 5);
 }
 

@@ -1,4 +1,4 @@
-//! A sword stays in its hand, and the other hand finds it.
+//! Sockets and grips: a sword follows the hand, and the other hand is placed on it.
 
 use crate::blending::{a_pose, a_pose_with_size, hostile};
 use crate::support::{angle_between, assert_near, bone};
@@ -29,7 +29,7 @@ proptest! {
         let offset = Transform { scale: Vec3::ONE, ..offset };
         let socket = Socket { offset, scale: ScaleOf::Object, ..Socket::at(0) };
         let got = socket.to_root(&[bone.to_matrix()]);
-        // The place is that of the scaled bone, the axes are of unit length and turned as the bone is.
+        // The position is that of the scaled bone; the axes are of unit length and rotated with the bone.
         let place = bone.to_matrix().transform_point3(offset.translation);
         prop_assert!(got.w_axis.truncate().distance(place) < 1e-3);
         let axes = Mat3::from_mat4(got);
@@ -48,7 +48,7 @@ proptest! {
     }
 
     #[test]
-    fn the_other_hands_palm_meets_the_grip(
+    fn the_palm_of_the_other_arm_meets_the_grip(
         object in a_pose(), on_object in a_pose(), in_hand in a_pose(), scale in 0.1_f32..3.0,
     ) {
         let object = Transform { scale: Vec3::splat(scale), ..object };
@@ -64,7 +64,7 @@ proptest! {
 }
 
 #[test]
-fn a_sword_with_bones_of_its_own_is_carried_in_the_hand() {
+fn a_sword_with_its_own_bones_follows_its_socket() {
     let bones = vec![bone("shoulder", None, Vec3::Y), bone("hand", Some(0), Vec3::X)];
     let (arm, sword) = (
         Skeleton { bones },
@@ -83,7 +83,7 @@ fn a_sword_with_bones_of_its_own_is_carried_in_the_hand() {
     let mut of_sword = [Mat4::IDENTITY; 2];
     to_root(&sword, &[], &mut of_sword);
     let socket = Socket::on(&arm, "hand").unwrap();
-    // Held by its hilt bone.
+    // Held at its hilt bone.
     let root = attached_root(socket.to_root(&of_arm), of_sword[0]);
     carry(root, &mut of_sword);
     // Arm raised: the hand is at (0, 2, 0), its y axis points to -x.
@@ -92,7 +92,7 @@ fn a_sword_with_bones_of_its_own_is_carried_in_the_hand() {
 }
 
 #[test]
-fn a_socket_on_a_bone_that_is_not_there_is_an_error_with_its_name() {
+fn a_socket_on_a_missing_bone_is_an_error_with_its_name() {
     let skeleton = Skeleton { bones: vec![bone("hip", None, Vec3::ZERO)] };
     assert_eq!(Socket::on(&skeleton, "hip").unwrap(), Socket::at(0));
     let error = Socket::on(&skeleton, "hand").unwrap_err();
@@ -103,13 +103,13 @@ fn a_socket_on_a_bone_that_is_not_there_is_an_error_with_its_name() {
 }
 
 #[test]
-fn bones_without_size_and_numbers_that_are_none_have_defined_places() {
+fn bones_of_scale_zero_and_numbers_that_are_not_finite_have_defined_results() {
     let flat = Mat4::from_scale(Vec3::new(1.0, 0.0, 1.0)) * Mat4::from_translation(Vec3::X);
     let socket = Socket { offset: offset(), scale: ScaleOf::Object, ..Socket::at(0) };
     let expected = Mat4::from_translation(Vec3::X) * Mat4::from_quat(offset().rotation);
     assert_near(socket.to_root(&[flat]), expected, 1e-6);
     assert_near(socket.to_root(&[Mat4::NAN]), offset().to_matrix(), 1e-6);
-    // A handle that cannot be undone counts as the origin.
+    // A grip that cannot be inverted counts as the origin.
     assert_eq!(attached_root(flat, Mat4::ZERO), flat);
     let mut matrices = [Mat4::NAN, Mat4::IDENTITY];
     carry(flat, &mut matrices);
@@ -117,7 +117,7 @@ fn bones_without_size_and_numbers_that_are_none_have_defined_places() {
 }
 
 #[test]
-fn hostile_offsets_give_numbers() {
+fn invalid_offsets_give_finite_results() {
     let seed = seed(17);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);

@@ -1,7 +1,7 @@
-//! Every bad file of the collection gets a clear error, or opens with a warning where that is allowed; quickly, in
-//! little memory, on a small stack.
+//! Every bad file of the collection is refused with a clear error, or opens with a warning where that is allowed:
+//! quickly, with little memory, on a small stack.
 
-use crate::doors::{FolderFs, data};
+use crate::doors::{TestFolder, data};
 use crate::soundness::{faults, faults_of_poses};
 use dragonfly_anim::format::{AssetError, AssetFs, ImportError, Place, ReadOptions, read};
 use dragonfly_kit::counting::peak;
@@ -9,25 +9,25 @@ use std::cell::RefCell;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Promised: no file takes longer, or more memory.
+/// Limits of time and memory for every file.
 const MOST_TIME: Duration = Duration::from_secs(2);
 const MOST_MEMORY: u64 = 256 << 20;
 
-/// A folder's door that remembers what was asked for.
-struct Watched(FolderFs, RefCell<Vec<String>>);
+/// Access to a folder that records the paths that were read.
+struct RecordingFolder(TestFolder, RefCell<Vec<String>>);
 
-impl AssetFs for Watched {
+impl AssetFs for RecordingFolder {
     fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
         self.1.borrow_mut().push(path.to_owned());
         self.0.read(path, limit)
     }
 }
 
-/// What is wrong with how `path` was read; the message shown is printed.
+/// Reads `path` and returns what is wrong with the result; prints the message that a user would see.
 fn faults_of(path: PathBuf, expected: &str) -> Vec<String> {
     let bytes = std::fs::read(&path).unwrap();
     let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-    let door = Watched(FolderFs(path.parent().unwrap().to_owned()), RefCell::default());
+    let door = RecordingFolder(TestFolder(path.parent().unwrap().to_owned()), RefCell::default());
     let start = Instant::now();
     let (memory, result) = peak(|| read(&name, &bytes, &door, &ReadOptions::default()));
     let elapsed = start.elapsed();
@@ -82,7 +82,7 @@ fn every_bad_file_is_answered_as_its_index_says() {
         let (file, _, expected) = (columns.next().unwrap(), columns.next().unwrap(), columns.next().unwrap());
         files += 1;
         let (path, expected) = (folder.join(file), expected.to_owned());
-        // A small stack: nothing may recurse as deep as a file says.
+        // A small stack, so that no recursion can be as deep as a file specifies.
         let thread =
             std::thread::Builder::new().stack_size(256 << 10).spawn(move || faults_of(path, &expected));
         match thread.unwrap().join() {

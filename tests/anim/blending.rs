@@ -1,4 +1,4 @@
-//! Several poses become one, bone by bone.
+//! Blending several poses into one, bone by bone.
 
 use crate::support::angle_between;
 use dragonfly_anim::blend::{Layer, Mask, blend, blend_normalized, blend_two, mix_poses, weight_at};
@@ -33,7 +33,7 @@ pub(crate) fn a_rotation() -> impl Strategy<Value = Quat> {
         .prop_map(|numbers| Quat::from_array(numbers).normalize())
 }
 
-/// A pose as skeletons have them.
+/// A pose that a skeleton may have.
 pub(crate) fn a_pose() -> impl Strategy<Value = Transform> {
     let vector = |size: f32| prop::array::uniform3(-size..size).prop_map(Vec3::from_array);
     let scale = vector(2.0);
@@ -44,7 +44,7 @@ pub(crate) fn a_pose() -> impl Strategy<Value = Transform> {
     })
 }
 
-/// The same with no axis scaled to nearly nothing.
+/// The same without axes scaled to nearly zero.
 pub(crate) fn a_pose_with_size() -> impl Strategy<Value = Transform> {
     let away = |number: f32| number + 0.05_f32.copysign(number);
     a_pose().prop_map(move |pose| Transform { scale: pose.scale.map(away), ..pose })
@@ -75,7 +75,7 @@ proptest! {
             .map(|(at, &weight)| Layer::new(if flip && at % 2 == 1 { &flipped } else { &pose }, weight))
             .collect();
         let mut out = vec![REST; 4];
-        // The base takes the rest, and holds the same pose.
+        // The base gets the remaining weight and has the same pose.
         blend(&pose, &layers, &mut out);
         for (out, pose) in out.iter().zip(&pose) {
             let signed = if out.rotation.dot(pose.rotation) < 0.0 { -out.rotation } else { out.rotation };
@@ -87,7 +87,7 @@ proptest! {
 
     #[test]
     fn weights_scale_out(poses in some_layers(), factor in 1.0_f32..1e4, doublings in 0_i32..60) {
-        // Brought to a sum of 1 at least, where the base has no share.
+        // Scaled to a sum of at least 1, so that the base has no share.
         let sum: f32 = poses.iter().map(|(_, weight)| weight).sum();
         let up = if sum < 1.0 { 1.01 / sum } else { 1.0 };
         let scaled = |factor: f32| -> Vec<_> {
@@ -95,15 +95,15 @@ proptest! {
         };
         let (mut once, mut again) = (vec![REST; 3], vec![REST; 3]);
         blend(&[REST; 3], &layers(&scaled(1.0)), &mut once);
-        // By a power of two the weights themselves are not rounded.
+        // A power of two does not round the weights.
         blend(&[REST; 3], &layers(&scaled(2.0_f32.powi(doublings))), &mut again);
         prop_assert_eq!(all_bits(&once), all_bits(&again));
-        // Without a base, small weights too.
+        // Without a base, also for small weights.
         blend_normalized(&[REST; 3], &layers(&scaled(2.0_f32.powi(-doublings))), &mut again);
         prop_assert_eq!(all_bits(&once), all_bits(&again));
         blend(&[REST; 3], &layers(&scaled(factor)), &mut again);
         for (a, b) in once.iter().zip(&again) {
-            // Beside the largest numbers that are blended.
+            // Relative to the largest numbers that are blended.
             prop_assert!(a.translation.distance(b.translation) < 100.0 * 4e-7);
             prop_assert!(angle_between(a.rotation, b.rotation) < 2e-6 && a.scale.distance(b.scale) < 2e-6);
         }
@@ -114,7 +114,7 @@ proptest! {
         mut poses in some_layers(), equal: bool, turns in 0_usize..5, swap: bool,
     ) {
         if equal {
-            // Equal weights: the hemisphere must not follow the order either.
+            // Equal weights: the choice of the hemisphere must not depend on the order either.
             poses.iter_mut().for_each(|(_, weight)| *weight = 0.4);
         }
         let mut shuffled = poses.clone();
@@ -144,14 +144,14 @@ proptest! {
         prop_assert_eq!(all_bits(&out), all_bits(&expected));
         blend_two(&b, &a, 1.0, Some(&mask), &mut out);
         prop_assert_eq!(all_bits(&out), all_bits(&expected));
-        // Where no layer has a say the base stands.
+        // The base is used where no layer has a weight.
         blend(&b, &[Layer::new(&a, 5.0).masked(&mask)], &mut out);
         prop_assert_eq!(all_bits(&out), all_bits(&expected));
     }
 }
 
 #[test]
-fn the_base_takes_what_the_weights_leave() {
+fn the_base_gets_the_remaining_weight() {
     let pose = |x: f32, angle: f32| Transform {
         translation: Vec3::new(x, 0.0, 0.0),
         rotation: Quat::from_rotation_z(angle),
@@ -167,7 +167,7 @@ fn the_base_takes_what_the_weights_leave() {
     let half = blended([0.25, 0.25]);
     assert_eq!((half.translation.x, half.scale.y), (16.0, 16.0));
     assert!(angle_between(half.rotation, Quat::IDENTITY) < 1e-6);
-    // 1/4 · 16 + 3/4 · 32: sums above 1 are divided.
+    // 1/4 · 16 + 3/4 · 32: sums above 1 are normalized.
     assert_eq!(blended([2.0, 6.0]).translation.x, 28.0);
     assert_eq!(bits(blended([0.0, 0.0])), bits(base[0]));
     let mut out = [REST];
@@ -178,7 +178,7 @@ fn the_base_takes_what_the_weights_leave() {
 }
 
 #[test]
-fn weights_that_sum_to_one_but_for_rounding_leave_nothing_to_the_base() {
+fn weights_that_sum_to_one_except_for_rounding_leave_nothing_to_the_base() {
     let pose = [Transform { translation: Vec3::new(0.1, 0.2, 0.3), ..REST }];
     let base = [Transform { translation: Vec3::splat(1e6), ..REST }];
     for weights in [&[0.7_f32, 0.2, 0.1][..], &[0.1; 10], &[1.0 / 3.0; 3], &[1.0 / 49.0; 49]] {
@@ -190,7 +190,7 @@ fn weights_that_sum_to_one_but_for_rounding_leave_nothing_to_the_base() {
 }
 
 #[test]
-fn a_weight_that_is_no_weight_counts_as_none() {
+fn an_invalid_weight_counts_as_zero() {
     let (a, b) = ([Transform { translation: Vec3::X, ..REST }], [Transform { translation: Vec3::Y, ..REST }]);
     for none in [0.0, -0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
         let mut out = [REST];
@@ -202,19 +202,19 @@ fn a_weight_that_is_no_weight_counts_as_none() {
     blend(&[REST], &[Layer::new(&a, f32::INFINITY), Layer::new(&b, 1.0)], &mut out);
     assert!(
         out[0].translation.distance(Vec3::X) < 1e-30,
-        "all the rest is nothing beside the largest number"
+        "the other numbers are negligible relative to the largest one"
     );
     blend(&[REST], &[Layer::new(&a, f32::INFINITY), Layer::new(&b, f32::MAX)], &mut out);
     assert_eq!(out[0].translation, Vec3::new(0.5, 0.5, 0.0));
     blend(&[REST], &[Layer::new(&a, 1e-45), Layer::new(&b, 1e-45)], &mut out);
-    assert!(out[0].translation.length() < 1e-40, "the base takes all but nothing");
+    assert!(out[0].translation.length() < 1e-40, "the base gets nearly all the weight");
     blend_normalized(&[REST], &[Layer::new(&a, 1e-45), Layer::new(&b, 1e-45)], &mut out);
     assert_eq!(out[0].translation, Vec3::new(0.5, 0.5, 0.0));
     assert_eq!(bits(mix_poses(a[0], b[0], f32::INFINITY)), bits(b[0]));
 }
 
 #[test]
-fn a_layer_has_no_say_in_bones_it_lacks() {
+fn a_layer_does_not_affect_bones_that_it_lacks() {
     let (short, long) =
         ([Transform { translation: Vec3::X, ..REST }], [Transform { translation: Vec3::Y, ..REST }; 3]);
     let mut out = [Transform { translation: Vec3::NAN, ..REST }; 4];
@@ -233,8 +233,8 @@ fn a_layer_has_no_say_in_bones_it_lacks() {
 }
 
 #[test]
-fn three_far_rotations_blend_to_the_same_whatever_their_order_and_signs() {
-    // 120° apart about one axis: the hardest case, no hemisphere holds all of them.
+fn the_blend_of_three_distant_rotations_depends_on_neither_order_nor_signs() {
+    // 120° apart about one axis: the hardest case, no hemisphere contains all of them.
     let turns = [0.0_f32, 2.1, -2.1].map(Quat::from_rotation_y);
     let mut results = Vec::new();
     for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
@@ -254,7 +254,7 @@ fn three_far_rotations_blend_to_the_same_whatever_their_order_and_signs() {
     }
 }
 
-/// The largest angle by which the normalised sum of two rotations `apart` is off the slerp, in degrees.
+/// The largest angle in degrees between the normalized sum of two rotations `apart` and their slerp.
 fn worst_of_nlerp(apart: f32) -> f32 {
     let poses =
         [0.0, apart.to_radians()].map(|angle| [Transform { rotation: Quat::from_rotation_x(angle), ..REST }]);
@@ -265,14 +265,14 @@ fn worst_of_nlerp(apart: f32) -> f32 {
         blend(&[REST], &[Layer::new(&poses[0], 1.0 - mix), Layer::new(&poses[1], mix)], &mut sum);
         blend_two(&poses[0], &poses[1], mix, None, &mut two);
         let expected = Quat::from_rotation_x(mix * apart.to_radians());
-        assert!(angle_between(two[0].rotation, expected) < 2e-6, "slerp turns evenly: {mix}");
+        assert!(angle_between(two[0].rotation, expected) < 2e-6, "slerp rotates at a constant speed: {mix}");
         worst = worst.max(angle_between(sum[0].rotation, expected));
     }
     worst.to_degrees()
 }
 
 #[test]
-fn the_sum_of_two_rotations_is_as_near_to_the_slerp_as_the_table_says() {
+fn the_sum_of_two_rotations_is_within_the_documented_distance_of_the_slerp() {
     for (apart, off) in [(30.0, 0.034), (60.0, 0.27), (90.0, 0.92), (120.0, 2.3), (179.99, 8.2)] {
         let worst = worst_of_nlerp(apart);
         assert!(worst <= off && worst > 0.95 * off, "{apart}°: {worst}°");
@@ -280,7 +280,7 @@ fn the_sum_of_two_rotations_is_as_near_to_the_slerp_as_the_table_says() {
 }
 
 #[test]
-fn a_weight_follows_its_curve_and_stays_a_weight() {
+fn a_weight_follows_its_curve_and_stays_within_zero_and_one() {
     let curve = |values: &[f32], interpolation| Channel::new([1.0, 2.0], values.to_vec(), interpolation);
     let linear = curve(&[0.0, 1.0], Interpolation::Linear);
     for (time, weight) in [(0.0, 0.0), (1.25, 0.25), (2.0, 1.0), (9.0, 1.0), (f32::NAN, 0.0)] {
@@ -299,7 +299,7 @@ fn a_weight_follows_its_curve_and_stays_a_weight() {
     assert_eq!(weight_at(&curve(&[f32::NAN, -3.0], Interpolation::Linear), 0.5, 2.0), 0.0);
 }
 
-/// A pose of numbers that break things.
+/// A pose of numbers that break calculations.
 pub(crate) fn hostile(random: &mut Random) -> Transform {
     const NUMBERS: [f32; 10] =
         [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, 0.0, -0.0, 1e-45, 1e-30, 1.0];
@@ -320,7 +320,7 @@ pub(crate) fn assert_sound(pose: Transform, what: &str) {
 }
 
 #[test]
-fn hostile_poses_and_weights_give_numbers() {
+fn invalid_poses_and_weights_give_finite_results() {
     let seed = seed(45);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -341,7 +341,7 @@ fn hostile_poses_and_weights_give_numbers() {
 }
 
 #[test]
-fn numbers_at_the_end_of_f32_blend_to_numbers() {
+fn the_largest_floats_blend_to_finite_results() {
     let pose = |x: f32| [Transform { translation: Vec3::splat(x), scale: Vec3::splat(-x), ..REST }];
     let (most, nearly) = (pose(f32::MAX), pose(f32::MAX.next_down()));
     for count in 2..100 {

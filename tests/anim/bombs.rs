@@ -1,4 +1,4 @@
-//! Small files that made other readers panic, hang, or take gigabytes: each gets a clear answer, in little memory.
+//! Small files that made other readers panic, hang, or allocate gigabytes: each gets a clear result with little memory.
 
 use crate::doors::MemoryFs;
 use crate::fixture::{Fixture, accessor, glb, png};
@@ -8,10 +8,10 @@ use dragonfly_kit::counting::peak;
 use serde_json::json;
 use std::time::Instant;
 
-/// Promised for all of them.
+/// Memory limit for all of them.
 const MOST_MEMORY: u64 = 300 << 20;
 
-/// Document of `members` beside the asset.
+/// A document with `members` in addition to the asset.
 fn document(members: &str) -> Vec<u8> {
     format!(r#"{{"asset":{{"version":"2.0"}},{members}}}"#).into_bytes()
 }
@@ -22,7 +22,7 @@ fn edited(edit: impl FnOnce(&mut Fixture)) -> Vec<u8> {
     glb(fixture.json.to_string().as_bytes(), Some(&fixture.bin))
 }
 
-/// An accessor without bytes of its own but for one sparse element, as positions.
+/// Positions in an accessor that has no bytes of its own except for one sparse element.
 fn sparse_of(count: u64) -> Vec<u8> {
     edited(|fixture| {
         fixture.set("/accessors/14/count", json!(count));
@@ -45,7 +45,7 @@ fn refused() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "accessor out of range",
             document(r#""meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]"#),
-            "POSITION: it names number 0",
+            "POSITION: the index 0 is out of range",
         ),
         ("image of nothing", document(r#""images":[{}]"#), "/images/0: an image needs"),
         (
@@ -55,7 +55,7 @@ fn refused() -> Vec<(&'static str, Vec<u8>, &'static str)> {
                 f.set(&format!("/bufferViews/{view}/byteLength"), json!(1 << 20))
                     .set("/images/0/bufferView", json!(view));
             }),
-            "do not fit a buffer",
+            "do not fit into a buffer",
         ),
         ("uri not UTF-8", document(r#""buffers":[{"uri":"%ff%fe.bin","byteLength":4}]"#), "not UTF-8"),
         ("container shorter than its header", b"glTF\x02\0\0\0\x04\0\0\0\0\0\0\0JSON".to_vec(), "byte 8"),
@@ -94,7 +94,7 @@ fn refused() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ("sparse, 2^40", sparse_of(1 << 40), "/accessors/14/count"),
         ("own child", document(r#""nodes":[{"children":[0]}]"#), "its own child"),
         ("two-cycle", document(r#""nodes":[{"children":[1]},{"children":[0]}]"#), "own ancestor"),
-        ("200,000 deep", document(&chain(200_000)), "nodes above each other: 513"),
+        ("200,000 deep", document(&chain(200_000)), "levels of nodes: 513"),
         (
             "2^30 paths",
             document(&format!(r#""nodes":[{},{{}}]"#, dag.join(","))),
@@ -105,7 +105,7 @@ fn refused() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "view offset 2^64-1",
             edited(|f| _ = f.set("/bufferViews/0/byteOffset", json!(u64::MAX))),
-            "do not fit a buffer",
+            "do not fit into a buffer",
         ),
         ("count 0", edited(|f| _ = f.set("/accessors/0/count", json!(0))), "0 vertices"),
         (
@@ -128,29 +128,29 @@ fn refused() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "JSON 100,000 deep",
             document(&format!(r#""extras":{}{}"#, "[".repeat(100_000), "]".repeat(100_000))),
-            "inside each other: 65",
+            "levels of arrays and objects: 65",
         ),
         ("number 1e999", document(r#""nodes":[{"scale":[1e999,1,1]}]"#), "/nodes/0/scale/0"),
         (
             "buffer of 2^60",
             document(r#""buffers":[{"uri":"data:,","byteLength":1152921504606846976}]"#),
-            "are announced",
+            "byteLength is 1152921504606846976",
         ),
         (
             "missing animation target",
             edited(|f| _ = f.set("/animations/0/channels/0/target/node", json!(77))),
-            "names number 77",
+            "the index 77 is out of range",
         ),
     ]
 }
 
-/// Files that may be read, in little memory.
+/// Files that may be read, with little memory: name, bytes, part of a warning.
 fn read_in_spite() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let picture = png(2500, 2500);
     vec![
         ("image without type", edited(|f| _ = f.remove("/images/0/mimeType")), ""),
         (
-            "60 images of one picture",
+            "60 images with one source",
             edited(|f| {
                 let view = f.view(&picture);
                 f.set("/images", json!(vec![json!({"bufferView": view, "mimeType": "image/png"}); 60]));
@@ -168,7 +168,7 @@ fn read_in_spite() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     ]
 }
 
-/// A chain of nodes with as many meshes below it, each of which has to find its way up.
+/// A chain of nodes, and a mesh below each of its nodes, which must be traced to the root.
 fn broom() -> Vec<u8> {
     let chain: Vec<String> = (1..500).map(|child| format!(r#"{{"children":[{child}]}}"#)).collect();
     let leaves: Vec<String> = (500..100_500).map(|leaf| leaf.to_string()).collect();
@@ -196,7 +196,7 @@ fn many_joints() -> Vec<u8> {
 }
 
 #[test]
-fn work_grows_with_the_file_and_not_with_its_square() {
+fn work_is_linear_in_the_size_of_the_file() {
     assert_eq!(
         answer(broom()),
         Ok(vec!["/meshes/0/primitives/0: the primitive has no positions and stays empty".to_owned()])
@@ -204,7 +204,7 @@ fn work_grows_with_the_file_and_not_with_its_square() {
     assert!(answer(many_joints()).is_ok());
 }
 
-/// Answer and cost of reading a file, on a small stack.
+/// Returns the warnings of reading a file, with limits on memory and time, on a small stack.
 fn answer(bytes: Vec<u8>) -> Result<Vec<String>, ImportError> {
     let run = move || {
         let size = bytes.len();
@@ -219,7 +219,7 @@ fn answer(bytes: Vec<u8>) -> Result<Vec<String>, ImportError> {
             imported.warnings.iter().map(ToString::to_string).collect()
         })
     };
-    on_small_stack(run).join().unwrap_or_else(|_| panic!("panicked or broke a promise"))
+    on_small_stack(run).join().unwrap_or_else(|_| panic!("panicked or exceeded a limit"))
 }
 
 #[test]
@@ -236,7 +236,7 @@ fn every_bomb_is_refused_with_a_place_and_a_reason() {
 }
 
 #[test]
-fn pictures_that_are_too_much_are_left_out() {
+fn images_above_the_limits_are_left_out() {
     for (name, bytes, reason) in read_in_spite() {
         let warnings = answer(bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(warnings.is_empty(), reason.is_empty(), "{name}: {warnings:?}");

@@ -1,4 +1,4 @@
-//! Bounds made from one box a bone never miss a vertex.
+//! Bounds computed from one box per bone contain every vertex.
 
 use crate::doors::model_files;
 use crate::made::{Weights, fox, load, model, times};
@@ -10,7 +10,8 @@ use dragonfly_kit::random::{Random, seed};
 use glam::Vec3;
 use std::sync::Arc;
 
-/// Largest quotients of size to exact size, box and sphere, over `each` random times of every take.
+/// Returns the largest ratios of the size to the exact size, for box and sphere, over `each` random times of every
+/// take.
 fn never_misses(random: &mut Random, model: &Arc<ModelData>, each: usize, name: &str) -> [f32; 2] {
     let boxes = BoneBoxes::of(model);
     let mut evaluator = Evaluator::new(Arc::clone(model));
@@ -20,7 +21,7 @@ fn never_misses(random: &mut Random, model: &Arc<ModelData>, each: usize, name: 
         let (got, exact) = (boxes.bounds(&evaluator), evaluator.bounds());
         for position in evaluator.all_positions() {
             assert!(got.contains(position), "{name} {take:?} {time}: {position} {got:?}");
-            // No larger number than this can be said.
+            // Larger numbers cannot be represented.
             let largest = got.sphere.radius == f32::MAX;
             assert!(largest || got.sphere.contains(position), "{name} {take:?} {time}: {position} {got:?}");
         }
@@ -34,7 +35,7 @@ fn never_misses(random: &mut Random, model: &Arc<ModelData>, each: usize, name: 
 }
 
 #[test]
-fn no_vertex_of_any_file_lies_outside_at_any_time() {
+fn no_vertex_of_any_file_is_outside_of_its_bounds_at_any_time() {
     let seed = seed(11);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -47,7 +48,7 @@ fn no_vertex_of_any_file_lies_outside_at_any_time() {
 }
 
 #[test]
-fn no_vertex_of_any_made_model_lies_outside() {
+fn no_vertex_of_any_random_model_is_outside_of_its_bounds() {
     let seed = seed(12);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -80,7 +81,7 @@ fn bounds_from_boxes_allocate_nothing() {
 }
 
 #[test]
-fn numbers_at_the_end_of_f32_are_held_too() {
+fn bounds_contain_the_largest_floats() {
     let mut random = Random::new(5);
     for size in [1e19, 1e30, 1e38, f32::MAX, 1e-42] {
         for _ in 0..40 {
@@ -97,7 +98,7 @@ fn numbers_at_the_end_of_f32_are_held_too() {
 }
 
 #[test]
-fn a_model_without_vertices_is_measured_on_its_bones_and_parts_that_are_not_there_are_empty() {
+fn a_model_without_vertices_has_the_bounds_of_its_bones_and_missing_parts_are_empty() {
     let mut model = model(&mut Random::new(3), Weights::Healthy).as_ref().clone();
     model.meshes.clear();
     let model = Arc::new(model);

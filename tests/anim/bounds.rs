@@ -1,4 +1,4 @@
-//! Boxes and spheres hold what they say they hold.
+//! Boxes and spheres contain their points.
 
 use crate::support::{animation_data, bone};
 use dragonfly_anim::bounds::{Bounds, Sphere, bounds_of_bones, bounds_of_pose};
@@ -19,7 +19,7 @@ fn cloud(random: &mut Random, points: usize, size: f32) -> Vec<Vec3> {
 }
 
 #[test]
-fn every_point_lies_in_the_box_and_in_the_sphere() {
+fn every_point_is_inside_the_box_and_the_sphere() {
     let seed = seed(3);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -37,7 +37,7 @@ fn every_point_lies_in_the_box_and_in_the_sphere() {
 }
 
 #[test]
-fn a_thin_line_and_a_ball_get_the_sphere_they_should() {
+fn a_line_and_a_ball_have_the_smallest_sphere() {
     let line = [Vec3::ZERO, Vec3::ONE, Vec3::splat(0.5)];
     assert!((Bounds::of_points(&line).sphere.radius - 0.75_f32.sqrt()).abs() < 1e-6);
     let mut random = Random::new(7);
@@ -49,7 +49,7 @@ fn a_thin_line_and_a_ball_get_the_sphere_they_should() {
 }
 
 #[test]
-fn nothing_at_all_has_bounds_of_no_size_in_the_origin() {
+fn an_empty_model_has_empty_bounds_at_the_origin() {
     let nothing = Bounds { min: Vec3::ZERO, max: Vec3::ZERO, sphere: Sphere::default() };
     assert_eq!(Bounds::of_points(&[]), nothing);
     assert_eq!(Bounds::of_points(&[Vec3::NAN, Vec3::INFINITY]), nothing);
@@ -57,14 +57,14 @@ fn nothing_at_all_has_bounds_of_no_size_in_the_origin() {
 }
 
 #[test]
-fn numbers_at_the_end_of_f32_give_finite_bounds() {
+fn the_largest_floats_give_finite_bounds() {
     let bounds = Bounds::of_points(&[Vec3::MIN, Vec3::MAX, Vec3::NAN]);
     assert_eq!((bounds.min, bounds.max, bounds.center()), (Vec3::MIN, Vec3::MAX, Vec3::ZERO));
     assert_eq!(bounds.sphere, Sphere { center: Vec3::ZERO, radius: f32::MAX });
 }
 
 #[test]
-fn a_skeleton_without_geometry_is_measured_on_its_bones() {
+fn a_skeleton_without_geometry_has_the_bounds_of_its_bones() {
     let bones = vec![bone("a", None, Vec3::X), bone("b", Some(0), Vec3::new(0.0, 2.0, 0.0))];
     let model = Arc::new(ModelData { animation: animation_data(bones, vec![]), ..ModelData::default() });
     let bounds = bounds_of_pose(&model, None, 0.0);

@@ -1,4 +1,4 @@
-//! Reading stops when it is told to, when memory ends, and in time.
+//! Reading stops when it is cancelled and when the memory budget is used up, and takes a bounded time.
 
 use crate::doors::MemoryFs;
 use crate::fixture::Fixture;
@@ -26,11 +26,11 @@ fn large(megabytes: usize) -> Vec<u8> {
 }
 
 #[test]
-fn every_charge_that_fails_gives_a_clean_error() {
+fn every_refused_charge_is_a_clear_error() {
     let fixture = Fixture::new();
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
     for (name, bytes) in
-        [("a.glb", fixture.glb()), ("a.gltf", fixture.gltf()), ("a.gltf", fixture.gltf_beside())]
+        [("a.glb", fixture.glb()), ("a.gltf", fixture.gltf()), ("a.gltf", fixture.gltf_with_file())]
     {
         let mut request = 0;
         loop {
@@ -39,7 +39,7 @@ fn every_charge_that_fails_gives_a_clean_error() {
                 Err(ImportError::TooLarge { .. } | ImportError::External { .. }) => request += 1,
                 Err(other) => panic!("charge {request}: {other}"),
                 Ok(imported) => {
-                    // An image that finds no room is left out; nothing else may be.
+                    // An image without memory is left out; every other failure is an error.
                     if request >= options.budget.requests() {
                         assert_eq!(imported.warnings, []);
                         break;
@@ -54,23 +54,23 @@ fn every_charge_that_fails_gives_a_clean_error() {
 }
 
 #[test]
-fn a_small_budget_is_kept() {
+fn a_small_budget_is_not_exceeded() {
     let bytes = large(4);
     for limit in [1 << 10, 1 << 16, 1 << 20, 1 << 22, 1 << 24] {
         let options = ReadOptions { budget: ByteBudget::at_most(limit), ..ReadOptions::default() };
         let (memory, result) = peak(|| read("large.glb", &bytes, &MemoryFs::default(), &options));
         assert!(matches!(result, Err(ImportError::TooLarge { .. })), "{limit}");
-        // What is not worth charging for: messages, names of the format.
+        // Not charged: messages and small constants.
         assert!(memory <= limit + (64 << 10), "{memory} bytes with a limit of {limit}");
     }
 }
 
 #[test]
-fn memory_and_time_grow_with_the_file_as_promised() {
+fn memory_and_time_stay_within_the_documented_limits() {
     for seed in seeds() {
         let (memory, _) =
             peak(|| read(&seed.name, &seed.bytes, &MemoryFs::default(), &ReadOptions::default()));
-        // Far less than promised: most of the promise is for files that are larger than this.
+        // Far less than the guaranteed limit, most of which is for files larger than this.
         assert!(memory < (1 << 20) + 32 * seed.bytes.len() as u64, "{}: {memory}", seed.name);
     }
     for megabytes in [1, 8, 32] {
@@ -87,12 +87,12 @@ fn memory_and_time_grow_with_the_file_as_promised() {
         );
         assert!(memory <= memory_for(bytes.len()) && memory <= 2 << 30);
         assert!(elapsed <= time_for(bytes.len()), "{elapsed:?}");
-        assert!(options.budget.used() >= memory / 2, "charges follow what is taken");
+        assert!(options.budget.used() >= memory / 2, "charges cover the allocations");
     }
 }
 
 #[test]
-fn a_cancel_is_answered_within_a_quarter_of_a_second() {
+fn a_cancel_takes_effect_within_a_quarter_of_a_second() {
     let bytes = large(48);
     let start = Instant::now();
     read("large.glb", &bytes, &MemoryFs::default(), &ReadOptions::default()).unwrap();
@@ -100,13 +100,13 @@ fn a_cancel_is_answered_within_a_quarter_of_a_second() {
     let (mut worst, mut cancelled) = (Duration::ZERO, 0);
     for step in 0..10 {
         let (start, asked) = (Instant::now(), Cell::new(None::<Instant>));
-        // In the first half: a second reading may be quicker than the first.
+        // In the first half, since a second run may be faster than the first.
         let at = whole * step / 20;
         let is_cancelled = || {
             let now = Instant::now();
             let due = now - start >= at;
             if due && asked.get().is_none() {
-                // The wish came at `at`; how long did it take to be asked for it?
+                // The cancel flag was set at `at`; measures the time until it was polled.
                 asked.set(Some(start + at));
             }
             due
@@ -123,17 +123,17 @@ fn a_cancel_is_answered_within_a_quarter_of_a_second() {
 }
 
 #[test]
-fn progress_rises_from_zero_to_one() {
-    let told = Cell::new((0.0, 0));
+fn progress_increases_from_zero_to_one() {
+    let reported = Cell::new((0.0, 0));
     let first = Cell::new(None);
     let progress = |part: f32| {
-        assert!(part >= told.get().0, "{part} after {}", told.get().0);
+        assert!(part >= reported.get().0, "{part} after {}", reported.get().0);
         first.set(first.get().or(Some(part)));
-        told.set((part, told.get().1 + 1));
+        reported.set((part, reported.get().1 + 1));
     };
     let options = ReadOptions { progress: &progress, ..ReadOptions::default() };
     read("a.glb", &Fixture::new().glb(), &MemoryFs::default(), &options).unwrap();
     assert_eq!(first.get(), Some(0.0));
-    assert_eq!(told.get().0, 1.0);
-    assert!(told.get().1 >= 4);
+    assert_eq!(reported.get().0, 1.0);
+    assert!(reported.get().1 >= 4);
 }

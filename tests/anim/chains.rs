@@ -1,8 +1,8 @@
-//! Chains reach what can be reached, and keep their lengths and limits.
+//! Chains of bones reach every reachable target, and keep their lengths and limits.
 
 use crate::ik::{
-    PARENTS, Parent, at_distance, direction, lengths, matrices, only_rotations, origin, row, started, turn,
-    vector,
+    PARENTS, ParentScale, at_distance, direction, lengths, matrices, only_rotations, origin, row, started,
+    turn, vector,
 };
 use crate::support::bone;
 use dragonfly_anim::data::{Skeleton, Transform};
@@ -11,14 +11,14 @@ use dragonfly_anim::sample::rest_pose;
 use glam::{Quat, Vec3};
 
 #[test]
-fn a_chain_meets_what_it_can_reach_and_keeps_its_lengths() {
+fn a_chain_reaches_every_reachable_target_and_keeps_its_lengths() {
     let mut random = started(27);
     let (mut scratch, mut worst) = (ChainScratch::default(), 0.0_f32);
     for round in 0..3_000 {
         let (links, parent) = (1 + random.below(9), random.choice(&PARENTS));
         let (skeleton, mut poses) = row(&mut random, links, parent);
         if random.below(4) == 0 {
-            // Straight: every joint along its parent's x.
+            // Straight: every joint on the x axis of its parent.
             for pose in &mut poses[2..] {
                 pose.translation = Vec3::X * pose.translation.length();
                 pose.rotation = Quat::IDENTITY;
@@ -56,7 +56,7 @@ fn a_chain_out_of_reach_points_straight_at_its_target() {
     let mut scratch = ChainScratch::default();
     for round in 0..500 {
         let links = 1 + random.below(9);
-        let (skeleton, mut poses) = row(&mut random, links, Parent::Uniform);
+        let (skeleton, mut poses) = row(&mut random, links, ParentScale::Uniform);
         let old = matrices(&skeleton, &poses);
         let (way, most) = (direction(&mut random), lengths(&poses).iter().sum::<f32>());
         let target = at_distance(&old, &poses, way, most * random.choice(&[1.0001, 2.0, 1e4]));
@@ -73,12 +73,12 @@ fn a_chain_out_of_reach_points_straight_at_its_target() {
 }
 
 #[test]
-fn a_chain_that_cannot_fold_so_far_points_at_its_target_from_as_near_as_it_can() {
+fn a_chain_that_cannot_fold_far_enough_points_at_its_target_from_the_nearest_position() {
     let mut random = started(36);
     let mut scratch = ChainScratch::default();
     for round in 0..500 {
         let links = 2 + random.below(4);
-        let (skeleton, mut poses) = row(&mut random, links, Parent::Plain);
+        let (skeleton, mut poses) = row(&mut random, links, ParentScale::Plain);
         let long = 2 + random.below(links);
         let part = poses[long].translation;
         poses[long].translation = part.normalize() * 6.0 * links as f32;
@@ -103,7 +103,7 @@ fn a_chain_keeps_its_joint_limits_and_comes_no_farther_from_its_target() {
     let mut scratch = ChainScratch::default();
     for round in 0..500 {
         let links = 2 + random.below(6);
-        let (skeleton, mut poses) = row(&mut random, links, Parent::Plain);
+        let (skeleton, mut poses) = row(&mut random, links, ParentScale::Plain);
         poses.iter_mut().for_each(|pose| pose.rotation = Quat::IDENTITY);
         let old = matrices(&skeleton, &poses);
         let target = origin(&old, 1) + vector(&mut random) * links as f32;
@@ -125,7 +125,7 @@ fn a_chain_keeps_its_joint_limits_and_comes_no_farther_from_its_target() {
 }
 
 #[test]
-fn a_straight_chain_bends_within_its_limits_and_a_stubborn_limit_makes_nothing_worse() {
+fn a_straight_chain_bends_within_its_limits_and_a_fixed_joint_makes_nothing_worse() {
     let bones = (0..5).map(|index: u32| bone("link", index.checked_sub(1), Vec3::X)).collect();
     let skeleton = Skeleton { bones };
     let rest: Vec<Transform> = skeleton.bones.iter().map(rest_pose).collect();
@@ -142,7 +142,7 @@ fn a_straight_chain_bends_within_its_limits_and_a_stubborn_limit_makes_nothing_w
         let (axis, angle) = if wish.w < 0.0 { -wish } else { wish }.to_axis_angle();
         if bone == 0 { wish } else { Quat::from_axis_angle(axis, angle.min(1.2)) }
     };
-    // On the line through the joints: nothing says to which side to bend.
+    // On the line through the joints, so that no bending direction is preferred.
     for distance in [2.5, 3.0, 3.5, 3.9] {
         let left = solve(Vec3::X * distance, &mut cone);
         assert!(left < 0.1 * (4.0 - distance), "at {distance}: {left}");
@@ -157,7 +157,7 @@ fn a_straight_chain_bends_within_its_limits_and_a_stubborn_limit_makes_nothing_w
     }
 }
 
-/// A row along x, standing straight.
+/// A straight row along x.
 fn straight(links: u32) -> (Skeleton, Vec<Transform>) {
     let bones = (0..=links).map(|index| bone("link", index.checked_sub(1), Vec3::X)).collect();
     let skeleton = Skeleton { bones };
@@ -166,7 +166,7 @@ fn straight(links: u32) -> (Skeleton, Vec<Transform>) {
 }
 
 #[test]
-fn a_straight_chain_whose_target_lies_on_its_line_bends_at_once_and_in_one_plane() {
+fn a_straight_chain_with_a_target_on_its_line_bends_at_once_and_in_one_plane() {
     let mut scratch = ChainScratch::default();
     for links in [2_u32, 3, 4, 6, 9] {
         for share in [0.2, 0.4, 0.6, 0.8] {
@@ -184,14 +184,17 @@ fn a_straight_chain_whose_target_lies_on_its_line_bends_at_once_and_in_one_plane
                     chain(&skeleton, &old, &settings, target, limit, &mut scratch, &mut poses).unwrap();
                 let place = format!("{links} links, {share} of the way, limits {limited}: {reach:?}");
                 assert!(reach.distance < 1e-3 * links as f32, "{place}");
-                // A sweep that finds the joints on the line leaves them there, and so do all that follow.
+                // A sweep that finds the joints on the line leaves them there, and so do all later ones.
                 assert!(share < 0.4 || reach.iterations < 16, "{place}");
                 let new = matrices(&skeleton, &poses);
                 let off = |bone: u32| origin(&new, bone as usize).reject_from(Vec3::X);
                 let side = (1..links).map(off).max_by(|a, b| a.length().total_cmp(&b.length())).unwrap();
                 for bone in 1..links {
                     let across = off(bone).reject_from(side).length();
-                    assert!(across < 1e-3 * links as f32, "{place}: joint {bone} is {across} off the plane");
+                    assert!(
+                        across < 1e-3 * links as f32,
+                        "{place}: joint {bone} is {across} away from the plane"
+                    );
                 }
             }
         }
@@ -199,8 +202,8 @@ fn a_straight_chain_whose_target_lies_on_its_line_bends_at_once_and_in_one_plane
 }
 
 #[test]
-fn a_chain_that_its_limits_lead_away_stays_as_near_as_it_has_been() {
-    // One bone is told to turn away whatever it wishes: every sweep ends farther from the target than the pose was.
+fn a_chain_that_its_limits_force_away_keeps_its_best_pose() {
+    // One bone must rotate away from its target: every sweep ends farther from the target than the pose was.
     let (skeleton, rest) = straight(4);
     let old = matrices(&skeleton, &rest);
     let mut scratch = ChainScratch::default();
@@ -219,17 +222,17 @@ fn a_chain_that_its_limits_lead_away_stays_as_near_as_it_has_been() {
         assert!(after <= before + 1e-5 && (reach.distance - after).abs() < 1e-5, "{round}: {before} {after}");
         kept += usize::from(poses == rest);
     }
-    assert!(kept > 250, "{kept}: most turns lead away");
+    assert!(kept > 250, "{kept}: most rotations lead away");
 }
 
 #[test]
-fn a_chain_with_limits_finds_most_targets_that_can_be_reached_within_them() {
+fn a_chain_with_limits_reaches_most_targets_that_are_reachable_within_them() {
     let mut random = started(34);
     let mut scratch = ChainScratch::default();
     let mut found = 0;
     for _ in 0..1_000 {
         let links = 2 + random.below(5);
-        let (skeleton, mut poses) = row(&mut random, links, Parent::Plain);
+        let (skeleton, mut poses) = row(&mut random, links, ParentScale::Plain);
         poses.iter_mut().for_each(|pose| pose.rotation = Quat::IDENTITY);
         let old = matrices(&skeleton, &poses);
         let mut bent = poses.clone();

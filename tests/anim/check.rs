@@ -1,8 +1,8 @@
-//! Each rule of the checks fires when a good model is broken in its way, and no other rule does.
+//! Each rule of the checks reports a valid model that is broken in its way, and no other rule does.
 
 use crate::dfm::golden;
-use crate::doors::{FolderFs, model_files};
-use crate::hostile::Maker;
+use crate::doors::{TestFolder, model_files};
+use crate::hostile::HostileModels;
 use dragonfly_anim::check::{MAX_PER_RULE, PathKind, RULES, Severity, check, check_take};
 use dragonfly_anim::data::{
     Bone, Channel, Interpolation, Mesh, MeshInstance, ModelData, MorphTrack, Primitive,
@@ -33,7 +33,7 @@ fn take(model: &mut ModelData) -> &mut Take {
     Arc::make_mut(&mut model.animation.takes[0])
 }
 
-/// The track that moves: key-frames of bone 1 at 0 s and 2 s.
+/// Returns the animated track: key-frames of bone 1 at 0 s and 2 s.
 fn track(model: &mut ModelData) -> &mut Track {
     &mut take(model).tracks[1]
 }
@@ -49,7 +49,7 @@ fn scales(model: &mut ModelData, value: Vec3) {
 /// Half a turn about x.
 const HALF: Quat = Quat::from_xyzw(1.0, 0.0, 0.0, 0.0);
 
-/// For each rule, ways to break it and no other.
+/// For each rule, changes that break it and no other rule.
 const BREAKS: &[(&str, Break)] = &[
     ("NOT_FINITE", |model| primitive(model).vertices.positions[1].x = f32::NAN),
     ("NOT_FINITE", |model| primitive(model).vertices.influences[0].weight = f32::INFINITY),
@@ -135,7 +135,7 @@ fn a_good_model_has_no_finding() {
 }
 
 #[test]
-fn each_way_to_break_a_model_is_found_by_its_rule_alone() {
+fn each_broken_model_is_reported_by_its_rule_alone() {
     let mut wrong = Vec::new();
     for (number, (rule, break_it)) in BREAKS.iter().enumerate() {
         let mut model = golden::model();
@@ -149,9 +149,9 @@ fn each_way_to_break_a_model_is_found_by_its_rule_alone() {
 }
 
 #[test]
-fn every_rule_of_the_list_is_broken_here_and_says_what_it_means() {
+fn every_rule_of_the_list_is_tested_here_and_has_a_description() {
     for (index, rule) in RULES.iter().enumerate() {
-        assert!(BREAKS.iter().any(|(id, _)| *id == rule.id), "{} is not tried", rule.id);
+        assert!(BREAKS.iter().any(|(id, _)| *id == rule.id), "{} is not tested", rule.id);
         assert!(RULES[..index].iter().all(|other| other.id != rule.id), "{} stands twice", rule.id);
         assert!(rule.meaning.ends_with('.') && rule.meaning.len() > 20, "{}", rule.id);
     }
@@ -159,7 +159,7 @@ fn every_rule_of_the_list_is_broken_here_and_says_what_it_means() {
 }
 
 #[test]
-fn findings_name_their_place() {
+fn findings_contain_their_place() {
     let told = |break_it: Break| {
         let mut model = golden::model();
         break_it(&mut model);
@@ -197,7 +197,7 @@ fn a_take_by_itself_is_checked_by_the_same_rules() {
         let alone = check_take(&model.animation.takes[0], skeleton);
         let of_take = RULES.iter().position(|other| other.id == *rule)
             >= RULES.iter().position(|r| r.id == "TRACK_OF_NO_BONE");
-        // Whether an instance exists is not known without a model.
+        // Whether an instance exists is unknown without a model.
         if of_take && *rule != "MORPH_TRACK" {
             assert_eq!(alone, check(&model), "{rule}");
         } else {
@@ -207,7 +207,7 @@ fn a_take_by_itself_is_checked_by_the_same_rules() {
 }
 
 #[test]
-fn a_model_that_is_wrong_everywhere_is_told_in_few_lines() {
+fn many_findings_of_one_rule_are_shortened_to_a_count() {
     let positions = vec![Vec3::NAN; 50_000];
     let vertices = Vertices { positions, ..Vertices::default() };
     let mesh = Mesh { primitives: vec![Primitive { vertices, ..Primitive::default() }], ..Mesh::default() };
@@ -217,7 +217,7 @@ fn a_model_that_is_wrong_everywhere_is_told_in_few_lines() {
 }
 
 #[test]
-fn the_worst_comes_first() {
+fn errors_come_before_warnings_and_notes() {
     let mut model = golden::model();
     bone(&mut model).rest.scale.x = -1.0;
     bone(&mut model).name = "knee".to_owned();
@@ -233,7 +233,7 @@ fn no_model_makes_a_rule_panic() {
         let seed = first.wrapping_add(round);
         let hostile = [0.02, 0.2, 0.6][(round % 3) as usize];
         let tried = std::panic::catch_unwind(|| {
-            let model = Maker { random: Random::new(seed), hostile }.model();
+            let model = HostileModels { random: Random::new(seed), hostile }.model();
             check(&model).iter().map(|finding| finding.to_string().len()).sum::<usize>()
         });
         assert!(tried.is_ok(), "DRAGONFLY_SEED={seed}: panicked");
@@ -249,7 +249,7 @@ fn no_model_makes_a_rule_panic() {
 fn models_of_the_test_data_have_no_errors() {
     for path in model_files() {
         let name = path.file_name().unwrap().to_str().unwrap();
-        let door = FolderFs(path.parent().unwrap().to_owned());
+        let door = TestFolder(path.parent().unwrap().to_owned());
         let imported = read(name, &std::fs::read(&path).unwrap(), &door, &ReadOptions::default()).unwrap();
         let mut rules: BTreeMap<&str, (usize, String)> = BTreeMap::new();
         for finding in check(&imported.model) {

@@ -1,6 +1,6 @@
-//! Compressed takes: small, as exact as was asked for, and safe to read from anywhere.
+//! Compressed takes are small, within the requested tolerance, and safe to read from any bytes.
 
-use crate::doors::{FolderFs, data};
+use crate::doors::{TestFolder, data};
 use crate::figures::report::results::Results;
 use crate::support::{about_z, along_x, bone, take};
 use dragonfly_anim::animation::Animation;
@@ -22,7 +22,7 @@ use std::path::PathBuf;
 
 fn load(path: PathBuf) -> ModelData {
     let bytes = std::fs::read(&path).unwrap();
-    let door = FolderFs(path.parent().unwrap().to_owned());
+    let door = TestFolder(path.parent().unwrap().to_owned());
     read("model.glb", &bytes, &door, &ReadOptions::default()).unwrap().model
 }
 
@@ -30,7 +30,7 @@ fn fox() -> ModelData {
     load(data().join("gltf/Fox.glb"))
 }
 
-/// Fox is about 80 units high: millimetres times ten or so.
+/// Fox is about 80 units high: roughly millimeters times ten.
 const FOX: Exactness = Exactness { tolerance: 0.02, shell: 5.0 };
 
 fn with(everywhere: Exactness) -> CompressionSettings {
@@ -55,8 +55,8 @@ fn key_times(take: &Take) -> Vec<f32> {
     times
 }
 
-/// The largest distance of shell points at `times`, in units of each bone's tolerance: measured here once more, with
-/// the open path and matrices, beside what the compressor measured.
+/// Returns the largest distance of shell points at `times`, in units of each bone's tolerance. Measured here a second
+/// time, with the open path and matrices, independently of the compressor.
 fn largest_share(
     skeleton: &Skeleton,
     raw: &Take,
@@ -80,7 +80,7 @@ fn largest_share(
     largest
 }
 
-/// Compresses and checks the bound at every key of the raw take.
+/// Compresses a take and checks the bound at every key of the raw take.
 #[track_caller]
 fn checked(
     take: &Take,
@@ -91,12 +91,12 @@ fn checked(
     assert_eq!(report.bytes.total(), compressed.as_bytes().len());
     assert!(report.share_of_tolerance <= 1.0);
     let share = largest_share(skeleton, take, &compressed.decompress(), settings, &key_times(take));
-    // The times of keys are rounded to single precision, so a raw key can lie a millionth beside ours.
+    // The times of keys are rounded to single precision, so a raw key can be a millionth away from ours.
     assert!(share <= 1.01, "{}: {share}, reported {report:?}", take.name);
     (compressed, report)
 }
 
-/// The largest difference between [`CompressedTake::sample`] and the open path on the decompressed take.
+/// Returns the largest difference between [`CompressedTake::sample`] and the open path on the decompressed take.
 fn largest_difference(compressed: &CompressedTake, skeleton: &Skeleton, times: &[f32]) -> f32 {
     let decompressed = compressed.decompress();
     let mut pose = Pose::new(skeleton.len());
@@ -119,7 +119,7 @@ fn largest_difference(compressed: &CompressedTake, skeleton: &Skeleton, times: &
     largest
 }
 
-/// Times inside, on and outside the keys of a take.
+/// Returns times inside, on and outside the keys of a take.
 fn times(compressed: &CompressedTake, random: &mut Random) -> Vec<f32> {
     let (start, length) = (compressed.start(), compressed.length());
     let mut times = vec![start, start + length, start - 1.0, start + length + 1.0, f32::NAN];
@@ -130,7 +130,7 @@ fn times(compressed: &CompressedTake, random: &mut Random) -> Vec<f32> {
 }
 
 #[test]
-fn no_shell_point_of_the_fox_is_farther_off_than_the_tolerance() {
+fn no_shell_point_of_the_fox_exceeds_the_tolerance() {
     let model = fox();
     let skeleton = &model.animation.skeleton;
     for exactness in
@@ -170,7 +170,7 @@ fn the_bench_rig_is_smaller_than_acl_makes_it_at_no_larger_error() {
 }
 
 #[test]
-fn a_bone_that_needs_more_gets_more() {
+fn a_bone_with_a_smaller_tolerance_gets_more_bits() {
     let model = fox();
     let (skeleton, take) = (&model.animation.skeleton, &model.animation.takes[1]);
     let exact = Exactness { tolerance: 0.001, shell: 2.0 };
@@ -183,7 +183,7 @@ fn a_bone_that_needs_more_gets_more() {
 }
 
 #[test]
-fn any_time_gives_what_the_open_path_gives_for_the_decompressed_take() {
+fn sampling_agrees_with_the_open_path_on_the_decompressed_take_at_any_time() {
     let mut random = Random::new(seed(7));
     let model = fox();
     let skeleton = &model.animation.skeleton;
@@ -196,7 +196,7 @@ fn any_time_gives_what_the_open_path_gives_for_the_decompressed_take() {
     }
 }
 
-/// Bones that turn, move and grow at random, `keys` keys, thirty a second.
+/// Bones that rotate, move and scale at random, with `keys` keys, thirty per second.
 fn random_take(random: &mut Random, bones: usize, keys: usize) -> Take {
     let times: Vec<f32> = (0..keys).map(|key| key as f32 / 30.0).collect();
     let tracks = (0..bones).map(|_| {
@@ -223,7 +223,7 @@ fn random_take(random: &mut Random, bones: usize, keys: usize) -> Take {
 }
 
 #[test]
-fn takes_made_at_random_keep_the_bound_and_agree_at_any_time() {
+fn random_takes_stay_within_the_tolerance_and_agree_at_any_time() {
     let mut random = Random::new(seed(5));
     for round in 0..60 {
         let bones = 1 + random.below(19);
@@ -240,8 +240,8 @@ fn takes_made_at_random_keep_the_bound_and_agree_at_any_time() {
 }
 
 #[test]
-fn numbers_of_any_width_and_lone_bones_keep_the_bound_at_every_level() {
-    // Bones that go far in small steps need wide numbers, and those that move alone among eight share a group.
+fn numbers_of_any_width_and_single_bones_stay_within_the_tolerance_at_every_simd_level() {
+    // Bones that move far in small steps need wide numbers, and single animated bones among eight share a group.
     let mut random = Random::new(seed(23));
     let bones = 45;
     let parents: Vec<Option<u32>> = (0..bones).map(|bone| (bone % 4 > 0).then(|| bone - 1)).collect();
@@ -279,7 +279,7 @@ fn numbers_of_any_width_and_lone_bones_keep_the_bound_at_every_level() {
 }
 
 #[test]
-fn takes_of_one_key_of_two_of_no_length_and_of_nothing_can_be_compressed() {
+fn takes_of_one_key_two_keys_no_length_and_no_tracks_can_be_compressed() {
     let two = skeleton(&[None, Some(0)]);
     let turning =
         |keys: &[(f32, f32)]| Track { rotation: about_z(keys, Interpolation::Linear), ..Track::default() };
@@ -330,7 +330,7 @@ fn steps_and_splines_are_resampled_at_the_rate_of_the_settings() {
 }
 
 #[test]
-fn numbers_that_are_none_or_too_large_give_an_error_or_finite_poses() {
+fn numbers_that_are_not_finite_or_too_large_give_an_error_or_finite_poses() {
     let one = skeleton(&[None, Some(0)]);
     for value in [f32::NAN, f32::INFINITY, f32::MAX, 1e30, 1e-40] {
         let channel = along_x(&[(0.0, 0.0), (1.0, value), (2.0, 1.0)], Interpolation::Linear);
@@ -355,7 +355,7 @@ fn numbers_that_are_none_or_too_large_give_an_error_or_finite_poses() {
 }
 
 #[test]
-fn sampling_allocates_nothing_and_leaves_other_bones_alone() {
+fn sampling_allocates_nothing_and_does_not_change_other_bones() {
     let model = fox();
     let (compressed, _) = compress(&model.animation.takes[0], &model.animation.skeleton, &with(FOX)).unwrap();
     let (mut short, mut long) = (Pose::new(3), Pose::new(compressed.bones() + 16));
@@ -373,7 +373,7 @@ fn sampling_allocates_nothing_and_leaves_other_bones_alone() {
 }
 
 #[test]
-fn the_same_take_gives_the_same_bytes_and_they_read_back() {
+fn the_same_take_gives_the_same_bytes_and_they_can_be_read() {
     let model = fox();
     let (skeleton, take) = (&model.animation.skeleton, &model.animation.takes[2]);
     let (first, _) = compress(take, skeleton, &with(FOX)).unwrap();
@@ -384,7 +384,7 @@ fn the_same_take_gives_the_same_bytes_and_they_read_back() {
     assert_eq!((back.name(), back.bones()), (take.name.as_str(), skeleton.len()));
 }
 
-/// CRC-32 bit by bit.
+/// CRC-32, bit by bit.
 fn sum(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0_u32, |sum, &byte| {
         (0..8).fold(sum ^ u32::from(byte), |sum, _| (sum >> 1) ^ if sum & 1 == 1 { 0xedb8_8320 } else { 0 })
@@ -392,7 +392,7 @@ fn sum(bytes: &[u8]) -> u32 {
 }
 
 #[test]
-fn bytes_cut_short_or_altered_are_an_error_with_its_offset() {
+fn truncated_or_changed_bytes_are_an_error_with_its_offset() {
     let model = fox();
     let (compressed, _) = compress(&model.animation.takes[1], &model.animation.skeleton, &with(FOX)).unwrap();
     let bytes = compressed.as_bytes();
@@ -409,7 +409,7 @@ fn bytes_cut_short_or_altered_are_an_error_with_its_offset() {
 }
 
 #[test]
-fn bytes_made_up_by_someone_who_knows_the_sum_do_no_harm() {
+fn invalid_bytes_with_a_correct_checksum_do_no_harm() {
     let mut random = Random::new(seed(13));
     let fox = fox();
     let files: Vec<Vec<u8>> = [
@@ -451,7 +451,7 @@ fn bytes_made_up_by_someone_who_knows_the_sum_do_no_harm() {
             Err(error) => assert!(error.offset <= length, "{error}"),
         }
     }
-    assert!(read > 1000, "only {read} of the altered takes could be read");
+    assert!(read > 1000, "only {read} of the changed takes could be read");
 }
 
 #[test]

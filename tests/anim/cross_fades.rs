@@ -1,13 +1,13 @@
-//! Two cycles keep in step while one becomes the other.
+//! Cross-fades between two cycles that stay in phase.
 
 use dragonfly_anim::blend::{CrossFade, Cycle, FadeCurve, common_length};
 use dragonfly_kit::counting::count;
 use proptest::prelude::*;
 
-/// Which mark was last, and how far it is to the next, found the slow way from the times alone.
+/// Returns the last mark and the share of the way to the next one, computed from the times alone.
 fn place(time: f32, start: f32, length: f32, marks: &[f32]) -> (usize, f64) {
     let inside = f64::from(time - start);
-    // Every mark of the rounds before, in and after this one.
+    // Every mark of the previous, the current and the next round.
     let all: Vec<(usize, f64)> = [-1.0, 0.0, 1.0]
         .iter()
         .flat_map(|round| {
@@ -18,13 +18,13 @@ fn place(time: f32, start: f32, length: f32, marks: &[f32]) -> (usize, f64) {
     (all[at].0, (inside - all[at].1) / (all[at + 1].1 - all[at].1))
 }
 
-/// How far apart two places are, in steps from mark to mark, round and round.
+/// Returns the distance between two phases, in steps from mark to mark, on a circle.
 fn apart(a: (usize, f64), b: (usize, f64), marks: usize) -> f64 {
     let off = (a.0 as f64 + a.1 - b.0 as f64 - b.1).rem_euclid(marks as f64);
     off.min(marks as f64 - off)
 }
 
-/// Marks at growing parts of a length.
+/// Marks at increasing parts of a length.
 fn marks(parts: &[f32], length: f32) -> Vec<f32> {
     let total: f32 = parts.iter().sum::<f32>() + 0.05;
     let mut at = 0.02;
@@ -80,7 +80,7 @@ proptest! {
         let cycle = Cycle::new(start, length).with_marks(times.iter().map(|time| start + time));
         let time = cycle.time_at(phase);
         prop_assert!((start..=start + length).contains(&time));
-        // Marks may lie very near each other; the time is what counts.
+        // Marks may be very close to each other; the time is compared.
         let again = cycle.time_at(cycle.phase_at(time));
         let off = (again - time).abs();
         prop_assert!(off < 2e-6 * (1.0 + start.abs() + length) || (off - length).abs() < 1e-5, "{time} {again}");
@@ -96,13 +96,13 @@ fn each_take_plays_at_its_own_speed_when_it_is_alone() {
     let before = fade.now().to_time;
     let after = fade.advance(0.2).to_time;
     assert!((after - before - 0.2).abs() < 1e-6, "{before} {after}");
-    // The beginning of a very long fade.
+    // The start of a very long fade.
     let mut fade = CrossFade::new(Cycle::new(0.0, 1.0), Cycle::new(2.0, 0.5), 1e9, FadeCurve::Linear);
     assert!((fade.advance(0.25).from_time - 0.25).abs() < 1e-6);
 }
 
 #[test]
-fn a_step_of_many_rounds_ends_where_it_should() {
+fn a_step_of_many_rounds_has_the_exact_result() {
     let cycle = || Cycle::new(0.0, 1.0).with_marks([0.1, 0.4]);
     let mut fade = CrossFade::new(cycle(), cycle(), 1.0, FadeCurve::Linear);
     // Phase 0 is the first mark.
@@ -113,8 +113,9 @@ fn a_step_of_many_rounds_ends_where_it_should() {
 }
 
 #[test]
-fn half_way_a_round_takes_the_mean_of_both() {
-    // 3 s and 1 s: at weight ½ a round takes 2 s. A very long linear fade stands nearly still in the middle.
+fn at_half_weight_a_round_takes_the_mean_of_both_lengths() {
+    // 3 s and 1 s: at weight ½ a round takes 2 s. In the middle of a very long linear fade the weight is nearly
+    // constant.
     let mut fade = CrossFade::new(Cycle::new(0.0, 3.0), Cycle::new(0.0, 1.0), 2e6, FadeCurve::Linear);
     fade.advance(1e6);
     let before = fade.phase();
@@ -142,7 +143,7 @@ fn marks_meet_marks() {
 }
 
 #[test]
-fn different_numbers_of_marks_do_not_count() {
+fn different_numbers_of_marks_are_ignored() {
     let two = Cycle::new(0.0, 1.0).with_marks([0.1, 0.4]);
     let three = Cycle::new(0.0, 2.0).with_marks([0.1, 0.4, 0.5]);
     let fade = CrossFade::new(two, three, 1.0, FadeCurve::Linear).starting_at(0.25);
@@ -166,7 +167,7 @@ fn the_size_of_the_steps_hardly_matters() {
     for steps in [30, 60, 144] {
         assert!((run(steps) - exact).abs() < 1e-3, "{steps}: {} {exact}", run(steps));
     }
-    // One step over the end of the fade: the rest at the second's speed, like many.
+    // One step over the end of the fade: the rest at the speed of the second take, as with many steps.
     assert!((run(2) - exact).abs() < 0.05, "{} {exact}", run(2));
 }
 
@@ -188,7 +189,7 @@ fn the_same_steps_give_the_same_bits() {
 }
 
 #[test]
-fn fades_rise_from_zero_to_one() {
+fn fade_weights_increase_from_zero_to_one() {
     for curve in FadeCurve::ALL {
         assert_eq!((curve.weight(0.0), curve.weight(1.0), curve.weight(0.5)), (0.0, 1.0, 0.5));
         assert_eq!((curve.weight(-1.0), curve.weight(7.0), curve.weight(f64::NAN)), (0.0, 1.0, 0.0));
@@ -199,7 +200,7 @@ fn fades_rise_from_zero_to_one() {
 }
 
 #[test]
-fn hostile_cycles_and_clocks_have_defined_answers() {
+fn invalid_cycles_and_clocks_have_defined_results() {
     let hostile = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, -1.0, 0.0, 1e-45, 1.0];
     for start in hostile {
         for length in hostile {
@@ -217,11 +218,11 @@ fn hostile_cycles_and_clocks_have_defined_answers() {
             }
         }
     }
-    // A pose that stands has no phase; nothing moves, and nothing divides by it.
+    // A pose without duration has no phase; nothing moves, and nothing divides by zero.
     let mut fade = CrossFade::new(Cycle::new(3.0, 0.0), Cycle::new(4.0, 0.0), 1.0, FadeCurve::Linear);
     let now = fade.advance(0.5);
     assert_eq!((now.from_time, now.to_time, now.weight), (3.0, 4.0, 0.5));
-    // At once, without time to fade.
+    // Immediately, without a duration of the fade.
     assert_eq!(
         CrossFade::new(Cycle::new(0.0, 1.0), Cycle::new(0.0, 1.0), 0.0, FadeCurve::Linear).now().weight,
         1.0

@@ -1,5 +1,5 @@
-//! Damaged files: at random, and at every place. Nothing panics, hangs, overflows the stack or takes much memory, and
-//! what is read in spite of the damage is sound.
+//! Damaged files: random damage, and damage at every byte. Nothing panics, hangs, overflows the stack or uses much
+//! memory, and a model that is read nevertheless is sound.
 
 use crate::doors::MemoryFs;
 use crate::seeds::{Seed, seeds};
@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// What means something in a glTF file.
+/// Words that have a meaning in a glTF file.
 const WORDS: &[&[u8]] = &[
     b"{}",
     b"[]",
@@ -57,14 +57,14 @@ const WORDS: &[&[u8]] = &[
     b"glTF",
 ];
 
-/// A file that broke a promise.
-struct Broken {
+/// A file that broke a guarantee.
+struct BrokenGuarantee {
     seed: String,
     what: String,
     bytes: Vec<u8>,
 }
 
-fn report(broken: Vec<Broken>) {
+fn report(broken: Vec<BrokenGuarantee>) {
     let lines: Vec<String> = broken
         .iter()
         .take(20)
@@ -74,7 +74,7 @@ fn report(broken: Vec<Broken>) {
             format!("{}: {} ({})", broken.seed, broken.what, path.display())
         })
         .collect();
-    assert!(broken.is_empty(), "{} files broke a promise:\n{}", broken.len(), lines.join("\n"));
+    assert!(broken.is_empty(), "{} files broke a guarantee:\n{}", broken.len(), lines.join("\n"));
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn two_hundred_thousand_mutants_do_no_harm() {
                     Ok(was_read) => _ = read.fetch_add(usize::from(was_read), Ordering::Relaxed),
                     Err(what) => {
                         let seed = format!("mutant-{first_seed}-{thread}-{number}");
-                        broken.push(Broken { seed, what, bytes });
+                        broken.push(BrokenGuarantee { seed, what, bytes });
                     }
                 }
                 done.fetch_add(1, Ordering::Relaxed);
@@ -112,13 +112,13 @@ fn two_hundred_thousand_mutants_do_no_harm() {
     let work: Vec<_> = work.collect();
     drop(working);
     watch(&done, &workers);
-    let broken: Vec<Broken> = work.into_iter().flat_map(|thread| thread.join().unwrap()).collect();
+    let broken: Vec<BrokenGuarantee> = work.into_iter().flat_map(|thread| thread.join().unwrap()).collect();
     println!("{} mutants, {} of them read", done.load(Ordering::Relaxed), read.load(Ordering::Relaxed));
     report(broken);
     assert!(read.load(Ordering::Relaxed) > MUTANTS / 20, "too few mutants are read to test what comes after");
 }
 
-/// Waits until every sender is gone; fails when nothing is done for a minute.
+/// Waits until every sender is dropped; fails if no file is finished for a minute.
 fn watch(done: &AtomicUsize, workers: &Receiver<()>) {
     let (mut last, mut idle) = (0, 0);
     while workers.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
@@ -129,7 +129,8 @@ fn watch(done: &AtomicUsize, workers: &Receiver<()>) {
     }
 }
 
-/// Each cut, and each byte set to 0 and 255 and changed by one; for files over 4 KiB at 512 places.
+/// Calls `each` with the file truncated at each byte, and with each byte set to 0 and 255 and changed by one; for files
+/// over 4 KiB at 512 bytes.
 fn damaged(file: &[u8], mut each: impl FnMut(&[u8], String)) {
     let places = if file.len() <= 4 << 10 { file.len() } else { 512 };
     let mut bytes = file.to_vec();
@@ -161,7 +162,7 @@ fn damage_at_every_place_does_no_harm() {
                 damaged(bytes, |bytes, damage| {
                     done.fetch_add(1, Ordering::Relaxed);
                     if let Err(what) = trial(name, bytes, &door) {
-                        broken.push(Broken {
+                        broken.push(BrokenGuarantee {
                             seed: name.clone(),
                             what: format!("{damage}: {what}"),
                             bytes: bytes.to_vec(),
@@ -175,7 +176,7 @@ fn damage_at_every_place_does_no_harm() {
     let work: Vec<_> = work.collect();
     drop(working);
     watch(&done, &workers);
-    let broken: Vec<Broken> = work.into_iter().flat_map(|thread| thread.join().unwrap()).collect();
+    let broken: Vec<BrokenGuarantee> = work.into_iter().flat_map(|thread| thread.join().unwrap()).collect();
     println!("{} seeds, {} damaged files", seeds.len(), done.load(Ordering::Relaxed));
     report(broken);
 }

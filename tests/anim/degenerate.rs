@@ -1,11 +1,11 @@
-//! Every degenerate case has a defined answer. One test a case, or the place where its test is.
+//! Every degenerate case has a defined result. One test per case, or the module of its test.
 //!
-//! | case | answer | tested |
+//! | case | result | tested |
 //! |---|---|---|
-//! | rotation without length | identity | here; importer warns |
-//! | rotation not of unit length | normalised | here; importer warns |
+//! | rotation of length zero | identity | here; importer warns |
+//! | rotation not of unit length | normalized | here; importer warns |
 //! | NaN or infinity in a key, a tangent, a rest pose, a matrix | rest value, zero, identity | here; importer refuses |
-//! | mixed rotation not of unit length | normalised | here |
+//! | mixed rotation not of unit length | normalized | here |
 //! | keys q and −q | constant | here |
 //! | rotations 180° apart | axis of the later key as stored | here |
 //! | scale zero | positions flat, normals fall back | here |
@@ -18,12 +18,12 @@
 //! | time outside, time NaN | clamp or loop | here, `sampling` |
 //! | tangents NaN | zero | here |
 //! | columns of different lengths | rest value | here; importer refuses |
-//! | weights that are no numbers | vertex stays | here; importer cleans |
-//! | weights that do not sum to 1 | used as stored | here; importer normalises |
+//! | weights that are not finite | vertex stays | here; importer cleans |
+//! | weights that do not sum to 1 | used as stored | here; importer normalizes |
 //! | joint past the end of the skin | identity | here; importer refuses |
-//! | a joint named twice in a vertex | weights add up | here; importer merges |
+//! | the same joint twice in a vertex | weights add up | here; importer merges |
 //! | offset that is not finite or missing | identity | here; importer warns |
-//! | huge translation | finite, or the parent's place | here; importer warns |
+//! | huge translation | finite, or the position of the parent | here; importer warns |
 //! | frame rate zero, NaN, huge | importers of formats that have one | theirs |
 //! | parent after its child, joint without bone | counts as none | here; importer refuses |
 
@@ -46,7 +46,7 @@ fn rotations(values: &[Quat], interpolation: Interpolation) -> Channel<Quat> {
 }
 
 #[test]
-fn a_rotation_without_length_is_the_identity() {
+fn a_rotation_of_length_zero_is_the_identity() {
     let zero = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
     let turned = Quat::from_rotation_z(1.0);
     let channel = rotations(&[zero, turned], Interpolation::Linear);
@@ -60,7 +60,7 @@ fn a_rotation_without_length_is_the_identity() {
 }
 
 #[test]
-fn a_rotation_of_another_length_is_normalised() {
+fn a_rotation_of_another_length_is_normalized() {
     let turned = Quat::from_rotation_z(1.0);
     let channel = rotations(&[turned * 3.0, turned * 1e-3], Interpolation::Linear);
     for time in [0.0, 0.3, 1.0] {
@@ -70,7 +70,7 @@ fn a_rotation_of_another_length_is_normalised() {
 }
 
 #[test]
-fn a_key_that_is_no_number_is_the_rest_value() {
+fn a_key_that_is_not_finite_is_the_rest_value() {
     let rest = Vec3::new(7.0, 0.0, 0.0);
     for hostile in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let channel = along_x(&[(0.0, 1.0), (1.0, hostile), (2.0, 3.0)], Interpolation::Linear);
@@ -83,7 +83,7 @@ fn a_key_that_is_no_number_is_the_rest_value() {
 }
 
 #[test]
-fn a_rest_pose_that_is_no_number_is_the_identity() {
+fn a_rest_pose_that_is_not_finite_is_the_identity() {
     let mut resting = bone("", None, Vec3::new(1.0, f32::NAN, 0.0));
     resting.rest.scale = Vec3::splat(f32::INFINITY);
     resting.rest.rotation = Quat::from_xyzw(f32::NAN, 0.0, 0.0, 0.0);
@@ -123,7 +123,7 @@ fn a_rotation_and_its_negative_are_one_rotation() {
 }
 
 #[test]
-fn half_a_turn_goes_about_the_axis_the_later_key_names() {
+fn half_a_turn_is_about_the_axis_of_the_later_key() {
     let about_y = Quat::from_xyzw(0.0, 1.0, 0.0, 0.0);
     for (key, expected) in [(about_y, 1.0_f32), (-about_y, -1.0)] {
         let channel = rotations(&[Quat::IDENTITY, key], Interpolation::Linear);
@@ -193,7 +193,7 @@ fn a_take_without_duration_is_a_constant_pose() {
 fn key_times_at_one_time_unsorted_or_negative_give_a_defined_value() {
     let at =
         |keys: &[(f32, f32)], time| sample_channel(&along_x(keys, Interpolation::Linear), Vec3::ZERO, time).x;
-    // The last of several keys at one time wins.
+    // The last of several keys at one time is used.
     assert_eq!(at(&[(0.0, 0.0), (1.0, 1.0), (1.0, 5.0), (2.0, 7.0)], 1.0), 5.0);
     assert_eq!(at(&[(0.0, 0.0), (1.0, 1.0), (1.0, 5.0), (2.0, 7.0)], 1.5), 6.0);
     assert_eq!(at(&[(1.0, 3.0), (1.0, 4.0)], 1.0), 3.0);
@@ -223,7 +223,7 @@ fn one_key_is_constant_and_no_key_the_rest_pose() {
 }
 
 #[test]
-fn a_time_that_is_no_number_is_the_first_key() {
+fn a_time_of_nan_is_the_first_key() {
     let track =
         Track { rotation: about_z(&[(0.0, 0.5), (1.0, 1.0)], Interpolation::Linear), ..Track::default() };
     let bone = bone("", None, Vec3::ZERO);
@@ -233,7 +233,7 @@ fn a_time_that_is_no_number_is_the_first_key() {
 }
 
 #[test]
-fn a_tangent_that_is_no_number_is_zero() {
+fn a_tangent_that_is_not_finite_is_zero() {
     let x = |value: f32| Vec3::new(value, 0.0, 0.0);
     let spline = |tangent: f32, end: f32| {
         let values = [x(tangent), x(0.0), x(tangent), x(tangent), x(8.0), x(tangent)];
@@ -243,8 +243,8 @@ fn a_tangent_that_is_no_number_is_zero() {
     for hostile in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         assert_eq!(spline(hostile, 1.0), spline(0.0, 1.0), "{hostile}");
     }
-    assert!(spline(f32::MAX, 1.0) > 1e37, "huge is no trouble");
-    assert_eq!(spline(f32::MAX, 100.0), 0.0, "what overflows is the key before");
+    assert!(spline(f32::MAX, 1.0) > 1e37, "huge values are valid");
+    assert_eq!(spline(f32::MAX, 100.0), 0.0, "on overflow the previous key is used");
 }
 
 #[test]
@@ -256,7 +256,7 @@ fn a_column_that_is_too_short_counts_as_rest_values() {
 }
 
 #[test]
-fn a_weight_that_is_no_number_leaves_the_vertex_where_it_is() {
+fn a_weight_that_is_not_finite_does_not_move_the_vertex() {
     let finals = [Mat4::from_translation(Vec3::X)];
     for hostile in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let primitive = one_vertex(&[(0, hostile)]);
@@ -276,7 +276,7 @@ fn weights_are_used_as_stored_and_those_of_one_joint_add_up() {
 }
 
 #[test]
-fn an_influence_without_weight_has_no_say_even_where_its_product_overflows() {
+fn an_influence_without_weight_is_ignored_even_if_its_product_overflows() {
     let finals = [Mat4::IDENTITY, Mat4::from_scale(Vec3::splat(f32::MAX))];
     assert_eq!(moved(&one_vertex(&[(0, 0.5), (1, 0.0), (0, 0.25)]), &finals).0, Vec3::new(0.75, 1.5, 2.25));
 }
@@ -287,7 +287,7 @@ fn a_joint_past_the_end_of_the_skin_is_the_identity() {
 }
 
 #[test]
-fn an_offset_that_is_missing_or_no_number_is_the_identity() {
+fn an_offset_that_is_missing_or_not_finite_is_the_identity() {
     let to_root = [Mat4::from_translation(Vec3::X)];
     assert_eq!(final_pose(to_root[0], Mat4::NAN), to_root[0]);
     let skin = Skin {
@@ -297,13 +297,13 @@ fn an_offset_that_is_missing_or_no_number_is_the_identity() {
     };
     let mut out = [Mat4::NAN; 3];
     final_poses(&skin, &to_root, &mut out);
-    assert_eq!(out, [to_root[0], to_root[0], Mat4::IDENTITY], "and so is a joint without bone");
+    assert_eq!(out, [to_root[0], to_root[0], Mat4::IDENTITY], "a joint without a bone is the identity too");
     let broken = Bone { offset: Mat4::NAN, ..bone("", None, Vec3::ZERO) };
     assert_eq!(Animation::new(animation_data(vec![broken], vec![])).bind_bone_poses(), [Mat4::IDENTITY]);
 }
 
 #[test]
-fn a_pose_past_the_end_of_f32_stands_where_its_parent_stands() {
+fn a_pose_that_overflows_gets_the_position_of_its_parent() {
     let huge = |parent| Bone {
         rest: Transform { scale: Vec3::splat(1e30), ..Transform::IDENTITY },
         ..bone("", parent, Vec3::ZERO)
@@ -312,9 +312,9 @@ fn a_pose_past_the_end_of_f32_stands_where_its_parent_stands() {
         vec![huge(None), huge(Some(0)), bone("", Some(1), Vec3::X), bone("", None, Vec3::splat(3e38))];
     let mut out = [Mat4::NAN; 4];
     to_root(&Skeleton { bones }, &[], &mut out);
-    assert_eq!(out[1], out[0], "1e60 is no f32");
-    assert_eq!(out[2], out[0] * Mat4::from_translation(Vec3::X), "its child goes on from there");
-    assert_eq!(out[3].w_axis.x, 3e38, "huge alone is no trouble");
+    assert_eq!(out[1], out[0], "1e60 is not an f32");
+    assert_eq!(out[2], out[0] * Mat4::from_translation(Vec3::X), "its child is relative to that");
+    assert_eq!(out[3].w_axis.x, 3e38, "huge values alone are valid");
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Numbers that mean nothing have a defined answer: refused, or mended with a warning that names the place.
+//! Invalid numbers have a defined result: the file is refused, or the number is corrected with a warning that contains
+//! the place.
 
 use crate::doors::MemoryFs;
 use crate::fixture::{Fixture, accessor};
@@ -7,7 +8,7 @@ use dragonfly_anim::format::{Imported, ReadOptions, read};
 use glam::{Mat4, Quat, Vec3};
 use serde_json::json;
 
-/// Reads the fixture after `edit`; the model and the rules its warnings name.
+/// Reads the fixture after `edit`; returns the model and the rules of its warnings.
 fn import(edit: impl FnOnce(&mut Fixture)) -> (ModelData, Vec<&'static str>) {
     let Imported { model, warnings, .. } = result(edit).unwrap();
     assert_eq!(crate::soundness::faults(&model), [""; 0]);
@@ -25,7 +26,7 @@ fn take(model: &ModelData) -> &Take {
     &model.animation.takes[0]
 }
 
-/// Rotation keys of the knee.
+/// Returns the rotation keys of the knee.
 fn turns(model: &ModelData) -> &Channel<Quat> {
     &take(model).tracks[1].rotation
 }
@@ -33,7 +34,7 @@ fn turns(model: &ModelData) -> &Channel<Quat> {
 const ROTATION: &str = "ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION";
 
 #[test]
-fn a_rotation_without_length_is_none() {
+fn a_rotation_of_length_zero_is_the_identity() {
     let (model, warnings) = import(|f| _ = f.set("/nodes/1/rotation", json!([0, 0, 0, 0])));
     assert_eq!(model.animation.skeleton.bones[1].rest.rotation, Quat::IDENTITY);
     assert_eq!(warnings, ["ROTATION_NON_UNIT"]);
@@ -43,7 +44,7 @@ fn a_rotation_without_length_is_none() {
 }
 
 #[test]
-fn a_rotation_that_is_not_quite_unit_is_made_so_silently_and_else_with_a_warning() {
+fn a_rotation_is_normalized_with_a_warning_if_it_is_far_from_unit_length() {
     for (length, warned) in
         [(1.0076_f32, false), (0.9925, false), (1.008, true), (0.5, true), (1e-30, true), (1e30, true)]
     {
@@ -57,7 +58,7 @@ fn a_rotation_that_is_not_quite_unit_is_made_so_silently_and_else_with_a_warning
 }
 
 #[test]
-fn neighbouring_rotations_lie_in_one_hemisphere() {
+fn neighboring_rotations_are_brought_into_one_hemisphere() {
     let half = std::f32::consts::FRAC_1_SQRT_2;
     let flip =
         |f: &mut Fixture| _ = f.float(accessor::ROTATIONS, 6, -half).float(accessor::ROTATIONS, 7, -half);
@@ -86,7 +87,7 @@ fn a_spline_of_rotations_keeps_its_signs() {
         );
     });
     assert_eq!(turns(&model).value(1), Some(Quat::from_xyzw(0., 0., 0., -1.)));
-    assert_eq!(turns(&model).values[3], Quat::from_xyzw(0., 0., 0.5, 0.), "a tangent is not made unit");
+    assert_eq!(turns(&model).values[3], Quat::from_xyzw(0., 0., 0.5, 0.), "a tangent is not normalized");
 }
 
 #[test]
@@ -100,7 +101,7 @@ fn zero_and_negative_scales_are_kept() {
 }
 
 #[test]
-fn a_mirrored_matrix_is_taken_apart_and_a_sheared_one_kept() {
+fn a_mirrored_matrix_is_decomposed_and_a_sheared_one_kept() {
     let matrix = |columns: [f32; 16]| {
         import(|f| {
             f.remove("/nodes/1/translation").remove("/nodes/1/rotation").remove("/nodes/1/scale");
@@ -137,7 +138,7 @@ fn key_times_are_sorted_and_of_equal_ones_the_last_is_kept() {
             .map(|(&time, value)| (time, value.x + 2.0 * value.y))
             .collect::<Vec<_>>()
     };
-    // The keys hold 0, 1 and 3.
+    // The remaining keys are 0, 1 and 3.
     let (model, warnings) = times([1.0, 0.0, 0.5]);
     assert_eq!(x(&model), [(0.0, 1.0), (0.5, 3.0), (1.0, 0.0)]);
     assert_eq!(warnings, ["ACCESSOR_ANIMATION_INPUT_NON_INCREASING"]);
@@ -147,7 +148,7 @@ fn key_times_are_sorted_and_of_equal_ones_the_last_is_kept() {
     let (model, warnings) = times([-1.0, -0.0, 0.0]);
     assert_eq!(x(&model), [(-1.0, 0.0), (0.0, 3.0)]);
     assert_eq!(warnings, ["ACCESSOR_ANIMATION_INPUT_NEGATIVE", "ACCESSOR_ANIMATION_INPUT_NON_INCREASING"]);
-    // A spline's tangents go with their key.
+    // The tangents of a spline stay with their key.
     assert_eq!(take(&model).tracks[1].scale.values.len(), 6);
 }
 
@@ -182,7 +183,7 @@ fn one_key_is_constant_and_no_key_is_no_animation() {
 }
 
 #[test]
-fn numbers_that_are_none_are_refused_where_they_count() {
+fn numbers_that_are_not_finite_are_refused_where_they_are_needed() {
     for number in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for (accessor, index) in [
             (accessor::POSITION, 1),
@@ -203,7 +204,7 @@ fn numbers_that_are_none_are_refused_where_they_count() {
 }
 
 #[test]
-fn tangents_that_are_no_numbers_are_zero() {
+fn tangents_that_are_not_finite_are_zero() {
     let (model, warnings) =
         import(|f| _ = f.float(accessor::CUBIC, 1, f32::NAN).float(accessor::CUBIC, 8, f32::INFINITY));
     let values = &take(&model).tracks[1].scale.values;
@@ -211,7 +212,7 @@ fn tangents_that_are_no_numbers_are_zero() {
     assert_eq!(warnings, ["ANIMATION_TANGENT_NOT_FINITE"]);
 }
 
-/// The influences of the first vertex after its four weights were set.
+/// Returns the influences of the first vertex after its four weights were set.
 fn weighted(weights: [f32; 4]) -> (Vec<Influence>, Vec<&'static str>) {
     let (model, warnings) = import(|f| {
         for (index, weight) in weights.into_iter().enumerate() {
@@ -237,7 +238,7 @@ fn weights_are_cleaned() {
     let (found, warnings) = weighted([0.0; 4]);
     assert_eq!(found, [influence(0, 1.0), none, none, none]);
     assert_eq!(warnings, ["ACCESSOR_WEIGHTS_ZERO"]);
-    // Joint 0 stands in three of the four places.
+    // Joint 0 is in three of the four entries.
     let (found, warnings) = weighted([0.25, 0.25, 0.25, 0.25]);
     assert_eq!(found, [influence(0, 0.75), influence(1, 0.25), none, none]);
     assert_eq!(warnings, ["ACCESSOR_JOINTS_INDEX_DUPLICATE"]);
@@ -248,7 +249,7 @@ fn weights_are_cleaned() {
 }
 
 #[test]
-fn weights_may_miss_one_by_what_their_format_cannot_express() {
+fn the_sum_of_weights_may_differ_from_one_by_their_quantization() {
     assert!(weighted([0.75, 0.250_000_1, 0.0, 0.0]).1.is_empty());
     assert_eq!(weighted([0.75, 0.2501, 0.0, 0.0]).1, ["ACCESSOR_WEIGHTS_NON_NORMALIZED"]);
     let bytes = |weights: [u8; 4]| {
@@ -264,7 +265,7 @@ fn weights_may_miss_one_by_what_their_format_cannot_express() {
     assert_eq!(bytes([200, 53, 0, 0]), ["ACCESSOR_WEIGHTS_NON_NORMALIZED"]);
 }
 
-/// The influences of the first vertex when it has these joints and weights, in sets of four, of twelve joints.
+/// Returns the influences of the first vertex with these joints and weights, in sets of four, of twelve joints.
 fn many(pairs: &[(u8, f32)]) -> (Vec<Influence>, usize) {
     let (model, _) = import(|f| {
         f.set(
@@ -307,10 +308,10 @@ fn the_strongest_eight_influences_are_kept() {
 }
 
 #[test]
-fn a_joint_that_the_skin_lacks_counts_only_with_a_weight() {
+fn a_joint_that_the_skin_lacks_is_an_error_only_with_a_weight() {
     assert!(import(|f| _ = f.patch(accessor::JOINTS, 2, &[200])).1.is_empty());
     let message = result(|f| _ = f.patch(accessor::JOINTS, 1, &[200])).unwrap_err();
-    assert_eq!(message, "/nodes/3/skin: a vertex names joint 200, the skin has 2");
+    assert_eq!(message, "/nodes/3/skin: a vertex refers to joint 200, the skin has 2 joints");
 }
 
 #[test]
@@ -327,20 +328,20 @@ fn an_inverse_bind_matrix_without_inverse_is_the_identity() {
 }
 
 #[test]
-fn lengths_beyond_single_precision_are_worth_a_warning() {
+fn lengths_beyond_single_precision_give_a_warning() {
     assert!(import(|f| _ = f.set("/nodes/2/translation", json!([1e12, 0, 0]))).1.is_empty());
     assert_eq!(import(|f| _ = f.set("/nodes/2/translation", json!([1.1e12, 0, 0]))).1, ["HUGE_TRANSLATION"]);
 }
 
 #[test]
-fn normals_are_made_where_there_are_none() {
+fn missing_normals_are_computed() {
     let normals = |model: &ModelData| model.meshes[0].primitives[0].vertices.normals.clone();
     let (model, _) = import(|f| {
         f.remove("/meshes/0/primitives/0/attributes/NORMAL");
         f.remove("/meshes/0/primitives/0/attributes/TANGENT");
     });
     assert_eq!(normals(&model), [Vec3::Z; 4]);
-    // One of them without length; +Y where there is no triangle to make it from.
+    // One of them with length zero; +Y where there is no triangle to compute it from.
     let (model, warnings) = import(|f| _ = f.float(accessor::NORMAL, 2, 0.0));
     assert_eq!(normals(&model), [Vec3::Z; 4]);
     assert_eq!(warnings, ["ACCESSOR_VECTOR3_NON_UNIT"]);
@@ -355,7 +356,7 @@ fn normals_are_made_where_there_are_none() {
 }
 
 #[test]
-fn normalised_integers_reach_minus_one_and_one() {
+fn normalized_integers_reach_minus_one_and_one() {
     let normals = |component: u32, bytes: &[u8]| {
         let (model, _) = import(|f| {
             let accessor = f.accessor("VEC3", component, 4, bytes);

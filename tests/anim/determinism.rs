@@ -1,4 +1,4 @@
-//! The same take and time give the same bits, however many threads ask.
+//! The same take and time give the same bits, on any number of threads.
 
 use crate::support::{animation_data, bone};
 use dragonfly_anim::animation::Animation;
@@ -6,7 +6,7 @@ use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Take, Tr
 use dragonfly_kit::random::Random;
 use glam::{Quat, Vec3};
 
-/// 40 bones; each channel has its own keys, and all interpolations occur.
+/// Returns 40 bones; each channel has its own keys, and all interpolations occur.
 fn model() -> AnimationData {
     let mut random = Random::new(11);
     let interpolations =
@@ -35,7 +35,7 @@ fn model() -> AnimationData {
     animation_data(bones, vec![Take { length: 2.0, tracks, ..Take::default() }])
 }
 
-/// FNV-1a over the bits of 1,000 sampled poses, in the order of time; `threads` share the work.
+/// Returns the FNV-1a hash of the bits of 1,000 sampled poses, in the order of time; `threads` share the work.
 fn hash(data: &AnimationData, threads: usize) -> u64 {
     const POSES: usize = 1_000;
     let mut bits: Vec<Vec<u32>> = vec![Vec::new(); POSES];
@@ -65,7 +65,7 @@ fn a_thousand_poses_have_the_same_bits_on_one_to_eight_threads() {
     for threads in 1..=8 {
         assert_eq!(hash(&data, threads), alone, "{threads} threads");
     }
-    // The hash sees a single bit.
+    // A change of a single bit changes the hash.
     let mut changed = data.clone();
     let mut take = (*changed.takes[0]).clone();
     let mut values = take.tracks[39].translation.values.to_vec();

@@ -1,11 +1,11 @@
-//! Doors to other files for importers under test: one in memory that remembers every knock, one into the test data.
+//! Implementations of [`AssetFs`] for tests: files in memory with a record of the reads, and folders of test data.
 
 use dragonfly_anim::format::{AssetError, AssetFs};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// Files that exist only here, and a record of what was asked for.
+/// Files in memory, and a record of the paths that were read.
 #[derive(Default)]
 pub(crate) struct MemoryFs {
     files: HashMap<String, Vec<u8>>,
@@ -13,13 +13,13 @@ pub(crate) struct MemoryFs {
 }
 
 impl MemoryFs {
-    /// A door with the given files behind it.
+    /// Returns access to the given files.
     pub(crate) fn with(files: &[(&str, &[u8])]) -> Self {
         let files = files.iter().map(|(path, bytes)| ((*path).to_owned(), bytes.to_vec())).collect();
         Self { files, asked: RefCell::default() }
     }
 
-    /// Every path asked for, in order.
+    /// Returns every path that was read, in order.
     pub(crate) fn asked(&self) -> Vec<String> {
         self.asked.borrow().clone()
     }
@@ -34,10 +34,10 @@ impl AssetFs for MemoryFs {
     }
 }
 
-/// The files of a folder of test data.
-pub(crate) struct FolderFs(pub(crate) PathBuf);
+/// Access to the files of a folder of test data.
+pub(crate) struct TestFolder(pub(crate) PathBuf);
 
-impl AssetFs for FolderFs {
+impl AssetFs for TestFolder {
     fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
         let path = self.0.join(path);
         let size = std::fs::metadata(&path).map_err(|_| AssetError::Missing)?.len();
@@ -48,7 +48,7 @@ impl AssetFs for FolderFs {
     }
 }
 
-/// The folder of test data that travels with the repository.
+/// Returns the folder of test data in the repository.
 pub(crate) fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data")
 }

@@ -1,4 +1,4 @@
-//! The examples do what they say, and each fits on a page.
+//! The examples have the documented results, and each fits on a page.
 
 #[path = "../../anim/examples/attach.rs"]
 mod attach;
@@ -6,10 +6,10 @@ mod attach;
 mod blend_two;
 #[path = "../../anim/examples/check_a_model.rs"]
 mod check_a_model;
-#[allow(dead_code, reason = "its main reads the command line, which is the test's here")]
+#[allow(dead_code, reason = "its main reads the command line, which is that of the test here")]
 #[path = "../../anim/examples/compress.rs"]
 mod compress;
-#[allow(dead_code, reason = "its main reads the command line, which is the test's here")]
+#[allow(dead_code, reason = "its main reads the command line, which is that of the test here")]
 #[path = "../../anim/examples/explain_a_bone.rs"]
 mod explain_a_bone;
 #[path = "../../anim/examples/own_interpolation.rs"]
@@ -18,7 +18,7 @@ mod own_interpolation;
 mod play_a_take;
 #[path = "../../anim/examples/reach_with_ik.rs"]
 mod reach_with_ik;
-#[allow(dead_code, reason = "its main reads the command line, which is the test's here")]
+#[allow(dead_code, reason = "its main reads the command line, which is that of the test here")]
 #[path = "../../anim/examples/reduce_keys.rs"]
 mod reduce_keys;
 #[path = "../../anim/examples/root_motion.rs"]
@@ -39,12 +39,12 @@ fn two_takes_are_blended() {
 }
 
 #[test]
-fn a_staff_is_attached() {
+fn a_staff_is_attached_to_a_bone() {
     attach::main().unwrap();
 }
 
 #[test]
-fn an_interpolation_of_ones_own_is_used() {
+fn a_custom_interpolation_is_used() {
     own_interpolation::main();
 }
 
@@ -64,12 +64,12 @@ fn limbs_reach() {
 }
 
 #[test]
-fn a_walk_is_parted_from_its_way() {
+fn the_root_motion_of_a_walk_is_extracted() {
     root_motion::main();
 }
 
 #[test]
-fn another_model_moves_alike() {
+fn a_take_is_retargeted_to_another_model() {
     same_animation_other_model::main();
 }
 

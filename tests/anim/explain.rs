@@ -1,8 +1,8 @@
-//! An explanation is what is played, and every step of it can be worked out by hand.
+//! An explanation contains the values that are played, and every step of it can be computed by hand.
 
-use crate::by_hand;
 use crate::doors::data;
 use crate::support::{about_z, along_x, animation_data, bone, take};
+use crate::textbook;
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::{
     Channel, Influence, Interpolation, Mesh, MeshInstance, ModelData, MorphTarget, MorphTrack, Primitive,
@@ -27,7 +27,7 @@ fn near<const N: usize>(got: [f32; N], expected: [f64; N], what: &str) {
     near_for(largest, got, expected, what);
 }
 
-/// Within what single precision leaves of numbers as large as `largest`: what goes into a sum, not what is left of it.
+/// Compares within single precision of numbers as large as `largest`: the terms of a sum, not its result.
 #[track_caller]
 fn near_for<const N: usize>(largest: f64, got: [f32; N], expected: [f64; N], what: &str) {
     for (got, expected) in got.into_iter().zip(expected) {
@@ -36,21 +36,21 @@ fn near_for<const N: usize>(largest: f64, got: [f32; N], expected: [f64; N], wha
 }
 
 #[track_caller]
-fn near_matrix(got: Mat4, expected: by_hand::Matrix, what: &str) {
+fn near_matrix(got: Mat4, expected: textbook::Matrix, what: &str) {
     near(got.to_cols_array(), expected.concat().try_into().expect("16 numbers"), what);
 }
 
-/// `got` is `a * b`.
+/// Checks that `got` is `a * b`.
 #[track_caller]
-fn near_product(got: Mat4, a: by_hand::Matrix, b: by_hand::Matrix, what: &str) -> by_hand::Matrix {
-    let largest = |matrix: by_hand::Matrix| matrix.concat().into_iter().map(f64::abs).fold(1.0, f64::max);
-    let expected = by_hand::product(a, b);
+fn near_product(got: Mat4, a: textbook::Matrix, b: textbook::Matrix, what: &str) -> textbook::Matrix {
+    let largest = |matrix: textbook::Matrix| matrix.concat().into_iter().map(f64::abs).fold(1.0, f64::max);
+    let expected = textbook::product(a, b);
     let numbers = expected.concat().try_into().expect("16 numbers");
     near_for(largest(a) * largest(b), got.to_cols_array(), numbers, what);
     expected
 }
 
-/// A channel's value from its keys alone; `rotation` says how two values are mixed.
+/// Returns a channel's value from its keys alone; `rotation` interpolates two values.
 fn channel<T: Copy, const N: usize>(
     step: &ChannelStep<T>,
     time: f32,
@@ -71,35 +71,35 @@ fn channel<T: Copy, const N: usize>(
         Interpolation::Linear => between(value(before), value(after), mix),
         Interpolation::CubicSpline => {
             let tangent = |key: &dragonfly_anim::explain::KeyStep<T>| wide(numbers(key.tangent.unwrap()));
-            by_hand::hermite([value(before), tangent(before), tangent(after), value(after)], span, mix)
+            textbook::hermite([value(before), tangent(before), tangent(after), value(after)], span, mix)
         }
     }
 }
 
-/// Every step of every bone of the chain; the `to_root` of each, found on the way.
-fn check_bones(explanation: &Explanation) -> Vec<(u32, by_hand::Matrix)> {
-    let mut found: Vec<(u32, by_hand::Matrix)> = Vec::new();
+/// Checks every step of every bone of the chain; returns the `to_root` of each.
+fn check_bones(explanation: &Explanation) -> Vec<(u32, textbook::Matrix)> {
+    let mut found: Vec<(u32, textbook::Matrix)> = Vec::new();
     for step in &explanation.bones {
         let BoneStep { translation, rotation, scale, pose, .. } = step;
         let time = explanation.time;
         let place = format!("bone {} at {time}", step.bone);
-        let t = channel(translation, time, |v| v.to_array(), by_hand::lerp);
-        let r = by_hand::unit(channel(rotation, time, |q| q.to_array(), by_hand::slerp));
-        let s = channel(scale, time, |v| v.to_array(), by_hand::lerp);
+        let t = channel(translation, time, |v| v.to_array(), textbook::lerp);
+        let r = textbook::unit(channel(rotation, time, |q| q.to_array(), textbook::slerp));
+        let s = channel(scale, time, |v| v.to_array(), textbook::lerp);
         near(pose.translation.to_array(), t, &place);
         near(pose.scale.to_array(), s, &place);
         near(pose.rotation.to_array(), r, &place);
-        let to_parent = by_hand::to_parent(t, r, s);
+        let to_parent = textbook::to_parent(t, r, s);
         near_matrix(step.to_parent, to_parent, &place);
         let parent = step.parent.map(|parent| found.iter().find(|(bone, _)| *bone == parent).unwrap().1);
-        let to_root = parent.map_or(to_parent, |parent| by_hand::product(parent, to_parent));
+        let to_root = parent.map_or(to_parent, |parent| textbook::product(parent, to_parent));
         near_matrix(step.to_root, to_root, &place);
         found.push((step.bone, to_root));
     }
     found
 }
 
-/// Position of the vertex from the explanation's own steps.
+/// Computes the position of the vertex from the explanation's own steps.
 fn check_vertex(explanation: &Explanation, vertex: &VertexResult) {
     let to_roots = check_bones(explanation);
     let to_root = |bone: u32| to_roots.iter().find(|(found, _)| *found == bone).unwrap().1;
@@ -115,9 +115,9 @@ fn check_vertex(explanation: &Explanation, vertex: &VertexResult) {
         MovementStep::Skin { influences, .. } => {
             for influence in influences {
                 let to_root = to_root(influence.bone.unwrap());
-                let offset = by_hand::matrix(influence.offset);
+                let offset = textbook::matrix(influence.offset);
                 let final_pose = near_product(influence.final_pose, to_root, offset, "final");
-                let moved = by_hand::point(final_pose, position);
+                let moved = textbook::point(final_pose, position);
                 near(influence.moved.to_array(), moved, "moved");
                 let adds = moved.map(|n| n * f64::from(influence.weight));
                 near(influence.contribution.to_array(), adds, "contribution");
@@ -127,17 +127,17 @@ fn check_vertex(explanation: &Explanation, vertex: &VertexResult) {
             }
         }
         MovementStep::Rigid { bone, to_bone } => {
-            let to_bone = by_hand::matrix(*to_bone);
-            let matrix = bone.map_or(to_bone, |bone| by_hand::product(to_root(bone), to_bone));
+            let to_bone = textbook::matrix(*to_bone);
+            let matrix = bone.map_or(to_bone, |bone| textbook::product(to_root(bone), to_bone));
             near_matrix(vertex.matrix, matrix, "matrix");
-            sum = by_hand::point(matrix, position);
+            sum = textbook::point(matrix, position);
         }
     }
     near(vertex.final_position.to_array(), sum, "final position");
     check_normal(vertex);
 }
 
-/// A normal stays at right angles to whatever lay in the surface.
+/// Checks that the normal stays perpendicular to the tangent plane.
 fn check_normal(vertex: &VertexResult) {
     let (Some(normal), Some(got)) = (vertex.morphed_normal, vertex.final_normal) else { return };
     assert!((got.length() - 1.0).abs() < 1e-5);
@@ -161,7 +161,7 @@ fn fox() -> Arc<ModelData> {
 }
 
 /// Two bones, each property with another interpolation; a skinned vertex that a morph target moves, one carried by a
-/// bone, one that stands still.
+/// bone, one without motion.
 pub(crate) fn made() -> Arc<ModelData> {
     let x = |number: f32| Vec3::new(number, 0.5, -number);
     let splined = Channel::new(
@@ -223,7 +223,7 @@ pub(crate) fn made() -> Arc<ModelData> {
 const TIMES: [f32; 8] = [-1.0, 0.0, 0.3, 0.5, 0.75, 1.0, 1.75, 9.0];
 
 #[test]
-fn every_step_of_a_bone_can_be_worked_out_by_hand() {
+fn every_step_of_a_bone_agrees_with_the_formulas() {
     for (model, takes) in [(made(), 1), (fox(), 3)] {
         for take in 0..takes {
             for bone in 0..model.animation.skeleton.len() as u32 {
@@ -231,7 +231,7 @@ fn every_step_of_a_bone_can_be_worked_out_by_hand() {
                     let explanation = explain(&model, Some(take), time, ExplainTarget::Bone(bone)).unwrap();
                     let to_root = check_bones(&explanation).last().unwrap().1;
                     let Subject::Bone(result) = explanation.subject else { panic!("a bone was asked for") };
-                    let offset = by_hand::matrix(result.offset);
+                    let offset = textbook::matrix(result.offset);
                     near_product(result.final_pose, to_root, offset, "final");
                 }
             }
@@ -240,7 +240,7 @@ fn every_step_of_a_bone_can_be_worked_out_by_hand() {
 }
 
 #[test]
-fn every_step_of_a_vertex_can_be_worked_out_by_hand() {
+fn every_step_of_a_vertex_agrees_with_the_formulas() {
     let explained = |model: &ModelData, time, instance, vertex| {
         let what = ExplainTarget::Vertex { instance, primitive: 0, vertex };
         let explanation = explain(model, Some(0), time, what).unwrap();
@@ -253,7 +253,7 @@ fn every_step_of_a_vertex_can_be_worked_out_by_hand() {
 }
 
 #[test]
-fn what_is_explained_is_what_is_played_bit_for_bit() {
+fn an_explanation_contains_the_played_values_bit_for_bit() {
     for model in [made(), fox()] {
         let mut evaluator = Evaluator::new(Arc::clone(&model));
         let mut animation = Animation::of(&model);
@@ -290,7 +290,7 @@ fn what_is_explained_is_what_is_played_bit_for_bit() {
 }
 
 #[test]
-fn the_worked_example_is_told_with_keys_four_and_five() {
+fn the_worked_example_is_explained_with_keys_four_and_five() {
     let keys: Vec<(f32, f32)> = (0..=10).map(|k| (k as f32 * 0.1, (k + 1) as f32)).collect();
     let track = Track { translation: along_x(&keys, Interpolation::Linear), ..Track::default() };
     let animation = animation_data(vec![bone("only", None, Vec3::ZERO)], vec![take(vec![track])]);
@@ -306,7 +306,7 @@ fn the_worked_example_is_told_with_keys_four_and_five() {
 }
 
 #[test]
-fn the_text_names_each_section_and_its_columns_line_up() {
+fn the_text_contains_each_section_and_its_columns_are_aligned() {
     let text = explain(&fox(), Some(1), 0.35, ExplainTarget::Vertex { instance: 0, primitive: 0, vertex: 9 })
         .unwrap()
         .to_string();
@@ -333,7 +333,7 @@ fn the_text_names_each_section_and_its_columns_line_up() {
 }
 
 #[test]
-fn what_is_not_there_is_named() {
+fn a_missing_item_is_an_error_with_its_number() {
     let model = made();
     let error = |take, what| explain(&model, take, 0.0, what).unwrap_err();
     let vertex = |instance, primitive, vertex| ExplainTarget::Vertex { instance, primitive, vertex };
@@ -372,11 +372,11 @@ fn the_keys_of_morph_weights_are_those_of_the_instance() {
 }
 
 #[test]
-fn bones_without_a_weight_have_no_part_in_a_vertex() {
+fn bones_without_a_weight_are_not_part_of_a_vertex() {
     let what = ExplainTarget::Vertex { instance: 0, primitive: 0, vertex: 0 };
     let explanation = explain(&made(), Some(0), 0.5, what).unwrap();
     let MovementStep::Skin { influences, .. } = &vertex_of(&explanation).movement else { panic!("a skin") };
-    let told: Vec<(Option<u32>, f32)> =
+    let shares: Vec<(Option<u32>, f32)> =
         influences.iter().map(|influence| (influence.bone, influence.weight)).collect();
-    assert_eq!(told, [(Some(1), 0.75), (Some(0), 0.25)]);
+    assert_eq!(shares, [(Some(1), 0.75), (Some(0), 0.25)]);
 }

@@ -1,4 +1,4 @@
-//! Damaged models are explained as they are played.
+//! Damaged models are explained with the values that are played.
 
 use crate::explain::{made, vertex_of};
 use dragonfly_anim::data::{ModelData, Take, Transform};
@@ -7,10 +7,10 @@ use dragonfly_anim::explain::{ExplainError, ExplainTarget, Explanation, explain}
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 
-/// One thing wrong with a model.
+/// Damages a model in one way.
 type Damage = fn(&mut ModelData);
 
-/// Everything that a position in a file may miss, and everything that may be no number.
+/// Every reference that can be missing, and every number that can be invalid.
 const DAMAGES: &[(&str, Damage)] = &[
     ("a take with too few tracks", |model| change_take(model, |take| take.tracks.truncate(1))),
     ("no tracks", |model| change_take(model, |take| take.tracks.clear())),
@@ -82,7 +82,7 @@ fn change_take(model: &mut ModelData, change: impl FnOnce(&mut Take)) {
     model.animation.takes[0] = Arc::new(take);
 }
 
-/// What holds for the bones of every explanation: numbers, parents before children, each once, and what is played.
+/// Checks the bones of an explanation: finite numbers, parents before children, each bone once, and the played values.
 fn check_sound(explanation: &Explanation, damage: &str) {
     for (number, step) in explanation.bones.iter().enumerate() {
         assert!(step.to_root.is_finite() && step.to_parent.is_finite() && step.pose.is_finite(), "{damage}");
@@ -97,8 +97,8 @@ fn check_sound(explanation: &Explanation, damage: &str) {
         }
         let above = explanation.bones[..number].iter();
         assert!(above.clone().all(|above| above.bone < step.bone), "{damage}: {:?}", step.bone);
-        let told = step.parent.is_none_or(|parent| above.clone().any(|above| above.bone == parent));
-        assert!(told, "{damage}: the parent of bone {} is not told before it", step.bone);
+        let explained = step.parent.is_none_or(|parent| above.clone().any(|above| above.bone == parent));
+        assert!(explained, "{damage}: the parent of bone {} does not come before it", step.bone);
     }
     assert!(!explanation.to_string().is_empty());
 }
@@ -124,10 +124,10 @@ fn damaged_models_are_explained_without_a_panic() {
                 check_sound(&explanation, damage);
                 let mut played = [Vec3::ZERO];
                 evaluator.positions(instance as usize, 0, &mut played);
-                let told = vertex_of(&explanation).final_position;
+                let explained = vertex_of(&explanation).final_position;
                 assert!(
-                    told == played[0] || told.is_nan() && played[0].is_nan(),
-                    "{damage}: {told} {played:?}"
+                    explained == played[0] || explained.is_nan() && played[0].is_nan(),
+                    "{damage}: {explained} {played:?}"
                 );
             }
         }

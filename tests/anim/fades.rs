@@ -6,7 +6,7 @@ use dragonfly_anim::sample::loop_time;
 use dragonfly_kit::counting::count;
 use proptest::prelude::*;
 
-/// How far apart two times are on a circle of `length` seconds.
+/// Returns the distance between two times on a circle of `length` seconds.
 fn apart(a: f32, b: f32, length: f32) -> f32 {
     let off = (a - b).rem_euclid(length);
     off.min(length - off)
@@ -49,7 +49,7 @@ proptest! {
         length in 0.2_f32..3.0, fades in (0.0_f32..1.0, 0.0_f32..1.0), below in (0.2_f32..3.0, 0.0_f32..3.0),
         steps in prop::collection::vec(0.0_f32..0.3, 1..40),
     ) {
-        // Both together no longer than the take.
+        // Both together are no longer than the take.
         let (fade_in, fade_out) = (fades.0 * length, fades.1 * (1.0 - fades.0) * length);
         let base = Playback::new(0.0, below.0, true).starting_at(below.1);
         let mut shot = OneShot::new(base, Playback::new(1.0, length, false), fade_in, fade_out, FadeCurve::Linear);
@@ -70,7 +70,7 @@ proptest! {
 }
 
 #[test]
-fn a_fade_back_begins_so_that_it_ends_with_the_take() {
+fn a_fade_out_ends_with_the_take() {
     let walk = Playback::new(0.0, 1.0, true);
     let mut shot = OneShot::new(walk, Playback::new(5.0, 2.0, false), 0.25, 0.5, FadeCurve::Linear);
     let weights: Vec<f32> =
@@ -78,10 +78,10 @@ fn a_fade_back_begins_so_that_it_ends_with_the_take() {
     assert_eq!(weights, [0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.5, 0.0]);
     assert!(shot.is_done());
     assert_eq!(shot.now(), Faded { from_time: 0.0, to_time: 7.0, weight: 0.0 });
-    // What lies below goes on alone.
+    // The base take continues alone.
     assert_eq!(shot.advance(0.75).from_time, 0.75);
     assert_eq!((shot.now().weight, shot.below().time()), (0.0, 0.75));
-    // It plays once, whatever it was before.
+    // A one-shot plays once, even if the playback loops.
     let again = OneShot::new(walk, Playback::new(0.0, 1.0, true), 0.0, 0.0, FadeCurve::Linear);
     assert_eq!((again.now().weight, again.clone().advance(1.5).weight), (1.0, 0.0));
 }
@@ -96,7 +96,7 @@ fn fades_longer_than_the_take_share_it() {
 }
 
 #[test]
-fn a_take_that_ends_stands_at_its_end_and_one_that_repeats_goes_on() {
+fn a_take_stops_at_its_end_unless_it_loops() {
     let take = Take { start: 2.0, length: 1.5, ..Take::default() };
     let (mut once, mut round) = (Playback::once(&take), Playback::repeating(&take));
     assert_eq!((once.time(), round.time(), once.left()), (2.0, 2.0, 1.5));
@@ -109,7 +109,7 @@ fn a_take_that_ends_stands_at_its_end_and_one_that_repeats_goes_on() {
 }
 
 #[test]
-fn a_fade_goes_on_from_another() {
+fn a_fade_continues_from_another_fade() {
     let stand = Playback::new(0.0, 4.0, true);
     let mut first = FreeFade::new(stand, Playback::new(0.0, 1.0, false), 0.2, FadeCurve::SmoothStep);
     first.advance(0.7);
@@ -144,7 +144,7 @@ fn the_size_of_the_steps_does_not_matter() {
 }
 
 #[test]
-fn hostile_takes_and_clocks_have_defined_answers() {
+fn invalid_takes_and_clocks_have_defined_results() {
     let hostile = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, -1.0, 0.0, 1e-45, 1.0];
     for start in hostile {
         for length in hostile {
@@ -169,11 +169,11 @@ fn hostile_takes_and_clocks_have_defined_answers() {
             }
         }
     }
-    // A take without length is over before it begins.
+    // A take without length ends as soon as it starts.
     let nothing = Playback::new(1.0, 0.0, false);
     let shot = OneShot::new(Playback::new(0.0, 1.0, true), nothing, 0.5, 0.5, FadeCurve::Linear);
     assert!(shot.is_done() && shot.now().weight == 0.0);
-    // A fade without length: the second at once.
+    // A fade without length: the second take immediately.
     let fade = FreeFade::new(nothing, nothing, 0.0, FadeCurve::Linear);
     assert!(fade.is_done() && fade.now().weight == 1.0);
 }

@@ -1,4 +1,4 @@
-//! Blends, additive layers, limbs, crowds and vertices of the fast path are what the formulas say.
+//! Blends, additive layers, limbs, crowds and vertices of the fast path agree with the formulas.
 
 use crate::doors::data;
 use crate::fast_path::{Worst, compare_poses, load, made};
@@ -29,7 +29,7 @@ fn poses(random: &mut Random, bones: usize) -> Vec<Transform> {
     (0..bones).map(pose).collect()
 }
 
-/// The formula, one bone at a time.
+/// The formula for one bone.
 fn blended(base: Transform, base_weight: f32, layers: &[(Transform, f32)]) -> Transform {
     let all: Vec<(Transform, f32)> =
         std::iter::once((base, base_weight)).chain(layers.iter().copied()).collect();
@@ -53,7 +53,7 @@ fn blended(base: Transform, base_weight: f32, layers: &[(Transform, f32)]) -> Tr
 }
 
 #[test]
-fn any_number_of_layers_blends_as_the_formula_says() {
+fn any_number_of_layers_blends_according_to_the_formula() {
     let seed = seed(5);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -123,7 +123,7 @@ fn a_blend_of_a_pose_with_itself_is_the_pose() {
 }
 
 #[test]
-fn what_is_added_is_a_part_of_the_difference() {
+fn an_additive_layer_adds_its_share_of_the_difference() {
     let mut random = Random::new(6);
     let (from, to, base) = (poses(&mut random, 67), poses(&mut random, 67), poses(&mut random, 67));
     let [from_soa, to_soa, base_soa] = [&from, &to, &base].map(|list| Pose::from_transforms(list));
@@ -159,7 +159,7 @@ fn what_is_added_is_a_part_of_the_difference() {
 }
 
 #[test]
-fn a_limb_reaches_what_it_can_reach() {
+fn a_limb_reaches_every_reachable_target() {
     let fox = load(&data().join("gltf/Fox.glb"));
     let rig = Rig::new(&fox.animation.skeleton);
     let find = |name: &str| fox.animation.skeleton.find(name).unwrap();
@@ -186,7 +186,7 @@ fn a_limb_reaches_what_it_can_reach() {
         to_root(SimdLevel::best(), &rig, pose.blocks(), &mut roots);
         let left = distance_left(&limb, target, &roots);
         assert!(left < 1e-4 * most, "{round}: {left} of {most}");
-        // Out of reach it is straight, and points there.
+        // A target out of reach: the limb is straight and points at it.
         let far = place_of(&roots, root) + vector(&mut random).normalize_or(Vec3::X) * most * 2.0;
         assert!(two_bone(&limb, far, &roots, &mut pose));
         to_root(SimdLevel::best(), &rig, pose.blocks(), &mut roots);
@@ -200,7 +200,7 @@ fn place_of(roots: &RootPoses, bone: u32) -> Vec3 {
     matrix::transform_point(roots.get(bone as usize), Vec3::ZERO)
 }
 
-/// The final poses and vertices of a model by the open path, against those of the fast path's pipeline.
+/// Compares the final poses and vertices of a model on the open path with those of the fast path's pipeline.
 fn compare_pipeline(model: ModelData, take: usize) {
     let model = Arc::new(model);
     let rig = Rig::new(&model.animation.skeleton);
@@ -240,7 +240,7 @@ fn compare_pipeline(model: ModelData, take: usize) {
 }
 
 #[test]
-fn vertices_of_a_fox_are_where_the_open_path_has_them() {
+fn vertices_of_the_fox_agree_with_the_open_path() {
     compare_pipeline(load(&data().join("gltf/Fox.glb")), 1);
 }
 
@@ -250,7 +250,7 @@ fn vertices_of_a_real_rig_are_where_the_open_path_has_them() {
 }
 
 #[test]
-fn a_crowd_is_its_characters_one_by_one_and_allocates_nothing() {
+fn a_crowd_equals_its_single_characters_and_allocates_nothing() {
     let mut random = Random::new(12);
     let animation = made(67, &mut random);
     let rig = Rig::new(&animation.skeleton);
@@ -291,7 +291,7 @@ fn a_crowd_is_its_characters_one_by_one_and_allocates_nothing() {
 }
 
 #[test]
-fn numbers_past_what_f32_can_hold_end_as_on_the_open_path() {
+fn overflowing_numbers_have_the_same_result_as_on_the_open_path() {
     let mut random = Random::new(13);
     let mut animation = made(20, &mut random);
     let skeleton = Arc::make_mut(&mut animation.skeleton);

@@ -1,6 +1,6 @@
-//! Limbs of the fast path bend as those of the open path do.
+//! Limbs of the fast path bend like those of the open path.
 
-use crate::ik::{Parent, at_distance, direction, lengths, matrices, origin, row, started, turn, vector};
+use crate::ik::{ParentScale, at_distance, direction, lengths, matrices, origin, row, started, turn, vector};
 use crate::support::angle_between;
 use dragonfly_anim::data::{Skeleton, Transform};
 use dragonfly_anim::fast::simd::SimdLevel;
@@ -10,13 +10,13 @@ use dragonfly_kit::counting::count;
 use dragonfly_kit::random::Random;
 use glam::{Mat4, Quat, Vec3};
 
-/// What is allowed between the turns of both paths, radians.
+/// Allowed angle between the rotations of both paths, radians.
 const ANGLE: f32 = 2e-4;
 
-/// The parents whose scales are the same along all axes.
-const PARENTS: [Parent; 3] = [Parent::Plain, Parent::Uniform, Parent::Mirrored];
+/// The parents with a uniform scale.
+const PARENTS: [ParentScale; 3] = [ParentScale::Plain, ParentScale::Uniform, ParentScale::Mirrored];
 
-/// `poses` after the fast path solved `limb`; `None` where it did not.
+/// Returns `poses` after the fast path solved `limb`; `None` if it did not.
 fn fast(
     skeleton: &Skeleton,
     poses: &[Transform],
@@ -33,7 +33,7 @@ fn fast(
     is_solved.then_some(after)
 }
 
-/// `poses` after the open path solved the same limb.
+/// Returns `poses` after the open path solved the same limb.
 fn open(skeleton: &Skeleton, poses: &[Transform], limb: &FastTwoBone, target: Vec3) -> Vec<Transform> {
     let pole = if limb.pole == Vec3::ZERO { ik::Pole::AsPosed } else { ik::Pole::Direction(limb.pole) };
     let same = ik::TwoBone {
@@ -47,13 +47,13 @@ fn open(skeleton: &Skeleton, poses: &[Transform], limb: &FastTwoBone, target: Ve
     after
 }
 
-/// The limb 1–2–3 of a row, with a pole in two of three.
+/// Returns the limb 1–2–3 of a row, with a pole in two of three cases.
 fn limb(random: &mut Random) -> FastTwoBone {
     let pole = if random.below(3) == 0 { Vec3::ZERO } else { vector(random) };
     FastTwoBone { pole, ..FastTwoBone::new(1, 2, 3) }
 }
 
-/// Solves many limbs that `limb` makes both ways and compares root and middle.
+/// Solves many limbs made by `limb` on both paths and compares root and middle.
 fn compare(usual: u64, limb: impl Fn(&mut Random) -> FastTwoBone) {
     let mut random = started(usual);
     let (mut compared, mut worst) = (0, 0.0_f32);
@@ -64,7 +64,8 @@ fn compare(usual: u64, limb: impl Fn(&mut Random) -> FastTwoBone) {
         let old = matrices(&skeleton, &poses);
         let parts = lengths(&poses);
         let (least, most) = ((parts[0] - parts[1]).abs(), parts[0] + parts[1]);
-        // Also out of reach and too near; full reach and full fold themselves are half the digits.
+        // Also out of reach and too near. Full extension and full folding are left out, since they have only half the
+        // digits.
         let share = random.choice(&[-0.4, 0.02, 0.1, 0.35, 0.6, 0.8, 0.93, 0.98, 1.3, 40.0]);
         let distance = least + (most - least) * share;
         if distance < 0.05 * most {
@@ -73,7 +74,7 @@ fn compare(usual: u64, limb: impl Fn(&mut Random) -> FastTwoBone) {
         let target = at_distance(&old, &poses, direction(&mut random), distance);
         let expected = open(&skeleton, &poses, &limb, target);
         let got = fast(&skeleton, &poses, &limb, target).unwrap_or_else(|| panic!("{round} {parent:?}"));
-        // Straight and folded limbs have no side; their middles and ends still have places.
+        // Straight and folded limbs have no bending plane; their middles and ends still have defined positions.
         let straight = share < 0.0 || ik::soft_distance(distance, most, limb.softness) > 0.999 * most;
         for bone in [1, 2].into_iter().filter(|_| !straight) {
             let off = angle_between(got[bone].rotation, expected[bone].rotation);
@@ -94,12 +95,12 @@ fn compare(usual: u64, limb: impl Fn(&mut Random) -> FastTwoBone) {
 }
 
 #[test]
-fn a_limb_bends_as_on_the_open_path() {
+fn a_limb_bends_like_on_the_open_path() {
     compare(61, limb);
 }
 
 #[test]
-fn a_soft_limb_bends_as_on_the_open_path() {
+fn a_soft_limb_bends_like_on_the_open_path() {
     compare(62, |random| FastTwoBone {
         softness: random.choice(&[0.01, 0.1, 0.4, 1.0, 3.0]),
         ..limb(random)
@@ -107,7 +108,7 @@ fn a_soft_limb_bends_as_on_the_open_path() {
 }
 
 #[test]
-fn a_limb_in_part_turns_as_on_the_open_path() {
+fn a_limb_with_a_weight_rotates_like_on_the_open_path() {
     compare(63, |random| FastTwoBone {
         softness: random.choice(&[0.0, 0.2]),
         weight: random.between(0.01, 0.99),
@@ -119,19 +120,19 @@ fn a_limb_in_part_turns_as_on_the_open_path() {
 fn weight_zero_changes_no_bit() {
     let mut random = started(64);
     for weight in [0.0, -0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
-        let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+        let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
         let limb = FastTwoBone { weight, ..limb(&mut random) };
         assert_eq!(fast(&skeleton, &poses, &limb, vector(&mut random)), Some(poses));
     }
-    let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+    let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
     let (limb, target) = (limb(&mut random), vector(&mut random));
     let over = FastTwoBone { weight: 7.0, ..limb };
     assert_eq!(fast(&skeleton, &poses, &over, target), fast(&skeleton, &poses, &limb, target));
 }
 
-/// A straight row of two parts along `way`, of lengths `a` and `b`; a negative one folds back.
+/// Returns a straight row of two segments along `way`, of lengths `a` and `b`; a negative length folds back.
 fn line(random: &mut Random, way: Vec3, a: f32, b: f32) -> (Skeleton, Vec<Transform>) {
-    let (mut skeleton, mut poses) = row(random, 2, Parent::Plain);
+    let (mut skeleton, mut poses) = row(random, 2, ParentScale::Plain);
     for (bone, length) in [(2, a), (3, b)] {
         skeleton.bones[bone].rest.translation = way * length;
         poses[bone].translation = way * length;
@@ -142,7 +143,7 @@ fn line(random: &mut Random, way: Vec3, a: f32, b: f32) -> (Skeleton, Vec<Transf
 }
 
 #[test]
-fn a_limb_on_one_line_bends_towards_its_pole_or_anywhere_and_meets_its_target() {
+fn a_straight_limb_bends_towards_its_pole_or_anywhere_and_reaches_its_target() {
     let mut random = started(65);
     for round in 0..1_000 {
         let way = direction(&mut random);
@@ -170,10 +171,10 @@ fn a_limb_on_one_line_bends_towards_its_pole_or_anywhere_and_meets_its_target() 
 }
 
 #[test]
-fn targets_straight_behind_are_met() {
+fn targets_directly_behind_the_limb_are_reached() {
     let mut random = started(66);
     for round in 0..2_000 {
-        let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+        let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
         let old = matrices(&skeleton, &poses);
         let [root, middle, end] = [1, 2, 3].map(|bone| origin(&old, bone));
         if (end - root).length() < 0.2 || (middle - root).cross(end - root).length() < 0.05 {
@@ -192,10 +193,10 @@ fn targets_straight_behind_are_met() {
 }
 
 #[test]
-fn limbs_of_any_size_bend_alike() {
+fn limbs_of_any_size_bend_the_same_way() {
     let mut random = started(67);
     for _ in 0..300 {
-        let (mut skeleton, mut poses) = row(&mut random, 2, Parent::Plain);
+        let (mut skeleton, mut poses) = row(&mut random, 2, ParentScale::Plain);
         let (limb, target) = (limb(&mut random), vector(&mut random));
         poses[0].translation = Vec3::ZERO;
         let usual = fast(&skeleton, &poses, &limb, target).unwrap();
@@ -215,9 +216,9 @@ fn limbs_of_any_size_bend_alike() {
 }
 
 #[test]
-fn what_cannot_be_solved_changes_nothing() {
+fn an_unsolvable_limb_changes_nothing() {
     let mut random = started(68);
-    let (skeleton, poses) = row(&mut random, 2, Parent::Plain);
+    let (skeleton, poses) = row(&mut random, 2, ParentScale::Plain);
     let rig = Rig::new(&skeleton);
     let mut roots = RootPoses::new(&rig);
     to_root(SimdLevel::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);
@@ -243,12 +244,12 @@ fn what_cannot_be_solved_changes_nothing() {
         assert_eq!(pose, Pose::from_transforms(&poses), "{limb:?} {target}");
     }
     let mut short = Pose::new(1);
-    assert!(two_bone(&limb, Vec3::ONE, &roots, &mut short), "lanes past the end are there");
+    assert!(two_bone(&limb, Vec3::ONE, &roots, &mut short), "padding lanes exist");
     assert!(!two_bone(&limb, Vec3::ONE, &roots, &mut Pose::new(0)));
 }
 
 #[test]
-fn no_number_makes_a_rotation_that_is_none() {
+fn no_input_makes_an_invalid_rotation() {
     let mut random = started(69);
     let odd = [0.0, -0.0, 1e-30, 1e-45, 1.0, -3.0, 1e19, 1e30, f32::MAX, f32::INFINITY, f32::NAN];
     let any = |random: &mut Random| Vec3::from_array([(); 3].map(|()| random.choice(&odd)));
@@ -274,13 +275,13 @@ fn no_number_makes_a_rotation_that_is_none() {
     }
 }
 
-fn random_parent(round: usize) -> Parent {
+fn random_parent(round: usize) -> ParentScale {
     PARENTS[round % 3]
 }
 
 #[test]
-fn the_distance_left_is_that_of_the_end() {
-    let (skeleton, poses) = row(&mut started(70), 2, Parent::Plain);
+fn the_returned_distance_is_that_from_the_end_to_the_target() {
+    let (skeleton, poses) = row(&mut started(70), 2, ParentScale::Plain);
     let rig = Rig::new(&skeleton);
     let mut roots = RootPoses::new(&rig);
     to_root(SimdLevel::best(), &rig, Pose::from_transforms(&poses).blocks(), &mut roots);

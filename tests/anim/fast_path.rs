@@ -1,6 +1,6 @@
-//! The fast path gives what the open path gives, at every level of the machine.
+//! The fast path agrees with the open path, at every SIMD level of the machine.
 
-use crate::doors::{FolderFs, data, model_files};
+use crate::doors::{TestFolder, data, model_files};
 use crate::support::{animation_data, bone, take};
 use dragonfly_anim::animation::{final_poses as open_finals, to_root as open_to_root};
 use dragonfly_anim::data::{
@@ -17,10 +17,10 @@ use dragonfly_kit::random::{Random, seed};
 use glam::{Mat4, Quat, Vec3};
 use std::path::Path;
 
-/// Difference allowed, relative to the largest number beside it, or to 1 when that is smaller.
+/// Allowed difference, relative to the largest number of the same vector, or to 1 if that is smaller.
 const RELATIVE: f32 = 1e-5;
 
-/// The largest difference found, in units of what is allowed.
+/// The largest difference found, in units of the allowed one.
 #[derive(Default)]
 pub(crate) struct Worst {
     pub(crate) off: f32,
@@ -49,8 +49,8 @@ impl Worst {
 
     #[track_caller]
     pub(crate) fn assert(&self, what: &str) {
-        println!("{what}: {} numbers, worst {:.3} of what is allowed", self.numbers, self.off);
-        assert!(self.off <= 1.0, "{what}: {:.2} times too far: {}", self.off, self.place);
+        println!("{what}: {} numbers, worst {:.3} of the allowed difference", self.numbers, self.off);
+        assert!(self.off <= 1.0, "{what}: {:.2} times the allowed difference: {}", self.off, self.place);
     }
 }
 
@@ -58,7 +58,7 @@ fn largest<'a>(numbers: impl IntoIterator<Item = &'a f32>) -> f32 {
     numbers.into_iter().copied().map(f32::abs).fold(0.0, f32::max)
 }
 
-/// Numbers of a pose; the rotation with the sign that is nearer to `like`.
+/// Returns the numbers of a pose; the rotation with the sign that is nearer to `like`.
 fn numbers(pose: Transform, like: Transform) -> [f32; 10] {
     let turned = if pose.rotation.dot(like.rotation) < 0.0 { -pose.rotation } else { pose.rotation };
     let mut numbers = [0.0; 10];
@@ -88,7 +88,7 @@ fn compare_matrices(got: &[[f32; 12]], expected: &[Mat4], largest: f32, worst: &
     }
 }
 
-/// Every key time, and times between, before and after.
+/// Returns every key time, and times between, before and after.
 fn times(take: &Take) -> Vec<f32> {
     let mut keys: Vec<f32> = take.tracks.iter().flat_map(Track::key_times).collect();
     keys.sort_by(f32::total_cmp);
@@ -125,7 +125,7 @@ fn compare_model(animation: &AnimationData, skins: &[Skin]) -> Worst {
                 let mut finals = vec![matrix::IDENTITY; skin.bones.len()];
                 open_finals(skin, &open_roots, &mut expected);
                 final_poses(level, binding, &roots, &mut finals);
-                // A product is as exact as its factors are large.
+                // The error of a product is proportional to its factors.
                 let size = size * largest(skin.offsets.iter().flat_map(|matrix| matrix.as_ref())).max(1.0);
                 compare_matrices(&finals, &expected, size, &mut worst, &place);
             }
@@ -148,7 +148,7 @@ impl MapWith for Vec<SimdLevel> {
 pub(crate) fn load(path: &Path) -> ModelData {
     let bytes = std::fs::read(path).unwrap();
     let name = path.file_name().unwrap().to_str().unwrap();
-    read(name, &bytes, &FolderFs(path.parent().unwrap().to_owned()), &ReadOptions::default()).unwrap().model
+    read(name, &bytes, &TestFolder(path.parent().unwrap().to_owned()), &ReadOptions::default()).unwrap().model
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn every_model_of_the_test_data_moves_the_same_on_both_paths() {
     assert!(seen >= 40, "{seen}");
 }
 
-/// A skeleton of `bones` bones that all move, each with its own keys of its own kind.
+/// A skeleton of `bones` animated bones, each with its own keys and kind of channel.
 pub(crate) fn made(bones: usize, random: &mut Random) -> AnimationData {
     let vector =
         |random: &mut Random, size: f32| Vec3::from_array([(); 3].map(|()| random.between(-1.0, 1.0))) * size;
@@ -201,7 +201,7 @@ pub(crate) fn made(bones: usize, random: &mut Random) -> AnimationData {
     ];
     let together: Vec<f32> = (0..12).map(|key| key as f32 / 30.0).collect();
     let takes = (0..3).map(|number| {
-        // Of the second take every bone has times of its own; the third turns far from key to key.
+        // In the second take every bone has its own times; the third rotates far from key to key.
         let own = number == 1;
         let angle = if number == 2 { 3.1 } else { 0.4 };
         let times = |random: &mut Random| {
@@ -256,7 +256,7 @@ fn skeletons_of_any_size_move_the_same_on_both_paths() {
         let animation = made(bones, &mut random);
         let skin = Skin {
             name: String::new(),
-            // In another order than the bones, and one joint of a bone that is not there.
+            // In another order than the bones, and one joint of a missing bone.
             bones: (0..bones as u32).rev().chain([99]).collect(),
             offsets: animation.skeleton.bones.iter().rev().map(|bone| bone.offset).collect(),
         };

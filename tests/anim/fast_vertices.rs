@@ -1,5 +1,5 @@
-//! Vertices of the fast path are where the open path has them: any number of joints and influences, morph targets, and
-//! numbers that are none.
+//! Vertices of the fast path agree with the open path: any number of joints and influences, morph targets, and numbers
+//! that are not finite.
 
 use crate::ik::{started, vector};
 use dragonfly_anim::data::{Influence, MorphTarget, Primitive, Vertices};
@@ -11,10 +11,10 @@ use dragonfly_kit::counting::count;
 use dragonfly_kit::random::Random;
 use glam::{Mat4, Quat, Vec3};
 
-/// Difference allowed, relative to the largest number beside it, or to 1 when that is smaller.
+/// Allowed difference, relative to the largest number of the same vector, or to 1 if that is smaller.
 const RELATIVE: f32 = 1e-5;
 
-/// Poses that do not differ so much that their sum is nearly flat.
+/// Poses that differ so little that their sum is not nearly flat.
 fn poses(random: &mut Random, joints: usize) -> Vec<Mat4> {
     let pose = |_| {
         let rotation = Quat::from_axis_angle(vector(random).normalize_or(Vec3::X), random.between(0.0, 0.7));
@@ -24,7 +24,7 @@ fn poses(random: &mut Random, joints: usize) -> Vec<Mat4> {
     (0..joints).map(pose).collect()
 }
 
-/// `count` vertices with up to `most` influences each, of joints below `joints`.
+/// Returns `count` vertices with up to `most` influences each, of joints below `joints`.
 fn primitive(random: &mut Random, count: usize, joints: usize, most: usize) -> Primitive {
     let mut influences = Vec::new();
     for _ in 0..count {
@@ -46,7 +46,7 @@ fn primitive(random: &mut Random, count: usize, joints: usize, most: usize) -> P
     Primitive { vertices, ..Primitive::default() }
 }
 
-/// `targets` morph targets; some have no normals.
+/// Returns `targets` morph targets; some have no normals.
 fn targets(random: &mut Random, targets: usize, count: usize) -> Vec<MorphTarget> {
     let some = |random: &mut Random| (0..count).map(|_| vector(random) * 0.1).collect::<Vec<Vec3>>();
     let target = |at: usize| MorphTarget {
@@ -57,7 +57,7 @@ fn targets(random: &mut Random, targets: usize, count: usize) -> Vec<MorphTarget
     (0..targets).map(target).collect()
 }
 
-/// Moves `primitive` both ways and compares; morphed, where there are weights.
+/// Moves `primitive` on both paths and compares the results; morphed, if there are weights.
 #[track_caller]
 fn compare(primitive: &Primitive, finals: &[Mat4], weights: &[f32], place: &str) {
     let count = primitive.vertices.len();
@@ -83,7 +83,7 @@ fn compare(primitive: &Primitive, finals: &[Mat4], weights: &[f32], place: &str)
     }
 }
 
-/// How often memory was asked for, and how many vertices were written.
+/// Returns the number of allocations, and of written vertices.
 fn count_written(
     level: SimdLevel,
     vertices: &SkinnedVertices,
@@ -100,7 +100,7 @@ fn count_written(
 }
 
 #[test]
-fn any_number_of_vertices_influences_and_joints_moves_as_on_the_open_path() {
+fn any_number_of_vertices_influences_and_joints_moves_like_on_the_open_path() {
     let mut random = started(81);
     for count in [0, 1, 7, 8, 9, 31, 127, 128, 129, 400] {
         for (joints, most) in [(1, 1), (5, 2), (60, 4), (256, 4), (257, 4), (300, 8), (3_000, 8), (40, 8)] {
@@ -117,7 +117,7 @@ fn any_number_of_vertices_influences_and_joints_moves_as_on_the_open_path() {
 }
 
 #[test]
-fn joints_that_the_skin_does_not_have_count_as_the_identity() {
+fn joints_that_the_skin_lacks_count_as_the_identity() {
     let mut random = started(82);
     for count in [5, 200] {
         for (joints, have) in [(60, 20), (60, 0), (256, 255), (300, 256), (300, 10)] {
@@ -130,7 +130,7 @@ fn joints_that_the_skin_does_not_have_count_as_the_identity() {
 }
 
 #[test]
-fn numbers_that_are_none_end_as_on_the_open_path() {
+fn numbers_that_are_not_finite_have_the_same_result_as_on_the_open_path() {
     let mut random = started(83);
     for round in 0..60 {
         let count = [20, 150][round % 2];
@@ -150,12 +150,12 @@ fn numbers_that_are_none_end_as_on_the_open_path() {
 }
 
 #[test]
-fn flat_and_vanished_surfaces_face_as_on_the_open_path() {
+fn normals_of_flat_and_collapsed_surfaces_agree_with_the_open_path() {
     let mut random = started(84);
     let flat = [Vec3::new(1.0, 0.0, 1.0), Vec3::new(0.0, 0.0, 2.0), Vec3::ZERO, Vec3::splat(1e-20)];
     let finals: Vec<Mat4> = flat.map(Mat4::from_scale).to_vec();
     for count in [9, 140] {
-        // One joint a vertex: a sum of flat surfaces is rounding.
+        // One joint per vertex, because a sum of flat surfaces is only rounding errors.
         let primitive = primitive(&mut random, count, 4, 1);
         compare(&primitive, &finals, &[], &format!("{count}"));
     }
@@ -165,14 +165,14 @@ fn flat_and_vanished_surfaces_face_as_on_the_open_path() {
 }
 
 #[test]
-fn morph_targets_are_added_as_on_the_open_path() {
+fn morph_targets_are_added_like_on_the_open_path() {
     let mut random = started(85);
     for count in [1, 8, 13, 128, 301] {
         for number in [1, 2, 5, 12] {
             let mut primitive = primitive(&mut random, count, 30, 4);
             primitive.morph_targets = targets(&mut random, number, count);
             let finals = poses(&mut random, 30);
-            // As many weights as targets, fewer, and more.
+            // The number of targets, fewer, and more.
             for weights in [number, number / 2, number + 3] {
                 let weights: Vec<f32> =
                     (0..weights).map(|_| random.choice(&[0.0, 0.3, 1.0, -0.7, 2.5])).collect();
@@ -205,7 +205,7 @@ fn without_weights_morph_targets_change_no_bit() {
 }
 
 #[test]
-fn a_morph_that_leads_nowhere_leaves_a_vertex_as_the_file_has_it() {
+fn a_morph_without_a_valid_result_leaves_a_vertex_unchanged() {
     let mut random = started(87);
     for count in [10, 150] {
         let mut primitive = primitive(&mut random, count, 30, 4);
@@ -213,7 +213,7 @@ fn a_morph_that_leads_nowhere_leaves_a_vertex_as_the_file_has_it() {
         target.positions[3].y = f32::NAN;
         target.positions[4].x = f32::INFINITY;
         target.normals[5].z = f32::NAN;
-        // Nothing is left of this normal.
+        // This normal becomes zero.
         target.normals[6] = -primitive.vertices.normals[6];
         primitive.morph_targets = vec![target];
         let finals = poses(&mut random, 30);
@@ -224,7 +224,7 @@ fn a_morph_that_leads_nowhere_leaves_a_vertex_as_the_file_has_it() {
 }
 
 #[test]
-fn only_as_many_vertices_are_written_as_both_outputs_have_room_for() {
+fn the_shorter_output_limits_the_number_of_written_vertices() {
     let mut random = started(88);
     let primitive = primitive(&mut random, 200, 10, 4);
     let vertices = SkinnedVertices::new(&primitive);

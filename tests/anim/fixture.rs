@@ -1,16 +1,16 @@
-//! A small valid glTF with a bit of everything, made to be changed in one place.
+//! A small valid glTF with every supported feature, made to be changed in one place.
 
 use base64_of::base64;
 use serde_json::{Value, json};
 
-/// A document and its one buffer.
+/// A document and its buffer.
 #[derive(Clone)]
 pub(crate) struct Fixture {
     pub(crate) json: Value,
     pub(crate) bin: Vec<u8>,
 }
 
-/// Accessors of [`Fixture::new`] that tests change, by number.
+/// Numbers of the accessors of [`Fixture::new`] that tests change.
 pub(crate) mod accessor {
     pub(crate) const POSITION: usize = 0;
     pub(crate) const NORMAL: usize = 1;
@@ -65,7 +65,7 @@ impl Fixture {
         fixture
     }
 
-    /// Appends bytes to the buffer; the number of the view over them.
+    /// Appends bytes to the buffer and returns the number of their view.
     pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
         let view = json!({"buffer": 0, "byteOffset": self.bin.len(), "byteLength": bytes.len()});
         self.bin.extend_from_slice(bytes);
@@ -74,14 +74,14 @@ impl Fixture {
         push(&mut self.json["bufferViews"], view)
     }
 
-    /// Appends an accessor over bytes of its own; its number.
+    /// Appends an accessor with its own bytes and returns its number.
     pub(crate) fn accessor(&mut self, shape: &str, component: u32, count: usize, bytes: &[u8]) -> usize {
         let view = self.view(bytes);
         let accessor = json!({"bufferView": view, "componentType": component, "type": shape, "count": count});
         push(&mut self.json["accessors"], accessor)
     }
 
-    /// Puts `value` at a JSON pointer; makes members that are not there.
+    /// Sets the value at a JSON pointer; adds missing members.
     pub(crate) fn set(&mut self, pointer: &str, value: Value) -> &mut Self {
         let mut at = &mut self.json;
         for part in pointer.split('/').skip(1) {
@@ -100,14 +100,14 @@ impl Fixture {
         self
     }
 
-    /// Takes away what is at a JSON pointer.
+    /// Removes the value at a JSON pointer.
     pub(crate) fn remove(&mut self, pointer: &str) -> &mut Self {
         let (outer, name) = pointer.rsplit_once('/').unwrap();
         self.json.pointer_mut(outer).unwrap().as_object_mut().unwrap().remove(name).unwrap();
         self
     }
 
-    /// Overwrites bytes of an accessor's own data.
+    /// Overwrites bytes of an accessor.
     pub(crate) fn patch(&mut self, accessor: usize, offset: usize, bytes: &[u8]) -> &mut Self {
         let view = self.json["accessors"][accessor]["bufferView"].as_u64().unwrap() as usize;
         let at = self.json["bufferViews"][view]["byteOffset"].as_u64().unwrap() as usize + offset;
@@ -115,17 +115,17 @@ impl Fixture {
         self
     }
 
-    /// Overwrites one float of an accessor's own data.
+    /// Overwrites one float of an accessor.
     pub(crate) fn float(&mut self, accessor: usize, index: usize, value: f32) -> &mut Self {
         self.patch(accessor, index * 4, &value.to_le_bytes())
     }
 
-    /// As a binary container.
+    /// Returns the fixture as a binary container.
     pub(crate) fn glb(&self) -> Vec<u8> {
         glb(self.json.to_string().as_bytes(), Some(&self.bin))
     }
 
-    /// As JSON with the buffer in it.
+    /// Returns the fixture as JSON with the buffer in it.
     pub(crate) fn gltf(&self) -> Vec<u8> {
         let mut json = self.json.clone();
         json["buffers"][0]["uri"] =
@@ -133,15 +133,15 @@ impl Fixture {
         json.to_string().into_bytes()
     }
 
-    /// As JSON with the buffer in a file called `all.bin`.
-    pub(crate) fn gltf_beside(&self) -> Vec<u8> {
+    /// Returns the fixture as JSON with the buffer in a file called `all.bin`.
+    pub(crate) fn gltf_with_file(&self) -> Vec<u8> {
         let mut json = self.json.clone();
         json["buffers"][0]["uri"] = json!("all.bin");
         json.to_string().into_bytes()
     }
 }
 
-/// A container of the given chunks.
+/// Returns a container of the given chunks.
 pub(crate) fn glb(json: &[u8], bin: Option<&[u8]>) -> Vec<u8> {
     let mut json = json.to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');
@@ -154,17 +154,17 @@ pub(crate) fn glb(json: &[u8], bin: Option<&[u8]>) -> Vec<u8> {
     container(&file)
 }
 
-/// A chunk: its length, its kind, its bytes.
+/// Returns a chunk: its length, its kind, its bytes.
 pub(crate) fn chunk(kind: &[u8; 4], body: &[u8]) -> Vec<u8> {
     [&(body.len() as u32).to_le_bytes(), &kind[..], body].concat()
 }
 
-/// A header before chunks.
+/// Returns a container: a header before the chunks.
 pub(crate) fn container(chunks: &[u8]) -> Vec<u8> {
     [b"glTF", &2u32.to_le_bytes()[..], &(12 + chunks.len() as u32).to_le_bytes(), chunks].concat()
 }
 
-/// The beginning of a PNG file of the given size; nobody decodes it here.
+/// Returns the start of a PNG file of the given size, which is never decoded here.
 pub(crate) fn png(width: u32, height: u32) -> Vec<u8> {
     let size = [width.to_be_bytes(), height.to_be_bytes()].concat();
     [b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", &size[..], b"\x08\x06\0\0\0\0\0\0\0\0\0\0"].concat()
@@ -216,7 +216,7 @@ fn skeleton_of_json() -> Value {
     })
 }
 
-/// Base64, written out: the tests need it in one place only.
+/// Base64 encoding, used by the tests in one place only.
 mod base64_of {
     pub(crate) fn base64(bytes: &[u8]) -> String {
         const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -236,6 +236,7 @@ mod base64_of {
 #[test]
 fn the_fixture_is_valid_in_each_form() {
     use crate::doors::MemoryFs;
+    use dragonfly_anim::format::gltf::{GLB, GLTF};
     use dragonfly_anim::format::{ReadOptions, read};
     let fixture = Fixture::new();
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
@@ -243,12 +244,12 @@ fn the_fixture_is_valid_in_each_form() {
     let [binary, embedded, beside] = [
         read("a.glb", &fixture.glb()),
         read("a.gltf", &fixture.gltf()),
-        read("a.gltf", &fixture.gltf_beside()),
+        read("a.gltf", &fixture.gltf_with_file()),
     ];
     assert_eq!(binary.warnings, []);
     assert_eq!(binary.model, embedded.model);
     assert_eq!(binary.model, beside.model);
-    assert_eq!((binary.format, embedded.format), ("glb", "gltf"));
+    assert_eq!((binary.format, embedded.format), (GLB, GLTF));
     assert_eq!(door.asked(), ["all.bin"]);
     assert_eq!(crate::soundness::faults(&binary.model), [""; 0]);
     let model = binary.model;

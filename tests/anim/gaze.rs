@@ -1,4 +1,4 @@
-//! Heads look where they shall, and feet stand on the ground.
+//! Look-at and foot placement.
 
 use crate::ik::{PARENTS, direction, matrices, origin, row, started, vector};
 use crate::support::{angle_between, bone};
@@ -9,7 +9,7 @@ use dragonfly_kit::counting::count;
 use dragonfly_kit::random::Random;
 use glam::{Mat4, Quat, Vec3};
 
-/// Radians between a bone's forward axis and the way to the target, to-root space.
+/// Returns the angle in radians between a bone's forward axis and the direction to the target, in to-root space.
 fn off(to_root: Mat4, gaze: &Gaze, target: Vec3) -> f32 {
     let eye = to_root.transform_point3(gaze.eye);
     let forward = to_root.transform_vector3(gaze.forward).normalize();
@@ -52,10 +52,10 @@ fn the_last_bone_looks_straight_at_its_target_whatever_its_parents_do() {
 }
 
 #[test]
-fn up_stays_as_near_to_up_as_the_gaze_allows() {
+fn the_up_axis_stays_as_upright_as_the_gaze_allows() {
     let mut random = started(62);
     for _ in 0..500 {
-        let (skeleton, mut poses) = row(&mut random, 1, crate::ik::Parent::Uniform);
+        let (skeleton, mut poses) = row(&mut random, 1, crate::ik::ParentScale::Uniform);
         let old = matrices(&skeleton, &poses);
         let target = origin(&old, 2) + direction(&mut random) * poses[0].scale.x;
         let gaze = [Gaze { up: Vec3::Y, ..Gaze::new(2, Vec3::Z) }];
@@ -85,7 +85,7 @@ fn turned(look: &LookAt<'_>, angle: f32) -> f32 {
 }
 
 #[test]
-fn no_bone_turns_farther_than_its_limit_and_a_soft_one_slows_down() {
+fn no_bone_rotates_farther_than_its_limit_and_a_soft_one_slows_down() {
     let gaze = [Gaze { limit: 0.8, ..Gaze::new(0, Vec3::Z) }];
     let (hard, soft) = (LookAt::new(&gaze), LookAt { softness: 0.5, ..LookAt::new(&gaze) });
     let mut last = 0.0;
@@ -100,14 +100,14 @@ fn no_bone_turns_farther_than_its_limit_and_a_soft_one_slows_down() {
         last = now;
     }
     assert!(last > 0.79);
-    // Half a share turns half the way.
+    // Half a share rotates half the angle.
     let half = [Gaze { share: 0.5, ..Gaze::new(0, Vec3::Z) }];
     assert!((turned(&LookAt::new(&half), 1.0) - 0.5).abs() < 1e-5);
     assert!((turned(&LookAt { weight: 0.5, ..LookAt::new(&half) }, 1.0) - 0.25).abs() < 1e-5);
 }
 
 #[test]
-fn a_target_that_leaves_the_field_of_view_is_let_go_smoothly() {
+fn a_target_that_leaves_the_field_of_view_is_released_smoothly() {
     let gaze = [Gaze::new(0, Vec3::Z)];
     let look = LookAt { field: [1.0, 2.0], ..LookAt::new(&gaze) };
     let mut last = turned(&look, 0.0);
@@ -124,9 +124,9 @@ fn a_target_that_leaves_the_field_of_view_is_let_go_smoothly() {
 }
 
 #[test]
-fn a_gaze_of_no_weight_or_at_nothing_changes_no_bit_and_errors_change_nothing() {
+fn a_gaze_without_weight_or_target_changes_no_bit_and_errors_change_nothing() {
     let mut random = started(63);
-    let (skeleton, poses) = row(&mut random, 4, crate::ik::Parent::Uneven);
+    let (skeleton, poses) = row(&mut random, 4, crate::ik::ParentScale::Uneven);
     let old = matrices(&skeleton, &poses);
     let gazes = [Gaze::new(1, Vec3::X), Gaze::new(4, Vec3::Z)];
     let look = |look: &LookAt<'_>, target: Vec3| {
@@ -185,7 +185,7 @@ fn feet(legs: &[Leg]) -> Feet<'_> {
 }
 
 #[test]
-fn feet_stand_on_their_ground_and_the_hips_go_down_for_the_lower_one() {
+fn feet_are_on_their_ground_and_the_hips_are_lowered_for_the_lower_one() {
     let mut random = started(64);
     for round in 0..1_000 {
         let (skeleton, mut poses, legs) = walker();
@@ -202,7 +202,7 @@ fn feet_stand_on_their_ground_and_the_hips_go_down_for_the_lower_one() {
             let foot = leg.foot as usize;
             let (ground, ankle) = (ground.unwrap(), origin(&new, foot));
             let normal = ground.normal.normalize();
-            // Straight above its place, its height away from the plane, the sole along it.
+            // Directly above its place, at its height from the plane, with the sole along the plane.
             assert!((ankle - origin(&old, foot)).reject_from(Vec3::Y).length() < 1e-4, "{round}");
             assert!(((ankle - ground.point).dot(normal) - 0.1).abs() < 1e-4, "{round}");
             assert!(new[foot].y_axis.truncate().normalize().distance(normal) < 1e-3, "{round}");
@@ -231,18 +231,18 @@ fn a_lifted_foot_stays_lifted_and_flat_ground_changes_nothing_visible() {
             assert!(old.abs_diff_eq(*new, 2e-3), "{old} {new}");
         }
     }
-    // Both on a step of 0.3: the lifted foot is lifted as much above it.
+    // Both on a step of 0.3: the lifted foot is lifted by the same amount above it.
     let step = Some(Ground { point: Vec3::new(0.0, 0.3, 0.0), normal: Vec3::Y });
     let (_, _, new) = placed(&[step, step], &|_| ());
     for leg in &legs {
         let foot = leg.foot as usize;
         assert!((origin(&new, foot).y - origin(&old, foot).y - 0.3).abs() < 1e-4);
     }
-    // A deep hole: the hips go down only so far. No weight: not a bit.
+    // A deep hole: the hips go down only by their limit. Weight zero: not a bit changes.
     let hole = Some(Ground { point: Vec3::new(0.0, -5.0, 0.0), normal: Vec3::Y });
     assert_eq!(placed(&[hole, flat], &|feet| feet.lower = 0.4).0, 0.4);
     assert_eq!(placed(&[hole, flat], &|feet| feet.weight = 0.0).1, poses);
-    // A wall and a ceiling are no ground.
+    // A wall and a ceiling are not ground.
     for normal in [Vec3::X, Vec3::NEG_Y, Vec3::ZERO, Vec3::NAN] {
         let (lowered, after, _) = placed(&[Some(Ground { point: Vec3::Y, normal })], &|_| ());
         assert!(lowered < 1e-5 && after.iter().all(Transform::is_finite));
@@ -250,7 +250,7 @@ fn a_lifted_foot_stays_lifted_and_flat_ground_changes_nothing_visible() {
 }
 
 #[test]
-fn what_are_no_legs_is_an_error_and_gazes_and_feet_allocate_nothing() {
+fn invalid_legs_are_an_error_and_gazes_and_feet_allocate_nothing() {
     let (skeleton, mut poses, mut legs) = walker();
     let old = matrices(&skeleton, &poses);
     let before = poses.clone();

@@ -1,4 +1,4 @@
-//! Rays and spheres meet the animated mesh where every triangle, tested one by one, says they do.
+//! Ray and sphere queries agree with testing every triangle of the animated mesh.
 
 use crate::doors::model_files;
 use crate::made::{Weights, direction, fox, load, model, times, vector};
@@ -18,7 +18,8 @@ fn pose_of(model: &Arc<ModelData>) -> (Evaluator, HitPose) {
     (Evaluator::new(Arc::clone(model)), HitPose::new(Arc::new(tree)))
 }
 
-/// A ray that begins around the model and goes about through it, sometimes along an axis, sometimes at a vertex.
+/// Returns a ray that starts near the model and passes roughly through it, sometimes along an axis, sometimes at a
+/// vertex.
 fn random_ray(random: &mut Random, evaluator: &Evaluator, positions: &[Vec3]) -> Ray {
     let bounds = evaluator.bounds();
     let size = bounds.sphere.radius.max(1e-3);
@@ -32,7 +33,7 @@ fn random_ray(random: &mut Random, evaluator: &Evaluator, positions: &[Vec3]) ->
     Ray { origin, direction }
 }
 
-/// Compares `rays` rays and as many spheres in each pose; tells how many rays hit.
+/// Compares `rays` rays and the same number of spheres in each pose, and returns the number of hits by rays.
 fn agrees(random: &mut Random, model: &Arc<ModelData>, poses: usize, rays: usize, name: &str) -> usize {
     let (mut evaluator, mut pose) = pose_of(model);
     let mut hits = 0;
@@ -90,7 +91,7 @@ fn the_tree_and_every_triangle_agree_on_all_files() {
 }
 
 #[test]
-fn what_a_hit_says_of_its_place_is_so() {
+fn the_fields_of_a_hit_agree_with_its_position() {
     let mut random = Random::new(seed(24));
     for round in 0..40 {
         let model = if round == 0 { fox() } else { model(&mut random, Weights::Healthy) };
@@ -106,7 +107,7 @@ fn what_a_hit_says_of_its_place_is_so() {
             let from_front = pose.ray(&evaluator, &ray, &front);
             assert!(from_front.is_none_or(|hit| hit.front) && (!hit.front || from_front == Some(hit)));
             let along = ray.origin + ray.direction.normalize() * hit.distance;
-            // f32 has seven digits of the way from the origin.
+            // f32 has seven digits of the distance from the origin.
             assert!(along.distance(hit.position) < 1e-5 * (size + hit.distance), "{hit:?}");
             let primitive = &evaluator.primitives(hit.instance as usize)[hit.primitive as usize];
             let mut own = vec![Vec3::ZERO; primitive.vertices.len()];
@@ -129,7 +130,7 @@ fn corners(primitive: &Primitive, triangle: u32) -> [usize; 3] {
     [0, 1, 2].map(|corner| primitive.indices[triangle as usize * 3 + corner] as usize)
 }
 
-/// The bone with the greatest mixed weight, looked up with a list as long as the skeleton.
+/// Returns the bone with the greatest mixed weight, looked up in a list of the length of the skeleton.
 fn heaviest(
     model: &ModelData,
     instance: u32,
@@ -150,7 +151,7 @@ fn heaviest(
 }
 
 #[test]
-fn one_vertex_asked_for_alone_is_where_it_is_among_all() {
+fn a_single_vertex_has_the_same_position_as_among_all() {
     let mut random = Random::new(seed(27));
     for round in 0..60 {
         let weights = if round % 2 == 0 { Weights::Healthy } else { Weights::Wild };
@@ -175,7 +176,7 @@ fn one_vertex_asked_for_alone_is_where_it_is_among_all() {
 }
 
 #[test]
-fn a_stored_tree_taken_back_answers_the_same() {
+fn a_tree_restored_from_its_parts_gives_the_same_results() {
     let model = fox();
     let tree = HitTree::of(&model).unwrap();
     let again = HitTree::from_parts(tree.parts().clone(), &model).unwrap();
@@ -195,7 +196,7 @@ fn a_stored_tree_taken_back_answers_the_same() {
 }
 
 #[test]
-fn altered_parts_are_refused_or_still_miss_nothing() {
+fn changed_parts_are_refused_or_still_find_every_hit() {
     let seed = seed(25);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -242,7 +243,7 @@ fn altered_parts_are_refused_or_still_miss_nothing() {
 }
 
 #[test]
-fn refitting_and_asking_allocate_nothing() {
+fn refitting_and_queries_allocate_nothing() {
     let (mut evaluator, mut pose) = pose_of(&fox());
     let ray = Ray { origin: Vec3::new(0.0, 40.0, 500.0), direction: Vec3::NEG_Z };
     let (count, hits) = count(|| {
@@ -260,10 +261,10 @@ fn refitting_and_asking_allocate_nothing() {
 }
 
 #[test]
-fn of_two_hits_as_near_the_first_in_the_file_is_told() {
+fn of_two_equally_near_hits_the_first_in_the_file_is_returned() {
     let mut model = model(&mut Random::new(6), Weights::Healthy).as_ref().clone();
     let primitive = &mut model.meshes[2].primitives[0];
-    // Every triangle a second time, behind all others.
+    // Every triangle a second time, after all others.
     let count = primitive.indices.len();
     primitive.indices.extend_from_within(..);
     model.instances.drain(..2);
@@ -288,7 +289,7 @@ fn of_two_hits_as_near_the_first_in_the_file_is_told() {
 }
 
 #[test]
-fn nothing_is_met_where_there_is_nothing_and_by_what_is_no_number() {
+fn empty_space_and_invalid_rays_give_no_hit() {
     let empty = Arc::new(ModelData::default());
     let (evaluator, mut pose) = pose_of(&empty);
     pose.refit(&evaluator);
@@ -316,7 +317,7 @@ fn nothing_is_met_where_there_is_nothing_and_by_what_is_no_number() {
 }
 
 #[test]
-fn damaged_geometry_is_met_alike_by_both_ways() {
+fn damaged_geometry_gives_the_same_hits_with_and_without_the_tree() {
     let mut random = Random::new(seed(26));
     for _ in 0..40 {
         let mut model = model(&mut random, Weights::Wild).as_ref().clone();

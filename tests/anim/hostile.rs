@@ -1,4 +1,4 @@
-//! Whatever numbers and lists a model is made of, the evaluator answers, and answers in numbers.
+//! For any numbers and lists in a model, the evaluator returns finite numbers.
 
 use crate::support::{animation_data, bone};
 use dragonfly_anim::data::{
@@ -12,7 +12,7 @@ use dragonfly_kit::random::{Random, seed};
 use glam::{Mat4, Quat, Vec3, Vec4};
 use std::sync::Arc;
 
-/// Numbers that break arithmetic.
+/// Numbers that break calculations.
 const HOSTILE: [f32; 18] = [
     f32::NAN,
     -f32::NAN,
@@ -35,12 +35,12 @@ const HOSTILE: [f32; 18] = [
 ];
 
 /// Random parts of a model; `hostile` is the chance that a number is one of [`HOSTILE`].
-pub(crate) struct Maker {
+pub(crate) struct HostileModels {
     pub(crate) random: Random,
     pub(crate) hostile: f32,
 }
 
-impl Maker {
+impl HostileModels {
     fn number(&mut self) -> f32 {
         if self.random.unit() < self.hostile {
             self.random.choice(&HOSTILE)
@@ -66,12 +66,12 @@ impl Maker {
         Mat4::from_cols(x.extend(0.0), y.extend(0.0), z.extend(0.0), w.extend(1.0))
     }
 
-    /// Mostly as many as there should be.
+    /// Returns in most cases `right`, the correct number.
     fn count(&mut self, right: usize) -> usize {
         if self.random.unit() < 0.1 { self.random.below(right + 3) } else { right }
     }
 
-    /// Mostly a position in a list of `len`.
+    /// Returns in most cases an index into a list of length `len`.
     fn index(&mut self, len: usize) -> u32 {
         if self.random.unit() < 0.1 { u32::MAX - 1 } else { self.random.below(len) as u32 }
     }
@@ -181,7 +181,7 @@ impl Maker {
     }
 }
 
-/// Everything the evaluator says about `model` at `time`; the first that is no number.
+/// Evaluates `model` at `time` completely; returns the name of the first result that is not finite.
 fn not_finite(model: &Arc<ModelData>, evaluator: &mut Evaluator, time: f32) -> Option<&'static str> {
     let take = &model.animation.takes[0];
     let inside = [PlayMode::Clamp, PlayMode::Loop].map(|mode| mode.map(take, time));
@@ -220,28 +220,28 @@ fn not_finite(model: &Arc<ModelData>, evaluator: &mut Evaluator, time: f32) -> O
 }
 
 #[test]
-fn a_hundred_thousand_hostile_clips_give_numbers_and_no_panic() {
+fn a_hundred_thousand_invalid_clips_give_finite_numbers_and_no_panic() {
     let first = seed(0x00C1_1950);
-    // Each clip has a seed of its own, so that one failure can be had again alone.
+    // Each clip has its own seed, so that a failure can be reproduced alone.
     let clips = if std::env::var_os("DRAGONFLY_LONG").is_some() { 10_000_000 } else { 100_000_u64 };
     for round in 0..clips {
         let seed = first.wrapping_add(round);
         let hostile = [0.02, 0.2, 0.6][(round % 3) as usize];
         let tried = std::panic::catch_unwind(|| {
-            let mut maker = Maker { random: Random::new(seed), hostile };
+            let mut maker = HostileModels { random: Random::new(seed), hostile };
             let model = Arc::new(maker.model());
             let time = maker.number();
             not_finite(&model, &mut Evaluator::new(Arc::clone(&model)), time)
         });
         match tried {
             Ok(None) => {}
-            Ok(Some(what)) => panic!("DRAGONFLY_SEED={seed}: a {what} is no number"),
+            Ok(Some(what)) => panic!("DRAGONFLY_SEED={seed}: a {what} is not finite"),
             Err(_) => panic!("DRAGONFLY_SEED={seed}: panicked"),
         }
     }
 }
 
-/// The bare formulas, without any care for broken numbers.
+/// The plain formulas, without any handling of invalid numbers.
 fn bare(track: &Track, rest: Transform, time: f32) -> Transform {
     fn channel<T: Copy>(channel: &Channel<T>, rest: T, time: f32, mix: impl Fn(T, T, f32) -> T) -> T {
         let Some(keys) = find_keys(&channel.times, time) else { return rest };
@@ -259,10 +259,10 @@ fn bare(track: &Track, rest: Transform, time: f32) -> Transform {
 }
 
 #[test]
-fn care_for_hostile_numbers_changes_no_bit_of_healthy_ones() {
+fn handling_of_invalid_numbers_changes_no_bit_of_valid_ones() {
     let seed = seed(5);
     println!("DRAGONFLY_SEED={seed}");
-    let mut maker = Maker { random: Random::new(seed), hostile: 0.0 };
+    let mut maker = HostileModels { random: Random::new(seed), hostile: 0.0 };
     for _ in 0..2_000 {
         let keys = 1 + maker.random.below(6);
         let times: Vec<f32> = (0..keys).map(|key| key as f32 * 0.1).collect();
@@ -292,7 +292,7 @@ fn care_for_hostile_numbers_changes_no_bit_of_healthy_ones() {
             let expected = bare(&track, resting.rest, time);
             let got = sample_track(&track, &resting, time);
             assert_eq!(got, expected, "{time}");
-            // Neither do the products.
+            // The products are the same too.
             let offset = maker.matrix();
             assert_eq!(dragonfly_anim::animation::final_pose(parent, offset), parent * offset);
         }

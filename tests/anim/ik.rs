@@ -1,4 +1,4 @@
-//! Limbs, chains and gazes reach what can be reached, and change nothing but rotations.
+//! Limbs, chains and look-at reach every reachable target, and change nothing but rotations.
 
 use crate::support::bone;
 use dragonfly_anim::animation::to_root;
@@ -11,16 +11,17 @@ use dragonfly_kit::counting::count;
 use dragonfly_kit::random::{Random, seed};
 use glam::{DVec3, Mat3, Mat4, Quat, Vec3};
 
-/// How the parent of a chain is scaled.
+/// Scale of the parent of a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Parent {
+pub(crate) enum ParentScale {
     Plain,
     Uniform,
     Mirrored,
     Uneven,
 }
 
-pub(crate) const PARENTS: [Parent; 4] = [Parent::Plain, Parent::Uniform, Parent::Mirrored, Parent::Uneven];
+pub(crate) const PARENTS: [ParentScale; 4] =
+    [ParentScale::Plain, ParentScale::Uniform, ParentScale::Mirrored, ParentScale::Uneven];
 
 pub(crate) fn started(usual: u64) -> Random {
     let seed = seed(usual);
@@ -40,8 +41,8 @@ pub(crate) fn turn(random: &mut Random) -> Quat {
     Quat::from_array([(); 4].map(|()| random.between(-1.0, 1.0))).normalize()
 }
 
-/// Bone 0 is the parent, then a row of `links + 1` bones; all turned at random.
-pub(crate) fn row(random: &mut Random, links: usize, parent: Parent) -> (Skeleton, Vec<Transform>) {
+/// Bone 0 is the parent, then a row of `links + 1` bones; all rotated at random.
+pub(crate) fn row(random: &mut Random, links: usize, parent: ParentScale) -> (Skeleton, Vec<Transform>) {
     let mut bones = vec![bone("parent", None, vector(random))];
     for index in 0..=links {
         let length = if index == 0 { 1.0 } else { random.between(0.2, 2.0) };
@@ -52,10 +53,10 @@ pub(crate) fn row(random: &mut Random, links: usize, parent: Parent) -> (Skeleto
     let mut poses: Vec<Transform> = skeleton.bones.iter().map(rest_pose).collect();
     poses.iter_mut().for_each(|pose| pose.rotation = turn(random));
     poses[0].scale = match parent {
-        Parent::Plain => Vec3::ONE,
-        Parent::Uniform => Vec3::splat(random.between(0.01, 20.0)),
-        Parent::Mirrored => Vec3::new(-1.0, 1.0, 1.0),
-        Parent::Uneven => Vec3::new(random.between(0.5, 2.0), -random.between(0.5, 2.0), 1.0),
+        ParentScale::Plain => Vec3::ONE,
+        ParentScale::Uniform => Vec3::splat(random.between(0.01, 20.0)),
+        ParentScale::Mirrored => Vec3::new(-1.0, 1.0, 1.0),
+        ParentScale::Uneven => Vec3::new(random.between(0.5, 2.0), -random.between(0.5, 2.0), 1.0),
     };
     (skeleton, poses)
 }
@@ -70,17 +71,17 @@ pub(crate) fn origin(matrices: &[Mat4], bone: usize) -> Vec3 {
     matrices[bone].w_axis.truncate()
 }
 
-/// Lengths of the row in the space of its parent.
+/// Returns the lengths of the row in the space of its parent.
 pub(crate) fn lengths(poses: &[Transform]) -> Vec<f32> {
     poses[2..].iter().map(|pose| pose.translation.length()).collect()
 }
 
-/// A point of to-root space that lies at `distance` from the row's first joint in the space of its parent.
+/// Returns a point of to-root space at `distance` from the row's first joint, measured in the space of its parent.
 pub(crate) fn at_distance(matrices: &[Mat4], poses: &[Transform], way: Vec3, distance: f32) -> Vec3 {
     matrices[0].transform_point3(poses[1].translation + way * distance)
 }
 
-/// Nothing but rotations has changed.
+/// Checks that only rotations have changed.
 pub(crate) fn only_rotations(before: &[Transform], after: &[Transform]) {
     for (before, after) in before.iter().zip(after) {
         assert_eq!((before.translation, before.scale), (after.translation, after.scale));
@@ -89,7 +90,7 @@ pub(crate) fn only_rotations(before: &[Transform], after: &[Transform]) {
 }
 
 #[test]
-fn a_limb_meets_what_it_can_reach_whatever_its_parent_does() {
+fn a_limb_reaches_every_reachable_target_under_any_parent() {
     let mut random = started(21);
     for round in 0..4_000 {
         let parent = random.choice(&PARENTS);
@@ -114,7 +115,7 @@ fn a_limb_meets_what_it_can_reach_whatever_its_parent_does() {
     }
 }
 
-/// The law of cosines in f64, from nothing but lengths, target and pole: where middle and end belong.
+/// Returns the positions of middle and end by the law of cosines in f64, from nothing but lengths, target and pole.
 fn closed_form(root: DVec3, target: DVec3, pole: DVec3, a: f64, b: f64) -> [DVec3; 2] {
     let along = (target - root).normalize();
     let distance = (target - root).length().clamp((a - b).abs(), a + b);
@@ -126,17 +127,17 @@ fn closed_form(root: DVec3, target: DVec3, pole: DVec3, a: f64, b: f64) -> [DVec
 }
 
 #[test]
-fn a_limb_with_a_pole_is_where_the_law_of_cosines_in_f64_puts_it() {
+fn a_limb_with_a_pole_agrees_with_the_law_of_cosines_in_f64() {
     let mut random = started(22);
     for round in 0..4_000 {
-        let parent = random.choice(&[Parent::Plain, Parent::Uniform, Parent::Mirrored]);
+        let parent = random.choice(&[ParentScale::Plain, ParentScale::Uniform, ParentScale::Mirrored]);
         let (skeleton, mut poses) = row(&mut random, 2, parent);
         let old = matrices(&skeleton, &poses);
         let root = origin(&old, 1);
         let size = poses[0].scale.abs().x;
         let parts = lengths(&poses).into_iter().map(|length| length * size).collect::<Vec<_>>();
         let (least, most) = ((parts[0] - parts[1]).abs(), parts[0] + parts[1]);
-        // Also beyond what can be reached; the pole well away from the line to the target.
+        // Also out of reach; the pole is far from the line to the target.
         let distance = least * 0.5 + (most * 1.5 - least * 0.5) * random.unit() + 1e-3 * most;
         let way = direction(&mut random);
         let across = way.cross(direction(&mut random)).normalize_or(way.any_orthonormal_vector());
@@ -148,7 +149,7 @@ fn a_limb_with_a_pole_is_where_the_law_of_cosines_in_f64_puts_it() {
         let [middle, end] = closed_form(root.as_dvec3(), target.as_dvec3(), pole.as_dvec3(), a, b);
         let off = |bone, place: DVec3| (origin(&new, bone).as_dvec3() - place).length() / f64::from(most);
         assert!(off(3, end) < 2e-5, "{round} {parent:?}: end off by {}", off(3, end));
-        // Near full reach and full fold the height is the root of a small difference: half the digits.
+        // Near full extension and full folding the height is the root of a small difference, which has half the digits.
         assert!(off(2, middle) < 2e-3, "{round} {parent:?}: middle off by {}", off(2, middle));
         let slack =
             ((f64::from(distance) - f64::from(least)).min(f64::from(most - distance))) / f64::from(most);
@@ -160,7 +161,7 @@ fn a_limb_with_a_pole_is_where_the_law_of_cosines_in_f64_puts_it() {
 fn a_limb_out_of_reach_points_straight_at_its_target() {
     let mut random = started(23);
     for round in 0..1_000 {
-        let (skeleton, mut poses) = row(&mut random, 2, Parent::Uniform);
+        let (skeleton, mut poses) = row(&mut random, 2, ParentScale::Uniform);
         let old = matrices(&skeleton, &poses);
         let way = direction(&mut random);
         let most: f32 = lengths(&poses).iter().sum();
@@ -177,11 +178,11 @@ fn a_limb_out_of_reach_points_straight_at_its_target() {
 }
 
 #[test]
-fn weight_zero_changes_no_bit_and_half_a_weight_is_half_the_way() {
+fn weight_zero_changes_no_bit_and_half_a_weight_goes_half_the_way() {
     let mut random = started(24);
     let mut scratch = ChainScratch::default();
     for _ in 0..200 {
-        let (skeleton, poses) = row(&mut random, 4, Parent::Plain);
+        let (skeleton, poses) = row(&mut random, 4, ParentScale::Plain);
         let old = matrices(&skeleton, &poses);
         let target = vector(&mut random) * 3.0;
         for weight in [0.0, -0.0, -1.0, f32::NAN] {
@@ -225,10 +226,10 @@ fn the_bend_goes_to_the_side_of_the_pole_and_without_one_stays_in_its_plane() {
         let side = Vec3::new(pole.x, 0.0, pole.z).normalize();
         let expected = Vec3::new(0.0, 1.4, 0.0) + side * 0.8;
         assert!(knee.distance(expected) < 1e-5, "{pole}: {knee}");
-        // A straight leg bends to that side at once and does not twist.
+        // A straight leg bends to that side immediately and does not twist.
         assert!(poses[0].rotation.y.abs() < 1e-6, "{pole}: {}", poses[0].rotation);
     }
-    // Bent forward a little, the knee stays in the plane x = 0 however it is lifted.
+    // Slightly bent forward, the knee stays in the plane x = 0 however it is lifted.
     let mut poses = rest.clone();
     poses[0].rotation = Quat::from_rotation_x(-0.1);
     poses[1].rotation = Quat::from_rotation_x(0.2);
@@ -246,7 +247,7 @@ fn soft_reach_has_no_step_and_never_quite_straightens() {
         let distance = step as f32 * 0.001;
         let soft = soft_distance(distance, length, softness);
         assert!(soft <= distance && soft <= length && soft >= last, "{distance}: {soft}");
-        // The slope is 1 up to `hard` and falls from there: no step larger than the way itself.
+        // The slope is 1 up to `hard` and decreases from there: no step is larger than that of the distance itself.
         assert!(soft - last <= 0.001_01, "{distance}: {soft} after {last}");
         last = soft;
     }
@@ -255,7 +256,7 @@ fn soft_reach_has_no_step_and_never_quite_straightens() {
     assert!((f64::from(soft_distance(2.0, 2.0, 0.2)) - expected).abs() < 1e-6);
     assert_eq!(soft_distance(3.0, 2.0, 0.0), 2.0);
     let mut random = started(25);
-    let (skeleton, mut poses) = row(&mut random, 2, Parent::Plain);
+    let (skeleton, mut poses) = row(&mut random, 2, ParentScale::Plain);
     let old = matrices(&skeleton, &poses);
     let most: f32 = lengths(&poses).iter().sum();
     let target = at_distance(&old, &poses, Vec3::X, most);
@@ -266,10 +267,10 @@ fn soft_reach_has_no_step_and_never_quite_straightens() {
 }
 
 #[test]
-fn the_end_turns_as_it_is_told() {
+fn the_end_gets_the_requested_rotation() {
     let mut random = started(26);
     for _ in 0..500 {
-        let (skeleton, poses) = row(&mut random, 2, Parent::Uniform);
+        let (skeleton, poses) = row(&mut random, 2, ParentScale::Uniform);
         let old = matrices(&skeleton, &poses);
         let target = origin(&old, 1) + vector(&mut random) * poses[0].scale.x;
         let axes = |matrix: Mat4| {
@@ -289,9 +290,10 @@ fn the_end_turns_as_it_is_told() {
         assert!(solved(EndOrientation::TurnToRoot(wanted)).abs_diff_eq(turned, 1e-4));
         assert!(solved(EndOrientation::SetToRoot(wanted)).abs_diff_eq(Mat3::from_quat(wanted), 1e-4));
     }
-    // Under a mirror what is kept is kept, and what is set is what the matrix is read as.
+    // Under a mirroring parent the end is kept if it was kept, and a target rotation is the one that the matrix
+    // decomposes to.
     for _ in 0..200 {
-        let (skeleton, poses) = row(&mut random, 2, Parent::Mirrored);
+        let (skeleton, poses) = row(&mut random, 2, ParentScale::Mirrored);
         let old = matrices(&skeleton, &poses);
         let target = origin(&old, 1) + vector(&mut random);
         let wanted = turn(&mut random);
@@ -352,9 +354,9 @@ fn a_real_animal_reaches_and_looks_in_every_take() {
 }
 
 #[test]
-fn strange_limbs_have_defined_answers() {
+fn degenerate_limbs_have_defined_results() {
     let mut random = started(30);
-    let (skeleton, rest) = row(&mut random, 2, Parent::Plain);
+    let (skeleton, rest) = row(&mut random, 2, ParentScale::Plain);
     let old = matrices(&skeleton, &rest);
     let mut scratch = ChainScratch::default();
     let mut solve = |poses: &[Transform], target: Vec3| {
@@ -371,14 +373,14 @@ fn strange_limbs_have_defined_answers() {
     for left in solve(&rest, origin(&old, 1)) {
         assert!((left - (parts[0] - parts[1]).abs()).abs() < 1e-4, "{left}");
     }
-    // Directly behind, and on the other side of the root.
+    // In the opposite direction, and on the other side of the root.
     let way = (origin(&old, 3) - origin(&old, 1)).normalize();
     let middle = parts[0].max(parts[1]);
     for scale in [-0.99, -1.0, 1.0] {
         let target = origin(&old, 1) + way * middle * scale;
         assert!(solve(&rest, target).into_iter().all(|left| left < 1e-4));
     }
-    // Bones without length: what is left still points at the target.
+    // Bones of length zero: the remaining ones still point at the target.
     for (upper, lower) in [(0.0, 1.0), (1.0, 0.0), (0.0, 0.0)] {
         let mut poses = rest.clone();
         poses[2].translation = Vec3::X * upper;
@@ -388,7 +390,7 @@ fn strange_limbs_have_defined_answers() {
             assert!((left - (3.0 - upper - lower)).abs() < 1e-4, "{upper} {lower}: {left}");
         }
     }
-    // A limb whose root bone is scaled differently per axis.
+    // A limb whose root bone has a non-uniform scale.
     let mut poses = rest.clone();
     poses[1].scale = Vec3::new(1.2, 0.9, -1.0);
     let target = origin(&old, 1) + Vec3::new(0.2, 0.5, 0.3) * (parts[0] + parts[1]);
@@ -396,9 +398,9 @@ fn strange_limbs_have_defined_answers() {
 }
 
 #[test]
-fn what_is_no_limb_is_an_error_and_changes_nothing() {
+fn invalid_limbs_are_an_error_and_change_nothing() {
     let mut random = started(31);
-    let (skeleton, rest) = row(&mut random, 3, Parent::Plain);
+    let (skeleton, rest) = row(&mut random, 3, ParentScale::Plain);
     let old = matrices(&skeleton, &rest);
     let mut scratch = ChainScratch::default();
     let mut fails = |root: u32, end: u32, target: Vec3, poses: &[Transform], matrices: &[Mat4]| {
@@ -423,7 +425,7 @@ fn what_is_no_limb_is_an_error_and_changes_nothing() {
 }
 
 #[test]
-fn whatever_the_numbers_are_no_pose_becomes_nan() {
+fn no_input_makes_a_pose_nan() {
     let mut random = started(32);
     let hostile =
         [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, 1e-45, 1e38, -1e38, f32::MAX, 1e19, 1e-30, 1.0];
@@ -467,7 +469,7 @@ fn whatever_the_numbers_are_no_pose_becomes_nan() {
 #[test]
 fn solving_again_allocates_nothing() {
     let mut random = started(33);
-    let (skeleton, mut poses) = row(&mut random, 6, Parent::Plain);
+    let (skeleton, mut poses) = row(&mut random, 6, ParentScale::Plain);
     let old = matrices(&skeleton, &poses);
     let mut scratch = ChainScratch::with_capacity(7);
     let (allocated, ()) = count(|| {

@@ -1,4 +1,4 @@
-//! Joints turn as far as they can, and no further.
+//! Joint limits clamp rotations to their range.
 
 use crate::blending::{a_rotation, bits, hostile};
 use crate::support::{angle_between, bone};
@@ -12,7 +12,7 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 use proptest::prelude::*;
 use std::f32::consts::PI;
 
-/// Ranges of all kinds: narrow, wide, past half a turn, the wrong way round.
+/// Ranges of all kinds: narrow, wide, beyond half a turn, reversed.
 fn a_range() -> impl Strategy<Value = AngleRange> {
     (-4.0_f32..4.0, 0.0_f32..5.0, 0_u8..12).prop_map(|(min, width, kind)| match kind {
         0 => AngleRange::FREE,
@@ -39,7 +39,7 @@ fn a_limit() -> impl Strategy<Value = JointLimit> {
     prop_oneof![hinge, ball, euler]
 }
 
-/// Rotations, among them the hard ones: half turns, right angles, nearly nothing.
+/// Rotations, including the difficult ones: half turns, right angles, nearly zero.
 fn a_turn() -> impl Strategy<Value = Quat> {
     let about = |angle: f32| {
         (0_usize..3, -1e-6_f32..1e-6).prop_map(move |(axis, more)| {
@@ -81,7 +81,7 @@ proptest! {
     ) {
         let hinge = JointLimit::Hinge(Hinge { axis, range: AngleRange::new(min, min + width) });
         let turn = Quat::from_axis_angle(axis.normalize(), min + width * part);
-        // In f64, as an exporter would, rounded once.
+        // In f64, like an exporter, rounded once.
         let rotation = (rest.as_dquat() * turn.as_dquat()).as_quat();
         let clamped = hinge.clamp(rotation, rest);
         prop_assert_eq!(clamped, Clamped { rotation, by: 0.0 });
@@ -109,14 +109,14 @@ proptest! {
         let range = AngleRange::new(twist.0, twist.1);
         let ball = Ball { axis, side, swing_side: halves.0, swing_up: halves.1, twist: range };
         let clamped = JointLimit::Ball(ball).clamp(turn, Quat::IDENTITY).rotation.as_dquat();
-        // Where the bone points says how far it swings, and about what.
+        // The direction of the bone determines how far it swings, and about what.
         let points = clamped * DVec3::Y;
         let across = DVec3::Y.cross(points);
         let swing = across.length().atan2(points.y) * across.normalize_or_zero();
         let (x, up) = (swing.dot(DVec3::X), swing.dot(DVec3::NEG_Z));
         let inside = (x / f64::from(halves.0)).powi(2) + (up / f64::from(halves.1)).powi(2);
         prop_assert!(inside < 1.0 + 1e-4, "{inside}");
-        // Undo the shortest turn to that direction: what is left is the twist.
+        // Undo the shortest rotation to that direction: the rest is the twist.
         let left = DQuat::from_rotation_arc(DVec3::Y, points).conjugate() * clamped;
         let twisted = 2.0 * left.y.atan2(left.w);
         let twisted = if twisted > std::f64::consts::PI { twisted - std::f64::consts::TAU } else { twisted };
@@ -130,7 +130,7 @@ proptest! {
         let turn = |angle: f32| Quat::from_axis_angle(about, angle);
         let cone = JointLimit::Ball(Ball::round(Vec3::Y, 0.6, AngleRange::NONE));
         let clamped = cone.clamp(turn(swing), Quat::IDENTITY);
-        // What is nearer to the border than the slack stays where it is.
+        // A rotation that is nearer to the border than the slack stays.
         prop_assert!(angle_between(clamped.rotation, turn(swing.min(0.6))) < SLACK + 2e-6);
     }
 
@@ -156,10 +156,10 @@ proptest! {
             1 => Quat::from_xyzw(-rotation.x, rotation.y, -rotation.z, rotation.w),
             _ => Quat::from_xyzw(-rotation.x, -rotation.y, rotation.z, rotation.w),
         };
-        // A ball without a side takes any, which need not be the mirrored one.
+        // A ball joint without a side axis may use any, which need not be the mirrored one.
         let one = limit.clamp(turn, rest);
         let other = limit.mirrored(normal).clamp(mirror(turn), mirror(rest));
-        // On the border between two ends both are right.
+        // On the border between two ends both are correct.
         prop_assume!((one.by - PI).abs() > 1e-3);
         prop_assert!((one.by - other.by).abs() < 1e-4, "{one:?} {other:?}");
         prop_assert!(angle_between(mirror(one.rotation), other.rotation) < 1e-3, "{one:?} {other:?}");
@@ -174,7 +174,7 @@ fn an_elbow_bends_one_way_only() {
     assert_eq!(elbow.clamp(bent(90.0), rest), Clamped { rotation: bent(90.0), by: 0.0 });
     let over = elbow.clamp(bent(-30.0), rest);
     assert!(angle_between(over.rotation, rest) < 1e-6 && (over.by.to_degrees() - 30.0).abs() < 1e-3);
-    // What turns the axis of the hinge itself is taken away.
+    // A rotation of the hinge's own axis is removed.
     let sideways = elbow.clamp(bent(90.0) * Quat::from_rotation_y(0.5), rest);
     let twist = 2.0
         * ((45.0_f32.to_radians().sin() * 0.25_f32.cos()) / (45.0_f32.to_radians().cos() * 0.25_f32.cos()))
@@ -210,7 +210,7 @@ fn a_limit_without_an_axis_limits_nothing() {
             assert_eq!(limit.clamp(turn, Quat::IDENTITY), Clamped { rotation: turn, by: 0.0 }, "{axis}");
         }
     }
-    // Without a side any will do; it only matters for cones that are not round.
+    // Without a side axis any is used; it only matters for cones that are not round.
     let ball = Ball { side: Vec3::Y, ..Ball::round(Vec3::Y, 0.5, AngleRange::NONE) };
     let clamped = JointLimit::Ball(ball).clamp(turn, Quat::IDENTITY);
     assert!(angle_between(clamped.rotation, Quat::from_rotation_x(0.5)) < 1e-6);
@@ -218,7 +218,7 @@ fn a_limit_without_an_axis_limits_nothing() {
 
 #[test]
 fn a_half_turn_has_a_defined_limit() {
-    // Straight back: no twist can be told, so there is none.
+    // Straight back: the twist is undefined, so it is zero.
     let back = Quat::from_xyzw(1.0, 0.0, 0.0, 0.0);
     let ball = JointLimit::Ball(Ball::round(Vec3::Y, PI, AngleRange::NONE));
     let clamped = ball.clamp(back, Quat::IDENTITY);
@@ -230,7 +230,7 @@ fn a_half_turn_has_a_defined_limit() {
 }
 
 #[test]
-fn a_mirrored_scale_has_no_say() {
+fn a_mirrored_scale_does_not_affect_limits() {
     let skeleton = Skeleton { bones: vec![bone("elbow", None, Vec3::Y)] };
     let mut limits = JointLimits::new();
     limits.set(0, JointLimit::Hinge(Hinge { axis: Vec3::X, range: AngleRange::new(0.0, 1.0) }));
@@ -244,7 +244,7 @@ fn a_mirrored_scale_has_no_say() {
 }
 
 #[test]
-fn limits_of_a_skeleton_touch_what_is_outside_and_say_so() {
+fn limits_of_a_skeleton_change_only_bones_outside_of_them_and_report_those() {
     let bones = (0..4).map(|_| bone("", None, Vec3::Y)).collect();
     let skeleton = Skeleton { bones };
     let mut limits = JointLimits::new();
@@ -260,7 +260,7 @@ fn limits_of_a_skeleton_touch_what_is_outside_and_say_so() {
     assert!((report.by - 0.5).abs() < 1e-6 && (by[1] - 0.1).abs() < 1e-6 && by[3] == report.by);
     assert_eq!((by[0], by[2]), (0.0, 0.0));
     assert_eq!([bits(poses[0]), bits(poses[2])], [bits(before); 2]);
-    // A second time all is well.
+    // The second time nothing changes.
     assert_eq!(limits.apply(&skeleton, &mut poses, &mut by[..1]), LimitReport::default());
     assert_eq!(limits.set(3, None), Some(hinge(0.5)));
     assert_eq!((limits.len(), limits.get(3), limits.get(1)), (3, None, Some(&hinge(0.9))));
@@ -269,7 +269,7 @@ fn limits_of_a_skeleton_touch_what_is_outside_and_say_so() {
 }
 
 #[test]
-fn hostile_limits_and_rotations_give_rotations() {
+fn invalid_limits_and_rotations_give_valid_rotations() {
     let seed = seed(24);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);

@@ -1,4 +1,4 @@
-//! Levels of detail keep what they say they keep, and are as far from the original as they say they are.
+//! Levels of detail keep their invariants, and their stated errors are correct.
 
 use crate::doors::model_files;
 use crate::made::{Weights, fox, load, model, vector};
@@ -55,7 +55,7 @@ fn normal(primitive: &Primitive, corners: &[u32]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-/// Everything that holds for any number of steps.
+/// Checks what holds for any number of steps.
 fn is_sound(primitive: &Primitive, progression: &Progression, name: &str) {
     let steps = progression.steps();
     assert_eq!(after(progression, primitive, 0), primitive.indices, "{name}");
@@ -67,8 +67,11 @@ fn is_sound(primitive: &Primitive, progression: &Progression, name: &str) {
         }
         assert!(indices.iter().all(|&index| (index as usize) < primitive.vertices.len()));
         let original: BTreeSet<u32> = primitive.indices.iter().copied().collect();
-        assert!(indices.iter().all(|index| original.contains(index)), "{name}: a vertex nobody used");
-        // Every triangle that is left looks to the side it looked to.
+        assert!(
+            indices.iter().all(|index| original.contains(index)),
+            "{name}: a vertex that no triangle used"
+        );
+        // Every remaining triangle still faces the same side.
         let gone = |triangle: &usize| progression.gone_after[*triangle] as usize <= steps;
         let survivors = (0..primitive.indices.len() / 3).filter(|triangle| steps == 0 || !gone(triangle));
         for (triangle, now) in survivors.zip(indices.chunks_exact(3)) {
@@ -84,7 +87,7 @@ fn is_sound(primitive: &Primitive, progression: &Progression, name: &str) {
     assert_eq!(vertices.len(), progression.moves.len(), "{name}: a vertex moves once");
 }
 
-/// Edges of one triangle, as pairs of positions.
+/// Returns the number of edges with only one triangle, as pairs of positions.
 fn border(primitive: &Primitive, indices: &[u32]) -> usize {
     let mut edges: BTreeMap<[[u32; 3]; 2], usize> = BTreeMap::new();
     let bits =
@@ -100,26 +103,27 @@ fn border(primitive: &Primitive, indices: &[u32]) -> usize {
 }
 
 #[test]
-fn a_sheet_gets_down_to_an_eighth_and_stays_a_sheet() {
+fn a_sheet_is_reduced_to_an_eighth_and_stays_a_sheet() {
     let primitive = sheet(40);
     let progression = simplify(&primitive, &[], &free, &SimplifySettings::default());
     is_sound(&primitive, &progression, "sheet");
     let steps = progression.steps_to(400);
     let indices = after(&progression, &primitive, steps);
     assert!(indices.len() / 3 <= 400, "{}", indices.len() / 3);
-    // The corners of the sheet are still there, and its area as seen from above is the same.
+    // The corners of the sheet remain, and its area as seen from above is the same.
     for corner in [0, 40, 41 * 40, 41 * 41 - 1] {
         assert!(indices.contains(&corner), "{corner}");
     }
     let area: f64 = indices.chunks_exact(3).map(|corners| normal(&primitive, corners).z / 2.0).sum();
     assert!((area - 1.0).abs() < 1e-6, "{area}");
-    // And no vertex is far from what is left.
+    // No vertex is far from the remaining surface.
     let far = furthest(&primitive.vertices.positions, &primitive.vertices.positions, &indices);
     println!("{} triangles, {far} away", indices.len() / 3);
     assert!(far < 0.01, "{far}");
 }
 
-/// Largest distance from one of `points` to the triangles of `indices` over `positions`: every one is tried.
+/// Returns the largest distance from one of `points` to the triangles of `indices` over `positions`; every triangle is
+/// tested.
 fn furthest(points: &[Vec3], positions: &[Vec3], indices: &[u32]) -> f64 {
     let mut largest = 0.0_f64;
     for point in points {
@@ -147,9 +151,9 @@ fn a_seam_stays_closed_and_its_sides_stay_apart() {
             let indices = after(&progression, primitive, steps);
             // A tube is open at its two ends, and nowhere else.
             let ends = border(primitive, &indices);
-            assert!((6..=14).contains(&ends), "{round}: {ends} edges of one triangle");
+            assert!((6..=14).contains(&ends), "{round}: {ends} edges with one triangle");
             for corners in indices.chunks_exact(3) {
-                // Across the seam the coordinate jumps by 1: a triangle with both would show the whole picture.
+                // Across the seam the coordinate jumps by 1: a triangle with both would show the whole texture.
                 let u = [0, 1, 2].map(|at| primitive.vertices.texture_coordinates[0][corners[at] as usize].x);
                 let (low, high) =
                     (u.iter().copied().fold(1.0, f32::min), u.iter().copied().fold(0.0, f32::max));
@@ -159,8 +163,8 @@ fn a_seam_stays_closed_and_its_sides_stay_apart() {
     }
 }
 
-/// A sheet of 16 × 16 squares with a slit in its picture from the lower edge to the middle; and the vertices on the right
-/// of the slit.
+/// Returns a sheet of 16 × 16 squares with a slit in its texture coordinates from the lower edge to the middle, and the
+/// vertices on the right of the slit.
 fn slit() -> (Primitive, std::ops::Range<u32>) {
     let mut primitive = sheet(16);
     let first = primitive.vertices.len() as u32;
@@ -211,7 +215,7 @@ fn a_seam_that_ends_within_the_surface_keeps_its_sides() {
 }
 
 #[test]
-fn what_is_locked_stays() {
+fn locked_vertices_stay() {
     let primitive = sheet(12);
     let locked = |vertex: usize| vertex.is_multiple_of(3);
     let progression = simplify(&primitive, &[], &locked, &SimplifySettings::default());
@@ -230,7 +234,7 @@ fn the_same_input_gives_the_same_levels() {
 
 #[test]
 fn a_sheet_that_bends_keeps_its_vertices_where_it_bends() {
-    // Flat as stored, so only the influences and the poses tell where vertices are needed: at the middle.
+    // Flat as stored, so only the influences and the poses determine where vertices are needed: in the middle.
     let mut primitive = sheet(20);
     for (index, position) in primitive.vertices.positions.iter_mut().enumerate() {
         position.z = 0.0;
@@ -257,7 +261,7 @@ fn a_sheet_that_bends_keeps_its_vertices_where_it_bends() {
 }
 
 #[test]
-fn levels_of_the_fox_have_the_error_they_say() {
+fn levels_of_the_fox_have_their_stated_error() {
     let model = fox();
     let begin = Instant::now();
     let chain = levels(&model, &LevelSettings { poses: 3, ..LevelSettings::default() });
@@ -302,15 +306,15 @@ fn every_file_gets_levels_and_no_level_is_worse_than_it_looks() {
         let name = path.file_name().unwrap().to_str().unwrap();
         let model = load(&path);
         let begin = Instant::now();
-        // Models of many takes would take long.
+        // Models with many takes would take long.
         let poses = if model.animation.takes.len() > 4 { 1 } else { 2 };
         let chain = levels(&model, &LevelSettings { poses, ..LevelSettings::default() });
         let size = Evaluator::new(Arc::clone(&model)).bounds().sphere.radius;
-        let said: Vec<String> = chain
+        let described: Vec<String> = chain
             .iter()
             .map(|level| format!("{} ({:.2} %)", level.triangles, level.error / size * 100.0))
             .collect();
-        println!("{name:<40} {} in {:?}", said.join(", "), begin.elapsed());
+        println!("{name:<40} {} in {:?}", described.join(", "), begin.elapsed());
         for (mesh, (of, indices)) in model.meshes.iter().zip(&chain[chain.len() - 1].indices).enumerate() {
             for (primitive, indices) in of.primitives.iter().zip(indices) {
                 assert!(primitive.indices.is_empty() || !indices.is_empty(), "{name} mesh {mesh}");
@@ -321,7 +325,7 @@ fn every_file_gets_levels_and_no_level_is_worse_than_it_looks() {
 }
 
 #[test]
-fn where_two_primitives_meet_there_is_no_crack() {
+fn there_is_no_crack_between_two_primitives() {
     // One sheet cut in two: left and right of the middle.
     let whole = sheet(16);
     let side = |left: bool| {
@@ -347,7 +351,7 @@ fn where_two_primitives_meet_there_is_no_crack() {
 }
 
 #[test]
-fn hostile_meshes_come_to_an_end() {
+fn invalid_meshes_are_reduced_in_a_bounded_time() {
     let seed = seed(32);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -388,9 +392,9 @@ fn hostile_meshes_come_to_an_end() {
 }
 
 #[test]
-fn one_vertex_in_many_triangles_takes_no_longer() {
+fn a_vertex_shared_by_many_triangles_is_not_slow() {
     let begin = Instant::now();
-    // A wheel of 100,000 spokes, a pile of 100,000 triangles on one edge, and as many on top of each other.
+    // A wheel of 100,000 spokes, 100,000 triangles on one edge, and 100,000 triangles on top of each other.
     let many = 100_000_u32;
     let rim = |spoke: u32| {
         let angle = spoke as f32 * 6e-5;
@@ -410,7 +414,7 @@ fn one_vertex_in_many_triangles_takes_no_longer() {
 }
 
 #[test]
-fn a_large_sheet_is_done_in_seconds() {
+fn a_large_sheet_is_reduced_within_seconds() {
     let primitive = sheet(300);
     let begin = Instant::now();
     let progression =
@@ -436,10 +440,10 @@ fn the_level_follows_the_distance_and_does_not_flicker() {
     let screen = |distance: f32| Screen { eye: Vec3::Z * distance, vertical_fov: 1.0, height: 1080.0 };
     let choose = |distance, current| choose_level(&chain, &screen(distance), &sphere, 1.0, 0.3, current);
     assert_eq!([0.5, 2.0, 12.0, 60.0, 300.0].map(|distance| choose(distance, None)), [0, 0, 1, 2, 3]);
-    // Out and in again: every level is chosen once each way, and the error shown never exceeds the limit.
+    // Out and in again: every level is chosen once in each direction, and the visible error never exceeds the limit.
     let (mut current, mut changes) = (0, 0);
     for step in (0..2_000).chain((0..2_000).rev()) {
-        // A hand that trembles.
+        // A distance that varies like that of a hand-held camera.
         let distance = 2.5 + step as f32 * 0.2 + if step % 2 == 0 { 0.6 } else { -0.6 };
         let next = choose(distance, Some(current));
         assert!(error_in_pixels(&screen(distance), &sphere, chain[next].error) <= 1.0);
@@ -450,10 +454,10 @@ fn the_level_follows_the_distance_and_does_not_flicker() {
 }
 
 #[test]
-fn sizes_on_the_screen_are_those_of_geometry() {
+fn sizes_on_the_screen_agree_with_the_projection() {
     let sphere = Sphere { center: Vec3::new(0.0, 0.0, -5.0), radius: 3.0 };
     let screen = Screen { eye: Vec3::ZERO, vertical_fov: std::f32::consts::FRAC_PI_2, height: 200.0 };
-    // Tangent of the angle whose sine is 3/5 is 3/4; half the height is 100 pixels at 45°.
+    // The tangent of the angle whose sine is 3/5 is 3/4; half the height is 100 pixels at 45°.
     assert!((radius_in_pixels(&screen, &sphere) - 75.0).abs() < 1e-4);
     assert!((error_in_pixels(&screen, &sphere, 0.5) - 25.0).abs() < 1e-4);
     let inside = Screen { eye: sphere.center, ..screen };

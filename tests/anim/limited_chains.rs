@@ -1,6 +1,6 @@
-//! Chains whose joints have limits reach what they can reach within them.
+//! Chains with joint limits reach every target that is reachable within the limits.
 
-use crate::ik::{Parent, lengths, matrices, origin, row, started, turn, vector};
+use crate::ik::{ParentScale, lengths, matrices, origin, row, started, turn, vector};
 use crate::support::bone;
 use dragonfly_anim::data::{Skeleton, Transform};
 use dragonfly_anim::ik::{Chain, ChainScratch, Limit, chain};
@@ -10,7 +10,7 @@ use dragonfly_kit::counting::count;
 use dragonfly_kit::random::Random;
 use glam::{Quat, Vec3};
 
-/// A row of bones with a limit for each, at rest.
+/// A row of bones at rest, each with a limit.
 struct Limited {
     skeleton: Skeleton,
     limits: JointLimits,
@@ -18,7 +18,7 @@ struct Limited {
 }
 
 impl Limited {
-    /// `row` with each bone's pose as its rest, and the limits that `choose` gives.
+    /// Returns `row` with each bone's pose as its rest pose, and the limits that `choose` returns.
     fn new(row: (Skeleton, Vec<Transform>), mut choose: impl FnMut(u32) -> Option<JointLimit>) -> Self {
         let (mut skeleton, poses) = row;
         let mut limits = JointLimits::new();
@@ -33,7 +33,7 @@ impl Limited {
         self.skeleton.len() - 2
     }
 
-    /// Somewhere that a pose within the limits reaches: every joint turned at random, then held within its limit.
+    /// Returns a point that a pose within the limits reaches: every joint rotated at random, then clamped to its limit.
     fn reachable(&self, random: &mut Random, most: f32) -> Vec3 {
         let mut poses = self.poses.clone();
         for pose in &mut poses[1..] {
@@ -43,7 +43,8 @@ impl Limited {
         origin(&matrices(&self.skeleton, &poses), self.links() + 1)
     }
 
-    /// How far from `target` the chain ends, as a share of its length; no joint beyond its limit.
+    /// Solves the chain and returns the distance of its end from `target`, relative to its length; checks that no joint
+    /// exceeds its limit.
     fn off(&self, target: Vec3, scratch: &mut ChainScratch) -> f32 {
         let (old, mut poses) = (matrices(&self.skeleton, &self.poses), self.poses.clone());
         let settings = Chain::new(1, self.links() as u32 + 1);
@@ -56,7 +57,7 @@ impl Limited {
         let end = origin(&matrices(&self.skeleton, &poses), self.links() + 1);
         let size: f32 = lengths(&self.poses).iter().sum();
         assert!((reach.distance - end.distance(target)).abs() < 1e-4 * size, "{reach:?}");
-        // What was written down as f32 may lie beyond a border by its rounding.
+        // Values rounded to f32 may exceed a limit by the rounding error.
         let mut by = vec![0.0; poses.len()];
         let report = self.limits.apply(&self.skeleton, &mut poses, &mut by);
         assert!(report.by < 2.0 * SLACK, "{report:?}");
@@ -87,7 +88,7 @@ fn any_limit(random: &mut Random) -> JointLimit {
     }
 }
 
-/// A shoulder, an elbow, a wrist and a hand's length, standing straight down.
+/// A shoulder, an elbow, a wrist and a hand, straight down.
 fn arm(random: &mut Random) -> Limited {
     let down = |length: f32| Vec3::NEG_Y * length;
     let bones = vec![
@@ -113,7 +114,7 @@ fn arm(random: &mut Random) -> Limited {
     })
 }
 
-/// A finger or a tail: hinges that all bend the same way.
+/// A finger or a tail: hinges that all bend in the same direction.
 fn finger(random: &mut Random) -> Limited {
     let links = 2 + random.below(5);
     let mut bones = vec![bone("hand", None, Vec3::ZERO)];
@@ -142,10 +143,10 @@ fn found(name: &str, seed: u64, make: impl Fn(&mut Random) -> (Limited, Vec3)) -
 }
 
 #[test]
-fn a_chain_with_limits_finds_what_can_be_reached_within_them() {
+fn a_chain_with_limits_reaches_targets_that_are_reachable_within_them() {
     let cones = |random: &mut Random| {
         let links = 2 + random.below(5);
-        let (skeleton, mut poses) = row(random, links, Parent::Plain);
+        let (skeleton, mut poses) = row(random, links, ParentScale::Plain);
         poses.iter_mut().for_each(|pose| pose.rotation = Quat::IDENTITY);
         let cone = JointLimit::Ball(Ball::round(Vec3::X, 0.7, AngleRange::within(0.7)));
         let limited = Limited::new((skeleton, poses), |_| Some(cone));
@@ -155,7 +156,7 @@ fn a_chain_with_limits_finds_what_can_be_reached_within_them() {
     let mixed = |most: f32| {
         move |random: &mut Random| {
             let links = 2 + random.below(6);
-            let row = row(random, links, Parent::Plain);
+            let row = row(random, links, ParentScale::Plain);
             let limited = Limited::new(row, |_| Some(any_limit(random)));
             let target = limited.reachable(random, most);
             (limited, target)
@@ -182,7 +183,7 @@ fn a_chain_with_limits_finds_what_can_be_reached_within_them() {
 }
 
 #[test]
-fn a_chain_with_limits_allocates_nothing_and_asks_them_a_bounded_number_of_times() {
+fn a_chain_with_limits_allocates_nothing_and_evaluates_them_a_bounded_number_of_times() {
     let mut random = started(46);
     let (limited, mut scratch) = (arm(&mut random), ChainScratch::with_capacity(5));
     let old = matrices(&limited.skeleton, &limited.poses);
@@ -203,7 +204,7 @@ fn a_chain_with_limits_allocates_nothing_and_asks_them_a_bounded_number_of_times
         assert_eq!(allocated.allocations, 0);
         most = most.max(asked);
     }
-    println!("asked at most {most} times");
-    // What the documentation states: for each turning bone, the sweeps and 2,028 more.
+    println!("evaluated at most {most} times");
+    // The documented bound: for each rotating bone, the sweeps and 2,028 more.
     assert!(most > 100 && most <= 3 * (32 + 2_028), "{most}");
 }

@@ -1,6 +1,6 @@
-//! Models made by chance: skeletons that bend, meshes that several bones share, and weights no file should have.
+//! Random models: skeletons that bend, meshes that several bones share, and invalid weights.
 
-use crate::doors::{FolderFs, data};
+use crate::doors::{TestFolder, data};
 use crate::support::{animation_data, bone};
 use dragonfly_anim::data::{
     Channel, Influence, Interpolation, Mesh, MeshInstance, ModelData, MorphTarget, Primitive, Skin, Take,
@@ -12,31 +12,31 @@ use glam::{Mat4, Quat, Vec2, Vec3};
 use std::path::Path;
 use std::sync::Arc;
 
-/// How the weights of a vertex are.
+/// Weights of random vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Weights {
-    /// Not negative, and they sum to 1.
+    /// Not negative, with a sum of 1.
     Healthy,
-    /// Anything: negative, none, too many, no number, of joints that are not there.
+    /// Anything: negative, all zero, too many, not finite, of missing joints.
     Wild,
 }
 
-/// A vector with each number in `-size..size`.
+/// Returns a vector with each component in `-size..size`.
 pub(crate) fn vector(random: &mut Random, size: f32) -> Vec3 {
     Vec3::from_array([(); 3].map(|()| random.between(-size, size)))
 }
 
-/// A direction, every one about as likely.
+/// Returns a direction, every one about equally likely.
 pub(crate) fn direction(random: &mut Random) -> Vec3 {
     vector(random, 1.0).normalize_or(Vec3::X)
 }
 
-/// A rotation by any angle.
+/// Returns a rotation by any angle.
 pub(crate) fn rotation(random: &mut Random) -> Quat {
     Quat::from_axis_angle(direction(random), random.between(-3.1, 3.1))
 }
 
-/// A model of some bones, with a skinned tube, a tube that a bone carries and one that stands still.
+/// Returns a model of some bones, with a skinned tube, a tube that a bone carries and a tube that does not move.
 pub(crate) fn model(random: &mut Random, weights: Weights) -> Arc<ModelData> {
     let bones = 1 + random.below(7);
     let list = (0..bones).map(|index| {
@@ -68,7 +68,7 @@ pub(crate) fn model(random: &mut Random, weights: Weights) -> Arc<ModelData> {
     Arc::new(ModelData { meshes, instances, skins: vec![skin], animation, ..ModelData::default() })
 }
 
-/// Three keys of everything, a second apart.
+/// Returns a track with three keys in each channel, a second apart.
 fn track(random: &mut Random) -> Track {
     let times = [0.0, 1.0, 2.0];
     let rotations = times.map(|_| rotation(random));
@@ -82,7 +82,7 @@ fn track(random: &mut Random) -> Track {
     }
 }
 
-/// A tube along y of `7 × 9` places, closed around, with a seam in the texture coordinates.
+/// Returns a tube along y of `7 × 9` vertices, closed around, with a seam in the texture coordinates.
 fn tube(random: &mut Random, joints: usize, weights: Weights) -> Mesh {
     let (around, along) = (7, 9);
     let mut vertices =
@@ -99,7 +99,7 @@ fn tube(random: &mut Random, joints: usize, weights: Weights) -> Mesh {
     }
     let mut along_bones: Vec<Influence> = Vec::new();
     for row in 0..along {
-        // One draw a row, so that both sides of the seam move alike.
+        // One random value per row, so that both sides of the seam move in the same way.
         let height = row as f32 / (along - 1) as f32;
         let shares = influences(random, joints, height, weights);
         (0..=around).for_each(|_| along_bones.extend(shares));
@@ -117,7 +117,7 @@ fn tube(random: &mut Random, joints: usize, weights: Weights) -> Mesh {
     let targets = random.below(3);
     let morph_targets = (0..targets).map(|_| {
         let push = vector(random, 0.5);
-        // Both sides of the seam alike.
+        // The same on both sides of the seam.
         let column = |index: usize| index % (around + 1) % around;
         let positions =
             (0..vertices.len()).map(|index| if column(index) % 3 == 0 { push } else { Vec3::ZERO });
@@ -128,7 +128,7 @@ fn tube(random: &mut Random, joints: usize, weights: Weights) -> Mesh {
     Mesh { name: String::new(), primitives: vec![primitive], morph_weights: vec![0.0; targets] }
 }
 
-/// Four influences at a height of 0..1 along the chain.
+/// Returns four influences at a height of 0..1 along the chain.
 fn influences(random: &mut Random, joints: usize, height: f32, weights: Weights) -> [Influence; 4] {
     let mut out = [Influence::default(); 4];
     if joints == 0 {
@@ -151,7 +151,7 @@ fn influences(random: &mut Random, joints: usize, height: f32, weights: Weights)
     out
 }
 
-/// A point's random times of every take, and the rest pose.
+/// Returns `each` random times of every take, and the rest pose.
 pub(crate) fn times(random: &mut Random, model: &ModelData, each: usize) -> Vec<(Option<usize>, f32)> {
     let mut times = vec![(None, 0.0)];
     for (index, take) in model.animation.takes.iter().enumerate() {
@@ -160,15 +160,15 @@ pub(crate) fn times(random: &mut Random, model: &ModelData, each: usize) -> Vec<
     times
 }
 
-/// A model read from a file.
+/// Reads a model from a file.
 pub(crate) fn load(path: &Path) -> Arc<ModelData> {
     let bytes = std::fs::read(path).unwrap();
     let name = path.file_name().unwrap().to_str().unwrap();
-    let door = FolderFs(path.parent().unwrap().to_owned());
+    let door = TestFolder(path.parent().unwrap().to_owned());
     Arc::new(read(name, &bytes, &door, &ReadOptions::default()).unwrap().model)
 }
 
-/// The fox: 24 bones, three takes.
+/// Reads the fox: 24 bones, three takes.
 pub(crate) fn fox() -> Arc<ModelData> {
     load(&data().join("gltf/Fox.glb"))
 }

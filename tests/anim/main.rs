@@ -1,4 +1,4 @@
-//! Promises of the crate, one module each.
+//! Tests of the crate: one module for each guarantee.
 
 mod additional_turns;
 mod additive;
@@ -10,7 +10,6 @@ mod bombs;
 mod bone_bounds;
 mod bounds;
 mod budget;
-mod by_hand;
 mod chains;
 mod check;
 mod compare;
@@ -63,12 +62,13 @@ mod simd;
 mod skinning;
 mod soundness;
 mod support;
+mod textbook;
 mod textures;
 mod trial;
 mod two_takes;
 mod unbound;
 mod uris;
 
-/// Counts what each thread allocates, for the promises that playing allocates nothing.
+/// Counts the allocations of each thread, for the tests that playing allocates nothing.
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

@@ -1,4 +1,4 @@
-//! Masks say how much each bone takes part.
+//! Masks: weights of the bones in a blend.
 
 use crate::support::bone;
 use dragonfly_anim::blend::{Mask, NoSuchBone};
@@ -26,7 +26,7 @@ fn a_mask_is_made_from_a_branch_or_from_names() {
     assert_eq!(Mask::of_branch(&skeleton, 1).weights(), [0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0]);
     assert_eq!(Mask::of_branch(&skeleton, 7), Mask::uniform(7, 0.0));
     let named = Mask::of_names(&skeleton, ["leg", "hat"]).unwrap();
-    assert_eq!(named.weights(), [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0], "all that have the name");
+    assert_eq!(named.weights(), [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0], "all bones with the name");
     let error = Mask::of_names(&skeleton, ["hat", "wing"]).unwrap_err();
     assert_eq!(error, NoSuchBone { name: "wing".to_owned(), bones: 7 });
     assert_eq!(error.to_string(), "the mask needs a bone called \"wing\"; the skeleton (7 bones) has none");
@@ -34,7 +34,7 @@ fn a_mask_is_made_from_a_branch_or_from_names() {
 }
 
 #[test]
-fn a_feathered_mask_begins_softly() {
+fn a_feathered_mask_increases_gradually() {
     let skeleton = chain();
     let mask = Mask::of_branch(&skeleton, 1).feathered(&skeleton, 2);
     assert_eq!(mask.weights(), [0.0, 1.0 / 3.0, 0.0, 2.0 / 3.0, 1.0, 0.0, 1.0]);
@@ -44,13 +44,17 @@ fn a_feathered_mask_begins_softly() {
     assert!(
         Mask::uniform(7, 1.0).feathered(&skeleton, usize::MAX).weights().iter().all(|weight| *weight < 1e-6)
     );
-    // A mask that does not fit, and a parent after its child.
+    // A mask of another length, and a parent after its child.
     assert_eq!(Mask::uniform(9, 1.0).feathered(&skeleton, 1).weights()[7..], [0.5, 0.5]);
     let mut broken = chain();
     broken.bones[1].parent = Some(6);
     assert_eq!(Mask::of_branch(&broken, 1).weights(), [0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0]);
     assert_eq!(Mask::of_branch(&broken, 6).weights()[1], 0.0);
-    assert_eq!(Mask::uniform(7, 1.0).feathered(&broken, 1).weights()[..2], [0.5, 0.5], "as if it had none");
+    assert_eq!(
+        Mask::uniform(7, 1.0).feathered(&broken, 1).weights()[..2],
+        [0.5, 0.5],
+        "as if it had no parent"
+    );
 }
 
 #[test]

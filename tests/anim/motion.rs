@@ -1,6 +1,6 @@
-//! Root motion taken out and put back is the take again.
+//! Extracting root motion and restoring it gives the original take.
 
-use crate::doors::{FolderFs, data};
+use crate::doors::{TestFolder, data};
 use crate::ik::{direction, started, turn, vector};
 use crate::support::{angle_between, bone, take};
 use dragonfly_anim::animation::to_root;
@@ -16,7 +16,7 @@ use std::path::Path;
 const KINDS: [Interpolation; 4] =
     [Interpolation::Step, Interpolation::Linear, Interpolation::CubicSpline, Interpolation::Closest];
 
-/// Times that ascend unevenly.
+/// Returns ascending times with uneven gaps.
 fn times(random: &mut Random) -> Vec<f32> {
     let mut time = random.between(0.0, 0.5);
     (0..2 + random.below(8))
@@ -27,7 +27,7 @@ fn times(random: &mut Random) -> Vec<f32> {
         .collect()
 }
 
-/// A channel whose keys are given by `key`, and tangents by `tangent`.
+/// Returns a channel with the keys that `key` and the tangents that `tangent` returns.
 fn channel<T: Value>(
     random: &mut Random,
     kind: Interpolation,
@@ -51,7 +51,7 @@ fn moving(random: &mut Random, kind: Interpolation) -> Channel<Vec3> {
     channel(random, kind, |random| vector(random) * 3.0, vector)
 }
 
-/// Turns on and on, less than half a turn from key to key.
+/// Returns rotations in one direction, less than half a turn from key to key.
 fn turning(random: &mut Random, kind: Interpolation) -> Channel<Quat> {
     let mut rotation = turn(random);
     let key = |random: &mut Random| {
@@ -62,7 +62,7 @@ fn turning(random: &mut Random, kind: Interpolation) -> Channel<Quat> {
     channel(random, kind, key, |random| turn(random) * 0.3)
 }
 
-/// A figure: a root under which the hips (bone 1) move, and a hand that shows how they are turned.
+/// Returns a figure: a root, the hips below it (bone 1), and a hand that shows the rotation of the hips.
 fn figure(random: &mut Random) -> Skeleton {
     let mut bones = vec![
         bone("armature", None, vector(random)),
@@ -91,7 +91,7 @@ fn origins(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Mat4> {
     out
 }
 
-/// Keys, times between them, and times outside.
+/// Returns the keys, times between them, and times outside.
 fn moments(take: &Take) -> Vec<f32> {
     let keys = take.tracks.iter().flat_map(Track::key_times);
     let steps = (-5..=105).map(|step| take.start + take.length * step as f32 / 100.0);
@@ -101,7 +101,7 @@ fn moments(take: &Take) -> Vec<f32> {
     times
 }
 
-/// The largest distance between the same bone in two takes, as a share of how far bones get from the origin.
+/// Returns the largest distance between the same bone in two takes, relative to the distance of bones from the origin.
 fn difference(skeleton: &Skeleton, a: &Take, b: &Take) -> f32 {
     let (mut worst, mut size) = (0.0_f32, 1.0_f32);
     for time in moments(a) {
@@ -114,7 +114,7 @@ fn difference(skeleton: &Skeleton, a: &Take, b: &Take) -> f32 {
 }
 
 #[test]
-fn motion_taken_out_and_put_back_is_the_take_again_at_and_between_keys() {
+fn extracted_and_restored_motion_gives_the_take_at_and_between_keys() {
     let mut random = started(41);
     let mut worst = 0.0_f32;
     for round in 0..1_500 {
@@ -146,7 +146,7 @@ fn motion_taken_out_and_put_back_is_the_take_again_at_and_between_keys() {
 }
 
 #[test]
-fn in_place_nothing_chosen_is_left_and_the_motion_carries_the_take() {
+fn the_take_in_place_has_none_of_the_extracted_motion_and_the_motion_restores_it() {
     let mut random = started(42);
     for round in 0..500 {
         let skeleton = figure(&mut random);
@@ -225,7 +225,7 @@ fn a_root_without_keys_has_no_motion() {
     assert_eq!(extract(&bare, &skeleton, 1, RootMotionOptions::default()).unwrap().1.moving_tracks(), 0);
 }
 
-/// Walks 2 m along z and turns a quarter to the left in 1.5 s from 0.5 s on.
+/// Walks 2 m along z and turns a quarter to the left in 1.5 s, starting at 0.5 s.
 fn walk() -> RootMotion {
     RootMotion {
         translation: Channel::new(
@@ -246,7 +246,7 @@ fn walk() -> RootMotion {
 }
 
 #[test]
-fn many_small_deltas_make_the_same_way_as_one_over_many_loops() {
+fn many_small_deltas_add_up_to_one_delta_over_many_loops() {
     let motion = walk();
     for (from, to) in [(0.5, 2.0), (0.7, 9.3), (0.5, 6.5), (12.1, 0.9), (-3.0, 4.0)] {
         let steps = 997;
@@ -260,13 +260,13 @@ fn many_small_deltas_make_the_same_way_as_one_over_many_loops() {
         let back = motion.delta(to, from, PlayMode::Loop).to_matrix();
         assert!((once * back).abs_diff_eq(Mat4::IDENTITY, 1e-4), "{from} {to}: there and back");
     }
-    // Four quarter turns, each 2 m ahead: a square, back where it began.
+    // Four quarter turns, each 2 m ahead: a square that ends where it started.
     let square = motion.delta(0.5, 0.5 + 4.0 * 1.5, PlayMode::Loop);
     assert!(square.translation.length() < 1e-5 && angle_between(square.rotation, Quat::IDENTITY) < 1e-5);
-    // Backwards over the seam: the last quarter of the take before the first one is 1/3 m and 45/3° behind.
+    // Backwards over the seam: the last quarter of the take before the first one is 1/3 m and 45/3° back.
     let seam = motion.delta(0.5, 0.25, PlayMode::Loop);
     assert!(angle_between(seam.rotation, Quat::from_rotation_y(-std::f32::consts::FRAC_PI_2 / 6.0)) < 1e-5);
-    // A million loops of a straight walk are a million times the way.
+    // A million loops of a straight walk are a million times the distance.
     let straight = RootMotion { rotation: Channel::default(), ..motion.clone() };
     let far = straight.delta(0.5, 0.5 + 1.5 * (1 << 20) as f32, PlayMode::Loop).translation;
     assert!((far.z / (2 << 20) as f32 - 1.0).abs() < 1e-6, "{far}");
@@ -275,7 +275,7 @@ fn many_small_deltas_make_the_same_way_as_one_over_many_loops() {
 }
 
 #[test]
-fn a_delta_is_always_a_number_and_allocates_nothing() {
+fn a_delta_is_always_finite_and_allocates_nothing() {
     let hostile = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, 1e-45, 0.5, 2.0, 1e9];
     let mut motion = walk();
     for length in [1.5, 0.0, -1.0, 1e-30, f32::NAN, f32::MAX] {
@@ -314,14 +314,14 @@ fn an_edited_motion_moves_the_take_as_edited() {
         let expected = motion.at(time).to_matrix() * Mat4::from_translation(Vec3::Y);
         assert!(got.abs_diff_eq(expected, 1e-4), "{time}: {got} {expected}");
     }
-    // Also where the bone has no keys at all.
+    // Also if the bone has no keys at all.
     let none = Take { tracks: vec![], ..take };
     let got = origins(&skeleton, &restore(&none, &skeleton, &motion).unwrap(), 0.6)[0];
     assert!(got.abs_diff_eq(motion.at(0.6).to_matrix() * Mat4::from_translation(Vec3::Y), 1e-4));
 }
 
 #[test]
-fn what_has_no_motion_is_an_error_with_its_reason() {
+fn a_bone_without_motion_is_an_error_with_its_reason() {
     let mut skeleton = figure(&mut Random::new(3));
     let take = take(vec![]);
     let error = extract(&take, &skeleton, 9, RootMotionOptions::default()).unwrap_err();
@@ -333,7 +333,7 @@ fn what_has_no_motion_is_an_error_with_its_reason() {
 }
 
 #[test]
-fn whatever_a_take_holds_its_motion_and_what_is_left_are_numbers() {
+fn the_motion_and_the_rest_of_any_take_are_finite() {
     let mut random = started(44);
     let hostile = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, 1e-45, 1e38, f32::MAX, -1.0];
     for _ in 0..1_000 {
@@ -373,17 +373,17 @@ fn whatever_a_take_holds_its_motion_and_what_is_left_are_numbers() {
 
 pub(crate) fn load(path: &Path) -> ModelData {
     let bytes = std::fs::read(path).unwrap();
-    let door = FolderFs(path.parent().unwrap().to_owned());
+    let door = TestFolder(path.parent().unwrap().to_owned());
     read(path.file_name().unwrap().to_str().unwrap(), &bytes, &door, &ReadOptions::default()).unwrap().model
 }
 
-/// The models with skeletons that are there.
+/// Returns the available models with skeletons.
 pub(crate) fn models() -> Vec<ModelData> {
     ["gltf/Fox.glb", "bench/pab.glb"].iter().map(|path| load(&data().join(path))).collect()
 }
 
 #[test]
-fn the_motion_of_real_takes_is_put_back_within_a_ten_thousandth() {
+fn the_motion_of_real_takes_is_restored_within_a_ten_thousandth() {
     for model in models() {
         let skeleton = &model.animation.skeleton;
         for take in &model.animation.takes {

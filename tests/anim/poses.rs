@@ -1,4 +1,4 @@
-//! Chains of bones, against a recursion that follows the definition, and the vector kept ready for the GPU.
+//! Chained poses, compared with a recursion that follows the definition, and the matrices prepared for the GPU.
 
 use crate::support::{about_z, along_x, animation_data, assert_near, bone, take};
 use dragonfly_anim::animation::{Animation, final_poses, to_root};
@@ -40,7 +40,7 @@ fn by_recursion(skeleton: &Skeleton, poses: &[Transform], index: usize) -> Mat4 
 }
 
 #[test]
-fn one_forward_pass_gives_what_the_recursion_gives() {
+fn one_forward_pass_gives_the_result_of_the_recursion() {
     let seed = seed(1);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -50,15 +50,15 @@ fn one_forward_pass_gives_what_the_recursion_gives() {
         let mut out = vec![Mat4::NAN; bones];
         to_root(&skeleton, &poses, &mut out);
         for (index, &got) in out.iter().enumerate() {
-            // The very same products in the same order: the same bits.
+            // The same products in the same order: the same bits.
             assert_eq!(got, by_recursion(&skeleton, &poses, index), "bone {index} of {bones}");
         }
     }
 }
 
 #[test]
-fn moving_a_bone_moves_its_descendants_and_nobody_else() {
-    // 0 ─ 1 ─ 2, and 3 beside 1.
+fn moving_a_bone_moves_only_its_descendants() {
+    // 0 ─ 1 ─ 2, and 3 next to 1.
     let parents = [None, Some(0), Some(1), Some(0)];
     let bones: Vec<Bone> = parents.iter().map(|&parent| bone("", parent, Vec3::X)).collect();
     let mut animation = Animation::new(animation_data(bones, vec![]));
@@ -67,7 +67,7 @@ fn moving_a_bone_moves_its_descendants_and_nobody_else() {
         animation.to_root_bone_poses_with(|poses| poses[1].rotation = Quat::from_rotation_z(1.0)).to_vec();
     let moved: Vec<bool> = rest.iter().zip(&turned).map(|(a, b)| a != b).collect();
     assert_eq!(moved, [false, true, true, false]);
-    // The forearm follows the arm: one unit along the turned x axis.
+    // The forearm follows the arm: one unit along the rotated x axis.
     let expected = Vec3::new(2.0 + 1.0_f32.cos(), 1.0_f32.sin(), 0.0);
     assert!((turned[2].w_axis.truncate() - expected).length() < 1e-6);
 }
@@ -82,7 +82,7 @@ fn the_identity_changes_nothing() {
 }
 
 #[test]
-fn final_is_to_root_times_offset_and_nothing_moves_in_the_bind_pose() {
+fn final_pose_is_to_root_times_offset_and_nothing_moves_in_the_bind_pose() {
     let seed = seed(2);
     println!("DRAGONFLY_SEED={seed}");
     let skeleton = random_skeleton(&mut Random::new(seed), 20);
@@ -126,7 +126,7 @@ fn a_sheared_rest_keeps_its_exact_matrix_until_something_animates_the_bone() {
     let sheared =
         Mat4::from_rotation_z(0.7) * Mat4::from_scale(Vec3::new(3.0, 1.0, 1.0)) * Mat4::from_rotation_z(0.4);
     let rest = Transform::from_matrix(sheared);
-    assert!(!rest.to_matrix().abs_diff_eq(sheared, 0.1), "no pose can express it");
+    assert!(!rest.to_matrix().abs_diff_eq(sheared, 0.1), "no pose can represent it");
     let bones = || {
         vec![
             Bone { rest, rest_matrix: Some(sheared), ..bone("", None, Vec3::ZERO) },
@@ -155,7 +155,7 @@ fn waving() -> (AnimationData, Take) {
 }
 
 #[test]
-fn an_animation_finds_its_takes_by_number_and_can_exchange_them() {
+fn an_animation_finds_its_takes_by_number_and_can_replace_them() {
     let (data, original) = waving();
     let mut animation = Animation::new(data);
     let at_half = animation.to_root_bone_poses(Some(0), 0.5).to_vec();
@@ -172,7 +172,7 @@ fn an_animation_finds_its_takes_by_number_and_can_exchange_them() {
 #[test]
 fn posing_allocates_nothing() {
     let (data, original) = waving();
-    // More joints than bones, so that the room a model's skins need is not had by chance.
+    // More joints than bones, so that the capacity for a model's skins is not sufficient by chance.
     let skin = Skin {
         name: String::new(),
         bones: (0..60).chain(0..60).collect(),

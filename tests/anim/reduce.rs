@@ -1,4 +1,4 @@
-//! Key reduction keeps to its tolerance, measured here once more from nothing but the takes.
+//! Key reduction keeps to its tolerance, measured here independently from the takes alone.
 
 use crate::doors::data;
 use crate::support::{about_z, along_x, bone, take};
@@ -11,13 +11,13 @@ use dragonfly_kit::random::{Random, seed};
 use glam::{DVec3, Mat4, Quat, Vec3};
 use std::path::Path;
 
-/// Settings without contacts: millimetres, and millimetres from the bones.
+/// Returns settings without contacts: tolerance in millimeters, distance of the shell from the bones in millimeters.
 fn within(tolerance: f32, shell: f32) -> ReduceSettings {
     let contacts = Contacts { search: None, ..Contacts::default() };
     ReduceSettings { tolerance, shell, contacts, ..ReduceSettings::default() }
 }
 
-/// Points all around, of unit length.
+/// Returns points all around, of unit length.
 fn around() -> Vec<DVec3> {
     let mut points = Vec::new();
     for x in -1..=1 {
@@ -31,7 +31,7 @@ fn around() -> Vec<DVec3> {
     points
 }
 
-/// Where every bone is at a time.
+/// Returns the matrix of every bone at a time.
 fn bones_at(take: &Take, skeleton: &Skeleton, time: f32) -> Vec<Mat4> {
     let mut poses = vec![Transform::IDENTITY; skeleton.len()];
     let mut matrices = vec![Mat4::IDENTITY; skeleton.len()];
@@ -40,7 +40,7 @@ fn bones_at(take: &Take, skeleton: &Skeleton, time: f32) -> Vec<Mat4> {
     matrices
 }
 
-/// Every key time of the take, and 60 frames a second between.
+/// Returns every key time of the take, and 60 frames per second between them.
 fn every_frame(take: &Take) -> Vec<f32> {
     let mut times: Vec<f32> = take.tracks.iter().flat_map(Track::key_times).collect();
     let frames = (take.length * 60.0) as usize;
@@ -50,7 +50,8 @@ fn every_frame(take: &Take) -> Vec<f32> {
     times
 }
 
-/// The largest error of any shell point in millimetres, over the frames and bones that `counts` lets count.
+/// Returns the largest error of any shell point in millimeters, over the frames and bones for which `counts` returns
+/// `true`.
 fn worst(
     original: &Take,
     reduced: &Take,
@@ -89,13 +90,14 @@ fn no_more(reduced: &Reduced, original: &Take) {
         assert_eq!(new.rotation.interpolation, old.rotation.interpolation);
         if new.rotation.interpolation == Interpolation::Linear {
             let one_side = |pair: &[Quat]| pair[0].dot(pair[1]) >= 0.0;
-            assert!(new.rotation.values.windows(2).all(one_side), "neighbours lie in one hemisphere");
+            assert!(new.rotation.values.windows(2).all(one_side), "neighbors are in one hemisphere");
         }
         assert_eq!(new.translation.values.len(), new.translation.len() * new.translation.values_per_key());
     }
 }
 
-/// A skeleton of a few bones and a take that moves all of them, one channel like a walk, one like noise, one in steps.
+/// Returns a skeleton of a few bones and a take that animates all of them: one channel like a walk, one like noise, one
+/// in steps.
 fn wild(random: &mut Random) -> (Skeleton, Take) {
     let count = 1 + random.below(6);
     let bones = (0..count)
@@ -141,7 +143,7 @@ fn wild_track(random: &mut Random) -> Track {
     track
 }
 
-/// A cubic spline through `values`, its tangents the differences of the neighbours.
+/// Returns a cubic spline through `values`, whose tangents are the differences of the neighbors.
 fn splined(times: &[f32], values: &[Vec3]) -> Channel<Vec3> {
     let last = times.len() - 1;
     let slope = |key: usize| {
@@ -170,8 +172,8 @@ fn no_point_of_any_shell_moves_further_than_the_tolerance() {
         let worst = worst(&take, &reduced.take, &skeleton, &settings, |_, _| true);
         let allowed = f64::from(settings.tolerance) * (1.0 + 1e-6);
         assert!(worst <= allowed, "round {round}: {worst} mm, {settings:?}");
-        let told = reduced.measurement.largest.unwrap().millimeters;
-        assert!(worst <= told * (1.0 + 1e-6), "round {round}: {worst} mm found, {told} mm told");
+        let stated = reduced.measurement.largest.unwrap().millimeters;
+        assert!(worst <= stated * (1.0 + 1e-6), "round {round}: {worst} mm found, {stated} mm stated");
         (before, after) = (before + reduced.keys_before, after + reduced.keys_after);
     }
     println!("{before} keys became {after}");
@@ -202,8 +204,8 @@ fn contacts_keep_within_their_own_tolerance() {
 }
 
 #[test]
-fn a_foot_that_stands_still_is_found_and_stays_where_it_stands() {
-    // The hip sways; the foot below it is turned back so that it stands still for the middle second.
+fn a_planted_foot_is_found_and_stays_in_place() {
+    // The hip sways; the foot below it is rotated back so that it does not move for the middle second.
     let skeleton = Skeleton { bones: vec![bone("hip", None, Vec3::Y), bone("foot", Some(0), Vec3::NEG_Y)] };
     let times: Vec<f32> = (0..=90).map(|frame| frame as f32 / 30.0).collect();
     let sway = |time: f32| Vec3::new(0.1 * (2.0 * time).sin(), 1.0 + 0.02 * (5.0 * time).cos(), 0.0);
@@ -228,10 +230,13 @@ fn a_foot_that_stands_still_is_found_and_stays_where_it_stands() {
     settings.contacts.search = None;
     let careless = reduce(&take, &skeleton, &settings).unwrap();
     let slid = worst(&take, &careless.take, &skeleton, &settings, standing);
-    assert!(slid > 1.0, "without the search the foot slides by only {slid} mm, so the test says nothing");
+    assert!(
+        slid > 1.0,
+        "without the search the foot slides by only {slid} mm, so the test is not meaningful"
+    );
     assert!(careless.keys_after < reduced.keys_after);
 
-    // Nothing is found where nobody looks, or where nothing is slow enough.
+    // Nothing is found where the search is off, or where nothing is slow enough.
     for search in [
         ContactSearch { bones: Some(vec![0, 7]), ..ContactSearch::default() },
         ContactSearch { speed: 0.0, ..ContactSearch::default() },
@@ -288,7 +293,7 @@ fn a_take_that_never_moves_keeps_its_length() {
 }
 
 #[test]
-fn steps_keep_the_keys_where_something_changes() {
+fn steps_keep_the_keys_at_which_the_value_changes() {
     let skeleton = Skeleton { bones: vec![bone("only", None, Vec3::ZERO)] };
     let keys: Vec<(f32, f32)> = (0..30).map(|k| (k as f32 * 0.1, (k / 10) as f32)).collect();
     let track = Track { translation: along_x(&keys, Interpolation::Step), ..Track::default() };
@@ -296,7 +301,7 @@ fn steps_keep_the_keys_where_something_changes() {
     let channel = &reduced.take.tracks[0].translation;
     assert_eq!(channel.interpolation, Interpolation::Step);
     let steps: Vec<f32> = channel.values.iter().map(|value| value.x).collect();
-    // The last key says nothing but how long the take is.
+    // The last key only determines the length of the take.
     assert_eq!((&steps[..3], channel.times[1], channel.times[2]), (&[0.0, 1.0, 2.0][..], 1.0, 2.0));
     assert!(channel.len() <= 4);
 }
@@ -336,7 +341,7 @@ fn reducing_twice_changes_little() {
     assert!(twice * 100 >= once * 95, "{once} keys, then {twice}");
 }
 
-/// The fewest keys of a channel of one bone, by trying every way through its keys.
+/// Returns the fewest keys of a channel of one bone, by trying every path through its keys.
 fn fewest(values: &[Vec3], tolerance: f32) -> usize {
     let allowed = |from: usize, to: usize| {
         (from + 1..to).all(|key| {
@@ -352,7 +357,7 @@ fn fewest(values: &[Vec3], tolerance: f32) -> usize {
 }
 
 #[test]
-fn one_channel_alone_gets_the_fewest_keys_there_can_be() {
+fn a_single_channel_gets_the_fewest_possible_keys() {
     let seed = seed(34);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -377,7 +382,7 @@ fn one_channel_alone_gets_the_fewest_keys_there_can_be() {
 }
 
 #[test]
-fn what_is_given_can_be_anything() {
+fn any_take_is_reduced_or_left_unchanged() {
     let skeleton = Skeleton { bones: vec![bone("a", None, Vec3::NAN), bone("b", Some(0), Vec3::X)] };
     let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, -1.0, 0.0];
     let channel = |times: Vec<f32>, interpolation| {
@@ -412,10 +417,10 @@ fn what_is_given_can_be_anything() {
             };
             let reduced = reduce(&take, &skeleton, &settings).unwrap();
             assert!(reduced.keys_after <= reduced.keys_before);
-            // As text, because no NaN equals itself.
+            // Compared as text, because NaN does not equal itself.
             let [left, right] = [&reduced.take, &take].map(|take| format!("{:?}", take.tracks[0]));
             let sound = first < second && second < 1.0 && first.is_finite();
-            assert!(left == right || sound, "what is not sound is left alone\n{left}\n{right}");
+            assert!(left == right || sound, "invalid channels are left unchanged\n{left}\n{right}");
         }
     }
     let nothing = reduce(&Take::default(), &Skeleton::default(), &ReduceSettings::default()).unwrap();
@@ -439,10 +444,11 @@ fn model(path: &Path) -> ModelData {
     read("model.glb", &bytes, &NoFiles, &ReadOptions::default()).unwrap().model
 }
 
-/// Prints what reduction makes of every take of a model, and holds it to its word.
+/// Prints the result of reducing every take of a model, and checks its error.
 fn report(name: &str, model: &ModelData, millimeters_per_unit: f32, tolerances: &[f32]) {
     let skeleton = &model.animation.skeleton;
-    // A quarter of a minute of capture takes too long without optimisation; the example `reduce_keys` shows that one.
+    // A quarter of a minute of motion capture takes too long without optimization; the example `reduce_keys` reduces
+    // that one.
     for take in model.animation.takes.iter().filter(|take| take.keys() < 20_000) {
         for &tolerance in tolerances {
             for contacts in [false, true] {
@@ -475,7 +481,7 @@ fn report(name: &str, model: &ModelData, millimeters_per_unit: f32, tolerances: 
 #[test]
 fn the_takes_of_the_fox_lose_most_of_their_keys() {
     let fox = model(&data().join("gltf/Fox.glb"));
-    // The fox is drawn in centimetres.
+    // The fox is modeled in centimeters.
     report("Fox", &fox, 10.0, &[0.5, 1.0, 5.0]);
 }
 
@@ -485,7 +491,7 @@ fn the_takes_of_a_person_lose_most_of_their_keys() {
 }
 
 #[test]
-fn a_comparison_of_two_takes_finds_the_place_where_they_differ() {
+fn a_comparison_of_two_takes_finds_the_bone_and_time_of_the_difference() {
     let skeleton = Skeleton { bones: vec![bone("a", None, Vec3::X), bone("b", Some(0), Vec3::X)] };
     let keys: Vec<(f32, f32)> = (0..=10).map(|k| (k as f32 * 0.1, 0.0)).collect();
     let mut other = keys.clone();

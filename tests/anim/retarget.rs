@@ -1,4 +1,4 @@
-//! One take on other skeletons.
+//! Retargeting: one take on other skeletons.
 
 use crate::ik::{started, turn, vector};
 use crate::motion::models;
@@ -28,7 +28,7 @@ pub(crate) fn moments(take: &Take) -> impl Iterator<Item = f32> + '_ {
     (-2..=42).map(|step| take.start + take.length * step as f32 / 40.0)
 }
 
-/// Hips, two legs, a spine, two arms; all bones turned at random at rest.
+/// Returns hips, two legs, a spine, two arms; all bones rotated at random at rest.
 pub(crate) fn person(random: &mut Random) -> Skeleton {
     let parts: [(&str, Option<u32>, [f32; 3]); 14] = [
         ("Root", None, [0.0, 0.0, 0.0]),
@@ -52,7 +52,7 @@ pub(crate) fn person(random: &mut Random) -> Skeleton {
     skeleton
 }
 
-/// Turns bones at rest without moving any origin: only their axes change.
+/// Rotates bones at rest without moving any origin: only their axes change.
 fn pose_rest(skeleton: &mut Skeleton, mut own: impl FnMut(usize, Quat) -> Quat) {
     let straight = Take::default();
     let old = places(skeleton, &straight, 0.0);
@@ -93,7 +93,7 @@ pub(crate) fn turns(random: &mut Random, rest: Quat) -> Channel<Quat> {
     Channel::new(times, values, kind)
 }
 
-/// Turns most bones and moves the hips.
+/// Returns a take that rotates most bones and moves the hips.
 pub(crate) fn dance(random: &mut Random, skeleton: &Skeleton) -> Take {
     let mut tracks: Vec<Track> = Vec::new();
     for bone in &skeleton.bones {
@@ -154,7 +154,7 @@ fn real_takes_on_their_own_skeletons_are_the_takes() {
 }
 
 #[test]
-fn on_a_skeleton_of_another_size_all_places_have_that_size() {
+fn on_a_skeleton_of_another_size_all_positions_are_scaled() {
     let mut random = started(52);
     for round in 0..200 {
         let source = person(&mut random);
@@ -174,7 +174,7 @@ fn on_a_skeleton_of_another_size_all_places_have_that_size() {
             }
         }
     }
-    // The same where the size is the scale of the root, as files in centimetres have it.
+    // The same if the size is the scale of the root, as in files in centimeters.
     let source = person(&mut random);
     let take = dance(&mut random, &source);
     let mut target = source.clone();
@@ -189,12 +189,12 @@ fn on_a_skeleton_of_another_size_all_places_have_that_size() {
 }
 
 #[test]
-fn on_a_skeleton_that_rests_otherwise_bones_point_the_same_way() {
+fn on_a_skeleton_with_another_rest_pose_bones_point_in_the_same_direction() {
     let mut random = started(53);
     for round in 0..200 {
         let source = person(&mut random);
         let take = dance(&mut random, &source);
-        // The same shape in another pose (arms down, legs apart, whatever), with other axes of its own.
+        // The same shape in another rest pose (arms down, legs apart, or anything else), with other axes.
         let mut target = source.clone();
         for bone in &mut target.bones[1..] {
             bone.rest.rotation =
@@ -221,7 +221,7 @@ fn bones_that_only_one_side_has_are_bridged() {
     for round in 0..100 {
         let source = person(&mut random);
         let take = dance(&mut random, &source);
-        // The target has a twist bone in its left arm that nothing moves; the arm hangs from it.
+        // The target has a twist bone in its left arm that is not animated; the arm is its child.
         let mut target = source.clone();
         target.bones.push(bone("twist", Some(10), Vec3::ZERO));
         target.bones.swap(11, 14);
@@ -235,7 +235,7 @@ fn bones_that_only_one_side_has_are_bridged() {
         assert_eq!((&binding.unbound_target[..], &binding.unbound_source[..]), (&[11][..], &[][..]));
         let result = retarget(&take, &source, &target, &binding, &RetargetOptions::default());
         assert!(result.tracks[11].is_empty());
-        // And back: the take's twist bone, now moved itself, is missing in the plain skeleton.
+        // And back: the take's twist bone, now animated, is missing in the plain skeleton.
         let mut twisted = result.clone();
         twisted.tracks[11].rotation = turns(&mut random, target.bones[11].rest.rotation);
         twisted.tracks[11].rotation.interpolation = Interpolation::Linear;
@@ -260,7 +260,7 @@ fn bones_that_only_one_side_has_are_bridged() {
 }
 
 #[test]
-fn names_bind_exactly_first_and_then_without_what_programs_add() {
+fn names_are_matched_exactly_first_and_then_without_common_affixes() {
     let bones =
         |names: &[&str]| Skeleton { bones: names.iter().map(|name| bone(name, None, Vec3::ZERO)).collect() };
     let source = bones(&[
@@ -279,7 +279,7 @@ fn names_bind_exactly_first_and_then_without_what_programs_add() {
     assert_eq!(
         binding.source_of,
         [Some(2), Some(0), Some(1), Some(3), Some(4), None, None, Some(5), None],
-        "a name that two bones left over share binds neither"
+        "a name that two remaining bones share matches neither"
     );
     assert_eq!(binding.unbound_source, [6, 7, 8]);
     assert_eq!(binding.unbound_target, [5, 6, 8]);
@@ -293,7 +293,7 @@ fn names_bind_exactly_first_and_then_without_what_programs_add() {
 }
 
 #[test]
-fn a_take_bound_by_name_goes_to_the_bones_of_that_name_untouched() {
+fn a_take_bound_by_name_is_copied_unchanged_to_the_bones_of_that_name() {
     let mut random = started(55);
     let source = person(&mut random);
     let take = dance(&mut random, &source);
@@ -312,7 +312,7 @@ fn a_take_bound_by_name_goes_to_the_bones_of_that_name_untouched() {
 }
 
 #[test]
-fn whatever_is_carried_over_the_poses_are_numbers() {
+fn retargeted_poses_are_always_finite() {
     let mut random = started(56);
     let hostile = [f32::NAN, f32::INFINITY, 0.0, 1e-45, 1e38, f32::MAX, -1.0];
     for _ in 0..500 {

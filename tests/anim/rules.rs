@@ -1,9 +1,9 @@
-//! Every rule of the importer has a file that breaks it and nothing else, and the answer names the rule.
+//! Every rule of the importer has a file that breaks only this rule, and the error or warning contains the rule.
 
 use crate::doors::MemoryFs;
 use crate::fixture::{Fixture, accessor, chunk, container, glb, png};
 use crate::soundness::{faults, faults_of_poses};
-use dragonfly_anim::format::gltf::check::{Answer, CHECKS};
+use dragonfly_anim::format::gltf::check::{CHECKS, Consequence};
 use dragonfly_anim::format::{ReadOptions, read};
 use serde_json::json;
 
@@ -15,11 +15,11 @@ enum Bad {
     Raw(fn() -> Vec<u8>),
 }
 
-use Answer::{Refuse, Warn};
 use Bad::{Edit, Raw};
+use Consequence::{Refuse, Warn};
 
-/// Rule, what must follow, and a file that breaks it.
-const BAD: &[(&str, Answer, Bad)] = &[
+/// Rule, expected result, and a file that breaks it.
+const BAD: &[(&str, Consequence, Bad)] = &[
     ("GLB_UNEXPECTED_END_OF_HEADER", Refuse, Raw(|| b"glTF\x02\0\0\0".to_vec())),
     ("GLB_INVALID_MAGIC", Refuse, Raw(|| b"PK\x03\x04 a zip archive".to_vec())),
     ("GLB_LENGTH_TOO_SMALL", Refuse, Raw(|| b"glTF\x02\0\0\0\x0b\0\0\0________".to_vec())),
@@ -393,7 +393,7 @@ const BAD: &[(&str, Answer, Bad)] = &[
     ),
 ];
 
-/// The valid container with one more chunk.
+/// Returns the valid container with one more chunk.
 fn with_chunk(kind: &[u8; 4]) -> Vec<u8> {
     container(&[&Fixture::new().glb()[12..], &chunk(kind, b"{}  ")].concat())
 }
@@ -405,8 +405,8 @@ fn sparse_indices(fixture: &mut Fixture, indices: [u16; 2]) {
     fixture.bin[at..at + 4].copy_from_slice(&indices.map(u16::to_le_bytes).concat());
 }
 
-/// What is wrong with the answer to a bad file; `None` when it names `code` and does what `expected` says.
-fn complaint(code: &str, expected: Answer, bytes: &[u8]) -> Option<String> {
+/// Returns what is wrong with the result of a bad file; `None` if it contains `code` and is what `expected` requires.
+fn complaint(code: &str, expected: Consequence, bytes: &[u8]) -> Option<String> {
     let name = if bytes.starts_with(b"{") { "bad.gltf" } else { "bad.glb" };
     match (read(name, bytes, &MemoryFs::default(), &ReadOptions::default()), expected) {
         (Err(error), Refuse) if error.code() == code => None,
@@ -421,7 +421,7 @@ fn complaint(code: &str, expected: Answer, bytes: &[u8]) -> Option<String> {
 }
 
 #[test]
-fn each_broken_rule_is_answered_by_its_name() {
+fn each_broken_rule_is_reported_with_its_code() {
     let mut complaints = Vec::new();
     for (number, (code, expected, bad)) in BAD.iter().enumerate() {
         let bytes = match bad {
@@ -442,17 +442,18 @@ fn each_broken_rule_is_answered_by_its_name() {
 fn each_rule_has_a_file_that_breaks_it() {
     assert!(CHECKS.len() >= 60, "{}", CHECKS.len());
     for check in CHECKS {
-        let answers: Vec<Answer> = BAD.iter().filter(|bad| bad.0 == check.code).map(|bad| bad.1).collect();
-        let needed: &[Answer] = match check.answer {
+        let answers: Vec<Consequence> =
+            BAD.iter().filter(|bad| bad.0 == check.code).map(|bad| bad.1).collect();
+        let needed: &[Consequence] = match check.answer {
             Refuse => &[Refuse],
             Warn => &[Warn],
-            Answer::Either => &[Refuse, Warn],
+            Consequence::Either => &[Refuse, Warn],
         };
         let all = needed.iter().all(|needed| answers.contains(needed));
         assert!(all && answers.iter().all(|answer| needed.contains(answer)), "{}: {answers:?}", check.code);
         assert!(!check.meaning.is_empty());
     }
     for (code, ..) in BAD {
-        assert!(CHECKS.iter().any(|check| check.code == *code), "{code} is no rule");
+        assert!(CHECKS.iter().any(|check| check.code == *code), "{code} is not a rule");
     }
 }

@@ -1,4 +1,4 @@
-//! What lies between two keys, against values worked out by hand.
+//! Values between two keys, compared with values computed by hand.
 
 use crate::support::{about_z, along_x, angle_between, bone, take};
 use dragonfly_anim::data::{Channel, Interpolation, Keyframe, MorphTrack, Skeleton, Take, Track, Transform};
@@ -8,8 +8,8 @@ use dragonfly_anim::sample::{
 };
 use glam::{Quat, Vec3};
 
-/// The thesis's example (§2.1.5.2): one second, a key every 100 ms. Key k (counted from 1) holds k along x for the
-/// translation, 2k for the scale, and a turn of 0.1·k.
+/// The thesis's example (§2.1.5.2): one second, a key every 100 ms. Key k (counted from 1) has k along x as its
+/// translation, 2k as its scale, and a rotation by 0.1·k.
 fn worked_example() -> Track {
     let keys = |factor: f32| (0..=10).map(|k| (k as f32 * 0.1, (k + 1) as f32 * factor)).collect::<Vec<_>>();
     Track {
@@ -56,7 +56,7 @@ fn half_way_the_closest_key_is_the_later_one() {
 }
 
 #[test]
-fn the_temporary_key_frame_holds_the_time_and_the_pose() {
+fn the_temporary_key_frame_contains_the_time_and_the_pose() {
     let (track, bone) = (worked_example(), bone("only", None, Vec3::ZERO));
     let pose = sample_track(&track, &bone, 0.35);
     assert_eq!(keyframe_at(&track, &bone, 0.35), Keyframe { time: 0.35, pose });
@@ -84,25 +84,25 @@ fn a_cubic_spline_follows_its_tangents() {
 }
 
 #[test]
-fn a_cubic_rotation_is_normalised() {
+fn a_cubic_rotation_is_normalized() {
     let none = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
     let (a, b) = (Quat::IDENTITY, Quat::from_rotation_z(2.0));
     let channel = Channel::new([0.0, 1.0], [none, a, none, none, b, none], Interpolation::CubicSpline);
     let half = sample_channel(&channel, Quat::IDENTITY, 0.5);
     assert!((half.length() - 1.0).abs() < 1e-6);
-    // Without tangents the middle is the middle by symmetry.
+    // Without tangents the middle is the mean by symmetry.
     assert!(angle_between(half, Quat::from_rotation_z(1.0)) < 1e-6, "{half}");
 }
 
 #[test]
-fn rotations_turn_at_constant_speed_and_the_short_way() {
+fn rotations_have_constant_speed_and_take_the_shorter_way() {
     let near = about_z(&[(0.0, 0.0), (1.0, 1.5)], Interpolation::Linear);
     for step in 0..=8 {
         let time = step as f32 / 8.0;
         let got = sample_channel(&near, Quat::IDENTITY, time);
         assert!(angle_between(got, Quat::from_rotation_z(1.5 * time)) < 1e-6, "{time}");
     }
-    // 3 rad forward is the long way to -1 rad ... 4 rad apart as angles, 2.28 rad the other way.
+    // From 3 rad to -1 rad is 4 rad one way, and 2.28 rad the other way.
     let far = about_z(&[(0.0, 3.0), (1.0, -1.0)], Interpolation::Linear);
     let half = sample_channel(&far, Quat::IDENTITY, 0.5);
     assert!(angle_between(half, Quat::from_rotation_z(1.0 + std::f32::consts::PI)) < 1e-6, "{half}");
@@ -110,7 +110,7 @@ fn rotations_turn_at_constant_speed_and_the_short_way() {
 
 #[test]
 fn on_a_key_the_value_is_the_keys_bit_for_bit() {
-    // One part in a thousand million from round numbers, so that any arithmetic would show.
+    // One part in a thousand million from round numbers, so that any calculation would show.
     let values: Vec<Vec3> =
         (0..50).map(|k| Vec3::new(0.1 * k as f32, 1.0 / (k + 3) as f32, -1e-41)).collect();
     let turns: Vec<Quat> =
@@ -129,7 +129,7 @@ fn on_a_key_the_value_is_the_keys_bit_for_bit() {
 }
 
 #[test]
-fn what_is_not_animated_keeps_the_rest_pose_bit_for_bit() {
+fn properties_without_keys_keep_the_rest_pose_bit_for_bit() {
     let mut bone = bone("only", None, Vec3::new(0.1, 0.2, 0.3));
     bone.rest.rotation = Quat::from_xyzw(0.1, 0.2, 0.3, 0.9).normalize();
     bone.rest.scale = Vec3::new(1.0, -2.0, 0.0);
@@ -144,7 +144,7 @@ fn a_take_poses_every_bone_and_no_take_is_the_rest_pose() {
     let skeleton = Skeleton { bones: vec![bone("a", None, Vec3::X), bone("b", Some(0), Vec3::Y)] };
     let moving =
         Track { translation: along_x(&[(0.0, 2.0), (1.0, 4.0)], Interpolation::Linear), ..Track::default() };
-    // The second track is missing altogether.
+    // The second track is missing.
     let take = take(vec![moving]);
     let mut poses = [Transform::IDENTITY; 2];
     sample_take(Some(&take), &skeleton, 0.5, &mut poses);
@@ -163,7 +163,7 @@ fn before_the_first_and_after_the_last_key_the_pose_stays() {
 }
 
 #[test]
-fn a_looped_clock_begins_the_take_anew() {
+fn a_looped_clock_starts_the_take_again() {
     let track =
         Track { translation: along_x(&[(1.0, 0.0), (3.0, 2.0)], Interpolation::Linear), ..Track::default() };
     let take = take(vec![track]);
@@ -180,7 +180,7 @@ fn a_looped_clock_begins_the_take_anew() {
 }
 
 #[test]
-fn morph_weights_are_mixed_like_any_other_value() {
+fn morph_weights_are_interpolated_like_any_other_value() {
     let track = |interpolation, weights: &[f32]| Take {
         morphs: vec![MorphTrack {
             instance: 3,
@@ -211,7 +211,7 @@ fn morph_weights_are_mixed_like_any_other_value() {
 }
 
 #[test]
-fn an_interpolation_of_ones_own_is_asked_only_between_keys_and_must_answer_a_number() {
+fn a_custom_interpolation_is_called_only_between_keys_and_must_return_a_finite_value() {
     let channel = along_x(&[(1.0, 10.0), (2.0, 20.0), (4.0, 40.0)], Interpolation::Step);
     let x = |value: f32| Vec3::new(value, 0.0, 0.0);
     for (time, value) in [(0.0, 10.0), (1.0, 10.0), (2.0, 20.0), (4.0, 40.0), (9.0, 40.0), (f32::NAN, 10.0)] {
@@ -224,7 +224,7 @@ fn an_interpolation_of_ones_own_is_asked_only_between_keys_and_must_answer_a_num
         x(33.0)
     });
     assert_eq!(got, x(33.0));
-    assert_eq!(sample_channel_with(&channel, x(7.0), 2.5, |_| Vec3::NAN), x(20.0), "the key before");
+    assert_eq!(sample_channel_with(&channel, x(7.0), 2.5, |_| Vec3::NAN), x(20.0), "the previous key");
     let empty = Channel::<Vec3>::default();
     assert_eq!(sample_channel_with(&empty, x(7.0), 2.5, |_| panic!("no key")), x(7.0));
 }

@@ -1,17 +1,17 @@
-//! Every kind of edit lands in the file, and nothing else changes.
+//! Every kind of edit is saved, and nothing else in the file changes.
 
 use crate::doors::{MemoryFs, data};
 use crate::fixture::{Fixture, accessor};
-use crate::save_support::{Opened, Over, bin_of, take_mut};
+use crate::save_support::{OpenedFile, Over, bin_of, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Track};
-use dragonfly_anim::format::NoFiles;
-use dragonfly_anim::format::gltf::save::{ChannelChange, MARK, TakeChange, TakeNow};
+use dragonfly_anim::format::gltf::save::{ChannelChange, MARK, TakeChange};
+use dragonfly_anim::format::{EditedTake, NoFiles};
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
-/// Moves every key of the first translation in take `index`, or of the first morph weights, by a little.
-pub(crate) fn shift(takes: &mut [TakeNow], index: usize) {
+/// Moves every key of the first translation in take `index`, or of the first morph weights, by a small amount.
+pub(crate) fn shift(takes: &mut [EditedTake], index: usize) {
     let take = take_mut(takes, index);
     let moving = take.tracks.iter_mut().find(|track| !track.translation.is_empty());
     match moving {
@@ -26,7 +26,7 @@ pub(crate) fn shift(takes: &mut [TakeNow], index: usize) {
     }
 }
 
-/// Three keys of everything.
+/// Returns a track with three keys in each channel.
 pub(crate) fn moving_track() -> Track {
     let times: Arc<[f32]> = [0.25, 0.5, 1.5].into();
     let values = [Vec3::X, Vec3::Y, Vec3::Z];
@@ -39,8 +39,8 @@ pub(crate) fn moving_track() -> Track {
     }
 }
 
-fn fox() -> Opened {
-    Opened::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap())
+fn fox() -> OpenedFile {
+    OpenedFile::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap())
 }
 
 fn marked(json: &Value, list: &str) -> usize {
@@ -60,15 +60,15 @@ fn a_changed_channel_gets_one_new_accessor_and_keeps_its_times() {
         (changes.channels[0].change, changes.channels[0].path),
         (ChannelChange::Changed, "translation")
     );
-    assert_eq!(changes.accessors.len(), 1, "the times are the file's own");
+    assert_eq!(changes.accessors.len(), 1, "the times are those of the file");
     assert_eq!(changes.bytes_appended, changes.accessors[0].bytes);
-    // One sampler's output, an accessor, a view, the buffer's length.
+    // The output of one sampler, an accessor, a view, the length of the buffer.
     assert_eq!(changes.tokens.len(), 4);
     let _: Value = serde_json::from_str(&changes.to_json()).unwrap();
 }
 
 #[test]
-fn other_ways_between_the_keys_are_one_token_and_other_times_one_accessor() {
+fn a_changed_interpolation_is_one_token_and_changed_times_are_one_accessor() {
     let fox = fox();
     let mut takes = fox.takes();
     let track = take_mut(&mut takes, 0).tracks.iter_mut().find(|track| track.rotation.len() > 2).unwrap();
@@ -87,7 +87,7 @@ fn other_ways_between_the_keys_are_one_token_and_other_times_one_accessor() {
     assert_eq!(
         (changes.accessors.len(), changes.bytes_appended),
         (1, keys * 4),
-        "the values are the file's own"
+        "the values are those of the file"
     );
 }
 
@@ -126,7 +126,7 @@ fn changed_times_are_shared_by_the_channels_that_share_them() {
 }
 
 #[test]
-fn channels_come_and_go() {
+fn channels_are_added_and_removed() {
     let fox = fox();
     let mut takes = fox.takes();
     let take = take_mut(&mut takes, 0);
@@ -140,7 +140,7 @@ fn channels_come_and_go() {
     let saved = fox.saved(&takes, &NoFiles);
     let count = |change| saved.changes.channels.iter().filter(|channel| channel.change == change).count();
     assert_eq!((count(ChannelChange::Added), count(ChannelChange::Removed)), (3, 1));
-    // Back to the start: what was added goes, what went comes.
+    // Back to the start: added channels are removed, and removed ones added.
     let mut back = saved.opened.takes();
     *take_mut(&mut back, 0) = (*fox.model.animation.takes[0]).clone();
     let back = saved.opened.saved(&back, &NoFiles);
@@ -159,7 +159,7 @@ fn takes_are_renamed_added_deleted_and_reordered() {
     assert_eq!(renamed.changes.takes[0].1, TakeChange::Renamed);
 
     for order in [vec![1], vec![0, 2], vec![2, 1, 0], vec![2, 0], vec![1, 2], vec![0, 1]] {
-        let takes: Vec<TakeNow> = order.iter().map(|&index| fox.takes()[index].clone()).collect();
+        let takes: Vec<EditedTake> = order.iter().map(|&index| fox.takes()[index].clone()).collect();
         let saved = fox.saved(&takes, &NoFiles);
         assert_eq!(saved.changes.bytes_appended, 0);
         if order.windows(2).all(|pair| pair[0] < pair[1]) {
@@ -179,7 +179,7 @@ fn takes_are_renamed_added_deleted_and_reordered() {
     let mut fresh = crate::support::take(vec![moving_track()]);
     fresh.tracks =
         (0..fox.model.animation.skeleton.len() as u32).map(|bone| Track { bone, ..moving_track() }).collect();
-    takes.insert(0, TakeNow { origin: None, take: Arc::new(fresh) });
+    takes.insert(0, EditedTake { origin: None, take: Arc::new(fresh) });
     shift(&mut takes, 2);
     let saved = fox.saved(&takes, &NoFiles);
     println!(
@@ -231,7 +231,7 @@ fn closest_key_becomes_step_and_a_spline_of_one_key_that_key() {
     track.translation = closest.clone();
     track.scale = Channel::new([0.5], [Vec3::X, Vec3::Y, Vec3::Z], Interpolation::CubicSpline);
     let plan = dragonfly_anim::format::gltf::save::plan(&fox.source, &fox.model, &takes).unwrap();
-    let again = Opened::alone("Fox.glb", &plan.write()[0].bytes);
+    let again = OpenedFile::alone("Fox.glb", &plan.write()[0].bytes);
     let track = &again.model.animation.takes[0].tracks[3];
     assert_eq!(track.translation.interpolation, Interpolation::Step);
     assert_eq!(track.translation.range(), closest.range());
@@ -244,7 +244,7 @@ fn closest_key_becomes_step_and_a_spline_of_one_key_that_key() {
 }
 
 #[test]
-fn a_take_that_moves_nothing_holds_a_bone_where_it_rests() {
+fn a_take_that_animates_nothing_keeps_a_bone_at_rest() {
     let fox = fox();
     let mut takes = fox.takes();
     for track in &mut take_mut(&mut takes, 2).tracks {
@@ -255,7 +255,7 @@ fn a_take_that_moves_nothing_holds_a_bone_where_it_rests() {
     assert_eq!(animation["channels"].as_array().unwrap().len(), 1);
     let take = &saved.opened.model.animation.takes[2];
     assert_eq!((take.keys(), take.length), (1, 0.0));
-    // Asked for the same once more, nothing changes.
+    // Saving the same takes again changes nothing.
     let mut again = saved.opened.takes();
     for track in &mut take_mut(&mut again, 2).tracks {
         *track = Track { bone: track.bone, ..Track::default() };
@@ -263,13 +263,14 @@ fn a_take_that_moves_nothing_holds_a_bone_where_it_rests() {
     assert!(saved.opened.saved(&again, &NoFiles).changes.is_empty());
 }
 
-/// A second take over the same sampler and accessors, things that importing leaves out, and a skin that shares.
+/// Returns a fixture with a second take that uses the same sampler and accessors, with channels that the importer
+/// leaves out, and with a skin that shares an accessor.
 fn shared_fixture() -> Fixture {
     let mut fixture = Fixture::new();
     let animation = fixture.json["animations"][0].clone();
     fixture.json["animations"].as_array_mut().unwrap().push(animation);
     let channels = fixture.json["animations"][0]["channels"].as_array_mut().unwrap();
-    // A second user of sampler 0, a second channel of its target, an unknown path, and one that an extension moves.
+    // A second user of sampler 0, a second channel of its target, an unknown path, and one for an extension.
     channels.push(json!({"sampler": 0, "target": {"node": 0, "path": "translation"}}));
     channels.push(channels[0].clone());
     channels.push(json!({"sampler": 1, "target": {"node": 1, "path": "color"}}));
@@ -279,9 +280,9 @@ fn shared_fixture() -> Fixture {
 }
 
 #[test]
-fn what_is_shared_is_left_to_the_others() {
+fn shared_samplers_and_accessors_are_not_changed() {
     let fixture = shared_fixture();
-    let opened = Opened::alone("shared.glb", &fixture.glb());
+    let opened = OpenedFile::alone("shared.glb", &fixture.glb());
     let before = &fixture.json["animations"];
     for index in 0..2 {
         let mut takes = opened.takes();
@@ -297,19 +298,19 @@ fn what_is_shared_is_left_to_the_others() {
                 before[0]["samplers"].as_array().unwrap().len() + 1
             );
         }
-        assert_eq!(own(after)[4..], own(before)[4..], "what was left out stays");
+        assert_eq!(own(after)[4..], own(before)[4..], "omitted content stays");
     }
 }
 
 #[test]
 fn removing_a_channel_removes_the_second_one_of_its_target() {
-    let opened = Opened::alone("shared.glb", &shared_fixture().glb());
+    let opened = OpenedFile::alone("shared.glb", &shared_fixture().glb());
     let mut takes = opened.takes();
     let take = take_mut(&mut takes, 0);
     for track in &mut take.tracks {
         track.translation = Channel::default();
     }
-    // Else the second one would be taken when the file is opened again, which `saved` would find.
+    // Otherwise the second one would be used when the file is opened again, which `saved` would detect.
     opened.saved(&takes, &NoFiles);
 }
 
@@ -317,7 +318,7 @@ fn removing_a_channel_removes_the_second_one_of_its_target() {
 fn morph_weights_are_saved_too() {
     let fixture = Fixture::new();
     for (name, bytes) in [("a.glb", fixture.glb()), ("a.gltf", fixture.gltf())] {
-        let opened = Opened::alone(name, &bytes);
+        let opened = OpenedFile::alone(name, &bytes);
         let mut takes = opened.takes();
         let take = take_mut(&mut takes, 0);
         assert_eq!(take.morphs.len(), 1);
@@ -339,9 +340,9 @@ fn morph_weights_are_saved_too() {
 }
 
 #[test]
-fn quantised_and_sparse_keys_become_floats_where_they_are_edited_only() {
+fn quantized_and_sparse_keys_become_floats_only_where_they_are_edited() {
     let mut fixture = Fixture::new();
-    // Rotations as normalised shorts, translations sparse.
+    // Rotations as normalized shorts, translations sparse.
     let bytes: Vec<u8> = [0i16, 0, 0, 32767, 0, 0, 23170, 23170, 0, 0, 32767, 0]
         .iter()
         .flat_map(|n| n.to_le_bytes())
@@ -352,7 +353,7 @@ fn quantised_and_sparse_keys_become_floats_where_they_are_edited_only() {
     for sampler in samplers.iter_mut().filter(|sampler| sampler["output"] == accessor::ROTATIONS) {
         sampler["output"] = json!(quantised);
     }
-    let opened = Opened::alone("quantised.glb", &fixture.glb());
+    let opened = OpenedFile::alone("quantised.glb", &fixture.glb());
     let mut takes = opened.takes();
     let track = take_mut(&mut takes, 0).tracks.iter_mut().find(|track| !track.rotation.is_empty()).unwrap();
     track.rotation.values =
@@ -360,7 +361,7 @@ fn quantised_and_sparse_keys_become_floats_where_they_are_edited_only() {
     let saved = opened.saved(&takes, &NoFiles);
     assert_eq!(saved.changes.accessors.len(), 1);
     assert_eq!(saved.json()["accessors"][quantised], fixture.json["accessors"][quantised]);
-    // Another channel alone leaves it as it was.
+    // An edit of another channel leaves it unchanged.
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     let saved = opened.saved(&takes, &NoFiles);
@@ -371,10 +372,10 @@ fn quantised_and_sparse_keys_become_floats_where_they_are_edited_only() {
 }
 
 #[test]
-fn keys_that_importing_sorted_are_written_with_times_of_their_own() {
+fn keys_that_the_importer_sorted_are_written_with_their_own_times() {
     let mut fixture = Fixture::new();
     fixture.float(accessor::TIMES, 0, 1.0).float(accessor::TIMES, 2, 0.0);
-    let opened = Opened::alone("unsorted.glb", &fixture.glb());
+    let opened = OpenedFile::alone("unsorted.glb", &fixture.glb());
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     let saved = opened.saved(&takes, &NoFiles);
@@ -382,10 +383,10 @@ fn keys_that_importing_sorted_are_written_with_times_of_their_own() {
 }
 
 #[test]
-fn a_buffer_beside_the_file_gets_a_neighbour() {
+fn new_keys_of_a_file_with_a_separate_buffer_get_another_buffer_file() {
     let fixture = Fixture::new();
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
-    let opened = Opened::new("my fox.gltf", &fixture.gltf_beside(), &door).unwrap();
+    let opened = OpenedFile::new("my fox.gltf", &fixture.gltf_with_file(), &door).unwrap();
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     let saved = opened.saved(&takes, &door);
@@ -393,7 +394,7 @@ fn a_buffer_beside_the_file_gets_a_neighbour() {
     assert!(saved.files[0].name.starts_with("my_fox.dragonfly-"), "{}", saved.files[0].name);
     assert_eq!(saved.changes.files, [&*saved.files[0].name, "my fox.gltf"]);
     assert_eq!(saved.json()["buffers"][1]["byteLength"], saved.files[0].bytes.len());
-    // The next save writes another and says that the first is not needed.
+    // The next save writes another file and reports that the first one is no longer needed.
     let over = Over::new(&saved.files, &door);
     let mut takes = saved.opened.takes();
     shift(&mut takes, 0);
@@ -405,12 +406,12 @@ fn a_buffer_beside_the_file_gets_a_neighbour() {
 }
 
 #[test]
-fn a_container_without_a_binary_chunk_gets_one() {
+fn a_container_without_a_binary_chunk_gets_a_binary_chunk() {
     let fixture = Fixture::new();
-    let opened = Opened::alone("embedded.glb", &crate::fixture::glb(&fixture.gltf(), None));
+    let opened = OpenedFile::alone("embedded.glb", &crate::fixture::glb(&fixture.gltf(), None));
     let mut takes = opened.takes();
     shift(&mut takes, 0);
-    // Its buffer is a data URI; that is made longer.
+    // Its buffer is a data URI, which becomes longer.
     let saved = opened.saved(&takes, &NoFiles);
     assert_eq!(bin_of(saved.bytes()), b"");
     assert_eq!(saved.json()["buffers"].as_array().unwrap().len(), 1);
@@ -418,7 +419,7 @@ fn a_container_without_a_binary_chunk_gets_one() {
 }
 
 #[test]
-fn a_node_with_a_matrix_begins_to_move() {
+fn a_node_with_a_matrix_can_be_animated() {
     let mut fixture = Fixture::new();
     let matrix = glam::Mat4::from_scale_rotation_translation(
         Vec3::new(1.0, 2.0, 3.0),
@@ -440,7 +441,7 @@ fn a_node_with_a_matrix_begins_to_move() {
     let still = nodes.len() - 1;
     fixture.json["skins"][0]["joints"].as_array_mut().unwrap().push(json!(still));
     fixture.json["skins"][0].as_object_mut().unwrap().remove("inverseBindMatrices");
-    let opened = Opened::alone("matrix.glb", &fixture.glb());
+    let opened = OpenedFile::alone("matrix.glb", &fixture.glb());
     let bone = opened.model.animation.skeleton.find("still").unwrap() as usize;
     let mut takes = opened.takes();
     take_mut(&mut takes, 0).tracks[bone].rotation = moving_track().rotation;

@@ -1,19 +1,19 @@
-//! What glTF cannot hold is refused, with take, bone and reason, and nothing is written.
+//! Keys that glTF cannot represent are refused, with take, bone and reason, and nothing is written.
 
 use crate::doors::data;
 use crate::fixture::Fixture;
-use crate::save_support::{Opened, take_mut};
+use crate::save_support::{OpenedFile, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, Take};
-use dragonfly_anim::format::gltf::save::{SaveError, SourceFile, TakeNow, plan};
-use dragonfly_anim::format::{NoFiles, ReadOptions};
+use dragonfly_anim::format::gltf::save::{SaveError, SourceFile, plan};
+use dragonfly_anim::format::{EditedTake, NoFiles, ReadOptions};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-fn fox() -> Opened {
-    Opened::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap())
+fn fox() -> OpenedFile {
+    OpenedFile::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap())
 }
 
-/// What saving the fox with its second take changed says.
+/// Returns the error of saving the fox with its second take changed.
 fn refused(change: impl Fn(&mut Take)) -> String {
     let fox = fox();
     let mut takes = fox.takes();
@@ -22,7 +22,7 @@ fn refused(change: impl Fn(&mut Take)) -> String {
 }
 
 #[test]
-fn keys_that_gltf_cannot_hold_are_refused_with_their_place() {
+fn keys_that_gltf_cannot_represent_are_refused_with_their_place() {
     let moved = |times: Vec<f32>| {
         move |take: &mut Take| {
             let values = vec![Vec3::ONE; times.len()];
@@ -36,12 +36,12 @@ fn keys_that_gltf_cannot_hold_are_refused_with_their_place() {
     let bone = fox().model.animation.skeleton.bones[3].name.clone();
     let place = format!("take \"Walk\", bone \"{bone}\", translation: ");
     for (times, reason) in [
-        (vec![0.0, 1.0, 1.0], "key 2 at 1 s does not come after the one before"),
-        (vec![0.0, 2.0, 1.0], "key 2 at 1 s does not come after the one before"),
+        (vec![0.0, 1.0, 1.0], "key 2 at 1 s is not later than the key before it"),
+        (vec![0.0, 2.0, 1.0], "key 2 at 1 s is not later than the key before it"),
         (vec![0.0, f32::NAN], "the time of key 1 is NaN"),
         (vec![f32::INFINITY], "the time of key 0 is inf"),
-        (vec![-1.0, 0.0], "key 0 lies at -1 s, before zero, which glTF forbids"),
-        (vec![0.0, 1e6], "key 1 lies at 1000000 s, at most 86400 s"),
+        (vec![-1.0, 0.0], "key 0 is at -1 s, but glTF forbids negative key times"),
+        (vec![0.0, 1e6], "key 1 is at 1000000 s, at most 86400 s"),
     ] {
         assert_eq!(refused(moved(times)), format!("{place}{reason}"));
     }
@@ -69,14 +69,14 @@ fn keys_that_gltf_cannot_hold_are_refused_with_their_place() {
 #[test]
 fn takes_of_another_model_are_refused() {
     assert!(refused(|take| _ = take.tracks.pop()).contains("tracks for"));
-    assert!(refused(|take| take.tracks.swap(0, 1)).contains("moves bone 1"));
+    assert!(refused(|take| take.tracks.swap(0, 1)).contains("is for bone 1"));
     assert!(refused(|take| take.morphs = vec![morph(9, 1)]).contains("no such mesh instance"));
     assert!(refused(|take| take.morphs = vec![morph(0, 1)]).contains("1 weights for 0 targets"));
     let fox = fox();
-    let other = Opened::alone("other.glb", &Fixture::new().glb());
+    let other = OpenedFile::alone("other.glb", &Fixture::new().glb());
     let mismatch = plan(&fox.source, &other.model, &other.takes()).err().unwrap();
     assert!(matches!(mismatch, SaveError::Mismatch { .. }), "{mismatch}");
-    let nowhere = TakeNow { origin: Some(7), take: fox.takes()[0].take.clone() };
+    let nowhere = EditedTake { origin: Some(7), take: fox.takes()[0].take.clone() };
     let mismatch = plan(&fox.source, &fox.model, &[nowhere]).err().unwrap();
     assert_eq!(mismatch.to_string(), "take \"Survey\": the file has no animation 7");
 }
@@ -92,7 +92,7 @@ fn morph(instance: u32, targets: u32) -> dragonfly_anim::data::MorphTrack {
 }
 
 #[test]
-fn a_bone_that_is_no_node_is_refused() {
+fn a_bone_that_is_not_a_node_is_refused() {
     let fox = fox();
     let mut model = fox.model.clone();
     let skeleton = Arc::make_mut(&mut model.animation.skeleton);
@@ -101,11 +101,11 @@ fn a_bone_that_is_no_node_is_refused() {
     let mut takes = fox.takes();
     take_mut(&mut takes, 0).tracks[3].scale = Channel::new([0.0], [Vec3::ONE], Interpolation::Linear);
     let error = plan(&fox.source, &model, &takes).err().unwrap();
-    assert_eq!(error.to_string(), format!("take \"Survey\": \"{name}\" is no node of the file"));
+    assert_eq!(error.to_string(), format!("take \"Survey\": \"{name}\" is not a node of the file"));
 }
 
 #[test]
-fn what_is_no_file_is_not_opened() {
+fn invalid_files_are_not_opened() {
     for (bytes, reason) in [
         (b"".as_slice(), "byte 0: the text ends too early"),
         (b"{\"asset\":{}", "byte 11: the text ends too early"),

@@ -1,4 +1,5 @@
-//! Others judge what was written: the `gltf` crate everywhere; the Khronos validator and three.js where they are.
+//! Other programs check the saved files: the `gltf` crate always; the Khronos validator and three.js if they are
+//! installed.
 //!
 //! The two need node, and a folder with `validate.mjs`, `ref_gltf.mjs` and their packages: that named by
 //! `DRAGONFLY_EVALUATORS`.
@@ -7,11 +8,11 @@ use crate::doors::{MemoryFs, data};
 use crate::fixture::Fixture;
 use crate::made::rotation;
 use crate::save_edits::{moving_track, shift};
-use crate::save_support::{Opened, take_mut};
+use crate::save_support::{OpenedFile, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, Track};
 use dragonfly_anim::evaluator::Evaluator;
-use dragonfly_anim::format::NoFiles;
-use dragonfly_anim::format::gltf::save::{OutputFile, TakeNow, compact};
+use dragonfly_anim::format::gltf::save::compact;
+use dragonfly_anim::format::{EditedTake, NoFiles, OutputFile};
 use dragonfly_kit::random::Random;
 use dragonfly_kit::skip;
 use serde_json::Value;
@@ -21,15 +22,15 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
-/// The `gltf` crate's own check; some files make it panic, which is no answer.
-fn crate_says(bytes: &[u8]) -> Option<Result<(), String>> {
+/// Returns the result of the `gltf` crate's own check; `None` for files that make it panic.
+fn crate_result(bytes: &[u8]) -> Option<Result<(), String>> {
     catch_unwind(|| gltf::Gltf::from_slice(bytes).map(|_| ()).map_err(|error| error.to_string())).ok()
 }
 
-/// The crate says of the file what it said of the one before.
+/// Checks that the crate accepts or refuses both files.
 #[track_caller]
-pub(crate) fn crate_says_the_same(before: &[u8], after: &[u8], name: &str) {
-    if let (Some(before), Some(after)) = (crate_says(before), crate_says(after)) {
+pub(crate) fn crate_has_the_same_result(before: &[u8], after: &[u8], name: &str) {
+    if let (Some(before), Some(after)) = (crate_result(before), crate_result(after)) {
         assert_eq!(before, after, "{name}");
     }
 }
@@ -63,14 +64,14 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
     }
     let mut files = Vec::new();
     for (name, bytes) in sources {
-        let opened = Opened::alone(&name, &bytes);
+        let opened = OpenedFile::alone(&name, &bytes);
         let bones = opened.model.animation.skeleton.len();
         let mut takes = opened.takes();
         if !takes.is_empty() && takes[0].take.tracks.iter().any(|track| !track.translation.is_empty()) {
             shift(&mut takes, 0);
         }
         if bones > 0 {
-            // The node of a skinned mesh is not meant to move.
+            // The node of a skinned mesh is not supposed to be animated.
             let nodes = &opened.model.animation.skeleton.bones;
             let skinned = |bone: u32| {
                 let mut skinned = opened.model.instances.iter().filter(|instance| instance.skin.is_some());
@@ -81,7 +82,7 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
                 false => Track { bone, ..moving_track() },
             };
             let tracks = (0..bones as u32).map(track).collect();
-            takes.push(TakeNow { origin: None, take: Arc::new(crate::support::take(tracks)) });
+            takes.push(EditedTake { origin: None, take: Arc::new(crate::support::take(tracks)) });
         }
         for take in &mut takes {
             let take = Arc::make_mut(&mut take.take);
@@ -91,7 +92,7 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
             }
         }
         let saved = opened.saved(&takes, &NoFiles);
-        // Some of it goes again.
+        // Some of the edits are removed again.
         let mut takes = saved.opened.takes();
         if let Some(track) =
             takes.last_mut().and_then(|take| Arc::make_mut(&mut take.take).tracks.first_mut())
@@ -108,22 +109,22 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
 }
 
 #[test]
-fn the_gltf_crate_takes_what_it_took_before() {
+fn the_gltf_crate_accepts_a_saved_file_if_it_accepted_the_original() {
     let mut judged = 0;
     for (name, before, after) in edited() {
-        crate_says_the_same(&before, &after, &name);
-        judged += usize::from(crate_says(&before) == Some(Ok(())));
+        crate_has_the_same_result(&before, &after, &name);
+        judged += usize::from(crate_result(&before) == Some(Ok(())));
     }
     println!("{judged} files judged");
     assert!(judged > 10);
 }
 
-/// A file with its buffer beside it, and the files that a save of it writes.
-fn edited_beside() -> (Vec<u8>, Vec<OutputFile>) {
+/// Returns a file with its buffer in a second file, and the files that a save of it writes.
+fn edited_with_buffer_file() -> (Vec<u8>, Vec<OutputFile>) {
     let fixture = Fixture::new();
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
-    let before = fixture.gltf_beside();
-    let opened = Opened::new("beside.gltf", &before, &door).unwrap();
+    let before = fixture.gltf_with_file();
+    let opened = OpenedFile::new("beside.gltf", &before, &door).unwrap();
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     let saved = opened.saved(&takes, &door);
@@ -131,7 +132,7 @@ fn edited_beside() -> (Vec<u8>, Vec<OutputFile>) {
     (before, saved.files)
 }
 
-/// Errors and warnings of the validator, by code, for each of the files.
+/// Returns the number of errors and warnings of the validator, by code, for each of the files.
 fn issues(evaluators: &Path, files: &[PathBuf]) -> Vec<BTreeMap<String, usize>> {
     let output =
         Command::new("node").arg(evaluators.join("validate.mjs")).arg("--json").args(files).output().unwrap();
@@ -166,7 +167,7 @@ fn the_validator_finds_no_more_than_before() {
         }
     }
     let name = "beside.gltf".to_owned();
-    let (before, files_beside) = edited_beside();
+    let (before, files_beside) = edited_with_buffer_file();
     paths.push(folder.join("before-beside.gltf"));
     std::fs::write(&paths[paths.len() - 1], &before).unwrap();
     files.push((name, before, Vec::new()));
@@ -193,7 +194,7 @@ fn the_validator_finds_no_more_than_before() {
 #[test]
 fn three_js_plays_an_edited_clip_as_we_do() {
     let Some(evaluators) = skip::evaluators() else { return };
-    let fox = Opened::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap());
+    let fox = OpenedFile::alone("Fox.glb", &std::fs::read(data().join("gltf/Fox.glb")).unwrap());
     let mut random = Random::new(5);
     let mut takes = fox.takes();
     for track in take_mut(&mut takes, 1).tracks.iter_mut().step_by(3) {
@@ -216,7 +217,7 @@ fn three_js_plays_an_edited_clip_as_we_do() {
     std::fs::remove_file(&path).unwrap();
     let answer: Value = serde_json::from_slice(&output.stdout)
         .unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&output.stderr)));
-    // What was asked, not what was read back.
+    // The edited takes, not those that were read back.
     let mut model = fox.model.clone();
     model.animation.takes[1] = takes[1].take.clone();
     let model = Arc::new(model);

@@ -1,4 +1,4 @@
-//! Damaged files: what can still be opened can be saved, or is refused; nothing panics.
+//! Damaged files that can be opened are saved or refused; nothing panics.
 
 use crate::doors::MemoryFs;
 use crate::save_support::Over;
@@ -14,7 +14,7 @@ use glam::Vec3;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What means something to a save.
+/// Words that have a meaning for a save.
 const WORDS: &[&[u8]] = &[
     b"{}",
     b"[]",
@@ -40,7 +40,7 @@ const WORDS: &[&[u8]] = &[
     b"\"animations\":[],",
 ];
 
-/// Opens, edits by chance, saves, opens again; tells whether it came so far.
+/// Opens, edits at random, saves, opens again; returns whether it got that far.
 fn attempt(bytes: &[u8], random: &mut Random) -> Result<bool, String> {
     let (door, options) = (MemoryFs::default(), ReadOptions::default());
     let source = SourceFile::open("mutant.gltf", bytes, &door, &options);
@@ -52,18 +52,15 @@ fn attempt(bytes: &[u8], random: &mut Random) -> Result<bool, String> {
         .takes
         .iter()
         .enumerate()
-        .map(|(index, take)| dragonfly_anim::format::gltf::save::TakeNow {
-            origin: Some(index),
-            take: take.clone(),
-        })
+        .map(|(index, take)| dragonfly_anim::format::EditedTake { origin: Some(index), take: take.clone() })
         .collect();
     let same = plan(&source, &model, &takes).map_err(|error| format!("unedited: {error}"))?;
     if same.write()[0].bytes != bytes {
-        return Err("unedited, and yet it changes".to_owned());
+        return Err("it changes without an edit".to_owned());
     }
     if takes.is_empty() {
         let take = dragonfly_anim::data::Take { tracks: tracks(&model), ..Default::default() };
-        takes.push(dragonfly_anim::format::gltf::save::TakeNow { origin: None, take: Arc::new(take) });
+        takes.push(dragonfly_anim::format::EditedTake { origin: None, take: Arc::new(take) });
     }
     let bones = model.animation.skeleton.len();
     let index = random.below(takes.len());
@@ -103,13 +100,13 @@ fn tracks(model: &dragonfly_anim::data::ModelData) -> Vec<dragonfly_anim::data::
     bones.map(|bone| dragonfly_anim::data::Track { bone, ..Default::default() }).collect()
 }
 
-/// The seeds that can be saved, and those after one save.
+/// Returns the seeds that can be saved, and their files after one save.
 fn files() -> Vec<Vec<u8>> {
     let mut files: Vec<Vec<u8>> =
         seeds().into_iter().map(|seed| seed.bytes).filter(|bytes| bytes.len() <= 8 << 10).collect();
     let fixture = crate::fixture::Fixture::new();
     for (name, bytes) in [("a.glb", fixture.glb()), ("a.gltf", fixture.gltf())] {
-        let opened = crate::save_support::Opened::alone(name, &bytes);
+        let opened = crate::save_support::OpenedFile::alone(name, &bytes);
         let mut takes = opened.takes();
         crate::save_edits::shift(&mut takes, 0);
         let saved = opened.saved(&takes, &dragonfly_anim::format::NoFiles);
@@ -133,7 +130,7 @@ fn damaged_files_are_saved_or_refused() {
             let start = Instant::now();
             let run = || peak(|| attempt(&bytes, &mut random));
             let run = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
-            // It is read four times, besides being saved.
+            // The file is read four times, in addition to being saved.
             if start.elapsed() > 8 * time_for(bytes.len()) {
                 broken.push((number, format!("took {:?}", start.elapsed()), bytes.clone()));
             }
@@ -156,12 +153,12 @@ fn damaged_files_are_saved_or_refused() {
             format!("{number}: {what} ({})", crate::trial::keep(&format!("save-{number}"), bytes).display())
         })
         .collect();
-    assert!(broken.is_empty(), "{} files broke a promise:\n{}", broken.len(), lines.join("\n"));
+    assert!(broken.is_empty(), "{} files broke a guarantee:\n{}", broken.len(), lines.join("\n"));
     assert!(came > MUTANTS / 20, "too few are saved");
 }
 
 #[test]
-fn a_text_of_many_values_takes_memory_in_proportion() {
+fn the_memory_for_a_json_text_is_proportional_to_its_values() {
     let many = |count: usize| {
         let mut text = b"{\"asset\":{\"version\":\"2.0\"},\"extras\":[0".to_vec();
         text.extend(b",0".repeat(count));

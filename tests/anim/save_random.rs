@@ -1,12 +1,12 @@
-//! Any edits, by chance: what is saved and opened again is what was asked, and saving it again changes nothing.
+//! Random edits: a saved and reopened file has exactly the edited takes, and saving it again changes nothing.
 
 use crate::doors::data;
 use crate::fixture::Fixture;
 use crate::made::{rotation, vector};
-use crate::save_support::{Opened, take_mut};
+use crate::save_support::{OpenedFile, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Track};
-use dragonfly_anim::format::NoFiles;
-use dragonfly_anim::format::gltf::save::{TakeNow, compact};
+use dragonfly_anim::format::gltf::save::compact;
+use dragonfly_anim::format::{EditedTake, NoFiles};
 use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
@@ -34,14 +34,14 @@ fn vectors(random: &mut Random, times: &Arc<[f32]>) -> Channel<Vec3> {
     Channel::new(times.clone(), values, interpolation)
 }
 
-/// As importing leaves rotations: unit, and neighbours in one hemisphere.
+/// Returns rotations as the importer leaves them: normalized, and neighbors in one hemisphere.
 fn rotations(random: &mut Random, times: &Arc<[f32]>) -> Channel<Quat> {
     let interpolation = interpolation(random, times.len());
     let parts = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
     let mut last: Option<Quat> = None;
     let values: Vec<Quat> = (0..times.len() * parts)
         .map(|_| {
-            // One of a few exact ones: nothing is left to be mended.
+            // One of a few exact ones, which the importer does not correct.
             let exact =
                 [Quat::IDENTITY, Quat::from_xyzw(1.0, 0.0, 0.0, 0.0), Quat::from_xyzw(0.5, 0.5, 0.5, 0.5)];
             let mut turn = if parts == 1 { random.choice(&exact) } else { rotation(random) };
@@ -57,8 +57,8 @@ fn rotations(random: &mut Random, times: &Arc<[f32]>) -> Channel<Quat> {
     Channel::new(times.clone(), values, interpolation)
 }
 
-/// Changes something somewhere in the takes.
-fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<TakeNow>) {
+/// Changes something in the takes at random.
+fn edit(random: &mut Random, opened: &OpenedFile, takes: &mut Vec<EditedTake>) {
     let index = random.below(takes.len());
     let bones = opened.model.animation.skeleton.len();
     let bone = random.below(bones);
@@ -75,7 +75,7 @@ fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<TakeNow>) {
         4 => {
             let mut take = (*takes[index].take).clone();
             take.name = "fresh".to_owned();
-            takes.push(TakeNow { origin: None, take: Arc::new(take) });
+            takes.push(EditedTake { origin: None, take: Arc::new(take) });
         }
         5 => take_mut(takes, index).tracks[bone] = Track { bone: bone as u32, ..Track::default() },
         6 | 7 => take_mut(takes, index).tracks[bone].translation = vectors(random, &fresh),
@@ -114,9 +114,9 @@ fn edit(random: &mut Random, opened: &Opened, takes: &mut Vec<TakeNow>) {
     }
 }
 
-/// Saves after some edits, again and again, each time from what was written.
+/// Saves after some edits, several times, each time starting from the saved file.
 fn sessions(name: &str, bytes: &[u8], random: &mut Random, saves: usize) {
-    let mut opened = Opened::alone(name, bytes);
+    let mut opened = OpenedFile::alone(name, bytes);
     for _ in 0..saves {
         let mut takes = opened.takes();
         for _ in 0..1 + random.below(5) {
@@ -128,12 +128,12 @@ fn sessions(name: &str, bytes: &[u8], random: &mut Random, saves: usize) {
         opened = saved.opened;
         if random.below(4) == 0 {
             let bytes = compact(&opened.source).unwrap().write().remove(0).bytes;
-            let compacted = Opened::alone(name, &bytes);
+            let compacted = OpenedFile::alone(name, &bytes);
             crate::save_support::same_scene(&opened.model, &compacted.model);
             crate::save_support::same_takes(&opened.model, &opened.takes(), &compacted.model);
             opened = compacted;
         }
-        crate::save_judges::crate_says_the_same(bytes, opened.source.bytes(), name);
+        crate::save_judges::crate_has_the_same_result(bytes, opened.source.bytes(), name);
     }
 }
 

@@ -1,9 +1,9 @@
-//! As many saves as one likes leave a file no larger than one, and what is left over can be taken away.
+//! Many saves leave a file no larger than one save, and unused remains can be removed.
 
 use crate::doors::{MemoryFs, data};
 use crate::fixture::Fixture;
 use crate::save_edits::shift;
-use crate::save_support::{Opened, Over, bin_of, rest_stays, same_scene, same_takes, take_mut};
+use crate::save_support::{OpenedFile, Over, bin_of, rest_stays, same_scene, same_takes, take_mut};
 use dragonfly_anim::data::Channel;
 use dragonfly_anim::format::gltf::save::compact;
 use dragonfly_anim::format::{AssetFs, NoFiles};
@@ -19,10 +19,10 @@ fn ten_saves_of_the_same_channel_are_as_large_as_one() {
         ("a.glb", fox_bytes()),
         ("b.glb", fixture.glb()),
         ("c.gltf", fixture.gltf()),
-        ("d.gltf", fixture.gltf_beside()),
+        ("d.gltf", fixture.gltf_with_file()),
     ] {
         let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
-        let mut opened = Opened::new(name, &bytes, &door).unwrap();
+        let mut opened = OpenedFile::new(name, &bytes, &door).unwrap();
         let (mut size, mut files) = (None, Vec::new());
         for save in 0..10 {
             let mut takes = opened.takes();
@@ -38,8 +38,8 @@ fn ten_saves_of_the_same_channel_are_as_large_as_one() {
 }
 
 #[test]
-fn room_that_an_edit_leaves_is_used_by_the_next() {
-    let mut opened = Opened::alone("Fox.glb", &fox_bytes());
+fn room_freed_by_an_edit_is_reused_by_the_next_one() {
+    let mut opened = OpenedFile::alone("Fox.glb", &fox_bytes());
     let mut sizes = Vec::new();
     let first =
         opened.model.animation.takes[0].tracks.iter().position(|track| track.rotation.len() > 4).unwrap();
@@ -47,7 +47,7 @@ fn room_that_an_edit_leaves_is_used_by_the_next() {
     for save in 0..12 {
         let mut takes = opened.takes();
         let track = &mut take_mut(&mut takes, 0).tracks[first];
-        // Off, on, off: what one save needs, the one before has left.
+        // Off, on, off: one save reuses what the previous one freed.
         track.rotation = match save % 2 {
             0 => Channel::default(),
             _ => original[0].take.tracks[first].rotation.clone(),
@@ -61,7 +61,7 @@ fn room_that_an_edit_leaves_is_used_by_the_next() {
 
 #[test]
 fn a_growing_channel_at_the_end_of_the_buffer_grows_in_place() {
-    let mut opened = Opened::alone("Fox.glb", &fox_bytes());
+    let mut opened = OpenedFile::alone("Fox.glb", &fox_bytes());
     let bin = bin_of(opened.source.bytes()).len();
     for keys in 2..40 {
         let mut takes = opened.takes();
@@ -72,29 +72,32 @@ fn a_growing_channel_at_the_end_of_the_buffer_grows_in_place() {
     }
     let grown = bin_of(opened.source.bytes()).len() - bin;
     println!("{grown} bytes for 39 keys of 16");
-    // Each column needs new room while the other one lies behind it; the room before is used again.
+    // Each channel needs new room while the other one follows it; the room before is reused.
     assert!(grown < 39 * 16 * 8, "{grown}");
     let plan = compact(&opened.source).unwrap();
-    let compacted = Opened::alone("Fox.glb", &plan.write()[0].bytes);
+    let compacted = OpenedFile::alone("Fox.glb", &plan.write()[0].bytes);
     same_takes(&opened.model, &opened.takes(), &compacted.model);
     assert_eq!(bin_of(compacted.source.bytes()).len() - bin, 39 * 16);
 }
 
 #[test]
-fn compacting_takes_away_what_is_not_used_and_nothing_else() {
+fn compacting_removes_only_unused_data() {
     let fixture = Fixture::new();
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
     for (name, bytes) in [
         ("a.glb", fox_bytes()),
         ("b.glb", fixture.glb()),
         ("c.gltf", fixture.gltf()),
-        ("d.gltf", fixture.gltf_beside()),
+        ("d.gltf", fixture.gltf_with_file()),
     ] {
-        let opened = Opened::new(name, &bytes, &door).unwrap();
-        assert!(compact(&opened.source).unwrap().changes().is_empty(), "nothing of ours is there");
+        let opened = OpenedFile::new(name, &bytes, &door).unwrap();
+        assert!(
+            compact(&opened.source).unwrap().changes().is_empty(),
+            "the file has nothing that a save appended"
+        );
         let mut takes = opened.takes();
         shift(&mut takes, 0);
-        // And one more channel, that goes again.
+        // And one more channel, which is removed again.
         let bone = takes[0].take.tracks.iter().position(|track| track.scale.is_empty()).unwrap();
         take_mut(&mut takes, 0).tracks[bone].scale = crate::save_edits::moving_track().scale;
         let once = opened.saved(&takes, &door);
@@ -109,11 +112,11 @@ fn compacting_takes_away_what_is_not_used_and_nothing_else() {
         let files = plan.write();
         rest_stays(twice.bytes(), &files.last().unwrap().bytes, plan.changes());
         let over = Over::new(&files, &over as &dyn AssetFs);
-        let again = Opened::new(name, &files.last().unwrap().bytes, &over).unwrap();
+        let again = OpenedFile::new(name, &files.last().unwrap().bytes, &over).unwrap();
         same_scene(&twice.opened.model, &again.model);
         same_takes(&twice.opened.model, &twice.opened.takes(), &again.model);
-        assert!(compact(&again.source).unwrap().changes().is_empty(), "twice is once");
-        // Everything back as it was: after compacting, no number of ours is left.
+        assert!(compact(&again.source).unwrap().changes().is_empty(), "the second time nothing changes");
+        // All edits are undone: after compacting, no appended number is left.
         let mut takes = again.takes();
         take_mut(&mut takes, 0).tracks.iter_mut().for_each(|track| track.translation = Channel::default());
         let back = again.saved(&takes, &over);
@@ -121,21 +124,21 @@ fn compacting_takes_away_what_is_not_used_and_nothing_else() {
         let plan = compact(&back.opened.source).unwrap();
         let files = plan.write();
         let last = Over::new(&files, &over);
-        let last = Opened::new(name, &files.last().unwrap().bytes, &last).unwrap();
+        let last = OpenedFile::new(name, &files.last().unwrap().bytes, &last).unwrap();
         same_takes(&back.opened.model, &back.opened.takes(), &last.model);
     }
 }
 
 #[test]
-fn a_mark_alone_is_not_believed() {
-    // Everything in the file claims to be ours: nothing of it is written over.
+fn the_mark_alone_does_not_make_an_accessor_ours() {
+    // Everything in the file has the mark, and still nothing of it is overwritten.
     let mut fixture = Fixture::new();
     for list in ["accessors", "bufferViews"] {
         for item in fixture.json[list].as_array_mut().unwrap() {
             item["name"] = dragonfly_anim::format::gltf::save::MARK.into();
         }
     }
-    let opened = Opened::alone("liar.glb", &fixture.glb());
+    let opened = OpenedFile::alone("liar.glb", &fixture.glb());
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     // Meshes, skins and the other channels keep their numbers: `saved` compares them.
@@ -147,22 +150,22 @@ fn a_mark_alone_is_not_believed() {
     compact(&opened.source).unwrap();
 }
 
-/// The fixture, saved once, with its JSON changed by somebody else.
-fn meddled(change: impl Fn(&mut serde_json::Value)) -> Opened {
-    let opened = Opened::alone("a.glb", &Fixture::new().glb());
+/// Returns the fixture, saved once, with its JSON changed by another program.
+fn changed_by_another_program(change: impl Fn(&mut serde_json::Value)) -> OpenedFile {
+    let opened = OpenedFile::alone("a.glb", &Fixture::new().glb());
     let mut takes = opened.takes();
     shift(&mut takes, 0);
     let saved = opened.saved(&takes, &NoFiles);
     let (mut json, bin) = (saved.json(), bin_of(saved.bytes()));
     change(&mut json);
-    Opened::alone("a.glb", &crate::fixture::glb(json.to_string().as_bytes(), Some(&bin)))
+    OpenedFile::alone("a.glb", &crate::fixture::glb(json.to_string().as_bytes(), Some(&bin)))
 }
 
 #[test]
-fn what_somebody_else_refers_to_is_not_written_over() {
+fn data_with_references_from_another_program_is_not_overwritten() {
     let last = |json: &serde_json::Value, list: &str| json[list].as_array().unwrap().len() - 1;
-    type Meddling<'a> = (&'a str, Box<dyn Fn(&mut serde_json::Value) + 'a>, bool);
-    let ways: Vec<Meddling> = vec![
+    type ForeignChange<'a> = (&'a str, Box<dyn Fn(&mut serde_json::Value) + 'a>, bool);
+    let ways: Vec<ForeignChange> = vec![
         ("nobody", Box::new(|_| ()), true),
         (
             "a view over the same bytes",
@@ -221,13 +224,13 @@ fn what_somebody_else_refers_to_is_not_written_over() {
         ),
     ];
     for (who, change, may) in ways {
-        let opened = meddled(change);
+        let opened = changed_by_another_program(change);
         let mut takes = opened.takes();
         shift(&mut takes, 0);
         let saved = opened.saved(&takes, &NoFiles);
         assert_eq!(saved.changes.bytes_reused > 0, may, "{who}: {}", saved.changes);
         let compacted = compact(&opened.source).unwrap().write().remove(0).bytes;
-        let compacted = Opened::alone("a.glb", &compacted);
+        let compacted = OpenedFile::alone("a.glb", &compacted);
         same_takes(&opened.model, &opened.takes(), &compacted.model);
     }
 }

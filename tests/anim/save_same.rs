@@ -1,13 +1,13 @@
-//! Open and save without an edit is the same file, byte for byte, however it is written.
+//! Saving without an edit gives the same file, byte for byte, however it is formatted.
 
 use crate::doors::{MemoryFs, model_files};
 use crate::fixture::{Fixture, chunk, container, glb};
-use crate::save_support::Opened;
+use crate::save_support::OpenedFile;
 use dragonfly_anim::format::{AssetFs, NoFiles};
 
 #[track_caller]
-fn stays(name: &str, bytes: &[u8], door: &dyn AssetFs) -> Opened {
-    let opened = Opened::new(name, bytes, door).unwrap_or_else(|error| panic!("{name}: {error}"));
+fn stays(name: &str, bytes: &[u8], door: &dyn AssetFs) -> OpenedFile {
+    let opened = OpenedFile::new(name, bytes, door).unwrap_or_else(|error| panic!("{name}: {error}"));
     let saved = opened.saved(&opened.takes(), door);
     assert!(saved.bytes() == bytes, "{name}");
     assert!(saved.changes.is_empty() && saved.changes.files.is_empty(), "{name}: {}", saved.changes);
@@ -15,7 +15,7 @@ fn stays(name: &str, bytes: &[u8], door: &dyn AssetFs) -> Opened {
     opened
 }
 
-/// The same, and that an edit touches nothing else in it.
+/// Checks that the file stays the same, and that an edit changes nothing else in it.
 #[track_caller]
 fn stays_and_can_be_edited(name: &str, bytes: &[u8], door: &dyn AssetFs) {
     let opened = stays(name, bytes, door);
@@ -32,7 +32,7 @@ fn stays_and_can_be_edited(name: &str, bytes: &[u8], door: &dyn AssetFs) {
 fn every_file_of_the_test_data_stays_the_same() {
     let all = model_files();
     for path in &all {
-        let (opened, door) = Opened::file(path);
+        let (opened, door) = OpenedFile::file(path);
         let saved = opened.saved(&opened.takes(), &door);
         assert!(saved.bytes() == &**opened.source.bytes(), "{}", path.display());
     }
@@ -40,7 +40,7 @@ fn every_file_of_the_test_data_stays_the_same() {
     assert!(all.len() >= 40);
 }
 
-/// The fixture with its one buffer as a data URI, as text.
+/// Returns the fixture as text, with its buffer as a data URI.
 fn text(pretty: bool) -> String {
     let text = String::from_utf8(Fixture::new().gltf()).unwrap();
     if pretty {
@@ -95,9 +95,9 @@ fn odd_spellings_stay() {
         stays_and_can_be_edited("odd.gltf", text.as_bytes(), &NoFiles);
         let fixture = Fixture::new();
         let text = text.as_bytes();
-        // The same text in a container, its buffer still a data URI.
+        // The same text in a container, with its buffer still a data URI.
         stays_and_can_be_edited("odd.glb", &glb(text, None), &NoFiles);
-        // The binary chunk is of no buffer then.
+        // The binary chunk belongs to no buffer then.
         stays_and_can_be_edited("odd.glb", &glb(text, Some(&fixture.bin)), &NoFiles);
     }
 }
@@ -138,11 +138,11 @@ fn odd_containers_stay() {
 #[test]
 fn several_buffers_stay() {
     let fixture = Fixture::new();
-    let beside = fixture.gltf_beside();
+    let beside = fixture.gltf_with_file();
     let name = fixture_bin_name(&beside);
     let door = MemoryFs::with(&[(&name, &fixture.bin), ("other.bin", &[1, 2, 3, 4])]);
     stays_and_can_be_edited("beside.gltf", &beside, &door);
-    // Buffer 0 beside a container.
+    // Buffer 0 of a container in a separate file.
     stays_and_can_be_edited("beside.glb", &glb(&beside, None), &door);
     stays_and_can_be_edited("beside.glb", &glb(&beside, Some(b"????")), &door);
     let mut several = Fixture::new();
@@ -160,7 +160,7 @@ fn fixture_bin_name(gltf: &[u8]) -> String {
 }
 
 #[test]
-fn a_file_without_animations_gets_some() {
+fn animations_can_be_added_to_a_file_without_any() {
     for (name, text) in [
         (
             "bare.gltf",
@@ -175,7 +175,7 @@ fn a_file_without_animations_gets_some() {
             let opened = stays(name, &bytes, &NoFiles);
             let mut take = crate::support::take(vec![crate::save_edits::moving_track()]);
             take.name = "new".to_owned();
-            let now = [dragonfly_anim::format::gltf::save::TakeNow { origin: None, take: take.into() }];
+            let now = [dragonfly_anim::format::EditedTake { origin: None, take: take.into() }];
             let saved = opened.saved(&now, &NoFiles);
             println!("{}", String::from_utf8_lossy(saved.bytes()));
             assert_eq!(saved.json()["animations"].as_array().unwrap().len(), 1);
@@ -184,16 +184,16 @@ fn a_file_without_animations_gets_some() {
 }
 
 #[test]
-fn what_is_new_looks_like_its_neighbours() {
-    let opened = Opened::alone("pretty.gltf", text(true).as_bytes());
+fn new_values_are_formatted_like_their_neighbors() {
+    let opened = OpenedFile::alone("pretty.gltf", text(true).as_bytes());
     let mut takes = opened.takes();
     crate::save_edits::shift(&mut takes, 0);
     let bones = opened.model.animation.skeleton.len() as u32;
     let track = |bone| dragonfly_anim::data::Track { bone, ..crate::save_edits::moving_track() };
     let take = crate::support::take((0..bones).map(track).collect());
-    takes.push(dragonfly_anim::format::gltf::save::TakeNow { origin: None, take: take.into() });
+    takes.push(dragonfly_anim::format::EditedTake { origin: None, take: take.into() });
     takes.push(takes[0].clone());
-    // The same lines, whoever writes them; only the order of members may differ, and so the commas.
+    // The same lines in any order of members, whose commas may differ too.
     let lines = |text: &str| {
         let mut lines: Vec<String> = text.lines().map(|line| line.trim_end_matches(',').to_owned()).collect();
         lines.sort();
@@ -208,9 +208,9 @@ fn what_is_new_looks_like_its_neighbours() {
     }
     for (from, to) in [("\n", "\r\n"), ("  ", "\t"), ("  ", "    "), (": ", " : ")] {
         let source = text(true).replace(from, to);
-        let saved = Opened::alone("pretty.gltf", source.as_bytes()).saved(&takes, &NoFiles);
+        let saved = OpenedFile::alone("pretty.gltf", source.as_bytes()).saved(&takes, &NoFiles);
         assert_eq!(String::from_utf8(saved.bytes().to_vec()).unwrap(), plain.replace(from, to), "{to:?}");
     }
-    let minified = Opened::alone("small.gltf", text(false).as_bytes()).saved(&takes, &NoFiles);
+    let minified = OpenedFile::alone("small.gltf", text(false).as_bytes()).saved(&takes, &NoFiles);
     assert!(!minified.bytes().contains(&b'\n') && !minified.bytes().contains(&b' '));
 }

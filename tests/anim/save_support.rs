@@ -1,14 +1,16 @@
-//! Opening, saving, opening again, and comparing what came back with what was asked.
+//! Opens, saves and reopens files, and compares the result with the edits.
 
-use crate::doors::FolderFs;
+use crate::doors::TestFolder;
 use dragonfly_anim::data::{Channel, ModelData, MorphTrack, Take, Track};
-use dragonfly_anim::format::gltf::save::{Changes, MARK, OutputFile, SaveError, SourceFile, TakeNow, plan};
-use dragonfly_anim::format::{AssetError, AssetFs, ImportError, NoFiles, ReadOptions, read};
+use dragonfly_anim::format::gltf::save::{Changes, MARK, SaveError, SourceFile, plan};
+use dragonfly_anim::format::{
+    AssetError, AssetFs, EditedTake, ImportError, NoFiles, OutputFile, ReadOptions, read,
+};
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Files that were written, before those that were there.
+/// Access to saved files, and for all others to those in `under`.
 pub(crate) struct Over<'a> {
     pub(crate) files: HashMap<String, Vec<u8>>,
     pub(crate) under: &'a dyn AssetFs,
@@ -30,45 +32,49 @@ impl AssetFs for Over<'_> {
 }
 
 /// A file with its model.
-pub(crate) struct Opened {
+pub(crate) struct OpenedFile {
     pub(crate) source: SourceFile,
     pub(crate) model: ModelData,
 }
 
-impl Opened {
+impl OpenedFile {
     pub(crate) fn new(name: &str, bytes: &[u8], door: &dyn AssetFs) -> Result<Self, ImportError> {
         let model = read(name, bytes, door, &ReadOptions::default())?.model;
         let source = SourceFile::open(name, bytes, door, &ReadOptions::default())?;
         Ok(Self { source, model })
     }
 
-    /// A file that stands alone.
+    /// Opens a file without referenced files.
     pub(crate) fn alone(name: &str, bytes: &[u8]) -> Self {
         Self::new(name, bytes, &NoFiles).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// A file with those in its folder.
-    pub(crate) fn file(path: &Path) -> (Self, FolderFs) {
-        let door = FolderFs(path.parent().unwrap().to_owned());
+    /// Opens a file together with those in its folder.
+    pub(crate) fn file(path: &Path) -> (Self, TestFolder) {
+        let door = TestFolder(path.parent().unwrap().to_owned());
         let name = path.file_name().unwrap().to_str().unwrap();
         let opened = Self::new(name, &std::fs::read(path).unwrap(), &door);
         (opened.unwrap_or_else(|error| panic!("{}: {error}", path.display())), door)
     }
 
-    /// The takes as they are, in their order.
-    pub(crate) fn takes(&self) -> Vec<TakeNow> {
+    /// Returns the takes unchanged, in their order.
+    pub(crate) fn takes(&self) -> Vec<EditedTake> {
         let takes = self.model.animation.takes.iter().enumerate();
-        takes.map(|(index, take)| TakeNow { origin: Some(index), take: take.clone() }).collect()
+        takes.map(|(index, take)| EditedTake { origin: Some(index), take: take.clone() }).collect()
     }
 
-    /// Saves, checks that the rest stays, opens again and checks that everything is as asked.
+    /// Saves, checks that the rest stays, reopens the file and checks that it has the edits.
     #[track_caller]
-    pub(crate) fn saved(&self, now: &[TakeNow], door: &dyn AssetFs) -> Saved {
+    pub(crate) fn saved(&self, now: &[EditedTake], door: &dyn AssetFs) -> ReopenedFile {
         self.try_saved(now, door).unwrap_or_else(|error| panic!("{}: {error}", self.source.name()))
     }
 
     #[track_caller]
-    pub(crate) fn try_saved(&self, now: &[TakeNow], door: &dyn AssetFs) -> Result<Saved, SaveError> {
+    pub(crate) fn try_saved(
+        &self,
+        now: &[EditedTake],
+        door: &dyn AssetFs,
+    ) -> Result<ReopenedFile, SaveError> {
         let plan = plan(&self.source, &self.model, now)?;
         let files = plan.write();
         let changes = plan.changes().clone();
@@ -76,45 +82,45 @@ impl Opened {
         assert_eq!(files.last().unwrap().name, self.source.name());
         let over = Over::new(&files, door);
         let bytes = &files.last().unwrap().bytes;
-        let opened = Opened::new(self.source.name(), bytes, &over);
+        let opened = OpenedFile::new(self.source.name(), bytes, &over);
         let opened = opened.unwrap_or_else(|error| {
-            panic!("{}: what was written cannot be opened: {error}\n{changes}", self.source.name())
+            panic!("{}: the saved file cannot be opened: {error}\n{changes}", self.source.name())
         });
         bounds_are_exact(bytes);
         same_scene(&self.model, &opened.model);
         same_takes(&self.model, now, &opened.model);
-        Ok(Saved { opened, files, changes })
+        Ok(ReopenedFile { opened, files, changes })
     }
 }
 
-/// A file that was written and opened again.
-pub(crate) struct Saved {
-    pub(crate) opened: Opened,
+/// A file that was saved and reopened.
+pub(crate) struct ReopenedFile {
+    pub(crate) opened: OpenedFile,
     pub(crate) files: Vec<OutputFile>,
     pub(crate) changes: Changes,
 }
 
-impl Saved {
+impl ReopenedFile {
     pub(crate) fn bytes(&self) -> &[u8] {
         &self.files.last().unwrap().bytes
     }
 
-    /// The file's JSON.
+    /// Returns the JSON of the file.
     pub(crate) fn json(&self) -> serde_json::Value {
         json_of(self.bytes())
     }
 }
 
-/// A file's JSON text, the kinds and bytes of the chunks after it, and what follows the container.
-struct Parts<'a> {
+/// The JSON text of a file, the kinds and bytes of the chunks after it, and the bytes after the container.
+struct FileParts<'a> {
     text: &'a [u8],
     chunks: Vec<[&'a [u8]; 2]>,
     rest: &'a [u8],
 }
 
-fn parts(file: &[u8]) -> Parts<'_> {
+fn parts(file: &[u8]) -> FileParts<'_> {
     if !file.starts_with(b"glTF") {
-        return Parts { text: file, chunks: Vec::new(), rest: b"" };
+        return FileParts { text: file, chunks: Vec::new(), rest: b"" };
     }
     let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
     let (mut at, end) = (12, word(8));
@@ -123,7 +129,7 @@ fn parts(file: &[u8]) -> Parts<'_> {
         chunks.push([&file[at + 4..at + 8], &file[at + 8..at + 8 + word(at)]]);
         at += 8 + word(at);
     }
-    Parts { text: chunks.remove(0)[1], chunks, rest: &file[end..] }
+    FileParts { text: chunks.remove(0)[1], chunks, rest: &file[end..] }
 }
 
 pub(crate) fn json_of(file: &[u8]) -> serde_json::Value {
@@ -133,13 +139,13 @@ pub(crate) fn json_of(file: &[u8]) -> serde_json::Value {
     serde_json::from_slice(&text[..text.len() - zeros]).unwrap()
 }
 
-/// The binary chunk.
+/// Returns the binary chunk.
 pub(crate) fn bin_of(file: &[u8]) -> Vec<u8> {
     let chunks = parts(file).chunks;
     chunks.first().filter(|chunk| chunk[0] == b"BIN\0").map(|chunk| chunk[1].to_vec()).unwrap_or_default()
 }
 
-/// The accessors that a save wrote say the first and the last key time as least and greatest, in both precisions.
+/// Checks that saved accessors have the first and the last key time as minimum and maximum, in both precisions.
 #[track_caller]
 fn bounds_are_exact(file: &[u8]) {
     let (json, bin) = (json_of(file), bin_of(file));
@@ -155,17 +161,17 @@ fn bounds_are_exact(file: &[u8]) {
         for (name, key) in [("min", 0), ("max", count - 1)] {
             let bound = accessor[name][0].as_f64().unwrap();
             assert_eq!(bound as f32, float(key), "{name}");
-            // The JSON reader of the tests rounds the last bit as it likes.
+            // The JSON parser of the tests may round the last bit either way.
             assert!((bound - f64::from(float(key))).abs() <= bound.abs() * 1e-15, "{name}: {bound}");
         }
     }
 }
 
-/// Takes what was announced out of both files and compares the rest, byte for byte.
+/// Removes the announced changes from both files and compares the rest, byte for byte.
 #[track_caller]
 pub(crate) fn rest_stays(old: &[u8], new: &[u8], changes: &Changes) {
     if changes.is_empty() {
-        assert!(old == new, "nothing changes, and yet the files differ");
+        assert!(old == new, "the files differ although nothing changes");
         return;
     }
     let is_glb = old.starts_with(b"glTF");
@@ -188,7 +194,7 @@ pub(crate) fn rest_stays(old: &[u8], new: &[u8], changes: &Changes) {
     assert_eq!(bare(old_text), bare(new_text), "only spaces are padding");
     assert!(new_text.len().abs_diff(old_text.len()) < 4, "{} and {}", old_text.len(), new_text.len());
     assert!(old_parts.rest == new_parts.rest, "after the container");
-    let others = |parts: &Parts<'_>| {
+    let others = |parts: &FileParts<'_>| {
         let is_bin = parts.chunks.first().is_some_and(|chunk| chunk[0] == b"BIN\0");
         parts.chunks[usize::from(is_bin)..].concat().concat()
     };
@@ -196,12 +202,12 @@ pub(crate) fn rest_stays(old: &[u8], new: &[u8], changes: &Changes) {
     let (old_bin, new_bin) = (bin_of(old), bin_of(new));
     if changes.bytes_reused == 0 && changes.bytes_removed == 0 {
         assert!(new_bin.starts_with(&old_bin), "the bytes of the buffer");
-        // The buffer may be elsewhere.
+        // The new numbers may be in another buffer.
         assert!([0, changes.bytes_appended].contains(&(new_bin.len() - old_bin.len())));
     }
 }
 
-/// Meshes, skins, materials, images and the skeleton are the same, bones known by their nodes.
+/// Checks that meshes, skins, materials, images and the skeleton are the same, with bones identified by their nodes.
 #[track_caller]
 pub(crate) fn same_scene(a: &ModelData, b: &ModelData) {
     assert_eq!(a.name, b.name);
@@ -220,7 +226,7 @@ pub(crate) fn same_scene(a: &ModelData, b: &ModelData) {
         assert_eq!((a.mesh, a.node, a.skin, &a.morph_weights), (b.mesh, b.node, b.skin, &b.morph_weights));
     }
     for bone in &b.animation.skeleton.bones {
-        // A node that begins to move becomes a bone.
+        // A node that becomes animated becomes a bone.
         let before = a.animation.skeleton.bones.iter().find(|before| before.node == bone.node);
         let Some(before) = before else { continue };
         assert_eq!(
@@ -230,9 +236,9 @@ pub(crate) fn same_scene(a: &ModelData, b: &ModelData) {
     }
 }
 
-/// The takes of `after` are those asked for, to the last bit.
+/// Checks that the takes of `after` are the edited ones, to the last bit.
 #[track_caller]
-pub(crate) fn same_takes(before: &ModelData, asked: &[TakeNow], after: &ModelData) {
+pub(crate) fn same_takes(before: &ModelData, asked: &[EditedTake], after: &ModelData) {
     assert_eq!(asked.len(), after.animation.takes.len());
     for (asked, got) in asked.iter().zip(&after.animation.takes) {
         let is_empty = asked.take.tracks.iter().all(Track::is_empty) && asked.take.morphs.is_empty();
@@ -274,7 +280,7 @@ fn same_channel<T: PartialEq + Copy>(a: &Channel<T>, b: &Channel<T>) -> bool {
     (a.times.is_empty() && b.times.is_empty()) || a == b
 }
 
-/// The take `index` of `takes`, to be changed.
-pub(crate) fn take_mut(takes: &mut [TakeNow], index: usize) -> &mut Take {
+/// Returns the take `index` of `takes` for editing.
+pub(crate) fn take_mut(takes: &mut [EditedTake], index: usize) -> &mut Take {
     Arc::make_mut(&mut takes[index].take)
 }

@@ -1,4 +1,4 @@
-//! Small valid files, one a feature: what damage starts from.
+//! Small valid files, one for each feature: the starting point of damaged files.
 
 use crate::doors::data;
 use crate::fixture::Fixture;
@@ -10,7 +10,7 @@ pub(crate) struct Seed {
     pub(crate) bytes: Vec<u8>,
 }
 
-/// A document with nothing in it.
+/// Returns a document without content.
 fn bare(members: Value) -> Fixture {
     let mut json = json!({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 0}], "bufferViews": [],
                           "accessors": [], "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}]});
@@ -26,7 +26,7 @@ fn floats(numbers: &[f32]) -> Vec<u8> {
 
 const TRIANGLE: [f32; 9] = [0., 0., 0., 1., 0., 0., 0., 1., 0.];
 
-/// A triangle with the given members in its primitive.
+/// Returns a triangle with the given members in its primitive.
 fn triangle(primitive: Value) -> Fixture {
     let mut fixture = bare(json!({"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}));
     fixture.accessor("VEC3", 5126, 3, &floats(&TRIANGLE));
@@ -36,7 +36,7 @@ fn triangle(primitive: Value) -> Fixture {
     fixture
 }
 
-/// A node that one channel moves.
+/// Returns a node that one channel animates.
 fn animated(path: &str, interpolation: &str, shape: &str, values: &[f32]) -> Fixture {
     let mut fixture = bare(json!({"nodes": [{}], "animations": [{
         "samplers": [{"input": 0, "output": 1, "interpolation": interpolation}],
@@ -104,7 +104,7 @@ fn indexed(mode: u32) -> Fixture {
     fixture
 }
 
-/// Each feature by itself, and all of them together.
+/// Returns each feature alone, and all of them together.
 fn fixtures() -> Vec<(&'static str, Fixture)> {
     let half = std::f32::consts::FRAC_1_SQRT_2;
     let turn = [0., 0., 0., 1., 0., 0., half, half];
@@ -142,7 +142,7 @@ fn fixtures() -> Vec<(&'static str, Fixture)> {
     ]
 }
 
-/// Every seed: each fixture in both forms, and the files that travel with the tests.
+/// Returns every seed: each fixture in both containers, and the files in `tests/data`.
 pub(crate) fn seeds() -> Vec<Seed> {
     let mut seeds = Vec::new();
     for (name, fixture) in fixtures() {

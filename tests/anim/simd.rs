@@ -1,15 +1,15 @@
-//! Every set of instructions of the machine computes the same as plain numbers.
+//! Every instruction set of the machine gives the same results as scalar calculations.
 
 use dragonfly_anim::fast::simd::{Float4, Float8, Kernel, Simd, SimdLevel, Word8};
 use proptest::prelude::*;
 
-type Numbers = [f32; 8];
+type Floats8 = [f32; 8];
 
-/// Everything that vectors of eight can do, on the same three operands.
-struct Everything(Numbers, Numbers, Numbers);
+/// All operations on vectors of eight, on the same three operands.
+struct Everything(Floats8, Floats8, Floats8);
 
 impl Kernel for Everything {
-    type Output = Vec<(&'static str, Numbers)>;
+    type Output = Vec<(&'static str, Floats8)>;
 
     #[inline(always)]
     fn run<S: Simd>(self) -> Self::Output {
@@ -63,8 +63,8 @@ impl Kernel for Everything {
     }
 }
 
-/// The same with plain numbers; each may be off by the given number.
-fn plainly(a: Numbers, b: Numbers, c: Numbers) -> Vec<(&'static str, [f64; 8], f64)> {
+/// Returns the scalar results; each may differ by the given amount.
+fn scalar_results(a: Floats8, b: Floats8, c: Floats8) -> Vec<(&'static str, [f64; 8], f64)> {
     let lane = |f: &dyn Fn(f64, f64, f64) -> f64| -> [f64; 8] {
         std::array::from_fn(|at| f(f64::from(a[at]), f64::from(b[at]), f64::from(c[at])))
     };
@@ -119,7 +119,7 @@ proptest! {
     ) {
         for level in SimdLevel::all() {
             for ((name, got), (expected_name, expected, off)) in
-                level.run(Everything(a, b, c)).into_iter().zip(plainly(a, b, c))
+                level.run(Everything(a, b, c)).into_iter().zip(scalar_results(a, b, c))
             {
                 prop_assert_eq!(name, expected_name);
                 for (got, expected) in got.into_iter().zip(expected) {
@@ -131,10 +131,10 @@ proptest! {
     }
 }
 
-/// What words of 32 bits can do.
-struct Words([u32; 8], [u32; 8], Vec<u8>);
+/// The operations on words of 32 bits.
+struct WordOps([u32; 8], [u32; 8], Vec<u8>);
 
-impl Kernel for Words {
+impl Kernel for WordOps {
     type Output = [[u32; 8]; 7];
 
     #[inline(always)]
@@ -172,7 +172,7 @@ proptest! {
             None => 0,
         };
         for level in SimdLevel::all() {
-            let got = level.run(Words(a, b, bytes.clone()));
+            let got = level.run(WordOps(a, b, bytes.clone()));
             for at in 0..8 {
                 let (x, y, count) = (a[at], b[at], b[at] & 63);
                 let expected = [
@@ -190,7 +190,7 @@ proptest! {
     }
 }
 
-/// Words from bytes.
+/// Words made from bytes.
 struct Near(Vec<u8>, usize, u8, [u8; 8], [u16; 8]);
 
 impl Kernel for Near {
@@ -236,11 +236,11 @@ proptest! {
     }
 }
 
-/// Small whole numbers as floats, and what vectors of four can do.
-struct Small([u16; 8], [u8; 8]);
+/// Small whole numbers as floats, and the operations on vectors of four.
+struct SmallNumbers([u16; 8], [u8; 8]);
 
-impl Kernel for Small {
-    type Output = ([Numbers; 2], [[f32; 4]; 5]);
+impl Kernel for SmallNumbers {
+    type Output = ([Floats8; 2], [[f32; 4]; 5]);
 
     #[inline(always)]
     fn run<S: Simd>(self) -> Self::Output {
@@ -266,7 +266,7 @@ impl Kernel for Small {
 fn small_whole_numbers_become_the_same_floats() {
     let (u16s, u8s) = ([0, 1, 2, 255, 256, 32_768, 65_534, 65_535], [0, 1, 2, 127, 128, 200, 254, 255]);
     for level in SimdLevel::all() {
-        let ([wide, narrow], four) = level.run(Small(u16s, u8s));
+        let ([wide, narrow], four) = level.run(SmallNumbers(u16s, u8s));
         assert_eq!(wide, u16s.map(f32::from), "{}", level.name());
         assert_eq!(narrow, u8s.map(f32::from), "{}", level.name());
         let expected = [
@@ -281,7 +281,7 @@ fn small_whole_numbers_become_the_same_floats() {
 }
 
 #[test]
-fn the_best_level_comes_first_and_the_portable_one_last() {
+fn the_fastest_level_is_first_and_the_portable_one_last() {
     let levels = SimdLevel::all();
     assert_eq!((levels.first(), levels.last()), (Some(&SimdLevel::best()), Some(&SimdLevel::PORTABLE)));
     println!("levels here: {:?}", levels.iter().map(|level| level.name()).collect::<Vec<_>>());

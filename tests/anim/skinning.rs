@@ -1,4 +1,4 @@
-//! Vertices moved on the CPU, against sums written out by hand.
+//! Skinning on the CPU, compared with sums written out by hand.
 
 use dragonfly_anim::data::{Influence, MeshInstance, MorphTarget, Primitive, Vertices};
 use dragonfly_anim::skin::{Movement, rigid, skin_normals, skin_positions, skin_tangents};
@@ -76,7 +76,7 @@ fn morph_targets_come_before_the_skin() {
     let double = [Mat4::from_scale(Vec3::splat(2.0))];
     let got = positions(&primitive, Movement::Skin(&double), &[0.5, 2.0]);
     assert_eq!(got, [Vec3::new(3.0, 0.0, 0.0), Vec3::new(0.0, 2.0, 4.0)]);
-    // Fewer weights than targets: the rest count as zero.
+    // Fewer weights than targets: the others count as zero.
     assert_eq!(positions(&primitive, Movement::Skin(&double), &[])[0], Vec3::new(2.0, 0.0, 0.0));
     let mut normals = [Vec3::NAN; 2];
     skin_normals(&primitive, Movement::Skin(&double), &[1.0, 0.0], &mut normals);
@@ -101,15 +101,16 @@ fn a_mesh_without_skin_is_carried_by_its_bone() {
     let got = positions(&primitive, Movement::of(&instance, &primitive, &to_root, &[]), &[]);
     assert!((got[0] - Vec3::new(0.0, 2.0, 0.0)).length() < 1e-6, "{}", got[0]);
     instance.bone = None;
-    assert_eq!(rigid(&instance, &to_root), instance.to_bone, "nothing moves it");
-    // A primitive without influences under a skin has nothing the skin could move.
+    assert_eq!(rigid(&instance, &to_root), instance.to_bone, "nothing animates it");
+    // A primitive without influences under a skin is not moved by the skin.
     instance.skin = Some(0);
     assert_eq!(Movement::of(&instance, &primitive, &to_root, &to_root), Movement::Rigid(instance.to_bone));
     let influenced = skinned(vec![Vec3::X], &[[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]]);
     assert_eq!(Movement::of(&instance, &influenced, &to_root, &to_root), Movement::Skin(&to_root));
 }
 
-/// A plane through three points of `primitive`, moved, and the normals and tangents moved with it: do they still fit?
+/// Moves a plane through three points of `primitive` together with its normals and tangents, and checks that they still
+/// fit.
 #[test]
 fn normals_stay_at_right_angles_and_tangents_in_the_surface() {
     let corners = [Vec3::new(0.0, 0.0, 0.0), Vec3::new(1.0, 0.2, 0.0), Vec3::new(0.3, 1.0, 0.4)];
@@ -130,13 +131,13 @@ fn normals_stay_at_right_angles_and_tangents_in_the_surface() {
         assert_eq!(skin_normals(&primitive, movement, &[], &mut normals), 3);
         assert_eq!(skin_tangents(&primitive, movement, &[], &mut tangents), 3);
         let expected = (moved[1] - moved[0]).cross(moved[2] - moved[0]).normalize();
-        // Mirrored, the corners run the other way round; the outside stays outside.
+        // Mirrored, the triangle has the opposite winding; the outside stays outside.
         let mirrored = scale.x * scale.y * scale.z < 0.0;
         let expected = if mirrored { -expected } else { expected };
         assert!((normals[0] - expected).length() < 1e-5, "{scale}: {} {expected}", normals[0]);
         let tangent = tangents[0].truncate();
         assert!((tangent - (moved[1] - moved[0]).normalize()).length() < 1e-5, "{scale}");
-        // The bitangent made from both, as a shader makes it, is the moved bitangent.
+        // The bitangent computed from both, as in a shader, is the moved bitangent.
         let bitangent = Mat4::from_scale_rotation_translation(scale, turn, Vec3::ONE)
             .transform_vector3(normal.cross(edge.normalize()));
         assert!(normals[0].cross(tangent).dot(bitangent) * tangents[0].w > 0.0, "{scale}");
@@ -144,12 +145,12 @@ fn normals_stay_at_right_angles_and_tangents_in_the_surface() {
 }
 
 #[test]
-fn only_as_many_vertices_are_moved_as_there_is_room_for() {
+fn the_length_of_the_output_limits_the_number_of_moved_vertices() {
     let primitive = skinned(vec![Vec3::X; 3], &[[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; 3]);
     let mut two = [Vec3::NAN; 2];
     assert_eq!(skin_positions(&primitive, Movement::Skin(&[Mat4::IDENTITY]), &[], &mut two), 2);
     let mut five = [Vec3::NAN; 5];
     assert_eq!(skin_positions(&primitive, Movement::Skin(&[Mat4::IDENTITY]), &[], &mut five), 3);
-    assert!(five[3].is_nan(), "the rest is left alone");
+    assert!(five[3].is_nan(), "the rest is unchanged");
     assert_eq!(skin_normals(&primitive, Movement::Skin(&[]), &[], &mut five), 0, "no normals");
 }

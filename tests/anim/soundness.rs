@@ -1,11 +1,12 @@
-//! What every imported model keeps, whatever the file said: indices in range, columns of one length, finite numbers.
+//! Invariants of every imported model, whatever the file contains: indices in range, columns of one length, finite
+//! numbers.
 
 use dragonfly_anim::data::{Channel, Interpolation, ModelData, Primitive, Take, Vertices};
 use dragonfly_anim::evaluator::Evaluator;
 use glam::Mat4;
 use std::sync::Arc;
 
-/// Everything that is wrong with `model`; empty when it is sound.
+/// Returns everything that is wrong with `model`; empty if it is sound.
 pub(crate) fn faults(model: &ModelData) -> Vec<String> {
     let mut faults = Vec::new();
     let mut check = |holds: bool, what: &str| {
@@ -17,7 +18,7 @@ pub(crate) fn faults(model: &ModelData) -> Vec<String> {
     for (index, bone) in bones.iter().enumerate() {
         check(bone.parent.is_none_or(|parent| (parent as usize) < index), "a parent comes before its child");
         check(bone.rest.is_finite() && bone.offset.is_finite(), "a bone is finite");
-        check((bone.rest.rotation.length() - 1.0).abs() < 1e-5, "a rest rotation is unit");
+        check((bone.rest.rotation.length() - 1.0).abs() < 1e-5, "a rest rotation is normalized");
         check(bone.rest_matrix.is_none_or(|matrix| matrix.is_finite()), "a rest matrix is finite");
     }
     for skin in &model.skins {
@@ -36,7 +37,7 @@ pub(crate) fn faults(model: &ModelData) -> Vec<String> {
         for texture in textures.into_iter().flatten() {
             check(
                 (texture.image as usize) < model.images.len() && texture.set < 2,
-                "a texture names an image",
+                "a texture has an existing image",
             );
             check(texture.transform.to_matrix().is_finite(), "a texture transform is finite");
         }
@@ -56,21 +57,24 @@ pub(crate) fn faults(model: &ModelData) -> Vec<String> {
     }
     for instance in &model.instances {
         let mesh = model.meshes.get(instance.mesh as usize);
-        check(mesh.is_some(), "an instance names a mesh");
-        check(instance.bone.is_none_or(|bone| (bone as usize) < bones.len()), "an instance names a bone");
+        check(mesh.is_some(), "an instance has an existing mesh");
+        check(
+            instance.bone.is_none_or(|bone| (bone as usize) < bones.len()),
+            "an instance has an existing bone",
+        );
         check(instance.to_bone.is_finite(), "an instance is finite");
         check(instance.morph_weights.iter().all(|weight| weight.is_finite()), "a weight is finite");
         let Some(mesh) = mesh else { continue };
         check(instance.morph_weights.len() == mesh.morph_weights.len(), "as many weights as targets");
         let Some(skin) = instance.skin else { continue };
         let Some(skin) = model.skins.get(skin as usize) else {
-            check(false, "an instance names a skin");
+            check(false, "an instance has an existing skin");
             continue;
         };
         let influences = mesh.primitives.iter().flat_map(|primitive| &primitive.vertices.influences);
         check(
             influences.into_iter().all(|i| usize::from(i.joint) < skin.bones.len()),
-            "an influence names a joint",
+            "an influence has an existing joint",
         );
     }
     for take in &model.animation.takes {
@@ -102,9 +106,9 @@ fn check_primitive(
     check(influences.len() == count * influences_per_vertex, "influences have one length");
     check(matches!(influences_per_vertex, 0 | 4 | 8), "4 or 8 influences");
     check(positions.iter().all(|p| p.is_finite()), "a position is finite");
-    check(normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-4), "a normal is unit");
+    check(normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-4), "a normal is normalized");
     check(tangents.iter().all(|t| t.is_finite() && t.w.abs() == 1.0), "a tangent is finite");
-    check(colors.iter().all(|c| c.is_finite()), "a colour is finite");
+    check(colors.iter().all(|c| c.is_finite()), "a color is finite");
     for vertex in 0..if influences.is_empty() { 0 } else { count } {
         let of = primitive.vertices.influences_of(vertex);
         let sum: f32 = of.iter().map(|influence| influence.weight).sum();
@@ -115,7 +119,7 @@ fn check_primitive(
         );
     }
     check(primitive.indices.len().is_multiple_of(3), "whole triangles");
-    check(primitive.indices.iter().all(|&index| (index as usize) < count), "an index names a vertex");
+    check(primitive.indices.iter().all(|&index| (index as usize) < count), "an index is that of a vertex");
     check(primitive.material.is_none_or(|material| (material as usize) < materials), "a material exists");
     check(primitive.morph_targets.len() == targets, "as many targets as the mesh has");
     for target in &primitive.morph_targets {
@@ -126,7 +130,7 @@ fn check_primitive(
 }
 
 fn check_take(take: &Take, model: &ModelData, check: &mut impl FnMut(bool, &str)) {
-    check(take.tracks.len() == model.animation.skeleton.len(), "one track a bone");
+    check(take.tracks.len() == model.animation.skeleton.len(), "one track per bone");
     check(take.start.is_finite() && take.length.is_finite() && take.length >= 0.0, "a take has a length");
     for (index, track) in take.tracks.iter().enumerate() {
         check(track.bone as usize == index, "tracks are in bone order");
@@ -134,7 +138,10 @@ fn check_take(take: &Take, model: &ModelData, check: &mut impl FnMut(bool, &str)
         check_channel(&track.rotation, |value| value.is_finite(), check);
         check_channel(&track.scale, |value| value.is_finite(), check);
         let rotations = (0..track.rotation.len()).filter_map(|key| track.rotation.value(key));
-        check(rotations.into_iter().all(|key| (key.length() - 1.0).abs() < 1e-5), "a rotation key is unit");
+        check(
+            rotations.into_iter().all(|key| (key.length() - 1.0).abs() < 1e-5),
+            "a rotation key is normalized",
+        );
     }
     for morph in &take.morphs {
         let per_key = if morph.interpolation == Interpolation::CubicSpline { 3 } else { 1 };
@@ -143,7 +150,7 @@ fn check_take(take: &Take, model: &ModelData, check: &mut impl FnMut(bool, &str)
             "weights for each key",
         );
         check(morph.weights.iter().all(|weight| weight.is_finite()), "a weight is finite");
-        check(morph.times.windows(2).all(|pair| pair[0] < pair[1]), "key times rise");
+        check(morph.times.windows(2).all(|pair| pair[0] < pair[1]), "key times increase");
         let instance = model.instances.get(morph.instance as usize);
         check(
             instance.is_some_and(|i| i.morph_weights.len() == morph.targets as usize),
@@ -158,14 +165,14 @@ fn check_channel<T: Copy>(
     check: &mut impl FnMut(bool, &str),
 ) {
     check(channel.times.len() * channel.values_per_key() == channel.values.len(), "values for each key");
-    check(channel.times.windows(2).all(|pair| pair[0] < pair[1]), "key times rise");
+    check(channel.times.windows(2).all(|pair| pair[0] < pair[1]), "key times increase");
     check(
         channel.times.iter().all(|time| time.is_finite()) && channel.values.iter().all(finite),
         "keys are finite",
     );
 }
 
-/// Evaluates the rest pose and the start, middle and end of the first take; the poses' faults.
+/// Evaluates the rest pose and the start, middle and end of the first take; returns what is wrong with the poses.
 pub(crate) fn faults_of_poses(model: ModelData) -> Vec<String> {
     let times =
         model.animation.takes.first().map(|take| [take.start, take.start + take.length / 2.0, take.end()]);

@@ -1,4 +1,4 @@
-//! Materials come as the file says, whichever texture says it.
+//! Textures of materials are those of the file, for every texture slot.
 
 use crate::fixture::Fixture;
 use dragonfly_anim::data::{TextureRef, TextureTransform};
@@ -40,6 +40,6 @@ fn every_texture_of_a_material_keeps_its_transform() {
 
 #[test]
 fn a_transform_of_the_wrong_type_is_refused_with_its_place() {
-    let error = textures(json!({"offset": "left"})).expect_err("text is no offset");
+    let error = textures(json!({"offset": "left"})).expect_err("a text is not an offset");
     assert!(error.to_string().contains("/materials/0"), "{error}");
 }

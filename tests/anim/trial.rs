@@ -1,4 +1,4 @@
-//! One file through everything the program does with it: read, checked, posed. The answer is what is wrong with that.
+//! Runs one file through all stages (reading, checks, poses) and returns what is wrong with the result.
 
 use crate::doors::MemoryFs;
 use crate::soundness::{faults, faults_of_poses};
@@ -8,20 +8,21 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Promised: stack that is enough for any file. The program has eight times as much.
+/// Guaranteed: stack size that is sufficient for any file. The program has eight times that.
 pub(crate) const STACK: usize = 256 << 10;
 
-/// Promised: memory for a file of `size` bytes.
+/// Guaranteed: memory for a file of `size` bytes.
 pub(crate) fn memory_for(size: usize) -> u64 {
     (256 << 20) + 32 * size as u64
 }
 
-/// Promised: time for a file of `size` bytes.
+/// Guaranteed: time for a file of `size` bytes.
 pub(crate) fn time_for(size: usize) -> Duration {
     Duration::from_secs(1) + Duration::from_millis(100) * (size / 1_000_000) as u32
 }
 
-/// Reads `bytes` and poses the model three times; an error says how a promise was broken. `true`: it was read.
+/// Reads `bytes` and poses the model three times. The error describes the broken guarantee; `true` means that the file
+/// was read.
 pub(crate) fn trial(name: &str, bytes: &[u8], door: &MemoryFs) -> Result<bool, String> {
     let start = Instant::now();
     let run = || {
@@ -30,7 +31,7 @@ pub(crate) fn trial(name: &str, bytes: &[u8], door: &MemoryFs) -> Result<bool, S
         if memory > memory_for(bytes.len()) {
             return Err(format!("took {memory} bytes of memory"));
         }
-        // Twice as long as promised: the machine may be busy with other tests.
+        // Twice the guaranteed time, because the machine may be busy with other tests.
         if elapsed > 2 * time_for(bytes.len()) {
             return Err(format!("took {elapsed:?}"));
         }
@@ -49,7 +50,7 @@ pub(crate) fn on_small_stack<T: Send + 'static>(
     std::thread::Builder::new().stack_size(STACK).spawn(work).unwrap()
 }
 
-/// Keeps a file that broke a promise where people find it; where that is.
+/// Stores a file that broke a guarantee in `target/fuzz-fail` and returns its path.
 pub(crate) fn keep(name: &str, bytes: &[u8]) -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/fuzz-fail");
     std::fs::create_dir_all(&folder).unwrap();

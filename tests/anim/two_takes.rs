@@ -1,6 +1,6 @@
-//! Two takes of a real animal, blended, against the formulas written down a second time in f64.
+//! Blends of two takes of a real animal, compared with a second implementation of the formulas in f64.
 
-use crate::doors::{FolderFs, data};
+use crate::doors::{TestFolder, data};
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::blend::{CrossFade, Cycle, FadeCurve, Layer, Mask, add, blend, blend_two, difference};
 use dragonfly_anim::data::{ModelData, Transform};
@@ -11,7 +11,7 @@ use glam::{DMat4, DQuat, DVec3, Mat4};
 fn fox() -> ModelData {
     let folder = data().join("gltf");
     let bytes = std::fs::read(folder.join("Fox.glb")).unwrap();
-    read("Fox.glb", &bytes, &FolderFs(folder), &ReadOptions::default()).unwrap().model
+    read("Fox.glb", &bytes, &TestFolder(folder), &ReadOptions::default()).unwrap().model
 }
 
 fn sampled(model: &ModelData, take: Option<&str>, time: f32) -> Vec<Transform> {
@@ -22,29 +22,29 @@ fn sampled(model: &ModelData, take: Option<&str>, time: f32) -> Vec<Transform> {
     poses
 }
 
-/// `xyzw`, written out: nothing of the library's quaternions.
-type Numbers = [f64; 4];
+/// A quaternion `xyzw`, without the library's quaternions.
+type Quaternion64 = [f64; 4];
 
-fn numbers(pose: &Transform) -> Numbers {
+fn numbers(pose: &Transform) -> Quaternion64 {
     pose.rotation.to_array().map(f64::from)
 }
 
-fn dot(a: Numbers, b: Numbers) -> f64 {
+fn dot(a: Quaternion64, b: Quaternion64) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn unit(a: Numbers) -> Numbers {
+fn unit(a: Quaternion64) -> Quaternion64 {
     a.map(|number| number / dot(a, a).sqrt())
 }
 
-/// The sum of two in one hemisphere, of length 1.
-fn straight(a: Numbers, b: Numbers, mix: f64) -> Numbers {
+/// Returns the sum of two in one hemisphere, normalized.
+fn straight(a: Quaternion64, b: Quaternion64, mix: f64) -> Quaternion64 {
     let sign = dot(a, b).signum();
     unit(std::array::from_fn(|at| (1.0 - mix) * a[at] + mix * sign * b[at]))
 }
 
 /// The textbook slerp.
-fn spherical(a: Numbers, b: Numbers, mix: f64) -> Numbers {
+fn spherical(a: Quaternion64, b: Quaternion64, mix: f64) -> Quaternion64 {
     let (a, b) = (unit(a), unit(b));
     let cosine = dot(a, b);
     let angle = cosine.abs().min(1.0).acos();
@@ -55,13 +55,13 @@ fn spherical(a: Numbers, b: Numbers, mix: f64) -> Numbers {
     std::array::from_fn(|at| from * a[at] + to * cosine.signum() * b[at])
 }
 
-/// To-root of every bone in f64, from poses mixed by `rotation`; `mix` a bone.
+/// Returns to-root of every bone in f64, from poses interpolated by `rotation` with one weight per bone in `mix`.
 fn chained(
     model: &ModelData,
     a: &[Transform],
     b: &[Transform],
     mix: impl Fn(usize) -> f64,
-    rotation: fn(Numbers, Numbers, f64) -> Numbers,
+    rotation: fn(Quaternion64, Quaternion64, f64) -> Quaternion64,
 ) -> Vec<DMat4> {
     let mut out: Vec<DMat4> = Vec::new();
     for (index, bone) in model.animation.skeleton.bones.iter().enumerate() {
@@ -87,7 +87,7 @@ fn assert_chained(model: &ModelData, poses: &[Transform], expected: &[DMat4]) {
 }
 
 #[test]
-fn walking_and_running_blend_as_the_formula_says() {
+fn walking_and_running_blend_according_to_the_formula() {
     let model = fox();
     for (walk, run) in [(0.1, 0.2), (0.35, 0.9), (0.7, 0.0)] {
         let (a, b) = (sampled(&model, Some("Walk"), walk), sampled(&model, Some("Run"), run));
@@ -99,14 +99,14 @@ fn walking_and_running_blend_as_the_formula_says() {
             blend_two(&a, &b, mix, None, &mut out);
             assert_chained(&model, &out, &chained(&model, &a, &b, |_| mix.into(), spherical));
         }
-        // The rest pose takes what a single layer leaves.
+        // The rest pose gets the weight that a single layer leaves.
         blend(&rest, &[Layer::new(&b, 0.3)], &mut out);
         assert_chained(&model, &out, &chained(&model, &rest, &b, |_| f64::from(0.3_f32), straight));
     }
 }
 
 #[test]
-fn the_head_looks_round_while_the_legs_run() {
+fn the_head_looks_around_while_the_legs_run() {
     let model = fox();
     let skeleton = &model.animation.skeleton;
     let neck = skeleton.find("b_Neck_04").unwrap();
@@ -123,7 +123,7 @@ fn the_head_looks_round_while_the_legs_run() {
 }
 
 #[test]
-fn a_take_as_a_difference_gives_itself_back() {
+fn a_take_applied_as_a_difference_gives_the_take() {
     let model = fox();
     let (run, survey) = (sampled(&model, Some("Run"), 0.4), sampled(&model, Some("Survey"), 1.7));
     let (mut more, mut out) = (run.clone(), run.clone());
@@ -133,7 +133,7 @@ fn a_take_as_a_difference_gives_itself_back() {
 }
 
 #[test]
-fn the_fox_breaks_into_a_run_in_step() {
+fn the_fox_changes_from_walk_to_run_in_phase() {
     let model = fox();
     let cycle = |name: &str| {
         let take = model.animation.takes.iter().find(|take| take.name == name).unwrap();

@@ -1,4 +1,4 @@
-//! What bones do that are bound to none is not lost when a take goes to another skeleton.
+//! The motion of bones without a binding is kept when a take is retargeted.
 
 use crate::ik::{started, turn, vector};
 use crate::retarget::{dance, keys, matrices, moments, person, places, turns};
@@ -8,7 +8,7 @@ use dragonfly_anim::retarget::{RetargetOptions, SkeletonBinding, retarget};
 use dragonfly_kit::random::Random;
 use glam::{Quat, Vec3};
 
-/// `skeleton` under a new root that rests somewhere, turned.
+/// Returns `skeleton` under a new root with a rest translation and rotation.
 fn under_a_root(random: &mut Random, skeleton: &Skeleton) -> Skeleton {
     let mut bones = vec![bone("motion", None, vector(random))];
     bones[0].rest.rotation = turn(random);
@@ -19,7 +19,7 @@ fn under_a_root(random: &mut Random, skeleton: &Skeleton) -> Skeleton {
     Skeleton { bones }
 }
 
-/// A binding of all bones by name, without those of the source called so.
+/// Returns a binding of all bones by name, except the source bones `names`.
 fn without(source: &Skeleton, target: &Skeleton, names: &[&str]) -> SkeletonBinding {
     let mut binding = SkeletonBinding::by_name(source, target);
     for bound in &mut binding.source_of {
@@ -29,10 +29,11 @@ fn without(source: &Skeleton, target: &Skeleton, names: &[&str]) -> SkeletonBind
 }
 
 #[test]
-fn the_motion_of_unbound_ancestors_goes_into_the_bones_below_them() {
+fn the_motion_of_unbound_ancestors_is_added_to_the_bones_below_them() {
     let mut random = started(57);
     for round in 0..100 {
-        // The source walks by a bone above all others that the target does not have, and by its root, which is not bound.
+        // The source walks with a bone above all others that the target does not have, and with its root, which is not
+        // bound.
         let plain = person(&mut random);
         let source = under_a_root(&mut random, &plain);
         let mut take = dance(&mut random, &source);
@@ -50,7 +51,7 @@ fn the_motion_of_unbound_ancestors_goes_into_the_bones_below_them() {
         let factor = random.choice(&[1.0, 0.5, 3.0]);
         let mut target = plain.clone();
         target.bones.iter_mut().for_each(|bone| bone.rest.translation *= factor);
-        // The root of the target rests where the source's stands, so that places can be compared as they are.
+        // The root of the target rests at the position of the source's, so that positions can be compared directly.
         let stands = places(&source, &Take::default(), 0.0)[1];
         let turned = source.bones[0].rest.rotation;
         target.bones[0].rest.translation = stands * factor;
@@ -70,7 +71,7 @@ fn the_motion_of_unbound_ancestors_goes_into_the_bones_below_them() {
             let [old, new] = [old, new].map(|matrix| matrix.to_scale_rotation_translation().1);
             assert!(angle_between(old, new) < 1e-3, "{round} at {time}");
         }
-        // Between what is written down: curves in short straight pieces. A jump is as long as a step of the time.
+        // Between the resampled keys: curves in short straight pieces. A jump is as long as one time step.
         let jumps = |time: f32| {
             take.tracks.iter().any(|track| {
                 track.rotation.interpolation == Interpolation::Step
@@ -90,8 +91,8 @@ fn the_motion_of_unbound_ancestors_goes_into_the_bones_below_them() {
 }
 
 #[test]
-fn an_unbound_root_that_carries_the_walk_walks_on_any_figure() {
-    // Hips one metre up that bob, under a root that goes two metres: keys at other times, both linear.
+fn the_walk_of_an_unbound_root_is_kept_on_any_figure() {
+    // Hips one meter above the ground that bob, under a root that moves two meters: keys at other times, both linear.
     let source = Skeleton {
         bones: vec![
             bone("mover", None, Vec3::ZERO),
@@ -118,7 +119,7 @@ fn an_unbound_root_that_carries_the_walk_walks_on_any_figure() {
         assert!(hips.distance(Vec3::from_array(expected)) < 1e-5, "{time}: {hips}");
     }
     assert_eq!(&*result.tracks[0].translation.times, &[0.0, 0.5, 1.0, 2.0], "the keys of both, and no more");
-    // A root that turns takes what hangs from it round.
+    // A root that rotates also rotates its children around it.
     let mut turning = take.clone();
     turning.tracks[0] = Track {
         rotation: Channel::new(
@@ -134,7 +135,7 @@ fn an_unbound_root_that_carries_the_walk_walks_on_any_figure() {
     assert!(end.transform_vector3(Vec3::Y).distance(Vec3::Z) < 1e-5, "{end}");
     let arc = places(&target, &result, 1.51)[0];
     assert!((arc.length() - 2.0).abs() < 2e-3, "on the way too: {arc}");
-    // Whoever names the trunk gets that and no more.
+    // Explicitly listed trunk bones replace the default ones.
     let options = RetargetOptions { trunk: Some(Vec::new()), ..RetargetOptions::default() };
     assert!(retarget(&take, &source, &target, &binding, &options).tracks[0].translation.is_empty());
 }

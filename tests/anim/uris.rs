@@ -1,4 +1,4 @@
-//! A file reads files of its own folder, and nothing else.
+//! A file can refer to files of its own folder, and to nothing else.
 
 use crate::doors::MemoryFs;
 use crate::fixture::Fixture;
@@ -59,7 +59,7 @@ fn with_uri(uri: &str) -> Vec<u8> {
 }
 
 #[test]
-fn hostile_uris_are_refused_before_anything_is_opened() {
+fn dangerous_uris_are_refused_before_anything_is_opened() {
     let long = "a/".repeat(600) + "all.bin";
     let longer = "a".repeat(300);
     let huge = "a".repeat(1 << 20);
@@ -84,7 +84,7 @@ fn hostile_uris_are_refused_before_anything_is_opened() {
 }
 
 #[test]
-fn a_hostile_image_is_left_out_and_not_opened() {
+fn an_image_with_a_dangerous_uri_is_left_out_and_not_opened() {
     for uri in HOSTILE {
         let mut fixture = Fixture::new();
         fixture.remove("/images/0/bufferView").set("/images/0/uri", json!(uri));
@@ -148,7 +148,7 @@ fn each_external_file_is_read_once_and_their_number_is_limited() {
     read("a.gltf", fixture.json.to_string().as_bytes(), &door, &ReadOptions::default()).unwrap();
     assert_eq!(door.asked(), ["all.bin"]);
 
-    /// A door with a file behind every name.
+    /// Access to a file under every name.
     struct Endless(Cell<usize>);
     impl AssetFs for Endless {
         fn read(&self, _path: &str, _limit: u64) -> Result<Vec<u8>, AssetError> {

@@ -50,7 +50,7 @@ fn shown(model: Arc<ModelData>, like: &LoadedModel, bounds: &Arc<ModelData>) -> 
     Arc::new(LoadedModel {
         title: like.title.clone(),
         path: None,
-        format: like.format.clone(),
+        format: like.format,
         model,
         bounds: Evaluator::new(Arc::clone(bounds)).bounds(),
         images: like.images.clone(),

@@ -1,9 +1,10 @@
-//! What goes wrong in a file: where, and why.
+//! Errors and warnings of imports and exports, each with a place and a reason.
 
+use std::error::Error as StdError;
 use std::fmt;
 use thiserror::Error;
 
-/// Where in a file.
+/// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Place {
     /// The file as a whole.
@@ -11,7 +12,7 @@ pub enum Place {
     File,
     /// A value in a JSON text, as a JSON pointer (RFC 6901): `/accessors/3/count`.
     Pointer(String),
-    /// Offset from the start of the file.
+    /// Offset from the start of the file, in bytes.
     Byte(u64),
     /// Line and column of a text, both from 1; the column counts bytes.
     Line(u32, u32),
@@ -29,94 +30,119 @@ impl fmt::Display for Place {
     }
 }
 
-/// Why a file could not be read. Shown as `place: reason`, on one line.
+/// Reason why a file could not be read. Displayed as `place: reason`, on one line.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ImportError {
-    /// The file says something that cannot be so.
+    /// The file breaks a rule of its format.
     #[error("{place}: {}", one_line(reason))]
     Invalid {
-        /// Where.
+        /// Place of the invalid value.
         place: Place,
-        /// Name of the broken rule, after the Khronos glTF validator's where it has one.
+        /// Name of the broken rule: the one of the Khronos glTF validator where that has one.
         code: &'static str,
-        /// What is wrong, with the numbers.
+        /// Description of the error, with the numbers.
         reason: String,
     },
-    /// The file may well be right, but needs something that is not read.
+    /// The file may be valid, but needs a feature that is not supported.
     #[error("{place}: needs {}, which is not supported", one_line(feature))]
     Unsupported {
-        /// Where it is asked for.
+        /// Place that requires the feature.
         place: Place,
-        /// Its name.
+        /// Name of the feature.
         feature: String,
     },
-    /// The file asks for more than [`crate::limits`] grant.
+    /// The file needs more than the limits in [`crate::limits`] allow.
     #[error("{place}: {what}: {size}, at most {limit}")]
     TooLarge {
-        /// Where.
+        /// Place that exceeds the limit.
         place: Place,
         /// What is counted.
         what: &'static str,
-        /// How much the file asks for.
+        /// Number that the file needs.
         size: u64,
-        /// How much it gets.
+        /// Largest number allowed.
         limit: u64,
     },
-    /// A file beside this one is missing, or may not be read.
+    /// A referenced file is missing, or may not be read.
     #[error("{place}: \"{}\": {}", one_line(uri), one_line(reason))]
     External {
-        /// Where it is named.
+        /// Place of the reference.
         place: Place,
         /// As in [`Self::Invalid`].
         code: &'static str,
-        /// As written in the file, shortened when very long.
+        /// The reference as written in the file, shortened when very long.
         uri: String,
-        /// Why not.
+        /// Reason why it was not read.
         reason: String,
     },
-    /// Neither name nor content are those of a known format.
-    #[error("file: \"{}\" is of no known format", one_line(name))]
+    /// Neither the name nor the content of the file is of a known format.
+    #[error("file: \"{}\" has no known format", one_line(name))]
     UnknownFormat {
-        /// The file's name.
+        /// Name of the file.
         name: String,
     },
-    /// [`super::ReadOptions::is_cancelled`] said so.
+    /// The file cannot be opened for editing, since files of its format can only be read.
+    #[error("file: files of the format {title} can only be read; save the model in another format")]
+    ReadOnly {
+        /// [`Format::title`](super::Format::title) of the format.
+        title: &'static str,
+    },
+    /// [`super::ReadOptions::is_cancelled`] returned `true`.
     #[error("file: cancelled")]
     Cancelled,
 }
 
 impl ImportError {
-    /// Where it went wrong.
+    /// Returns the place of the error.
     pub fn place(&self) -> &Place {
         match self {
             Self::Invalid { place, .. }
             | Self::Unsupported { place, .. }
             | Self::TooLarge { place, .. }
             | Self::External { place, .. } => place,
-            Self::UnknownFormat { .. } | Self::Cancelled => &Place::File,
+            Self::UnknownFormat { .. } | Self::ReadOnly { .. } | Self::Cancelled => &Place::File,
         }
     }
 
-    /// Name of the broken rule.
+    /// Returns the name of the broken rule.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Invalid { code, .. } | Self::External { code, .. } => code,
             Self::Unsupported { .. } => "UNSUPPORTED_EXTENSION",
             Self::TooLarge { .. } => "LIMIT",
             Self::UnknownFormat { .. } => "UNKNOWN_FORMAT",
+            Self::ReadOnly { .. } => "READ_ONLY_FORMAT",
             Self::Cancelled => "CANCELLED",
         }
     }
 }
 
-/// Something in a file that was mended, left out, or looks odd. Shown as `place: text`, on one line.
+/// Reason why a model could not be written: the error of the format, displayed as `place: reason` on one line.
+/// Nothing was written.
+#[derive(Debug, Error)]
+#[error(transparent)]
+pub struct ExportError(Box<dyn StdError + Send + Sync>);
+
+impl ExportError {
+    /// Wraps the error of a format, or a text.
+    pub fn new(error: impl Into<Box<dyn StdError + Send + Sync>>) -> Self {
+        Self(error.into())
+    }
+
+    /// Returns the error of the format, for downcasting.
+    pub fn get_ref(&self) -> &(dyn StdError + Send + Sync + 'static) {
+        self.0.as_ref()
+    }
+}
+
+/// Something in a file that was corrected, left out, or looks wrong. Displayed as `place: text`, on one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// Where.
+    /// Place in the file.
     pub place: Place,
     /// Name of the rule, as in [`ImportError::Invalid`].
     pub code: &'static str,
-    /// What, and what was done about it.
+    /// Description of the problem, and how it was handled.
     pub text: String,
 }
 
@@ -126,7 +152,8 @@ impl fmt::Display for Warning {
     }
 }
 
-/// `text` without control characters, at most 300 characters: words of a file never break a message apart.
+/// Returns `text` with control characters escaped and at most 300 characters long, so that text from a file never spans
+/// several lines of a message.
 pub(crate) fn one_line(text: &str) -> String {
     let mut line: String = text.chars().take(300).flat_map(escape).collect();
     if text.chars().nth(300).is_some() {
@@ -135,7 +162,7 @@ pub(crate) fn one_line(text: &str) -> String {
     line
 }
 
-/// The character itself, or its escape when it would not show on one line.
+/// Returns the character, or its escape sequence if it is invisible or ends the line.
 fn escape(character: char) -> impl Iterator<Item = char> {
     let hidden =
         character.is_control() || matches!(character, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}');

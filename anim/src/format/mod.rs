@@ -1,46 +1,60 @@
-//! Files in, models out: one file a format, one line in [`FORMATS`].
+//! File formats: bytes to models, and models or edits back to bytes.
 //!
-//! A file is an opponent until it is read. So every count is compared with the bytes that are there before anything
-//! is allocated, every index is checked, trees are walked without recursion, memory is charged to a
-//! [`ByteBudget`], and other files are reached through an [`AssetFs`] alone. No input makes [`read`] panic.
+//! Files are untrusted input. Every count is compared with the bytes that are present before anything is allocated,
+//! every index is checked, trees are walked without recursion, memory is charged to a [`ByteBudget`], and referenced
+//! files are read only through an [`AssetFs`]. No input makes [`read`] panic.
 //!
-//! A new format is a module with a `pub const …: Format` and a line in the list.
+//! # Add a format
+//!
+//! In this crate: a module with a `pub const …: Format`, and one line in [`BUILTIN`]. In another crate: the same
+//! constant, passed to [`Formats::with`]; [`Format`] has an example. The tests in `tests/anim/formats.rs` check every
+//! format of the list: its own files are recognized by their content, what is written reads back, and damaged files are
+//! errors.
+//!
+//! # Save edits
+//!
+//! [`Format::edit`] opens the bytes of a file for editing, [`EditableFile::plan`] returns the files to write. For glTF
+//! only those bytes change that the edits concern; a format without such a writer is written as a whole.
+//!
+//! ```
+//! use dragonfly_anim::data::ModelData;
+//! use dragonfly_anim::format::{EditedTake, NoFiles, ReadOptions, dfm, read};
+//!
+//! let bytes = dfm::write(&ModelData::default())?;
+//! let options = ReadOptions::default();
+//! let opened = read("empty.dfm", &bytes, &NoFiles, &options)?;
+//! let file = opened.format.edit("empty.dfm", bytes, &NoFiles, &options)?;
+//! let takes: Vec<EditedTake> = Vec::new();
+//! let plan = file.plan(&opened.model, &takes)?;
+//! assert_eq!(plan.files[0].name, "empty.dfm");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+mod context;
+mod definition;
 pub mod dfm;
-mod door;
+mod edited;
 mod error;
+mod files;
 #[cfg(feature = "gltf")]
 pub mod gltf;
-// Some of it is for glTF alone.
-#[cfg_attr(not(feature = "gltf"), allow(dead_code))]
-mod guard;
-mod options;
+mod read_options;
+mod registry;
 pub mod uri;
 
-pub use door::{AssetError, AssetFs, NoFiles};
+pub use context::ImportContext;
+pub use definition::{Format, OpenSurgical, ReadModel, WholeFile, WriteModel, WriteSupport};
+pub use edited::{ChangeReport, EditableFile, EditedTake, OutputFile, SavePlan, SurgicalFile};
 pub(crate) use error::one_line;
-pub use error::{ImportError, Place, Warning};
-pub use options::{ByteBudget, OverBudget, ReadOptions};
+pub use error::{ExportError, ImportError, Place, Warning};
+pub use files::{AssetError, AssetFs, NoFiles};
+pub use read_options::{ByteBudget, OverBudget, ReadOptions};
+pub use registry::Formats;
 
 use crate::data::ModelData;
-use crate::limits::FILE_BYTES;
-use guard::Guard;
 
-/// A kind of file.
-pub struct Format {
-    /// Short and lower case, as shown to people: `"glb"`.
-    pub name: &'static str,
-    /// Endings of file names, lower case, without the dot.
-    pub extensions: &'static [&'static str],
-    /// Do these bytes begin like such a file? Looks at the first few only.
-    pub detect: fn(bytes: &[u8]) -> bool,
-    /// Reads the whole file.
-    pub(crate) read:
-        fn(bytes: &[u8], door: &dyn AssetFs, guard: &Guard<'_>) -> Result<ModelData, ImportError>,
-}
-
-/// Every format that can be read.
-pub const FORMATS: &[Format] = &[
+/// The formats of this crate, in the order of precedence.
+pub const BUILTIN: &[Format] = &[
     dfm::DFM,
     #[cfg(feature = "gltf")]
     gltf::GLB,
@@ -48,49 +62,28 @@ pub const FORMATS: &[Format] = &[
     gltf::GLTF,
 ];
 
-/// What a file held.
+/// A model that was read from a file.
 #[derive(Clone, Debug)]
 pub struct Imported {
     /// The model: every index in range, every number finite.
     pub model: ModelData,
-    /// [`Format::name`] of what it was.
-    pub format: &'static str,
-    /// What was mended or left out, in the order met.
+    /// Format of the file.
+    pub format: Format,
+    /// Descriptions of corrected and omitted content, in the order in which it was found.
     pub warnings: Vec<Warning>,
 }
 
-/// The format of a file called `name` that holds `bytes`: by content, else by the name's ending.
-pub fn format_of(name: &str, bytes: &[u8]) -> Option<&'static Format> {
-    let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
-    let by_name = || {
-        let ending = ending.as_deref()?;
-        FORMATS.iter().find(|format| format.extensions.contains(&ending))
-    };
-    FORMATS.iter().find(|format| (format.detect)(bytes)).or_else(by_name)
-}
-
-/// Reads a model from the bytes of a file.
+/// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.
 ///
-/// `name` is the file's name, used to tell the format where its content does not; `door` is asked for the files it
-/// names (buffers, images). Works in the calling thread, takes at most about a second and 100 ms a megabyte, and
-/// at most 256 MiB and 32 times the bytes read. Any input gives a model or an error; a model that is not quite
-/// right comes with warnings.
+/// `name` is the name of the file; its extension determines the format where the content does not. `files` is asked for
+/// the files that this one refers to (buffers, images). Runs in the calling thread, takes at most about one second plus
+/// 100 ms per megabyte, and at most 256 MiB plus 32 times the bytes read. Any input returns a model or an error; what was
+/// corrected in a model is listed as warnings. To read other formats too, use [`Formats::read`].
 pub fn read(
     name: &str,
     bytes: &[u8],
-    door: &dyn AssetFs,
+    files: &dyn AssetFs,
     options: &ReadOptions<'_>,
 ) -> Result<Imported, ImportError> {
-    if bytes.len() as u64 > FILE_BYTES {
-        let size = bytes.len() as u64;
-        return Err(ImportError::TooLarge { place: Place::File, what: "bytes", size, limit: FILE_BYTES });
-    }
-    let format =
-        format_of(name, bytes).ok_or_else(|| ImportError::UnknownFormat { name: name.to_owned() })?;
-    options.budget.input(bytes.len());
-    let guard = Guard::new(options);
-    guard.progress(0.0)?;
-    let model = (format.read)(bytes, door, &guard)?;
-    guard.progress(1.0)?;
-    Ok(Imported { model, format: format.name, warnings: guard.into_warnings() })
+    Formats::builtin().read(name, bytes, files, options)
 }

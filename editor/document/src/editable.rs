@@ -2,13 +2,13 @@
 
 use super::adapter::{ModelAdapter, Slot, TakeId};
 use super::load::{LoadError, Source, file_name};
-use super::save_plan::{SaveError, SavePlan};
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use super::{Cancel, Folder, LoadedModel, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::{AnimationData, ModelData};
-use dragonfly_anim::format::gltf::save::{self, OutputFile, SourceFile, TakeNow};
-use dragonfly_anim::format::{AssetFs, NoFiles, ReadOptions, dfm};
+use dragonfly_anim::format::{
+    AssetFs, EditableFile, EditedTake, ExportError, Format, ImportError, NoFiles, ReadOptions, SavePlan,
+};
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_store::{
     ExpectedFile, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file, save_document,
@@ -28,7 +28,8 @@ pub struct Editable {
     pub model: Arc<ModelData>,
     /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
-    kind: Kind,
+    /// The opened file, which later saves start from.
+    file: EditableFile,
     /// State of the file when it was last read or saved.
     stamp: Option<FileStamp>,
     /// The model with the takes that are in the file now.
@@ -39,14 +40,6 @@ pub struct Editable {
 
 /// Path and contents of a file to write.
 pub type Written = (PathBuf, Vec<u8>);
-
-/// How the format of the file is saved.
-enum Kind {
-    /// By replacing the few bytes that edits affect.
-    Gltf(Box<SourceFile>),
-    /// As a whole: the format is our own and has no contents that are unknown to this program.
-    Dfm,
-}
 
 impl Editable {
     /// Opens `source` to edit it without decoding textures.
@@ -70,15 +63,11 @@ impl Editable {
         if stamp.as_ref().is_some_and(|stamp| !stamp.is_of(&bytes)) {
             return Err(wrong("the file changed while it was read; open it again".to_owned()));
         }
-        let kind = if imported.format == "dfm" {
-            Kind::Dfm
-        } else {
-            let source = SourceFile::open(&name, bytes, door, &ReadOptions::default());
-            Kind::Gltf(Box::new(source.map_err(|error| wrong(error.to_string()))?))
-        };
+        let file = imported.format.edit(&name, bytes, door, &ReadOptions::default());
+        let file = file.map_err(|error| wrong(error.to_string()))?;
         let (model, warnings) = (Arc::new(imported.model), imported.warnings);
         let on_disk = Arc::clone(&model);
-        Ok(Self { title: source.title(), path, model, warnings, kind, stamp, on_disk, places: None })
+        Ok(Self { title: source.title(), path, model, warnings, file, stamp, on_disk, places: None })
     }
 
     /// Returns the file of `loaded`, which was read from `bytes` while the file had this stamp.
@@ -88,21 +77,15 @@ impl Editable {
         stamp: Option<FileStamp>,
         loaded: &LoadedModel,
     ) -> Result<Self, String> {
-        let kind = if loaded.format == "dfm" {
-            Kind::Dfm
-        } else {
-            let name = loaded.path.as_deref().map_or_else(|| "dragonfly.glb".to_owned(), file_name);
-            let source = with_door(loaded.path.as_deref(), |door| {
-                SourceFile::open(&name, bytes, door, &ReadOptions::default())
-            });
-            Kind::Gltf(Box::new(source.map_err(|error| error.to_string())?))
-        };
+        let format = loaded.format.ok_or("it was not read from a file")?;
+        let name = loaded.path.as_deref().map_or_else(|| "dragonfly.glb".to_owned(), file_name);
+        let file = opened(format, &name, bytes, loaded.path.as_deref()).map_err(|error| error.to_string())?;
         Ok(Self {
             title: source.title(),
             path: loaded.path.clone(),
             model: Arc::clone(&loaded.model),
             warnings: loaded.warnings.clone(),
-            kind,
+            file,
             stamp,
             on_disk: Arc::clone(&loaded.model),
             places: None,
@@ -110,32 +93,18 @@ impl Editable {
     }
 
     /// Returns what saving the takes of `adapter` would write.
-    pub fn plan(&self, adapter: &ModelAdapter) -> Result<SavePlan, SaveError> {
-        match &self.kind {
-            Kind::Gltf(source) => {
-                let now: Vec<TakeNow> = adapter
-                    .slots()
-                    .iter()
-                    .map(|slot| TakeNow { origin: self.place(slot), take: Arc::clone(&slot.result) })
-                    .collect();
-                Ok(SavePlan::of(&save::plan(source, &self.on_disk, &now)?))
-            }
-            Kind::Dfm => {
-                let skeleton = Arc::clone(&self.model.animation.skeleton);
-                let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
-                let bytes = dfm::write(&ModelData { animation, ..ModelData::clone(&self.model) })?;
-                Ok(SavePlan { files: vec![OutputFile { name: self.title.clone(), bytes }], changes: None })
-            }
-        }
+    pub fn plan(&self, adapter: &ModelAdapter) -> Result<SavePlan, ExportError> {
+        let takes: Vec<EditedTake> = adapter
+            .slots()
+            .iter()
+            .map(|slot| EditedTake { origin: self.place(slot), take: Arc::clone(&slot.result) })
+            .collect();
+        self.file.plan(&self.on_disk, &takes)
     }
 
     /// Returns what removing the unused data of earlier saves would write.
-    pub fn compact(&self) -> Result<SavePlan, SaveError> {
-        match &self.kind {
-            Kind::Gltf(source) => Ok(SavePlan::of(&save::compact(source)?)),
-            // Nothing is ever appended to such a file.
-            Kind::Dfm => self.plan(&ModelAdapter::new(&self.model.animation)),
-        }
+    pub fn compact(&self) -> Result<SavePlan, ExportError> {
+        self.file.compact(&self.on_disk)
     }
 
     /// Returns the index of a take among the animations of the file.
@@ -164,15 +133,7 @@ impl Editable {
 
     /// Does it need files beside it, once `plan` is done?
     pub fn needs_others(&self, plan: &SavePlan) -> bool {
-        plan.files.len() > 1 || !self.needs().is_empty()
-    }
-
-    /// Files beside the one that was opened that it needs, as it names them.
-    fn needs(&self) -> Vec<String> {
-        match &self.kind {
-            Kind::Gltf(source) => source.files_beside(),
-            Kind::Dfm => Vec::new(),
-        }
+        plan.files.len() > 1 || !self.file.neighbors().is_empty()
     }
 
     /// Returns the files that the model needs and that are missing in `folder`.
@@ -183,7 +144,7 @@ impl Editable {
         }
         let door = Folder::new(from).map_err(|error| format!("{}: {error}", from.display()))?;
         let mut found = Vec::new();
-        for name in self.needs() {
+        for name in self.file.neighbors() {
             let target = folder.join(&name);
             // A file that cannot be read was a warning when the model was opened.
             let Ok(bytes) = door.read(&name, FILE_BYTES) else { continue };
@@ -228,11 +189,7 @@ impl Editable {
     /// Returns the file extension.
     pub fn ending(&self) -> String {
         let ending = self.path.as_deref().and_then(|path| path.extension()?.to_str().map(str::to_owned));
-        let usual = match &self.kind {
-            Kind::Gltf(_) => "glb",
-            Kind::Dfm => "dfm",
-        };
-        ending.unwrap_or_else(|| usual.to_owned())
+        ending.unwrap_or_else(|| self.file.format().extension().to_owned())
     }
 
     /// Returns the state of the file when it was last read or saved.
@@ -301,11 +258,8 @@ impl Editable {
 
     /// Makes later saves relative to `bytes`, which have the takes of `adapter`.
     fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
-        let Kind::Gltf(_) = &self.kind else { return Ok(()) };
-        let source = with_door(self.path.as_deref(), |door| {
-            SourceFile::open(&self.title, bytes, door, &ReadOptions::default())
-        });
-        self.kind = Kind::Gltf(Box::new(source.map_err(|error| error.to_string())?));
+        let file = opened(self.file.format(), &self.title, bytes, self.path.as_deref());
+        self.file = file.map_err(|error| error.to_string())?;
         let skeleton = Arc::clone(&self.model.animation.skeleton);
         let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
         self.on_disk = Arc::new(ModelData { animation, ..ModelData::clone(&self.model) });
@@ -326,11 +280,18 @@ impl fmt::Debug for Editable {
     }
 }
 
-/// Calls `work` with access to the folder of the file at `path`, or with access to no files where there is none.
-fn with_door<T>(path: Option<&Path>, work: impl FnOnce(&dyn AssetFs) -> T) -> T {
+/// Opens `bytes`, the content of the file at `path`, for editing, with access to the files of its folder where there is
+/// one.
+fn opened(
+    format: Format,
+    name: &str,
+    bytes: Vec<u8>,
+    path: Option<&Path>,
+) -> Result<EditableFile, ImportError> {
+    let options = ReadOptions::default();
     match path.and_then(|path| Folder::of(path).ok()) {
-        Some(folder) => work(&folder),
-        None => work(&NoFiles),
+        Some(folder) => format.edit(name, bytes, &folder, &options),
+        None => format.edit(name, bytes, &NoFiles, &options),
     }
 }
 

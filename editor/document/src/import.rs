@@ -4,15 +4,20 @@ use super::load::{LoadError, file_name};
 use super::{Cancel, Folder};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::ModelData;
-use dragonfly_anim::format::{self, AssetFs, ImportError, NoFiles, ReadOptions};
+use dragonfly_anim::format::{AssetFs, Format, Formats, ImportError, NoFiles, ReadOptions};
 use std::path::Path;
+
+/// Returns the file formats that the program knows: what it opens, saves, and lists in dialogs and help texts.
+pub fn formats() -> Formats {
+    Formats::builtin()
+}
 
 /// What an importer made.
 pub(super) struct Imported {
     /// The data.
     pub(super) model: ModelData,
-    /// "glb", "gltf", "dfm".
-    pub(super) format: String,
+    /// The format of the file.
+    pub(super) format: Format,
     /// What is not shown or was mended.
     pub(super) warnings: Vec<String>,
 }
@@ -44,10 +49,10 @@ pub(super) fn read(
     cancel: &Cancel,
 ) -> Result<Imported, LoadError> {
     let options = ReadOptions { is_cancelled: &|| cancel.is_cancelled(), progress, ..ReadOptions::default() };
-    match format::read(title, bytes, door, &options) {
+    match formats().read(title, bytes, door, &options) {
         Ok(imported) => Ok(Imported {
             model: imported.model,
-            format: imported.format.to_owned(),
+            format: imported.format,
             warnings: imported.warnings.iter().map(ToString::to_string).collect(),
         }),
         Err(ImportError::Cancelled) => Err(LoadError::Cancelled),

@@ -172,7 +172,7 @@ impl<'a> Read<'a> {
         let first = model.animation.takes.first().map(|take| take.start);
         let bounds = bounds_of_pose(&model, first.map(|_| 0), first.unwrap_or(0.0));
         let title = self.source.title();
-        Ok(LoadedModel { title, path, format, model, bounds, images: decoded.images, warnings })
+        Ok(LoadedModel { title, path, format: Some(format), model, bounds, images: decoded.images, warnings })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::open::Open;
 use super::writing::{Overwrite, SaveFailure, Writing};
-use super::{FileView, Source};
+use super::{FileView, Source, formats};
 use dragonfly_store::{Autosave, FileState, RealFiles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -184,17 +184,14 @@ impl Open {
     }
 }
 
-/// Extensions of model formats, which programs rely on.
-const FORMATS: [&str; 10] = ["glb", "gltf", "dfm", "fbx", "obj", "dae", "bvh", "m3d", "x", "blend"];
-
 /// Checks that a name does not have the extension of another format than `ending`.
 ///
 /// # Errors
 ///
 /// The reason why the name is wrong.
 pub fn fits(path: &Path, ending: &str) -> Result<(), String> {
-    let is = |format: &&str| path.extension().is_some_and(|other| other.eq_ignore_ascii_case(format));
-    if is(&ending) || !FORMATS.iter().any(is) {
+    let own = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    if own.eq_ignore_ascii_case(ending) || !formats().is_model_extension(own) {
         return Ok(());
     }
     Err(format!(

@@ -4,6 +4,7 @@ use super::adapter::{ModelAdapter, PendingAt, Slot};
 use super::history::Edited;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Take, Track};
+use dragonfly_anim::format::Format;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -25,8 +26,8 @@ pub struct LoadedModel {
     pub title: String,
     /// Its path; `None` for the built-in model.
     pub path: Option<PathBuf>,
-    /// Name of its format: "glb", "gltf", "dfm".
-    pub format: String,
+    /// Format of the file that it was read from; `None` for a model that was not read from a file.
+    pub format: Option<Format>,
     /// The data as it was read. The present takes are in the [`View`].
     pub model: Arc<ModelData>,
     /// Its bounds at the start of its first take, or in the rest pose where it has none.

@@ -1,7 +1,6 @@
 //! The system's dialogs for files, asked in a thread of their own: they may take minutes to answer.
 
-use dragonfly_anim::format::FORMATS;
-use dragonfly_document::{Offer, Then};
+use dragonfly_document::{Offer, Then, formats};
 use dragonfly_runtime::Address;
 use std::path::PathBuf;
 
@@ -52,9 +51,7 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
                     Purpose::Find(offer) => format!("Where is {} now?", offer.title),
                     _ => "Open a model".to_owned(),
                 };
-                let models: Vec<&str> =
-                    FORMATS.iter().flat_map(|format| format.extensions).copied().collect();
-                let dialog = dialog.set_title(title).add_filter("Models", &models);
+                let dialog = dialog.set_title(title).add_filter("Models", &formats().extensions());
                 pollster::block_on(dialog.add_filter("All files", &["*"]).pick_file())
             }
             Purpose::Save { copy, name, .. } => {

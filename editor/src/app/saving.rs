@@ -6,6 +6,7 @@ use crate::panels::Effect;
 use crate::panels::saving::{Deed, Question};
 use crate::panels::state::Overlay;
 use crate::panels::status::{Level, Status};
+use dragonfly_anim::format::gltf::GLB;
 use dragonfly_document::{DocumentMessage, DocumentReply, Offer, SaveOrder, Source, Then};
 use std::path::Path;
 use std::sync::Arc;
@@ -98,10 +99,7 @@ impl Running {
         let Some(view) = &interface.state.view else { return };
         let near = view.file.path.as_deref().or(view.loaded.path.as_deref());
         let folder = near.and_then(Path::parent).map(Path::to_owned);
-        let ending = match view.loaded.format.as_str() {
-            "dragonfly" | "" => "glb",
-            format => format,
-        };
+        let ending = view.loaded.format.unwrap_or(GLB).extension();
         let name = match (&view.file.path, copy) {
             (Some(_), false) => view.file.title.clone(),
             _ => {

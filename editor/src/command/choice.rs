@@ -2,18 +2,22 @@
 
 use super::{Failure, progress::Teller};
 use dragonfly_anim::data::{ModelData, Take};
-use dragonfly_document::{Cancel, LoadedModel, Source, load_model};
+use dragonfly_document::{Cancel, LoadedModel, Source, formats, load_model};
 use std::path::PathBuf;
 use std::str::FromStr;
 
 /// Stands for the built-in model where a file is expected.
 pub(super) const BUILT_IN: &str = "demo:";
 
+/// Returns the help text of a model argument, with the extensions of all formats.
+pub(super) fn model_help() -> String {
+    format!("A model ({}), or `demo:` for the built-in dragonfly", formats().extension_list())
+}
+
 /// Which model.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct File {
-    /// A model (.glb, .gltf, .dfm), or `demo:` for the built-in dragonfly
-    #[arg(value_name = "FILE")]
+    #[arg(value_name = "FILE", help = model_help())]
     path: PathBuf,
 }
 

@@ -1,11 +1,12 @@
 //! `dragonfly edit FILE --edits EDITS -o OUT`: edits without a window, saved without touching the rest.
 
-use super::choice::source;
+use super::choice::{model_help, source};
 use super::output::{print, print_json, write_file};
 use super::{Command, Failure, tell};
+use dragonfly_anim::format::SavePlan;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{EDITS, Edit, VERSION, parse_lines};
-use dragonfly_document::{Cancel, Editable, SavePlan, fits, make_folder, read_file};
+use dragonfly_document::{Cancel, Editable, fits, make_folder, read_file};
 use serde::Serialize;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -19,8 +20,7 @@ Examples:\n  dragonfly edit --list\n  \
 dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb\n  \
 echo '{\"edit\":\"reverse_take\",\"take\":\"Run\"}' | dragonfly edit Fox.glb --edits - --dry-run")]
 pub(super) struct Arguments {
-    /// A model (.glb, .gltf, .dfm), or `demo:` for the built-in dragonfly
-    #[arg(value_name = "FILE", required_unless_present_any = ["list", "schema"])]
+    #[arg(value_name = "FILE", help = model_help(), required_unless_present_any = ["list", "schema"])]
     file: Option<PathBuf>,
     /// The edits, one JSON object a line; `-` is standard input
     #[arg(long, value_name = "EDITS")]
@@ -100,8 +100,7 @@ impl Arguments {
         // Bytes of a model on stdout leave no room for words.
         let to_stdout = !self.dry_run && self.output.as_deref() == Some(Path::new("-"));
         if self.json && !to_stdout {
-            let changes =
-                plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.to_json()).ok());
+            let changes = plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.json).ok());
             return print_json(&Report { file: title.to_owned(), edits, changes, written });
         }
         if self.dry_run {

@@ -37,7 +37,7 @@ impl Command for Arguments {
 #[derive(Serialize)]
 struct Info {
     file: String,
-    format: String,
+    format: &'static str,
     bones: Vec<Bone>,
     skins: Vec<Skin>,
     takes: Vec<Take>,
@@ -109,7 +109,7 @@ impl Info {
         let bounds = Evaluator::new(Arc::clone(&model)).bounds();
         Self {
             file: loaded.title,
-            format: loaded.format,
+            format: loaded.format.map_or("", |format| format.name),
             bones: bones(&model.animation.skeleton),
             skins: model
                 .skins

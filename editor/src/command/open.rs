@@ -3,15 +3,19 @@
 use super::choice::{Size, load, source};
 use super::{Failure, output, quiet, render, tell};
 use crate::app::{self, AppError, Options};
-use dragonfly_document::Source;
+use dragonfly_document::{Source, formats};
 use std::env;
 use std::path::{Path, PathBuf};
+
+/// Returns the help text of the files to open, with the extensions of all formats.
+fn models_help() -> String {
+    format!("Models to open ({}); without any, the built-in dragonfly", formats().extension_list())
+}
 
 /// What the editor opens.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct Arguments {
-    /// Models to open (.glb, .gltf, .dfm); without any, the built-in dragonfly
-    #[arg(value_name = "FILE")]
+    #[arg(value_name = "FILE", help = models_help())]
     files: Vec<PathBuf>,
     /// Talks instead of opening a window: one JSON edit or query a line in, one JSON answer a line out
     #[arg(long)]

@@ -1,11 +1,11 @@
-//! A file cut short or altered in any byte is an error that says where.
+//! A truncated file, or a change of any byte, is an error with its place.
 
 use super::frame::{byte_of, directory, parts};
 use super::golden::file;
 use dragonfly_anim::format::{NoFiles, ReadOptions, dfm, read};
 
 #[test]
-fn a_file_cut_at_any_byte_is_an_error_at_the_cut() {
+fn a_file_truncated_at_any_byte_is_an_error_at_its_end() {
     let file = file();
     for end in 0..file.len() {
         let error = dfm::read(&file[..end]).unwrap_err();
@@ -16,7 +16,7 @@ fn a_file_cut_at_any_byte_is_an_error_at_the_cut() {
     assert_eq!(byte_of(&dfm::read(&longer).unwrap_err()), file.len());
 }
 
-/// Where an error about byte `at` should be: the beginning of the part that holds it.
+/// Returns the place of an error about byte `at`: the start of the part that contains it.
 fn part_of(file: &[u8], at: usize) -> usize {
     let parts = parts(file).unwrap();
     let part = parts.iter().find(|(_, begin, size)| (*begin..begin + size).contains(&at));
@@ -24,7 +24,7 @@ fn part_of(file: &[u8], at: usize) -> usize {
 }
 
 #[test]
-fn a_byte_altered_anywhere_is_an_error_that_names_its_part() {
+fn a_change_of_any_byte_is_an_error_in_its_part() {
     let file = file();
     let mut bytes = file.clone();
     let (begin, end) = (directory(&file).unwrap(), file.len());
@@ -38,7 +38,7 @@ fn a_byte_altered_anywhere_is_an_error_that_names_its_part() {
                 // The total: shorter or longer than the file is.
                 assert_eq!(code, "DFM_LENGTH", "byte {at}: {error}");
             } else if at >= end - 16 || (begin..begin + 4).contains(&at) {
-                // Offset of the directory, version, checksum, magic; or what the offset should lead to.
+                // Offset of the directory, version, checksum, magic; or the directory to which the offset points.
                 assert!(place >= begin, "byte {at}: {error}");
             } else {
                 assert_eq!((code, place), ("DFM_CHECKSUM", part_of(&file, at)), "byte {at}: {error}");
@@ -50,15 +50,15 @@ fn a_byte_altered_anywhere_is_an_error_that_names_its_part() {
 }
 
 #[test]
-fn the_message_names_what_was_altered() {
+fn the_message_contains_the_name_of_the_changed_part() {
     let mut bytes = file();
     let (_, bones, _) = parts(&bytes).unwrap()[4];
     bytes[bones + 20] ^= 1;
     let message = dfm::read(&bytes).unwrap_err().to_string();
     assert!(
-        message.starts_with(&format!("byte {bones}: the bones here were altered: checksum ")),
+        message.starts_with(&format!("byte {bones}: the bones here were changed: their checksum is ")),
         "{message}"
     );
     let message = dfm::read(&bytes[..9]).unwrap_err().to_string();
-    assert_eq!(message, format!("byte 9: the file ends here; it says that it has {} bytes", bytes.len()));
+    assert_eq!(message, format!("byte 9: the file ends here; its header specifies {} bytes", bytes.len()));
 }

@@ -1,4 +1,5 @@
-//! The frame of a file, known to the tests by itself: where its parts are, and how to put the checksums right again.
+//! The structure of a file, known to the tests independently of the library: where its parts are, and how to correct
+//! the checksums after a change.
 
 use dragonfly_anim::format::{ImportError, Place};
 
@@ -18,7 +19,7 @@ pub(crate) fn number(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().unwrap()))
 }
 
-/// Tag, offset and size of each part; `None` for a file whose directory cannot be found.
+/// Returns tag, offset and size of each part; `None` for a file whose directory cannot be found.
 pub(crate) fn parts(bytes: &[u8]) -> Option<Vec<([u8; 4], usize, usize)>> {
     let directory = directory(bytes)?;
     let count = number(bytes, directory + 4)? as usize;
@@ -30,14 +31,14 @@ pub(crate) fn parts(bytes: &[u8]) -> Option<Vec<([u8; 4], usize, usize)>> {
     Some(entries.map(entry).collect())
 }
 
-/// Offset of the directory.
+/// Returns the offset of the directory.
 pub(crate) fn directory(bytes: &[u8]) -> Option<usize> {
     let at = number(bytes, bytes.len().checked_sub(16)?)? as usize;
     (at + 28 <= bytes.len()).then_some(at)
 }
 
-/// Puts the total and every checksum right, as far as the directory can be found.
-pub(crate) fn mend(bytes: &mut [u8]) {
+/// Corrects the total and every checksum, as far as the directory can be found.
+pub(crate) fn fix_checksums(bytes: &mut [u8]) {
     if bytes.len() >= 4 {
         let total = (bytes.len() as u32).to_le_bytes();
         bytes[..4].copy_from_slice(&total);
@@ -54,11 +55,11 @@ pub(crate) fn mend(bytes: &mut [u8]) {
     bytes[end..end + 4].copy_from_slice(&sum);
 }
 
-/// Where the error says it is, in bytes.
+/// Returns the place of an error, in bytes.
 #[track_caller]
 pub(crate) fn byte_of(error: &ImportError) -> usize {
     match error.place() {
         Place::Byte(at) => *at as usize,
-        other => panic!("{error}: no byte but {other}"),
+        other => panic!("{error}: {other} instead of a byte"),
     }
 }

@@ -1,4 +1,4 @@
-//! One small file written out number by number, so that the layout is pinned by something that is not the code.
+//! One small file written out number by number, so that the layout is fixed by something other than the code.
 
 use super::frame::checksum;
 use dragonfly_anim::data::{
@@ -9,7 +9,7 @@ use dragonfly_anim::format::dfm;
 use glam::{Mat4, Quat, Vec2, Vec3};
 use std::sync::Arc;
 
-/// A triangle, two bones, a skin, a material, and a take that turns the second bone.
+/// A triangle, two bones, a skin, a material, and a take that rotates the second bone.
 pub(crate) fn model() -> ModelData {
     let bone = |name: &str, parent, translation, offset| Bone {
         name: name.to_owned(),
@@ -27,7 +27,7 @@ pub(crate) fn model() -> ModelData {
         [(joints[0], weights[0]), (joints[1], weights[1]), (0, 0.0), (0, 0.0)]
             .map(|(joint, weight)| Influence { joint, weight })
     };
-    // The skin names its bones the other way round: joint 0 is bone 1.
+    // The skin has its bones in reverse order: joint 0 is bone 1.
     let influences =
         [influences([1, 0], [1.0, 0.0]), influences([0, 1], [0.75, 0.25]), influences([0, 0], [1.0, 0.0])];
     let primitive = Primitive {
@@ -92,17 +92,17 @@ pub(crate) fn model() -> ModelData {
     }
 }
 
-/// Bytes under way.
+/// A file that is being written.
 #[derive(Default)]
-struct Hand {
+struct ByteFile {
     bytes: Vec<u8>,
-    /// Where parts begin.
+    /// Tags and offsets of the parts.
     parts: Vec<([u8; 4], usize)>,
 }
 
 const NONE: u32 = 0xffff_ffff;
 
-impl Hand {
+impl ByteFile {
     fn u(&mut self, numbers: &[u32]) -> &mut Self {
         self.bytes.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
         self
@@ -113,13 +113,13 @@ impl Hand {
         self
     }
 
-    /// A part of the thesis: no tag is written.
+    /// Starts a part of the thesis: no tag is written.
     fn thesis(&mut self, tag: &[u8; 4]) -> &mut Self {
         self.parts.push((*tag, self.bytes.len()));
         self
     }
 
-    /// A part with its tag, count and size.
+    /// Starts a part with its tag, count and size.
     fn part(&mut self, tag: &[u8; 4], count: u32, size: u32) -> &mut Self {
         self.thesis(tag);
         self.bytes.extend_from_slice(tag);
@@ -130,7 +130,7 @@ impl Hand {
         self.f(&[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.])
     }
 
-    /// One unit down.
+    /// Writes a matrix that moves one unit down.
     fn down(&mut self) -> &mut Self {
         self.f(&[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., -1., 0., 1.])
     }
@@ -150,79 +150,76 @@ impl Hand {
     }
 }
 
-/// The file of [`model`].
+/// Returns the file of [`model`].
 pub(crate) fn file() -> Vec<u8> {
-    let mut hand = Hand::default();
-    // 1) The total number of bytes, filled in at the end.
-    hand.u(&[0]);
+    let mut out = ByteFile::default();
+    // 1) The total number of bytes, overwritten at the end.
+    out.u(&[0]);
     // 2) Vertices.
-    hand.thesis(b"VERT").u(&[3, 84]);
-    hand.vertex([0., 0., 0.], [0., 0.], [0, 1], [1., 0.], [1, 0]);
-    hand.vertex([1., 0., 0.], [1., 0.], [1, 0], [0.75, 0.25], [0, 1]);
-    hand.vertex([0., 1., 0.], [0., 1.], [1, 1], [1., 0.], [0, 0]);
+    out.thesis(b"VERT").u(&[3, 84]);
+    out.vertex([0., 0., 0.], [0., 0.], [0, 1], [1., 0.], [1, 0]);
+    out.vertex([1., 0., 0.], [1., 0.], [1, 0], [0.75, 0.25], [0, 1]);
+    out.vertex([0., 1., 0.], [0., 1.], [1, 1], [1., 0.], [0, 0]);
     // 3) Indices.
-    hand.thesis(b"INDX").u(&[3, 4]).u(&[0, 1, 2]);
+    out.thesis(b"INDX").u(&[3, 4]).u(&[0, 1, 2]);
     // 4) Attributes.
-    hand.thesis(b"ATTR").u(&[3, 4]).u(&[0, 0, 0]);
-    // 5) Materials: diffuse, ambient, specular, power, image; base colour, metallic, roughness, emissive, normal scale,
+    out.thesis(b"ATTR").u(&[3, 4]).u(&[0, 0, 0]);
+    // 5) Materials: diffuse, ambient, specular, power, image; base color, metallic, roughness, emissive, normal scale,
     // occlusion strength, alpha mode and cut-off, flags, five textures.
-    hand.thesis(b"MATL").u(&[1, 280]);
-    hand.f(&[1., 0.5, 0.]).f(&[0.25, 0.25, 0.25]).f(&[1., 1., 1.]).f(&[8.]).u(&[NONE]);
-    hand.f(&[1., 1., 1., 1.]).f(&[1., 1.]).f(&[0., 0., 0.]).f(&[1., 1.]).u(&[0, 0]).u(&[1]);
+    out.thesis(b"MATL").u(&[1, 280]);
+    out.f(&[1., 0.5, 0.]).f(&[0.25, 0.25, 0.25]).f(&[1., 1., 1.]).f(&[8.]).u(&[NONE]);
+    out.f(&[1., 1., 1., 1.]).f(&[1., 1.]).f(&[0., 0., 0.]).f(&[1., 1.]).u(&[0, 0]).u(&[1]);
     for _ in 0..5 {
-        hand.u(&[NONE, 0, 0, 0, 0, 0, 0, 0, 0]);
+        out.u(&[NONE, 0, 0, 0, 0, 0, 0, 0, 0]);
     }
     // 6) Bones: parent, index, offset; flags, node, translation, scale, rotation, rest matrix.
-    hand.thesis(b"BONE").u(&[2, 184]);
-    hand.u(&[NONE, 0]).identity().u(&[0, 0]).f(&[0., 0., 0., 1., 1., 1., 0., 0., 0., 1.]).f(&[0.; 16]);
-    hand.u(&[0, 1]).down().u(&[0, 0]).f(&[0., 1., 0., 1., 1., 1., 0., 0., 0., 1.]).f(&[0.; 16]);
+    out.thesis(b"BONE").u(&[2, 184]);
+    out.u(&[NONE, 0]).identity().u(&[0, 0]).f(&[0., 0., 0., 1., 1., 1., 0., 0., 0., 1.]).f(&[0.; 16]);
+    out.u(&[0, 1]).down().u(&[0, 0]).f(&[0., 1., 0., 1., 1., 1., 0., 0., 0., 1.]).f(&[0.; 16]);
     // 7) Takes: start, length, tracks; morph tracks. Tracks: bone, key-frames; interpolations.
-    hand.thesis(b"TAKE").u(&[1, 16, 12, 48]);
-    hand.f(&[0., 2.]).u(&[2, 0]);
-    hand.u(&[0, 0, 0x0001_0101]);
-    hand.u(&[1, 2, 0x0001_0100]);
-    // Key-frames: time, translation, scale, rotation; which are keys. The second has no translation key: it is held.
-    hand.f(&[0., 0., 1., 0., 1., 1., 1., 0., 0., 0., 1.]).u(&[3]);
-    hand.f(&[2., 0., 1., 0., 1., 1., 1., 1., 0., 0., 0.]).u(&[2]);
+    out.thesis(b"TAKE").u(&[1, 16, 12, 48]);
+    out.f(&[0., 2.]).u(&[2, 0]);
+    out.u(&[0, 0, 0x0001_0101]);
+    out.u(&[1, 2, 0x0001_0100]);
+    // Key-frames: time, translation, scale, rotation; which are keys. The second has no translation key: the value is
+    // kept.
+    out.f(&[0., 0., 1., 0., 1., 1., 1., 0., 0., 0., 1.]).u(&[3]);
+    out.f(&[2., 0., 1., 0., 1., 1., 1., 1., 0., 0., 0.]).u(&[2]);
     // The rest: name of the model, material, bones, skin, mesh, take.
-    hand.part(b"TLEN", 7, 4).u(&[3, 3, 3, 4, 0, 4, 4]);
-    hand.part(b"TEXT", 21, 1).bytes.extend_from_slice(b"legredhipkneeskinbend");
-    hand.part(b"MESH", 1, 8).u(&[1, 0]);
-    hand.part(b"PRIM", 1, 20).u(&[3, 3, 0, 1 | 2, 4]);
-    hand.part(b"TANG", 0, 16)
+    out.part(b"TLEN", 7, 4).u(&[3, 3, 3, 4, 0, 4, 4]);
+    out.part(b"TEXT", 21, 1).bytes.extend_from_slice(b"legredhipkneeskinbend");
+    out.part(b"MESH", 1, 8).u(&[1, 0]);
+    out.part(b"PRIM", 1, 20).u(&[3, 3, 0, 1 | 2, 4]);
+    out.part(b"TANG", 0, 16)
         .part(b"COLR", 0, 16)
         .part(b"INFL", 0, 8)
         .part(b"MORF", 0, 4)
         .part(b"DIFF", 0, 12);
-    hand.part(b"WGHT", 0, 4);
-    hand.part(b"INST", 1, 84).u(&[0, 1, 7, 0, NONE]).identity();
-    hand.part(b"SKIN", 1, 4).u(&[2]);
-    hand.part(b"JOIN", 2, 68).u(&[1]).down().u(&[0]).identity();
-    hand.part(b"IMAG", 0, 16)
-        .part(b"IDAT", 0, 1)
-        .part(b"SLOP", 0, 4)
-        .part(b"MTRK", 0, 16)
-        .part(b"MKEY", 0, 4);
+    out.part(b"WGHT", 0, 4);
+    out.part(b"INST", 1, 84).u(&[0, 1, 7, 0, NONE]).identity();
+    out.part(b"SKIN", 1, 4).u(&[2]);
+    out.part(b"JOIN", 2, 68).u(&[1]).down().u(&[0]).identity();
+    out.part(b"IMAG", 0, 16).part(b"IDAT", 0, 1).part(b"SLOP", 0, 4).part(b"MTRK", 0, 16).part(b"MKEY", 0, 4);
     // The directory of the parts, and the ending.
-    let directory = hand.bytes.len();
-    let parts = std::mem::take(&mut hand.parts);
-    hand.part(b"SUMS", 24, 16);
+    let directory = out.bytes.len();
+    let parts = std::mem::take(&mut out.parts);
+    out.part(b"SUMS", 24, 16);
     for (index, (tag, at)) in parts.iter().enumerate() {
         let end = parts.get(index + 1).map_or(directory, |next| next.1);
-        let sum = checksum(&hand.bytes[*at..end]);
-        hand.bytes.extend_from_slice(tag);
-        hand.u(&[*at as u32, (end - at) as u32, sum]);
+        let sum = checksum(&out.bytes[*at..end]);
+        out.bytes.extend_from_slice(tag);
+        out.u(&[*at as u32, (end - at) as u32, sum]);
     }
-    hand.u(&[directory as u32, 1]);
-    let sum = checksum(&hand.bytes[directory..]);
-    hand.u(&[sum]).bytes.extend_from_slice(b"dfm\x1a");
-    let total = hand.bytes.len() as u32;
-    hand.bytes[..4].copy_from_slice(&total.to_le_bytes());
-    hand.bytes
+    out.u(&[directory as u32, 1]);
+    let sum = checksum(&out.bytes[directory..]);
+    out.u(&[sum]).bytes.extend_from_slice(b"dfm\x1a");
+    let total = out.bytes.len() as u32;
+    out.bytes[..4].copy_from_slice(&total.to_le_bytes());
+    out.bytes
 }
 
 #[test]
-fn a_small_model_is_the_bytes_written_out_by_hand() {
+fn a_small_model_is_written_as_exactly_the_bytes_of_the_layout() {
     let (expected, got) = (file(), dfm::write(&model()).unwrap());
     let first = expected.iter().zip(&got).position(|(expected, got)| expected != got);
     assert_eq!(first, None, "the first byte that differs");

@@ -1,8 +1,9 @@
-//! Files made by an enemy: every checksum right, anything else wrong. A model or an error, within the memory promised.
+//! Malicious files: every checksum correct, anything else wrong. The result is a model or an error, within the
+//! guaranteed memory.
 
-use super::frame::{mend, number, parts};
+use super::frame::{fix_checksums, number, parts};
 use super::golden::{file, model};
-use super::made::Maker;
+use super::made::RandomModels;
 use crate::doors::MemoryFs;
 use crate::soundness::faults_of_poses;
 use crate::trial::{STACK, memory_for, on_small_stack};
@@ -12,7 +13,7 @@ use dragonfly_kit::mutate::Mutator;
 use dragonfly_kit::random::{Random, seed};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What means something in such a file.
+/// Words that have a meaning in such a file.
 const WORDS: &[&[u8]] = &[
     b"\0\0\0\0",
     b"\x01\0\0\0",
@@ -28,20 +29,20 @@ const WORDS: &[&[u8]] = &[
     b"dfm\x1a",
 ];
 
-/// Reads `bytes` both ways; an error says which promise was broken. `true`: it was read.
+/// Reads `bytes` with both readers. The error describes the broken guarantee; `true` means that the file was read.
 fn tried(bytes: &[u8]) -> Result<bool, String> {
     let run = || {
         let (memory, exact) = peak(|| dfm::read(bytes));
-        // Most of the promise is for files that are larger than this.
+        // Most of the guaranteed limit is for files larger than this.
         if memory > (1 << 20) + 32 * bytes.len() as u64 {
             return Err(format!("took {memory} bytes for {}", bytes.len()));
         }
         if let Ok(exact) = &exact {
-            // Whatever is read is sound enough to be written, and comes back.
+            // Every model that is read can be written, and is read back the same.
             let again = dfm::write(exact).map_err(|error| format!("cannot be written: {error}"))?;
             let back = dfm::read(&again).map_err(|error| format!("cannot be read again: {error}"))?;
             if format!("{back:?}") != format!("{exact:?}") {
-                return Err("does not come back".to_owned());
+                return Err("it is not read back the same".to_owned());
             }
         }
         let imported = read("a.dfm", bytes, &MemoryFs::default(), &ReadOptions::default());
@@ -58,21 +59,23 @@ fn tried(bytes: &[u8]) -> Result<bool, String> {
 }
 
 #[test]
-fn mutants_with_right_checksums_do_no_harm() {
+fn mutants_with_correct_checksums_do_no_harm() {
     let first = seed(0x00DF_0001);
     println!("DRAGONFLY_SEED={first}");
     let work = on_small_stack(move || {
         let mut files = vec![file()];
         for number in 0..12 {
             let odd = if number % 2 == 0 { 0.0 } else { 0.05 };
-            files.push(dfm::write(&Maker { random: Random::new(first + number), odd }.model()).unwrap());
+            files.push(
+                dfm::write(&RandomModels { random: Random::new(first + number), odd }.model()).unwrap(),
+            );
         }
         let mutants: u64 = if std::env::var_os("DRAGONFLY_LONG").is_some() { 2_000_000 } else { 60_000 };
         let mut read = 0;
         for number in 0..mutants {
             let seed = first.wrapping_add(number);
             let mut bytes = Mutator::new(seed, WORDS).mutant(&files);
-            mend(&mut bytes);
+            fix_checksums(&mut bytes);
             match tried(&bytes) {
                 Ok(done) => read += u64::from(done),
                 Err(what) => panic!("DRAGONFLY_SEED={seed}: {what}"),
@@ -93,7 +96,7 @@ fn a_wrong_number_at_any_place_does_no_harm() {
         for number in numbers {
             let mut bytes = file.clone();
             bytes[at..at + 4].copy_from_slice(&number.to_le_bytes());
-            mend(&mut bytes);
+            fix_checksums(&mut bytes);
             match tried(&bytes) {
                 Ok(done) => read += usize::from(done),
                 Err(what) => panic!("{number:#x} at byte {at}: {what}"),
@@ -103,9 +106,9 @@ fn a_wrong_number_at_any_place_does_no_harm() {
     println!("{read} read of {}", (file.len() - 4) * numbers.len());
 }
 
-/// A file in which elements are as small in the file and as large in memory as can be.
+/// A file whose elements are as small in the file and as large in memory as possible.
 #[test]
-fn small_elements_take_no_more_memory_than_promised() {
+fn small_elements_stay_within_the_memory_limit() {
     let mut many = model();
     let bone = many.animation.skeleton.bones[0].clone();
     many.animation.skeleton = dragonfly_anim::data::Skeleton { bones: vec![bone; 2_000] }.into();
@@ -125,13 +128,13 @@ fn small_elements_take_no_more_memory_than_promised() {
 }
 
 #[test]
-fn a_count_beyond_the_bytes_is_refused_before_anything_is_taken() {
+fn a_count_that_exceeds_the_bytes_is_refused_before_any_allocation() {
     for (index, (tag, at, _)) in parts(&file()).unwrap().into_iter().enumerate() {
         let mut bytes = file();
         let count = at + if index < 6 { 0 } else { 4 };
         assert!(number(&bytes, count).unwrap() < 100);
         bytes[count..count + 4].copy_from_slice(&0x7fff_ffffu32.to_le_bytes());
-        mend(&mut bytes);
+        fix_checksums(&mut bytes);
         let (memory, result) = peak(|| dfm::read(&bytes));
         let error = result.unwrap_err();
         assert!(memory < 64 << 10, "{}: {memory} bytes, {error}", tag.escape_ascii());

@@ -1,8 +1,8 @@
-//! The format as one of the importers: found by content, stricter than the exact reader, within budget.
+//! The format as an importer: detected by content, stricter than the exact reader, within the memory budget.
 
 use super::golden::{file, model};
 use dragonfly_anim::data::{Bone, Image, ModelData, Skeleton, Take};
-use dragonfly_anim::format::{ByteBudget, ImportError, NoFiles, ReadOptions, dfm, format_of, read};
+use dragonfly_anim::format::{ByteBudget, Formats, ImportError, NoFiles, ReadOptions, dfm, read};
 use std::sync::Arc;
 
 fn import(model: &ModelData) -> Result<ModelData, ImportError> {
@@ -11,8 +11,9 @@ fn import(model: &ModelData) -> Result<ModelData, ImportError> {
 }
 
 #[test]
-fn such_files_are_known_by_content_and_by_name() {
-    let name = |name: &str, bytes: &[u8]| format_of(name, bytes).map(|format| format.name);
+fn dfm_files_are_detected_by_content_and_by_name() {
+    let formats = Formats::builtin();
+    let name = |name: &str, bytes: &[u8]| formats.detect(name, bytes).map(|format| format.name);
     let file = file();
     assert_eq!(name("model", &file), Some("dfm"));
     assert_eq!(name("model", &file[..100]), Some("dfm"));
@@ -25,28 +26,28 @@ fn such_files_are_known_by_content_and_by_name() {
 }
 
 #[test]
-fn numbers_that_are_not_finite_come_back_exactly_but_are_not_imported() {
+fn numbers_that_are_not_finite_are_read_exactly_but_not_imported() {
     let mut model = model();
     model.meshes[0].primitives[0].vertices.positions[1].y = f32::INFINITY;
     let error = import(&model).unwrap_err();
-    assert_eq!(error.to_string(), "byte 96: among the vertices: a number is NaN or infinite");
+    assert_eq!(error.to_string(), "byte 96: vertices: a number is NaN or infinite");
     assert_eq!(dfm::read(&dfm::write(&model).unwrap()).unwrap(), model);
 }
 
 #[test]
-fn times_that_do_not_rise_are_not_imported() {
+fn times_that_do_not_increase_are_not_imported() {
     let mut model = model();
     let mut take = Take::clone(&model.animation.takes[0]);
     take.tracks[1].rotation.times = [2.0, 0.0].into();
     model.animation.takes[0] = Arc::new(take.clone());
-    assert!(import(&model).unwrap_err().to_string().contains("a key at 0 s comes after one at 2 s"));
+    assert!(import(&model).unwrap_err().to_string().contains("a key at 0 s follows one at 2 s"));
     take.tracks[1].rotation.times = [2.0, 1e6].into();
     model.animation.takes[0] = Arc::new(take);
     assert!(import(&model).unwrap_err().to_string().contains("a key at 1000000 s"));
 }
 
 #[test]
-fn the_limits_of_importers_hold() {
+fn the_limits_of_importers_apply() {
     let chain = |bones: u32| {
         let bone = |index: u32| Bone {
             name: String::new(),
@@ -60,7 +61,7 @@ fn the_limits_of_importers_hold() {
     };
     import(&chain(512)).unwrap();
     let error = import(&chain(513)).unwrap_err();
-    assert!(error.to_string().ends_with("bones above each other: 513, at most 512"), "{error}");
+    assert!(error.to_string().ends_with("levels of bones: 513, at most 512"), "{error}");
     let large = |width, height| ModelData {
         images: vec![Image { width, height, ..Image::default() }],
         ..ModelData::default()
@@ -71,7 +72,7 @@ fn the_limits_of_importers_hold() {
 }
 
 #[test]
-fn every_charge_that_fails_gives_a_clean_error() {
+fn every_refused_charge_of_dfm_is_a_clear_error() {
     let bytes = file();
     let mut request = 0;
     loop {
@@ -87,7 +88,7 @@ fn every_charge_that_fails_gives_a_clean_error() {
 }
 
 #[test]
-fn a_cancel_is_obeyed() {
+fn reading_can_be_cancelled() {
     let mut model = model();
     let primitive = &mut model.meshes[0].primitives[0];
     primitive.indices = [0, 1, 2].repeat(200_000);

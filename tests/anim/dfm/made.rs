@@ -1,4 +1,4 @@
-//! Random models of sound structure and any numbers.
+//! Random models of valid structure with any numbers.
 
 use dragonfly_anim::data::{
     AlphaMode, AnimationData, Bone, Channel, Filter, Image, Influence, Interpolation, Material, Mesh,
@@ -9,14 +9,14 @@ use dragonfly_kit::random::Random;
 use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
-/// Makes models from one seed.
-pub(crate) struct Maker {
+/// Makes random models from one seed.
+pub(crate) struct RandomModels {
     pub(crate) random: Random,
-    /// Chance that a number is any 32 bits: NaN, infinity, subnormal.
+    /// Probability that a number is any 32 bits: NaN, infinity, subnormal.
     pub(crate) odd: f32,
 }
 
-impl Maker {
+impl RandomModels {
     fn chance(&mut self, chance: f32) -> bool {
         self.random.unit() < chance
     }
@@ -59,7 +59,7 @@ impl Maker {
         (0..count).map(|_| make(self)).collect()
     }
 
-    /// A column that may be missing.
+    /// Returns a column that may be missing.
     fn column<T>(&mut self, count: usize, make: impl FnMut(&mut Self) -> T) -> Vec<T> {
         let count = if self.chance(0.6) { count } else { 0 };
         self.list(count, make)
@@ -75,7 +75,7 @@ impl Maker {
 
     fn node(&mut self) -> Option<u32> {
         let number = self.random.bits() as u32;
-        // The largest number is one like any other here.
+        // The largest number has no special meaning here.
         if self.chance(0.2) { Some(u32::MAX) } else { self.chance(0.5).then_some(number) }
     }
 
@@ -88,7 +88,7 @@ impl Maker {
         ])
     }
 
-    /// Often the same times in several channels; sometimes times that do not rise, or are none.
+    /// Returns often the same times for several channels; sometimes times that do not increase, or are not finite.
     fn times(&mut self, keys: usize) -> Vec<f32> {
         let mut times = self.list(keys, |maker| maker.random.below(6) as f32 / 4.0 - 0.0);
         if !self.chance(self.odd) {
@@ -219,7 +219,7 @@ impl Maker {
         MorphTrack { instance, targets, times: times.into(), weights: weights.into(), interpolation }
     }
 
-    /// A model with a bit of everything, or without it.
+    /// Returns a model with some of every feature, or without it.
     pub(crate) fn model(&mut self) -> ModelData {
         let [images, materials, bones, skins, meshes, instances, takes] =
             [3, 3, 4, 3, 3, 4, 3].map(|most| self.random.below(most));

@@ -1,4 +1,4 @@
-//! The `.dfm` format: the thesis's layout, with everything a model has, and nothing lost.
+//! The `.dfm` format: the thesis's layout, extended to a complete model, without losses.
 
 mod damage;
 mod frame;

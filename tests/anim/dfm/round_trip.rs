@@ -1,7 +1,7 @@
-//! What was written is read back: every field, every float bit for bit.
+//! Reading returns exactly what was written: every field, every float bit for bit.
 
-use super::made::Maker;
-use crate::doors::{FolderFs, model_files};
+use super::made::RandomModels;
+use crate::doors::{TestFolder, model_files};
 use crate::seeds::seeds;
 use dragonfly_anim::data::{Channel, Interpolation, ModelData, Take, Track};
 use dragonfly_anim::format::{NoFiles, ReadOptions, dfm, read};
@@ -9,12 +9,12 @@ use dragonfly_kit::random::{Random, seed};
 use glam::{Mat4, Quat, Vec3, Vec4};
 use std::sync::Arc;
 
-/// Fails unless `model` comes back; small models are compared field by field and sign by sign.
+/// Fails unless `model` is read back the same; small models are compared field by field, with the signs of zeros.
 #[track_caller]
-fn comes_back(model: &ModelData, what: &str) -> Vec<u8> {
+fn reads_back(model: &ModelData, what: &str) -> Vec<u8> {
     let bytes = dfm::write(model).unwrap_or_else(|error| panic!("{what}: {error}"));
     let back = dfm::read(&bytes).unwrap_or_else(|error| panic!("{what}: {error}"));
-    // Tells -0 from 0, and calls NaN equal to itself, but not which.
+    // Distinguishes -0 from 0, and treats NaN as equal to any NaN.
     if bytes.len() < 1 << 20 {
         assert!(format!("{model:?}") == format!("{back:?}"), "{what}: not the same model");
     } else {
@@ -31,15 +31,17 @@ fn every_model_of_the_test_data_comes_back_bit_for_bit() {
     let mut read_in = 0;
     for path in &models {
         let name = path.file_name().unwrap().to_str().unwrap();
-        let (bytes, door) = (std::fs::read(path).unwrap(), FolderFs(path.parent().unwrap().to_owned()));
+        let (bytes, door) = (std::fs::read(path).unwrap(), TestFolder(path.parent().unwrap().to_owned()));
         match read(name, &bytes, &door, &ReadOptions::default()) {
             Ok(imported) => {
-                let file = comes_back(&imported.model, name);
+                let file = reads_back(&imported.model, name);
                 println!("{name}: {} bytes, {} as .dfm", bytes.len(), file.len());
-                // The importer's way gives the same.
+                // The importer gives the same model.
                 let again = read("a.dfm", &file, &NoFiles, &ReadOptions::default());
                 let again = again.unwrap_or_else(|error| panic!("{name}: {error}"));
-                assert!(again.model == imported.model && again.warnings.is_empty() && again.format == "dfm");
+                assert!(
+                    again.model == imported.model && again.warnings.is_empty() && again.format == dfm::DFM
+                );
                 read_in += 1;
             }
             Err(error) => println!("{name}: {error}"),
@@ -50,31 +52,31 @@ fn every_model_of_the_test_data_comes_back_bit_for_bit() {
 }
 
 #[test]
-fn every_seed_of_the_damage_tests_comes_back() {
+fn every_seed_of_the_damage_tests_reads_back() {
     for seed in seeds() {
         let imported = read(&seed.name, &seed.bytes, &NoFiles, &ReadOptions::default()).unwrap();
-        comes_back(&imported.model, &seed.name);
+        reads_back(&imported.model, &seed.name);
     }
 }
 
 #[test]
-fn random_models_come_back_whatever_their_numbers() {
+fn random_models_with_any_numbers_read_back() {
     let first = seed(0xD0F1);
     for number in 0..2_000 {
         let seed = first + number;
         let odd = [0.0, 0.05, 0.5][(number % 3) as usize];
-        let model = Maker { random: Random::new(seed), odd }.model();
-        comes_back(&model, &format!("DRAGONFLY_SEED={seed}"));
+        let model = RandomModels { random: Random::new(seed), odd }.model();
+        reads_back(&model, &format!("DRAGONFLY_SEED={seed}"));
     }
 }
 
 #[test]
-fn the_empty_model_comes_back() {
-    comes_back(&ModelData::default(), "nothing");
+fn the_empty_model_reads_back() {
+    reads_back(&ModelData::default(), "nothing");
 }
 
 #[test]
-fn times_that_do_not_rise_or_are_none_come_back() {
+fn times_that_do_not_increase_or_are_not_finite_read_back() {
     let times = [3.0, f32::NAN, -0.0, 0.0, 0.0, f32::NEG_INFINITY, 1.0, 1.0];
     let mut model = super::golden::model();
     let values: Vec<Vec3> = (0..8).map(|key| Vec3::splat(key as f32)).collect();
@@ -82,10 +84,10 @@ fn times_that_do_not_rise_or_are_none_come_back() {
     take.tracks[1] =
         Track { translation: Channel::new(times, values, Interpolation::Linear), ..take.tracks[1].clone() };
     model.animation.takes[0] = Arc::new(take);
-    comes_back(&model, "times");
+    reads_back(&model, "times");
 }
 
-/// A NaN that no arithmetic makes.
+/// Returns a NaN that no calculation produces.
 fn nan(number: u32) -> f32 {
     f32::from_bits(0xffa5_0000 | number)
 }
@@ -111,7 +113,7 @@ fn a_nan_keeps_its_sign_and_payload() {
     skeleton.bones[0].rest.scale = n(16).into();
     skeleton.bones[1].rest_matrix = Some(Mat4::from_cols_array(&[nan(19); 16]));
     model.animation.skeleton = Arc::new(skeleton);
-    let bytes = comes_back(&model, "NaN");
+    let bytes = reads_back(&model, "NaN");
     for number in 0..20 {
         let bits = nan(number).to_bits().to_le_bytes();
         assert!(bytes.windows(4).any(|window| window == bits), "NaN {number} is not in the file");

@@ -1,4 +1,4 @@
-//! A reader that knows only the thesis's layout, with elements as small as the thesis has them, reads every file.
+//! A reader that knows only the thesis's layout, with elements of the thesis's size, reads every file.
 
 use super::frame::number;
 use crate::doors::data;
@@ -28,7 +28,7 @@ impl Flat<'_> {
         Vec3::new(self.f(), self.f(), self.f())
     }
 
-    /// Reads an element and skips what it has beyond what `read` knows.
+    /// Reads an element and skips the fields that `read` does not know.
     fn element<T>(&mut self, size: u32, read: impl FnOnce(&mut Self) -> T) -> T {
         let end = self.at + size as usize;
         let element = read(self);
@@ -37,20 +37,20 @@ impl Flat<'_> {
         element
     }
 
-    /// Count, size, elements.
+    /// Reads count, size and elements.
     fn elements<T>(&mut self, mut read: impl FnMut(&mut Self) -> T) -> Vec<T> {
         let (count, size) = (self.u(), self.u());
         (0..count).map(|_| self.element(size, &mut read)).collect()
     }
 }
 
-struct Keyframe {
+struct ThesisKeyframe {
     time: f32,
     pose: Transform,
 }
 
-/// What the thesis's part holds, as far as the tests ask.
-struct Model {
+/// The content of the thesis's part, as far as the tests need it.
+struct ThesisModel {
     positions: Vec<Vec3>,
     /// Bones and weights of each vertex.
     skinning: Vec<([u32; 4], [f32; 4])>,
@@ -61,10 +61,10 @@ struct Model {
     /// Parent and offset.
     bones: Vec<(u32, Mat4)>,
     /// Start, length, and the key-frames of each bone.
-    takes: Vec<(f32, f32, Vec<Vec<Keyframe>>)>,
+    takes: Vec<(f32, f32, Vec<Vec<ThesisKeyframe>>)>,
 }
 
-fn read_flat(bytes: &[u8]) -> Model {
+fn read_flat(bytes: &[u8]) -> ThesisModel {
     let mut flat = Flat { bytes, at: 0 };
     assert_eq!(flat.u() as usize, bytes.len());
     let vertices = flat.elements(|flat| {
@@ -90,14 +90,14 @@ fn read_flat(bytes: &[u8]) -> Model {
             let read = |flat: &mut Flat<'_>| {
                 let (time, translation, scale) = (flat.f(), flat.v3(), flat.v3());
                 let rotation = Quat::from_xyzw(flat.f(), flat.f(), flat.f(), flat.f());
-                Keyframe { time, pose: Transform { translation, rotation, scale } }
+                ThesisKeyframe { time, pose: Transform { translation, rotation, scale } }
             };
             (0..keyframes).map(|_| flat.element(keyframe, read)).collect()
         });
         (start, length, tracks.collect())
     });
     let takes = takes.collect();
-    Model {
+    ThesisModel {
         positions: vertices.iter().map(|vertex| vertex.0).collect(),
         skinning: vertices.iter().map(|vertex| vertex.1).collect(),
         materials: vertices.iter().map(|vertex| vertex.2).collect(),
@@ -110,7 +110,7 @@ fn read_flat(bytes: &[u8]) -> Model {
 }
 
 /// The thesis's linear interpolation of a bone's key-frames.
-fn interpolate(keyframes: &[Keyframe], time: f32) -> Transform {
+fn interpolate(keyframes: &[ThesisKeyframe], time: f32) -> Transform {
     let after = keyframes.iter().position(|key| key.time > time).unwrap_or(keyframes.len());
     let (before, after) = (&keyframes[after.max(1) - 1], &keyframes[after.min(keyframes.len() - 1)]);
     let span = after.time - before.time;

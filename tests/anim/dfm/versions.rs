@@ -1,10 +1,10 @@
-//! Other versions: a newer minor one is read as far as it is known, a newer major one is refused.
+//! Other versions: a newer minor version is read as far as it is known, a newer major version is refused.
 
-use super::frame::{byte_of, checksum, directory, mend, parts};
+use super::frame::{byte_of, checksum, directory, fix_checksums, parts};
 use super::golden::{file, model};
 use dragonfly_anim::format::{NoFiles, ReadOptions, dfm, read};
 
-/// The same file with `extra` zeros behind each bone, and a part of its own at the end, as version 1.`minor`.
+/// Returns the same file with `extra` zeros after each bone, and an additional part at the end, as version 1.`minor`.
 fn grown(extra: usize, minor: u16) -> Vec<u8> {
     let old = file();
     let mut bytes = old[..4].to_vec();
@@ -37,13 +37,13 @@ fn grown(extra: usize, minor: u16) -> Vec<u8> {
     bytes.extend_from_slice(&[1, 0]);
     bytes.extend_from_slice(&minor.to_le_bytes());
     bytes.extend_from_slice(b"0000dfm\x1a");
-    mend(&mut bytes);
+    fix_checksums(&mut bytes);
     bytes
 }
 
 #[test]
-fn what_a_newer_minor_version_adds_is_left_out_with_a_warning() {
-    assert_eq!(grown(0, 0), file(), "the test makes such files right");
+fn additions_of_a_newer_minor_version_are_left_out_with_a_warning() {
+    assert_eq!(grown(0, 0), file(), "the test makes such files correctly");
     for extra in [0, 4, 5] {
         let imported = read("a.dfm", &grown(extra, 1), &NoFiles, &ReadOptions::default()).unwrap();
         assert_eq!(imported.model, model());
@@ -64,7 +64,7 @@ fn a_newer_major_version_is_refused() {
     let mut bytes = file();
     let at = bytes.len() - 12;
     bytes[at] = 2;
-    mend(&mut bytes);
+    fix_checksums(&mut bytes);
     let error = dfm::read(&bytes).unwrap_err();
     assert_eq!(
         error.to_string(),

@@ -1,10 +1,10 @@
 //! Bones: the thesis's parent, index and binding pose, then the rest pose and the node.
 
 use super::code::DFM_INDEX;
-use super::part::Part;
-use super::reader::Reader;
-use super::record::{Fields, Put, Record, only_bits, or_none, some};
-use super::writer::Writer;
+use super::part::DfmPart;
+use super::reader::DfmReader;
+use super::record::{DfmRecord, Put, RecordFields, only_bits, or_none, some};
+use super::writer::DfmWriter;
 use crate::data::{Bone, ModelData, Skeleton, Transform};
 use crate::format::ImportError;
 use crate::limits::{NODE_DEPTH, NODES};
@@ -19,7 +19,7 @@ pub(super) struct BoneRecord {
     bone: Bone,
 }
 
-impl Record for BoneRecord {
+impl DfmRecord for BoneRecord {
     const SIZE: usize = 184;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -34,7 +34,7 @@ impl Record for BoneRecord {
         out.floats(&bone.rest_matrix.unwrap_or(Mat4::ZERO).to_cols_array());
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (parent, index, offset) = (some(fields.u32()), fields.u32(), fields.mat4());
         let (flags, node) = (only_bits(fields.u32(), HAS_NODE | HAS_REST_MATRIX)?, fields.u32());
         let rest = get_pose(fields);
@@ -51,39 +51,39 @@ impl Record for BoneRecord {
     }
 }
 
-/// Translation, scale, rotation: the thesis's order.
+/// Writes translation, scale and rotation, in the thesis's order.
 pub(super) fn put_pose(pose: &Transform, out: &mut Vec<u8>) {
     out.floats(&pose.translation.to_array());
     out.floats(&pose.scale.to_array());
     out.floats(&pose.rotation.to_array());
 }
 
-/// What [`put_pose`] wrote.
-pub(super) fn get_pose(fields: &mut Fields<'_>) -> Transform {
+/// Reads what [`put_pose`] wrote.
+pub(super) fn get_pose(fields: &mut RecordFields<'_>) -> Transform {
     let (translation, scale, rotation) = (fields.vec3(), fields.vec3(), fields.quat());
     Transform { translation, rotation, scale }
 }
 
 /// Writes the skeleton of `model`.
-pub(super) fn write(model: &ModelData, writer: &mut Writer) {
+pub(super) fn write(model: &ModelData, writer: &mut DfmWriter) {
     for (index, bone) in model.animation.skeleton.bones.iter().enumerate() {
         writer.text(&bone.name);
         let bone = Bone { name: String::new(), ..bone.clone() };
-        writer.put(Part::Bones, &BoneRecord { index: index as u32, bone });
+        writer.put(DfmPart::Bones, &BoneRecord { index: index as u32, bone });
     }
 }
 
-/// The skeleton: every parent before its children, so that there is no cycle.
-pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Skeleton, ImportError> {
-    let count = reader.count(Part::Bones);
+/// Reads the skeleton, in which every parent must come before its children, so that there is no cycle.
+pub(super) fn read(reader: &mut DfmReader<'_, '_>) -> Result<Skeleton, ImportError> {
+    let count = reader.count(DfmPart::Bones);
     reader.limit("bones", count, NODES)?;
-    let mut bones: Vec<Bone> = reader.vec(Part::Bones, 0, count)?;
-    let mut depths: Vec<u32> = reader.vec(Part::Bones, 0, count)?;
+    let mut bones: Vec<Bone> = reader.vec(DfmPart::Bones, 0, count)?;
+    let mut depths: Vec<u32> = reader.vec(DfmPart::Bones, 0, count)?;
     for position in 0..count {
         let name = reader.text()?;
-        let BoneRecord { index, bone } = reader.get(Part::Bones)?;
+        let BoneRecord { index, bone } = reader.get(DfmPart::Bones)?;
         if index as usize != position {
-            return Err(reader.wrong(DFM_INDEX, format!("bone {position} says that it is bone {index}")));
+            return Err(reader.wrong(DFM_INDEX, format!("bone {position} has the index {index}")));
         }
         let depth = match bone.parent {
             None => 1,
@@ -95,7 +95,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Skeleton, ImportError>
                 }
             },
         };
-        reader.limit("bones above each other", depth, NODE_DEPTH)?;
+        reader.limit("levels of bones", depth, NODE_DEPTH)?;
         depths.push(depth);
         bones.push(Bone { name, ..bone });
     }

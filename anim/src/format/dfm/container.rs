@@ -1,40 +1,44 @@
-//! From the bytes of a file to its parts: length, ending, checksums, headers. Nothing inside a part is looked at here.
+//! Splits the bytes of a file into its parts: length, ending, checksums, headers. The content of the parts is not read
+//! here.
 
 use super::code::{DFM_CHECKSUM, DFM_ENDING, DFM_LENGTH, DFM_NEWER, DFM_PARTS, DFM_SIZE};
-use super::part::{PARTS, Part};
-use super::record::{Fields, Record};
+use super::part::{DfmPart, PARTS};
+use super::record::{DfmRecord, RecordFields};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, invalid};
 use crate::checksum::CRC_32;
-use crate::format::guard::Guard;
+use crate::format::ImportContext;
 use crate::format::{ImportError, Place};
 use crate::limits::CANCEL_EVERY;
 
-/// Bytes of the ending: offset of the directory, version, checksum, magic.
+/// Size of the ending in bytes: offset of the directory, version, checksum, magic.
 const ENDING: usize = 16;
 
-/// Bytes of one entry of the directory, and of its header.
+/// Size in bytes of one entry of the directory, and of its header.
 const ENTRY: usize = 16;
 const HEADER: usize = 12;
 
-/// A part as found in the file.
-pub(super) struct Found<'a> {
+/// A part of the file.
+pub(super) struct FoundPart<'a> {
     /// Offset of the part in the file.
     pub(super) at: usize,
     /// Number of elements.
     pub(super) count: u32,
-    /// Bytes of one element; for takes: of a take, a track, a key-frame.
+    /// Size of one element in bytes; for takes: of a take, a track and a key-frame.
     pub(super) sizes: [usize; 3],
     /// The elements.
     pub(super) bytes: &'a [u8],
 }
 
 /// Finds every part, in the order of [`PARTS`].
-pub(super) fn open<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Vec<Found<'a>>, ImportError> {
+pub(super) fn open<'a>(
+    bytes: &'a [u8],
+    context: &ImportContext<'_>,
+) -> Result<Vec<FoundPart<'a>>, ImportError> {
     length(bytes)?;
     let (directory_at, newer) = ending(bytes)?;
     let directory = &bytes[directory_at..bytes.len() - ENDING];
-    let mut header = Fields::new(directory);
+    let mut header = RecordFields::new(directory);
     let tag: [u8; 4] = header.take();
     let (count, size) = (header.u32() as usize, header.u32() as usize);
     let entries = &directory[HEADER..];
@@ -44,30 +48,30 @@ pub(super) fn open<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Vec<Found<'
     }
     let entries = entries.chunks_exact(ENTRY);
     check_count(entries.len(), newer, directory_at)?;
-    let mut found = guard.vec(&Place::Byte(directory_at as u64), PARTS.len())?;
+    let mut found = context.vec(&Place::Byte(directory_at as u64), PARTS.len())?;
     let mut at = 4;
     for (number, entry) in entries.enumerate() {
         let entry_at = directory_at + HEADER + number * ENTRY;
         let layout = PARTS.get(number);
         let part =
-            extent(bytes, entry, (entry_at, at, directory_at), layout.map(|layout| layout.tag), guard)?;
+            extent(bytes, entry, (entry_at, at, directory_at), layout.map(|layout| layout.tag), context)?;
         if let Some(layout) = layout {
             found.push(header_of(layout.part, at, part, newer)?);
         }
         at += part.len();
     }
     if at != directory_at {
-        let reason = format!("the parts end here, the directory begins at byte {directory_at}");
+        let reason = format!("the parts end here, the directory starts at byte {directory_at}");
         return Err(invalid(at, DFM_PARTS, reason));
     }
     if newer {
-        let text = "written by a newer version; what this one does not know is left out";
-        guard.warn(Place::File, DFM_NEWER, text);
+        let text = "written by a newer version; unknown content is left out";
+        context.warn(Place::File, DFM_NEWER, text);
     }
     Ok(found)
 }
 
-/// Is the file as long as it says?
+/// Checks that the file has the length that it specifies.
 fn length(bytes: &[u8]) -> Result<(), ImportError> {
     let len = bytes.len();
     let Some(total) = bytes.first_chunk::<4>().map(|total| u32::from_le_bytes(*total) as usize) else {
@@ -77,11 +81,11 @@ fn length(bytes: &[u8]) -> Result<(), ImportError> {
         return Err(invalid(
             len,
             DFM_LENGTH,
-            format!("the file ends here; it says that it has {total} bytes"),
+            format!("the file ends here; its header specifies {total} bytes"),
         ));
     }
     if len > total {
-        let reason = format!("the file goes on to byte {len}; it says that it ends here");
+        let reason = format!("the file has {len} bytes; its header specifies that it ends here");
         return Err(invalid(total, DFM_LENGTH, reason));
     }
     if len < 4 + HEADER + ENDING {
@@ -90,19 +94,19 @@ fn length(bytes: &[u8]) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Offset of the directory, and whether the file is of a newer minor version.
+/// Returns the offset of the directory, and whether the file has a newer minor version.
 fn ending(bytes: &[u8]) -> Result<(usize, bool), ImportError> {
     let at = bytes.len() - ENDING;
-    let mut fields = Fields::new(&bytes[at..]);
+    let mut fields = RecordFields::new(&bytes[at..]);
     let (directory_at, major, minor) = (fields.u32() as usize, fields.u16(), fields.u16());
     let (checksum, magic): (u32, [u8; 4]) = (fields.u32(), fields.take());
     if magic != ENDING_MAGIC {
-        let reason = format!("the file ends with {magic:02x?} where {ENDING_MAGIC:02x?} should stand");
+        let reason = format!("the file ends with {magic:02x?} instead of {ENDING_MAGIC:02x?}");
         return Err(invalid(at + 12, DFM_ENDING, reason));
     }
     let begins = |from: usize| bytes[from..at].starts_with(&DIRECTORY_TAG);
     if directory_at < 4 || directory_at > at - HEADER || !begins(directory_at) {
-        let reason = format!("no directory begins at byte {directory_at}, as is written here");
+        let reason = format!("there is no directory at byte {directory_at}, to which the file refers here");
         return Err(invalid(at, DFM_ENDING, reason));
     }
     let computed = CRC_32.checksum(&bytes[directory_at..at + 8]);
@@ -117,11 +121,13 @@ fn ending(bytes: &[u8]) -> Result<(usize, bool), ImportError> {
 }
 
 fn altered(at: usize, what: &str, computed: u32, written: u32) -> ImportError {
-    let reason = format!("the {what} here were altered: checksum {computed:08x}, written {written:08x}");
+    let reason = format!(
+        "the {what} here were changed: their checksum is {computed:08x}, the stored one {written:08x}"
+    );
     invalid(at, DFM_CHECKSUM, reason)
 }
 
-/// A newer file may have more parts; one of this version has exactly these.
+/// Checks the number of parts. A newer file may have more; one of this version has exactly these.
 fn check_count(count: usize, newer: bool, at: usize) -> Result<(), ImportError> {
     if count == PARTS.len() || (newer && count > PARTS.len()) {
         return Ok(());
@@ -129,15 +135,16 @@ fn check_count(count: usize, newer: bool, at: usize) -> Result<(), ImportError> 
     Err(invalid(at, DFM_PARTS, format!("{count} parts, this version has {}", PARTS.len())))
 }
 
-/// The bytes of the part that `entry` describes, which must begin at `at`, end before the directory, and be unaltered.
+/// Returns the bytes of the part that `entry` describes, which must start at `at`, end before the directory, and be
+/// unchanged.
 fn extent<'a>(
     bytes: &'a [u8],
     entry: &[u8],
     (entry_at, at, directory_at): (usize, usize, usize),
     expected: Option<[u8; 4]>,
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Result<&'a [u8], ImportError> {
-    let mut fields = Fields::new(entry);
+    let mut fields = RecordFields::new(entry);
     let tag: [u8; 4] = fields.take();
     let (offset, size, checksum) = (fields.u32() as usize, fields.u32() as usize, fields.u32());
     if let Some(expected) = expected.filter(|&expected| expected != tag) {
@@ -145,13 +152,14 @@ fn extent<'a>(
         return Err(invalid(entry_at, DFM_PARTS, reason));
     }
     if offset != at || size > directory_at - at {
-        let reason = format!("part {} of {size} bytes at byte {offset}, not at {at}", tag.escape_ascii());
+        let reason =
+            format!("part {} of {size} bytes is at byte {offset} instead of {at}", tag.escape_ascii());
         return Err(invalid(entry_at, DFM_PARTS, reason));
     }
     let part = &bytes[at..at + size];
     let mut hasher = CRC_32.digest();
     for piece in part.chunks(CANCEL_EVERY) {
-        guard.work(piece.len())?;
+        context.work(piece.len())?;
         hasher.update(piece);
     }
     let name = PARTS.iter().find(|layout| layout.tag == tag).map_or("unknown elements", |layout| layout.name);
@@ -163,13 +171,13 @@ fn extent<'a>(
 }
 
 /// Splits `bytes`, found at `at`, into header and elements.
-fn header_of(part: Part, at: usize, bytes: &[u8], newer: bool) -> Result<Found<'_>, ImportError> {
+fn header_of(part: DfmPart, at: usize, bytes: &[u8], newer: bool) -> Result<FoundPart<'_>, ImportError> {
     let layout = part.layout();
     let Some((header, elements)) = bytes.split_at_checked(part.header_bytes()) else {
         let reason = format!("the {} end within their header", layout.name);
         return Err(invalid(at + bytes.len(), DFM_SIZE, reason));
     };
-    let mut fields = Fields::new(header);
+    let mut fields = RecordFields::new(header);
     if !part.is_of_thesis() {
         let tag: [u8; 4] = fields.take();
         if tag != layout.tag {
@@ -180,7 +188,7 @@ fn header_of(part: Part, at: usize, bytes: &[u8], newer: bool) -> Result<Found<'
     let (count, size) = (fields.u32(), fields.u32() as usize);
     let mut sizes = [size, 0, 0];
     let mut known = [layout.size, 0, 0];
-    if part == Part::Takes {
+    if part == DfmPart::Takes {
         sizes = [size, fields.u32() as usize, fields.u32() as usize];
         known = [layout.size, TrackRecord::SIZE, KeyframeRecord::SIZE];
     } else if (count as usize).checked_mul(size) != Some(elements.len()) {
@@ -192,5 +200,5 @@ fn header_of(part: Part, at: usize, bytes: &[u8], newer: bool) -> Result<Found<'
         let reason = format!("{}: elements of {sizes:?} bytes, this version has {known:?}", layout.name);
         return Err(invalid(at, DFM_SIZE, reason));
     }
-    Ok(Found { at, count, sizes, bytes: elements })
+    Ok(FoundPart { at, count, sizes, bytes: elements })
 }

@@ -1,9 +1,9 @@
-//! Images: the data and file names that the thesis's materials hold, kept once for all materials.
+//! Images: the data and file names of the thesis's materials, stored once for all materials.
 
-use super::part::Part;
-use super::reader::Reader;
-use super::record::{Fields, Put, Record, only_bits};
-use super::writer::Writer;
+use super::part::DfmPart;
+use super::reader::DfmReader;
+use super::record::{DfmRecord, Put, RecordFields, only_bits};
+use super::writer::DfmWriter;
 use super::{WriteError, refuse};
 use crate::data::{Image, ModelData};
 use crate::format::ImportError;
@@ -17,7 +17,7 @@ pub(super) struct ImageRecord {
     bytes: u32,
 }
 
-impl Record for ImageRecord {
+impl DfmRecord for ImageRecord {
     const SIZE: usize = 16;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -26,14 +26,14 @@ impl Record for ImageRecord {
         }
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let has_file_name = only_bits(fields.u32(), 1)? == 1;
         Ok(Self { has_file_name, width: fields.u32(), height: fields.u32(), bytes: fields.u32() })
     }
 }
 
 /// Writes every image of `model`.
-pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteError> {
+pub(super) fn write(model: &ModelData, writer: &mut DfmWriter) -> Result<(), WriteError> {
     for (number, image) in model.images.iter().enumerate() {
         writer.text(&image.name);
         if let Some(file_name) = &image.file_name {
@@ -44,20 +44,20 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteE
             .map_err(|_| refuse(format!("/images/{number}"), "more than 4 GiB".to_owned()))?;
         let has_file_name = image.file_name.is_some();
         let (width, height) = (image.width, image.height);
-        writer.put(Part::Images, &ImageRecord { has_file_name, width, height, bytes });
-        writer.bytes(Part::ImageBytes, &image.bytes);
+        writer.put(DfmPart::Images, &ImageRecord { has_file_name, width, height, bytes });
+        writer.bytes(DfmPart::ImageBytes, &image.bytes);
     }
     Ok(())
 }
 
-/// Every image.
-pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Vec<Image>, ImportError> {
-    let count = reader.count(Part::Images);
-    let mut images = reader.vec(Part::Images, 0, count)?;
+/// Reads every image.
+pub(super) fn read(reader: &mut DfmReader<'_, '_>) -> Result<Vec<Image>, ImportError> {
+    let count = reader.count(DfmPart::Images);
+    let mut images = reader.vec(DfmPart::Images, 0, count)?;
     let mut pixels = 0u64;
     for _ in 0..count {
         let name = reader.text()?;
-        let record: ImageRecord = reader.get(Part::Images)?;
+        let record: ImageRecord = reader.get(DfmPart::Images)?;
         let side = record.width.max(record.height) as usize;
         let own = u64::from(record.width) * u64::from(record.height);
         pixels = pixels.saturating_add(own);
@@ -66,7 +66,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Vec<Image>, ImportErro
         reader.limit("pixels of all images", pixels, IMAGES_PIXELS)?;
         let file_name = if record.has_file_name { Some(reader.text()?) } else { None };
         let mime = reader.text()?;
-        let bytes = reader.bytes(Part::ImageBytes, record.bytes as usize)?.into();
+        let bytes = reader.bytes(DfmPart::ImageBytes, record.bytes as usize)?.into();
         images.push(Image { name, file_name, mime, bytes, width: record.width, height: record.height });
     }
     Ok(images)

@@ -1,17 +1,18 @@
-//! The thesis's key-frames and this library's channels: one list with a pose a key-frame, against three columns.
+//! Converts between the thesis's key-frames and this library's channels: one list with a pose per key-frame, and three
+//! columns.
 //!
-//! A track's key-frames stand at every time at which any of its channels has a key. Three bits tell which values are
-//! keys; a value that is none is what its channel gives at that time, for a reader that knows only key-frames. So each
-//! channel is found again bit for bit: its keys are the key-frames with its bit, in their order.
+//! A track has a key-frame at every time at which any of its channels has a key. Three bits mark which values are keys;
+//! a value that is not a key is the channel's value at that time, for readers that know only key-frames. So each
+//! channel is restored bit for bit: its keys are the key-frames with its bit, in their order.
 //!
-//! The list is the merge of three queues: the earliest key in front goes first, and keys of the same time, bit for bit,
-//! become one key-frame. Merging keeps the order of each queue, so that even times that do not rise are kept.
+//! The list is the merge of three queues: the earliest first key goes first, and keys with the same time, bit for bit,
+//! become one key-frame. Merging keeps the order of each queue, so that even times that do not increase are kept.
 
 use super::code::DFM_INDEX;
-use super::part::Part;
-use super::reader::Reader;
-use super::take::{KeyframeRecord, TrackRecord, times_rise};
-use super::writer::Writer;
+use super::part::DfmPart;
+use super::reader::DfmReader;
+use super::take::{KeyframeRecord, TrackRecord, times_increase};
+use super::writer::DfmWriter;
 use crate::data::{Bone, Channel, Interpolation, Track, Transform};
 use crate::format::ImportError;
 use crate::limits::KEYS_PER_CHANNEL;
@@ -22,37 +23,41 @@ const TRANSLATION: u32 = 1;
 const ROTATION: u32 = 2;
 const SCALE: u32 = 4;
 
-/// A value of a channel as floats.
+/// A channel value as floats.
 trait Floats: Copy {
-    /// Appends them to the part of tangents.
-    fn put(self, writer: &mut Writer);
-    /// Takes them from there.
-    fn get(reader: &mut Reader<'_, '_>) -> Result<Self, ImportError>;
+    /// Appends the value to the part of tangents.
+    fn put(self, writer: &mut DfmWriter);
+    /// Reads a value from the part of tangents.
+    fn get(reader: &mut DfmReader<'_, '_>) -> Result<Self, ImportError>;
 }
 
 impl Floats for Vec3 {
-    fn put(self, writer: &mut Writer) {
-        writer.put_all(Part::Slopes, &self.to_array());
+    fn put(self, writer: &mut DfmWriter) {
+        writer.put_all(DfmPart::Slopes, &self.to_array());
     }
 
-    fn get(reader: &mut Reader<'_, '_>) -> Result<Self, ImportError> {
-        Ok(Self::new(reader.get(Part::Slopes)?, reader.get(Part::Slopes)?, reader.get(Part::Slopes)?))
+    fn get(reader: &mut DfmReader<'_, '_>) -> Result<Self, ImportError> {
+        Ok(Self::new(
+            reader.get(DfmPart::Slopes)?,
+            reader.get(DfmPart::Slopes)?,
+            reader.get(DfmPart::Slopes)?,
+        ))
     }
 }
 
 impl Floats for Quat {
-    fn put(self, writer: &mut Writer) {
-        writer.put_all(Part::Slopes, &self.to_array());
+    fn put(self, writer: &mut DfmWriter) {
+        writer.put_all(DfmPart::Slopes, &self.to_array());
     }
 
-    fn get(reader: &mut Reader<'_, '_>) -> Result<Self, ImportError> {
+    fn get(reader: &mut DfmReader<'_, '_>) -> Result<Self, ImportError> {
         let xyz = Vec3::get(reader)?;
-        Ok(Self::from_xyzw(xyz.x, xyz.y, xyz.z, reader.get(Part::Slopes)?))
+        Ok(Self::from_xyzw(xyz.x, xyz.y, xyz.z, reader.get(DfmPart::Slopes)?))
     }
 }
 
-/// Writes `track`, which moves `bone`.
-pub(super) fn write_track(track: &Track, bone: &Bone, writer: &mut Writer) -> Result<(), String> {
+/// Writes `track`, which animates `bone`.
+pub(super) fn write_track(track: &Track, bone: &Bone, writer: &mut DfmWriter) -> Result<(), String> {
     let columns = [
         ("translation", track.translation.times.len(), columns_fit(&track.translation)),
         ("rotation", track.rotation.times.len(), columns_fit(&track.rotation)),
@@ -60,14 +65,14 @@ pub(super) fn write_track(track: &Track, bone: &Bone, writer: &mut Writer) -> Re
     ];
     for (what, keys, fits) in columns {
         if !fits {
-            return Err(format!("{what}: not as many values as {keys} keys need"));
+            return Err(format!("{what}: the number of values does not match the {keys} keys"));
         }
     }
     let keyframes = merge(track).count();
     let interpolations =
         [track.translation.interpolation, track.rotation.interpolation, track.scale.interpolation];
     let keyframes = u32::try_from(keyframes).map_err(|_| format!("{keyframes} key-frames"))?;
-    writer.put(Part::Takes, &TrackRecord { bone: track.bone, keyframes, interpolations });
+    writer.put(DfmPart::Takes, &TrackRecord { bone: track.bone, keyframes, interpolations });
     let rest = rest_pose(bone);
     for Merged { time, keys, at } in merge(track) {
         let pose = Transform {
@@ -75,7 +80,7 @@ pub(super) fn write_track(track: &Track, bone: &Bone, writer: &mut Writer) -> Re
             rotation: value(&track.rotation, keys & ROTATION, at[1], rest.rotation, time),
             scale: value(&track.scale, keys & SCALE, at[2], rest.scale, time),
         };
-        writer.put(Part::Takes, &KeyframeRecord { time, pose, keys });
+        writer.put(DfmPart::Takes, &KeyframeRecord { time, pose, keys });
     }
     write_slopes(&track.translation, writer);
     write_slopes(&track.rotation, writer);
@@ -87,14 +92,14 @@ fn columns_fit<T: Copy>(channel: &Channel<T>) -> bool {
     channel.times.len().checked_mul(channel.values_per_key()) == Some(channel.values.len())
 }
 
-/// The key itself, or what the channel gives at that time.
+/// Returns the key, or the channel's value at that time.
 fn value<T: crate::sample::Value>(channel: &Channel<T>, is_key: u32, at: usize, rest: T, time: f32) -> T {
     let key = if is_key != 0 { channel.value(at) } else { None };
     key.unwrap_or_else(|| sample_channel(channel, rest, time))
 }
 
-/// In- and out-tangents of every key of a cubic spline.
-fn write_slopes<T: Floats>(channel: &Channel<T>, writer: &mut Writer) {
+/// Writes the in- and out-tangents of every key of a cubic spline.
+fn write_slopes<T: Floats>(channel: &Channel<T>, writer: &mut DfmWriter) {
     if channel.interpolation == Interpolation::CubicSpline {
         for key in channel.values.chunks_exact(3) {
             key[0].put(writer);
@@ -103,14 +108,14 @@ fn write_slopes<T: Floats>(channel: &Channel<T>, writer: &mut Writer) {
     }
 }
 
-/// A key-frame to be: its time, which channels have a key there, and the number of the key in each.
+/// A merged key-frame: its time, the channels that have a key there, and the number of the key in each.
 struct Merged {
     time: f32,
     keys: u32,
     at: [usize; 3],
 }
 
-/// The three queues of keys, merged.
+/// Merges the three queues of keys.
 fn merge(track: &Track) -> impl Iterator<Item = Merged> + '_ {
     let queues = [&track.translation.times, &track.rotation.times, &track.scale.times];
     let mut at = [0; 3];
@@ -128,16 +133,16 @@ fn merge(track: &Track) -> impl Iterator<Item = Merged> + '_ {
     })
 }
 
-/// The track of bone `index`.
-pub(super) fn read_track(reader: &mut Reader<'_, '_>, index: u32) -> Result<Track, ImportError> {
-    let TrackRecord { bone, keyframes, interpolations } = reader.get_sized(Part::Takes, 1)?;
+/// Reads the track of bone `index`.
+pub(super) fn read_track(reader: &mut DfmReader<'_, '_>, index: u32) -> Result<Track, ImportError> {
+    let TrackRecord { bone, keyframes, interpolations } = reader.get_sized(DfmPart::Takes, 1)?;
     if bone != index {
-        return Err(reader.wrong(DFM_INDEX, format!("track {index} is that of bone {bone}")));
+        return Err(reader.wrong(DFM_INDEX, format!("track {index} is for bone {bone}")));
     }
     reader.limit("keys of one channel", keyframes, KEYS_PER_CHANNEL)?;
-    let mut list: Vec<KeyframeRecord> = reader.vec(Part::Takes, 2, keyframes as usize)?;
+    let mut list: Vec<KeyframeRecord> = reader.vec(DfmPart::Takes, 2, keyframes as usize)?;
     for _ in 0..keyframes {
-        list.push(reader.get_sized(Part::Takes, 2)?);
+        list.push(reader.get_sized(DfmPart::Takes, 2)?);
     }
     let [translation, rotation, scale] = interpolations;
     Ok(Track {
@@ -148,9 +153,9 @@ pub(super) fn read_track(reader: &mut Reader<'_, '_>, index: u32) -> Result<Trac
     })
 }
 
-/// The keys among `list` that have the bit.
+/// Reads the channel whose keys are the key-frames of `list` with its bit.
 fn read_channel<T: Floats>(
-    reader: &mut Reader<'_, '_>,
+    reader: &mut DfmReader<'_, '_>,
     list: &[KeyframeRecord],
     bit: u32,
     interpolation: Interpolation,
@@ -164,10 +169,10 @@ fn read_channel<T: Floats>(
     let is_spline = interpolation == Interpolation::CubicSpline;
     let per_key = if is_spline { 3 } else { 1 };
     let place = reader.place();
-    // Twice: each list is copied once more, to be shared.
-    reader.guard.charge(&place, (count * (4 + per_key * size_of::<T>())) as u64)?;
-    let mut times = reader.guard.vec(&place, count)?;
-    let mut values = reader.guard.vec(&place, count * per_key)?;
+    // Charged twice, since each list is copied once more to be shared.
+    reader.context.charge(&place, (count * (4 + per_key * size_of::<T>())) as u64)?;
+    let mut times = reader.context.vec(&place, count)?;
+    let mut values = reader.context.vec(&place, count * per_key)?;
     for keyframe in keys() {
         times.push(keyframe.time);
         if is_spline {
@@ -177,6 +182,6 @@ fn read_channel<T: Floats>(
             values.push(part(&keyframe.pose));
         }
     }
-    times_rise(reader, &times)?;
+    times_increase(reader, &times)?;
     Ok(Channel { times: times.into(), values: values.into(), interpolation })
 }

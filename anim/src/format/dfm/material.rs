@@ -1,10 +1,10 @@
 //! Materials: the thesis's lighting and texture, then everything else about a surface.
 
 use super::code::DFM_INDEX;
-use super::part::Part;
-use super::reader::Reader;
-use super::record::{Fields, NONE, Put, Record, choice, number_of, only_bits};
-use super::writer::Writer;
+use super::part::DfmPart;
+use super::reader::DfmReader;
+use super::record::{DfmRecord, NONE, Put, RecordFields, choice, number_of, only_bits};
+use super::writer::DfmWriter;
 use crate::data::{
     AlphaMode, Filter, Material, Metallic, ModelData, Phong, TextureRef, TextureTransform, Wrap,
 };
@@ -13,13 +13,13 @@ use crate::format::ImportError;
 const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge];
 const FILTERS: [Filter; 2] = [Filter::Nearest, Filter::Linear];
 
-/// The five uses of images.
+/// The five textures of a material.
 type Textures = [Option<TextureRef>; 5];
 
 /// A material without its name.
 pub(super) struct MaterialRecord(Material);
 
-impl Record for MaterialRecord {
+impl DfmRecord for MaterialRecord {
     const SIZE: usize = 280;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -48,7 +48,7 @@ impl Record for MaterialRecord {
         }
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (diffuse, ambient, specular) = (fields.vec3(), fields.vec3(), fields.vec3());
         let phong = Phong { ambient, diffuse, specular, specular_power: fields.f32() };
         let image = fields.u32();
@@ -76,7 +76,7 @@ impl Record for MaterialRecord {
             emissive_texture,
         ] = textures;
         if image != base_color_texture.map_or(NONE, |texture| texture.image) {
-            return Err("the texture is not the base colour's".to_owned());
+            return Err("the texture is not that of the base color".to_owned());
         }
         Ok(Self(Material {
             name: String::new(),
@@ -127,7 +127,7 @@ fn put_texture(texture: Option<TextureRef>, out: &mut Vec<u8>) {
     out.floats(&transform.scale.to_array());
 }
 
-fn get_texture(fields: &mut Fields<'_>) -> Result<Option<TextureRef>, String> {
+fn get_texture(fields: &mut RecordFields<'_>) -> Result<Option<TextureRef>, String> {
     let (image, set) = (fields.u32(), fields.u32());
     let [along, across, magnify, minify] = fields.take();
     let mip = fields.u32();
@@ -136,7 +136,7 @@ fn get_texture(fields: &mut Fields<'_>) -> Result<Option<TextureRef>, String> {
         return Ok(None);
     }
     if set > 1 || mip > 1 {
-        return Err(format!("texture coordinates {set} or mip {mip} are not 0 or 1"));
+        return Err(format!("texture coordinates {set} and mip levels {mip} must be 0 or 1"));
     }
     Ok(Some(TextureRef {
         image,
@@ -150,20 +150,20 @@ fn get_texture(fields: &mut Fields<'_>) -> Result<Option<TextureRef>, String> {
 }
 
 /// Writes every material of `model`.
-pub(super) fn write(model: &ModelData, writer: &mut Writer) {
+pub(super) fn write(model: &ModelData, writer: &mut DfmWriter) {
     for material in &model.materials {
         writer.text(&material.name);
-        writer.put(Part::Materials, &MaterialRecord(Material { name: String::new(), ..material.clone() }));
+        writer.put(DfmPart::Materials, &MaterialRecord(Material { name: String::new(), ..material.clone() }));
     }
 }
 
-/// Every material.
-pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<Vec<Material>, ImportError> {
-    let images = reader.count(Part::Images);
-    let mut materials = reader.vec(Part::Materials, 0, reader.count(Part::Materials))?;
+/// Reads every material.
+pub(super) fn read(reader: &mut DfmReader<'_, '_>) -> Result<Vec<Material>, ImportError> {
+    let images = reader.count(DfmPart::Images);
+    let mut materials = reader.vec(DfmPart::Materials, 0, reader.count(DfmPart::Materials))?;
     for _ in 0..materials.capacity() {
         let name = reader.text()?;
-        let MaterialRecord(material) = reader.get(Part::Materials)?;
+        let MaterialRecord(material) = reader.get(DfmPart::Materials)?;
         if let Some(texture) =
             textures(&material).into_iter().flatten().find(|texture| texture.image as usize >= images)
         {

@@ -1,29 +1,29 @@
-//! Meshes: how the vertices and indices of the thesis's part are cut, and their further columns.
+//! Meshes: how the thesis's lists of vertices and indices are split, and the additional columns.
 
 use super::code::{DFM_INDEX, DFM_VALUE};
-use super::part::Part;
-use super::reader::Reader;
-use super::record::{Fields, Put, Record, only_bits, or_none, some};
+use super::part::DfmPart;
+use super::reader::DfmReader;
+use super::record::{DfmRecord, Put, RecordFields, only_bits, or_none, some};
 use super::vertex::{FIRST_INFLUENCES, InfluenceRecord, VertexRecord};
-use super::writer::Writer;
+use super::writer::DfmWriter;
 use super::{WriteError, refuse};
 use crate::data::{Influence, MAX_INFLUENCES, Mesh, ModelData, Primitive, Skin, Vertices};
 use crate::format::ImportError;
 use crate::limits::VERTICES;
 
-/// Which columns a primitive has.
+/// Bits of the columns that a primitive has.
 const NORMALS: u32 = 1;
 const TEXTURE_COORDINATES: [u32; 2] = [2, 4];
 const TANGENTS: u32 = 8;
 const COLORS: u32 = 16;
 
-/// Numbers of a mesh's primitives and morph targets.
+/// Number of primitives and morph targets of a mesh.
 pub(super) struct MeshRecord {
     primitives: u32,
     targets: u32,
 }
 
-impl Record for MeshRecord {
+impl DfmRecord for MeshRecord {
     const SIZE: usize = 8;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -31,12 +31,12 @@ impl Record for MeshRecord {
         out.u32(self.targets);
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         Ok(Self { primitives: fields.u32(), targets: fields.u32() })
     }
 }
 
-/// What a primitive takes of the parts that hold columns.
+/// Number of elements of a primitive in the parts that store columns.
 pub(super) struct PrimitiveRecord {
     vertices: u32,
     indices: u32,
@@ -45,7 +45,7 @@ pub(super) struct PrimitiveRecord {
     influences: u32,
 }
 
-impl Record for PrimitiveRecord {
+impl DfmRecord for PrimitiveRecord {
     const SIZE: usize = 20;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -54,24 +54,24 @@ impl Record for PrimitiveRecord {
         }
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (vertices, indices, material) = (fields.u32(), fields.u32(), fields.u32());
         let columns = only_bits(fields.u32(), 31)?;
         let influences = fields.u32();
         if influences as usize > MAX_INFLUENCES {
-            return Err(format!("{influences} influences a vertex, at most {MAX_INFLUENCES}"));
+            return Err(format!("{influences} influences per vertex, at most {MAX_INFLUENCES}"));
         }
         Ok(Self { vertices, indices, material, columns, influences })
     }
 }
 
 /// Writes every mesh of `model`.
-pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteError> {
+pub(super) fn write(model: &ModelData, writer: &mut DfmWriter) -> Result<(), WriteError> {
     for (number, mesh) in model.meshes.iter().enumerate() {
         let targets = mesh.morph_weights.len() as u32;
         writer.text(&mesh.name);
-        writer.put(Part::Meshes, &MeshRecord { primitives: mesh.primitives.len() as u32, targets });
-        writer.put_all(Part::Weights, &mesh.morph_weights);
+        writer.put(DfmPart::Meshes, &MeshRecord { primitives: mesh.primitives.len() as u32, targets });
+        writer.put_all(DfmPart::Weights, &mesh.morph_weights);
         let uses = |instance: &&crate::data::MeshInstance| instance.mesh as usize == number;
         let skin = model.instances.iter().filter(uses).find_map(|instance| instance.skin);
         let skin = skin.and_then(|skin| model.skins.get(skin as usize));
@@ -84,7 +84,7 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteE
     Ok(())
 }
 
-/// Is each column empty or as long as there are vertices?
+/// Checks that each column is empty or has one element per vertex.
 fn columns_fit(primitive: &Primitive, mesh: &Mesh) -> Result<(), String> {
     let vertices = &primitive.vertices;
     let count = vertices.len();
@@ -94,7 +94,7 @@ fn columns_fit(primitive: &Primitive, mesh: &Mesh) -> Result<(), String> {
         ("tangents", vertices.tangents.len()),
         ("texture coordinates", first.len()),
         ("texture coordinates", second.len()),
-        ("colours", vertices.colors.len()),
+        ("colors", vertices.colors.len()),
     ];
     let targets = primitive.morph_targets.iter().flat_map(|target| {
         [target.positions.len(), target.normals.len(), target.tangents.len()].map(|len| ("differences", len))
@@ -116,13 +116,13 @@ fn columns_fit(primitive: &Primitive, mesh: &Mesh) -> Result<(), String> {
     Ok(())
 }
 
-fn write_primitive(primitive: &Primitive, skin: Option<&Skin>, writer: &mut Writer) -> Result<(), String> {
+fn write_primitive(primitive: &Primitive, skin: Option<&Skin>, writer: &mut DfmWriter) -> Result<(), String> {
     let vertices = &primitive.vertices;
-    let base = writer.count(Part::Vertices);
+    let base = writer.count(DfmPart::Vertices);
     for &index in &primitive.indices {
         let global = u32::try_from(base + index as usize).ok().filter(|_| (index as usize) < vertices.len());
-        let reason = || format!("index {index} names none of {} vertices", vertices.len());
-        writer.put(Part::Indices, &global.ok_or_else(reason)?);
+        let reason = || format!("index {index} is out of the range of {} vertices", vertices.len());
+        writer.put(DfmPart::Indices, &global.ok_or_else(reason)?);
     }
     for index in 0..vertices.len() {
         write_vertex(primitive, index, skin, writer);
@@ -141,15 +141,15 @@ fn write_primitive(primitive: &Primitive, skin: Option<&Skin>, writer: &mut Writ
         columns,
         influences: vertices.influences_per_vertex as u32,
     };
-    writer.put(Part::Primitives, &record);
-    writer.put_all(Part::Tangents, &vertices.tangents);
-    writer.put_all(Part::Colors, &vertices.colors);
+    writer.put(DfmPart::Primitives, &record);
+    writer.put_all(DfmPart::Tangents, &vertices.tangents);
+    writer.put_all(DfmPart::Colors, &vertices.colors);
     super::morph::write_targets(&primitive.morph_targets, writer);
     Ok(())
 }
 
-/// One vertex, its attribute, and its influences beyond the fourth.
-fn write_vertex(primitive: &Primitive, index: usize, skin: Option<&Skin>, writer: &mut Writer) {
+/// Writes one vertex, its attribute, and its influences after the fourth.
+fn write_vertex(primitive: &Primitive, index: usize, skin: Option<&Skin>, writer: &mut DfmWriter) {
     let Some(vertex) = primitive.vertex(index) else { return };
     let (mut influences, mut bones) = ([Influence::default(); FIRST_INFLUENCES], [0; FIRST_INFLUENCES]);
     for ((slot, bone), &influence) in influences.iter_mut().zip(&mut bones).zip(&vertex.influences) {
@@ -158,12 +158,12 @@ fn write_vertex(primitive: &Primitive, index: usize, skin: Option<&Skin>, writer
         *bone = named.copied().unwrap_or(0);
     }
     for &influence in vertex.influences.iter().skip(FIRST_INFLUENCES) {
-        writer.put(Part::Influences, &InfluenceRecord(influence));
+        writer.put(DfmPart::Influences, &InfluenceRecord(influence));
     }
     let material = or_none(primitive.material);
-    writer.put(Part::Attributes, &material);
+    writer.put(DfmPart::Attributes, &material);
     writer.put(
-        Part::Vertices,
+        DfmPart::Vertices,
         &VertexRecord {
             position: vertex.position,
             normal: vertex.normal,
@@ -175,17 +175,17 @@ fn write_vertex(primitive: &Primitive, index: usize, skin: Option<&Skin>, writer
     );
 }
 
-/// Every mesh, and the largest joint that its vertices name.
-pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<(Vec<Mesh>, Vec<Option<u16>>), ImportError> {
-    let count = reader.count(Part::Meshes);
-    reader.limit("vertices", reader.count(Part::Vertices), VERTICES)?;
-    let mut meshes = reader.vec(Part::Meshes, 0, count)?;
-    let mut largest = reader.vec(Part::Meshes, 0, count)?;
+/// Reads every mesh, and the largest joint that its vertices refer to.
+pub(super) fn read(reader: &mut DfmReader<'_, '_>) -> Result<(Vec<Mesh>, Vec<Option<u16>>), ImportError> {
+    let count = reader.count(DfmPart::Meshes);
+    reader.limit("vertices", reader.count(DfmPart::Vertices), VERTICES)?;
+    let mut meshes = reader.vec(DfmPart::Meshes, 0, count)?;
+    let mut largest = reader.vec(DfmPart::Meshes, 0, count)?;
     for _ in 0..count {
         let name = reader.text()?;
-        let record: MeshRecord = reader.get(Part::Meshes)?;
-        let morph_weights = reader.list(Part::Weights, record.targets as usize)?;
-        let mut primitives = reader.vec(Part::Primitives, 0, record.primitives as usize)?;
+        let record: MeshRecord = reader.get(DfmPart::Meshes)?;
+        let morph_weights = reader.list(DfmPart::Weights, record.targets as usize)?;
+        let mut primitives = reader.vec(DfmPart::Primitives, 0, record.primitives as usize)?;
         let mut joint = None;
         for _ in 0..record.primitives {
             let primitive = read_primitive(reader, record.targets as usize)?;
@@ -198,33 +198,34 @@ pub(super) fn read(reader: &mut Reader<'_, '_>) -> Result<(Vec<Mesh>, Vec<Option
     Ok((meshes, largest))
 }
 
-fn read_primitive(reader: &mut Reader<'_, '_>, targets: usize) -> Result<Primitive, ImportError> {
-    let record: PrimitiveRecord = reader.get(Part::Primitives)?;
+fn read_primitive(reader: &mut DfmReader<'_, '_>, targets: usize) -> Result<Primitive, ImportError> {
+    let record: PrimitiveRecord = reader.get(DfmPart::Primitives)?;
     let material = some(record.material);
-    if material.is_some_and(|material| material as usize >= reader.count(Part::Materials)) {
+    if material.is_some_and(|material| material as usize >= reader.count(DfmPart::Materials)) {
         let reason = format!("there is no material {}", record.material);
         return Err(reader.wrong(DFM_INDEX, reason));
     }
     if !record.indices.is_multiple_of(3) {
-        let reason = format!("{} indices are no whole triangles", record.indices);
+        let reason = format!("{} indices are not a whole number of triangles", record.indices);
         return Err(reader.wrong(DFM_VALUE, reason));
     }
-    let base = reader.count(Part::Vertices) - reader.left(Part::Vertices);
+    let base = reader.count(DfmPart::Vertices) - reader.left(DfmPart::Vertices);
     let mut vertices = read_vertices(reader, &record)?;
     let count = vertices.len();
     if record.columns & TANGENTS != 0 {
-        vertices.tangents = reader.list(Part::Tangents, count)?;
+        vertices.tangents = reader.list(DfmPart::Tangents, count)?;
     }
     if record.columns & COLORS != 0 {
-        vertices.colors = reader.list(Part::Colors, count)?;
+        vertices.colors = reader.list(DfmPart::Colors, count)?;
     }
-    let mut indices = reader.vec(Part::Indices, 0, record.indices as usize)?;
+    let mut indices = reader.vec(DfmPart::Indices, 0, record.indices as usize)?;
     for _ in 0..record.indices {
-        let global: u32 = reader.get(Part::Indices)?;
+        let global: u32 = reader.get(DfmPart::Indices)?;
         match (global as usize).checked_sub(base).filter(|&index| index < count) {
             Some(index) => indices.push(index as u32),
             None => {
-                let reason = format!("index {global} is not among vertices {base}..{}", base + count);
+                let reason =
+                    format!("index {global} is out of the range of vertices {base}..{}", base + count);
                 return Err(reader.wrong(DFM_INDEX, reason));
             }
         }
@@ -233,26 +234,26 @@ fn read_primitive(reader: &mut Reader<'_, '_>, targets: usize) -> Result<Primiti
     Ok(Primitive { vertices, indices, material, morph_targets })
 }
 
-/// The columns that the thesis's part holds.
-fn read_vertices(reader: &mut Reader<'_, '_>, record: &PrimitiveRecord) -> Result<Vertices, ImportError> {
+/// Reads the columns of the thesis's part.
+fn read_vertices(reader: &mut DfmReader<'_, '_>, record: &PrimitiveRecord) -> Result<Vertices, ImportError> {
     let count = record.vertices as usize;
     let (columns, per_vertex) = (record.columns, record.influences as usize);
-    let bones = reader.count(Part::Bones);
+    let bones = reader.count(DfmPart::Bones);
     let room = |present: bool| if present { count } else { 0 };
     let mut vertices = Vertices {
-        positions: reader.vec(Part::Vertices, 0, count)?,
-        normals: reader.vec(Part::Vertices, 0, room(columns & NORMALS != 0))?,
+        positions: reader.vec(DfmPart::Vertices, 0, count)?,
+        normals: reader.vec(DfmPart::Vertices, 0, room(columns & NORMALS != 0))?,
         tangents: Vec::new(),
         texture_coordinates: [
-            reader.vec(Part::Vertices, 0, room(columns & TEXTURE_COORDINATES[0] != 0))?,
-            reader.vec(Part::Vertices, 0, room(columns & TEXTURE_COORDINATES[1] != 0))?,
+            reader.vec(DfmPart::Vertices, 0, room(columns & TEXTURE_COORDINATES[0] != 0))?,
+            reader.vec(DfmPart::Vertices, 0, room(columns & TEXTURE_COORDINATES[1] != 0))?,
         ],
         colors: Vec::new(),
-        influences: reader.guard.vec(&reader.place(), count * per_vertex)?,
+        influences: reader.context.vec(&reader.place(), count * per_vertex)?,
         influences_per_vertex: per_vertex,
     };
     for _ in 0..count {
-        let vertex: VertexRecord = reader.get(Part::Vertices)?;
+        let vertex: VertexRecord = reader.get(DfmPart::Vertices)?;
         repeats(reader, vertex.material, record.material)?;
         if let Some(bone) = vertex.bones.iter().find(|&&bone| bone != 0 && bone as usize >= bones) {
             return Err(reader.wrong(DFM_INDEX, format!("there is no bone {bone}")));
@@ -268,20 +269,20 @@ fn read_vertices(reader: &mut Reader<'_, '_>, record: &PrimitiveRecord) -> Resul
         }
         vertices.influences.extend(vertex.influences.iter().take(per_vertex));
         for _ in FIRST_INFLUENCES..per_vertex {
-            vertices.influences.push(reader.get::<InfluenceRecord>(Part::Influences)?.0);
+            vertices.influences.push(reader.get::<InfluenceRecord>(DfmPart::Influences)?.0);
         }
-        let attribute = reader.get(Part::Attributes)?;
+        let attribute = reader.get(DfmPart::Attributes)?;
         repeats(reader, attribute, record.material)?;
     }
     Ok(vertices)
 }
 
-/// The material that a vertex repeats for who reads no further is that of its primitive.
-fn repeats(reader: &Reader<'_, '_>, said: u32, material: u32) -> Result<(), ImportError> {
-    if said == material {
+/// Checks that the material stored with a vertex, for readers that do not read `PRIM`, is that of its primitive.
+fn repeats(reader: &DfmReader<'_, '_>, stored: u32, material: u32) -> Result<(), ImportError> {
+    if stored == material {
         return Ok(());
     }
     let name = |index| some(index).map_or("none".to_owned(), |index| index.to_string());
-    let reason = format!("a vertex has material {}, its primitive {}", name(said), name(material));
+    let reason = format!("a vertex has material {}, its primitive {}", name(stored), name(material));
     Err(reader.wrong(DFM_INDEX, reason))
 }

@@ -1,24 +1,25 @@
-//! Takes elements out of the parts, one after the other, each with its place in the file.
+//! Reads elements from the parts, one after the other, each with its place in the file.
 
 use super::code::{DFM_COUNT, DFM_TEXT, DFM_VALUE};
-use super::container::{Found, open};
+use super::container::{FoundPart, open};
 use super::invalid;
-use super::part::{PARTS, Part};
-use super::record::{Fields, Record};
-use crate::format::guard::Guard;
+use super::part::{DfmPart, PARTS};
+use super::record::{DfmRecord, RecordFields};
+use crate::format::ImportContext;
 use crate::format::{ImportError, Place};
 
 /// A file whose parts were found.
-pub(super) struct Reader<'a, 'g> {
+pub(super) struct DfmReader<'a, 'g> {
     parts: Vec<Stream<'a>>,
-    pub(super) guard: &'g Guard<'g>,
-    /// Is only what an importer promises let through: finite numbers, rising key times, what the limits grant?
+    pub(super) context: &'g ImportContext<'g>,
+    /// Whether to accept only what an importer guarantees: finite numbers, increasing key times, values within the
+    /// limits.
     pub(super) strict: bool,
-    /// Offset of the element read last.
+    /// Offset of the last element that was read.
     last: usize,
 }
 
-/// What is left of a part.
+/// The remaining elements of a part.
 struct Stream<'a> {
     count: u32,
     sizes: [usize; 3],
@@ -27,39 +28,43 @@ struct Stream<'a> {
     rest: &'a [u8],
 }
 
-impl<'a, 'g> Reader<'a, 'g> {
-    /// Finds the parts; their checksums are right afterwards.
-    pub(super) fn new(bytes: &'a [u8], guard: &'g Guard<'g>, strict: bool) -> Result<Self, ImportError> {
-        let found = open(bytes, guard)?;
-        let stream = |(found, layout): (Found<'a>, &super::part::Layout)| Stream {
+impl<'a, 'g> DfmReader<'a, 'g> {
+    /// Finds the parts and verifies their checksums.
+    pub(super) fn new(
+        bytes: &'a [u8],
+        context: &'g ImportContext<'g>,
+        strict: bool,
+    ) -> Result<Self, ImportError> {
+        let found = open(bytes, context)?;
+        let stream = |(found, layout): (FoundPart<'a>, &super::part::PartLayout)| Stream {
             count: found.count,
             sizes: found.sizes,
             at: found.at + layout.part.header_bytes(),
             rest: found.bytes,
         };
         let parts = found.into_iter().zip(&PARTS).map(stream).collect();
-        Ok(Self { parts, guard, strict, last: 0 })
+        Ok(Self { parts, context, strict, last: 0 })
     }
 
-    /// The number of elements that the header of `part` gives.
-    pub(super) fn count(&self, part: Part) -> usize {
+    /// Returns the number of elements in the header of `part`.
+    pub(super) fn count(&self, part: DfmPart) -> usize {
         self.parts[part as usize].count as usize
     }
 
-    /// How many elements of `part` are not yet read.
-    pub(super) fn left(&self, part: Part) -> usize {
+    /// Returns the number of elements of `part` that were not read yet.
+    pub(super) fn left(&self, part: DfmPart) -> usize {
         let stream = &self.parts[part as usize];
         stream.rest.len() / stream.sizes[0].max(1)
     }
 
-    /// The next element of `part`.
-    pub(super) fn get<R: Record>(&mut self, part: Part) -> Result<R, ImportError> {
+    /// Reads the next element of `part`.
+    pub(super) fn get<R: DfmRecord>(&mut self, part: DfmPart) -> Result<R, ImportError> {
         self.get_sized(part, 0)
     }
 
-    /// The next element of `part`, of the size with number `kind`: takes, tracks and key-frames are one part.
-    pub(super) fn get_sized<R: Record>(&mut self, part: Part, kind: usize) -> Result<R, ImportError> {
-        self.guard.work(1)?;
+    /// Reads the next element of `part`, of the size number `kind`: takes, tracks and key-frames are one part.
+    pub(super) fn get_sized<R: DfmRecord>(&mut self, part: DfmPart, kind: usize) -> Result<R, ImportError> {
+        self.context.work(1)?;
         let stream = &mut self.parts[part as usize];
         let Some((element, rest)) = stream.rest.split_at_checked(stream.sizes[kind]) else {
             return Err(ends(part, stream.at));
@@ -67,17 +72,17 @@ impl<'a, 'g> Reader<'a, 'g> {
         self.last = stream.at;
         stream.at += element.len();
         stream.rest = rest;
-        let mut fields = Fields::new(element);
+        let mut fields = RecordFields::new(element);
         let record = R::get(&mut fields).map_err(|reason| self.wrong(DFM_VALUE, reason))?;
         if self.strict && !fields.finite {
-            let reason = format!("among the {}: a number is NaN or infinite", part.layout().name);
+            let reason = format!("{}: a number is NaN or infinite", part.layout().name);
             return Err(self.wrong(DFM_VALUE, reason));
         }
         Ok(record)
     }
 
-    /// The next `count` elements of `part`.
-    pub(super) fn list<R: Record>(&mut self, part: Part, count: usize) -> Result<Vec<R>, ImportError> {
+    /// Reads the next `count` elements of `part`.
+    pub(super) fn list<R: DfmRecord>(&mut self, part: DfmPart, count: usize) -> Result<Vec<R>, ImportError> {
         let mut list = self.vec(part, 0, count)?;
         for _ in 0..count {
             list.push(self.get(part)?);
@@ -85,32 +90,33 @@ impl<'a, 'g> Reader<'a, 'g> {
         Ok(list)
     }
 
-    /// Room for `count` values, one an element of `part`; refused where the part has fewer left.
-    pub(super) fn vec<T>(&self, part: Part, kind: usize, count: usize) -> Result<Vec<T>, ImportError> {
+    /// Returns a vector with capacity for `count` values, one per element of `part`; an error if fewer elements are
+    /// left.
+    pub(super) fn vec<T>(&self, part: DfmPart, kind: usize, count: usize) -> Result<Vec<T>, ImportError> {
         let stream = &self.parts[part as usize];
         if count > stream.rest.len() / stream.sizes[kind].max(1) {
             return Err(ends(part, stream.at));
         }
-        self.guard.vec(&self.place(), count)
+        self.context.vec(&self.place(), count)
     }
 
-    /// The next `count` bytes of `part`, whose elements are bytes.
-    pub(super) fn bytes(&mut self, part: Part, count: usize) -> Result<&'a [u8], ImportError> {
+    /// Reads the next `count` bytes of `part`, whose elements are bytes.
+    pub(super) fn bytes(&mut self, part: DfmPart, count: usize) -> Result<&'a [u8], ImportError> {
         let stream = &mut self.parts[part as usize];
-        // Elements of a newer version may be larger than a byte; then nobody can tell what they are.
+        // In a newer version the elements could be larger than a byte; such a file cannot be read.
         let taken = stream.rest.split_at_checked(count).filter(|_| stream.sizes[0] == 1);
         let Some((bytes, rest)) = taken else { return Err(ends(part, stream.at)) };
         self.last = stream.at;
         stream.at += count;
         stream.rest = rest;
-        self.guard.charge(&self.place(), count as u64)?;
+        self.context.charge(&self.place(), count as u64)?;
         Ok(bytes)
     }
 
-    /// The next text.
+    /// Reads the next text.
     pub(super) fn text(&mut self) -> Result<String, ImportError> {
-        let length = self.get::<u32>(Part::TextLengths)? as usize;
-        let bytes = self.bytes(Part::Text, length)?;
+        let length = self.get::<u32>(DfmPart::TextLengths)? as usize;
+        let bytes = self.bytes(DfmPart::Text, length)?;
         match std::str::from_utf8(bytes) {
             Ok(text) => Ok(text.to_owned()),
             Err(error) => {
@@ -120,17 +126,17 @@ impl<'a, 'g> Reader<'a, 'g> {
         }
     }
 
-    /// Where the element read last stands.
+    /// Returns the place of the last element that was read.
     pub(super) fn place(&self) -> Place {
         Place::Byte(self.last as u64)
     }
 
-    /// Something is wrong with the element read last.
+    /// Returns an error in the last element that was read.
     pub(super) fn wrong(&self, code: &'static str, reason: String) -> ImportError {
         invalid(self.last, code, reason)
     }
 
-    /// What is counted exceeds a limit, where an importer keeps limits.
+    /// Refuses a count above a limit, when reading as an importer.
     pub(super) fn limit(
         &self,
         what: &'static str,
@@ -144,11 +150,11 @@ impl<'a, 'g> Reader<'a, 'g> {
         Err(ImportError::TooLarge { place: self.place(), what, size, limit })
     }
 
-    /// Was every element of every part read?
+    /// Checks that every element of every part was read.
     pub(super) fn finish(self) -> Result<(), ImportError> {
         for (stream, layout) in self.parts.iter().zip(&PARTS) {
             if !stream.rest.is_empty() {
-                let reason = format!("{} from here on belong to nothing", layout.name);
+                let reason = format!("there are more {} than the file uses, from here on", layout.name);
                 return Err(invalid(stream.at, DFM_COUNT, reason));
             }
         }
@@ -156,6 +162,6 @@ impl<'a, 'g> Reader<'a, 'g> {
     }
 }
 
-fn ends(part: Part, at: usize) -> ImportError {
-    invalid(at, DFM_COUNT, format!("the {} end here, more are needed", part.layout().name))
+fn ends(part: DfmPart, at: usize) -> ImportError {
+    invalid(at, DFM_COUNT, format!("there are no more {}, but the file needs more", part.layout().name))
 }

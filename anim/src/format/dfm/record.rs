@@ -1,43 +1,43 @@
-//! Numbers to bytes and back, little-endian, and elements made of them.
+//! Converts numbers to bytes and back, little-endian, and elements made of them.
 
 use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 
-/// An index that names nothing.
+/// Represents "no index".
 pub(super) const NONE: u32 = u32::MAX;
 
-/// `index`, or [`NONE`].
+/// Returns `index`, or [`NONE`].
 pub(super) fn or_none(index: Option<u32>) -> u32 {
     index.unwrap_or(NONE)
 }
 
-/// What [`or_none`] was made of.
+/// Reverses [`or_none`].
 pub(super) fn some(index: u32) -> Option<u32> {
     (index != NONE).then_some(index)
 }
 
-/// One element of a part: always as many bytes.
-pub(super) trait Record: Sized {
-    /// Bytes written.
+/// One element of a part, of a fixed size.
+pub(super) trait DfmRecord: Sized {
+    /// Size in bytes.
     const SIZE: usize;
-    /// Appends it to `out`.
+    /// Appends the element to `out`.
     fn put(&self, out: &mut Vec<u8>);
-    /// Takes it from the front; an error says which number is none of those allowed.
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String>;
+    /// Reads the element; the error describes the number that is not allowed.
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String>;
 }
 
-/// The bytes of one element, taken from the front.
-pub(super) struct Fields<'a> {
+/// The bytes of one element, read from the front.
+pub(super) struct RecordFields<'a> {
     bytes: &'a [u8],
-    /// Was every float so far neither NaN nor infinite?
+    /// Whether every float so far was finite.
     pub(super) finite: bool,
 }
 
-impl<'a> Fields<'a> {
+impl<'a> RecordFields<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, finite: true }
     }
 
-    /// The next bytes; zeros past the end, which the size of the record rules out.
+    /// Returns the next bytes; zeros after the end, which cannot happen with the size of the record.
     pub(super) fn take<const N: usize>(&mut self) -> [u8; N] {
         debug_assert!(self.bytes.len() >= N, "a record is smaller than its fields");
         let mut taken = [0; N];
@@ -104,10 +104,10 @@ impl Put for Vec<u8> {
     }
 }
 
-/// Records that are one field.
+/// Implements records of one field.
 macro_rules! plain {
     ($($type:ty, $size:literal, $put:expr, $get:ident;)*) => {$(
-        impl Record for $type {
+        impl DfmRecord for $type {
             const SIZE: usize = $size;
 
             fn put(&self, out: &mut Vec<u8>) {
@@ -115,7 +115,7 @@ macro_rules! plain {
                 put(self, out);
             }
 
-            fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+            fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
                 Ok(fields.$get())
             }
         }
@@ -129,19 +129,19 @@ plain! {
     Vec4, 16, |vector, out| out.floats(&vector.to_array()), vec4;
 }
 
-impl Record for u8 {
+impl DfmRecord for u8 {
     const SIZE: usize = 1;
 
     fn put(&self, out: &mut Vec<u8>) {
         out.push(*self);
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         Ok(fields.take::<1>()[0])
     }
 }
 
-/// The value of a list of choices that `number` stands for.
+/// Returns the value that `number` represents in a list of choices.
 pub(super) fn choice<T: Copy>(choices: &[T], number: u8, what: &str) -> Result<T, String> {
     choices
         .get(usize::from(number))
@@ -149,12 +149,12 @@ pub(super) fn choice<T: Copy>(choices: &[T], number: u8, what: &str) -> Result<T
         .ok_or_else(|| format!("{what} {number} is not below {}", choices.len()))
 }
 
-/// The number that stands for `value` in a list of choices.
+/// Returns the number that represents `value` in a list of choices.
 pub(super) fn number_of<T: PartialEq>(choices: &[T], value: &T) -> u8 {
     choices.iter().position(|choice| choice == value).unwrap_or(0) as u8
 }
 
-/// Refuses bits that mean nothing.
+/// Refuses unknown bits.
 pub(super) fn only_bits(flags: u32, known: u32) -> Result<u32, String> {
     if flags & !known == 0 { Ok(flags) } else { Err(format!("flags {flags:#x} have unknown bits")) }
 }

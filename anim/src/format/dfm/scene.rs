@@ -1,10 +1,10 @@
-//! Skins, and where the meshes stand.
+//! Skins, and the instances of meshes.
 
 use super::code::DFM_INDEX;
-use super::part::Part;
-use super::reader::Reader;
-use super::record::{Fields, Put, Record, only_bits, or_none, some};
-use super::writer::Writer;
+use super::part::DfmPart;
+use super::reader::DfmReader;
+use super::record::{DfmRecord, Put, RecordFields, only_bits, or_none, some};
+use super::writer::DfmWriter;
 use super::{WriteError, refuse};
 use crate::data::{BoneIndex, Mesh, MeshInstance, ModelData, Skin};
 use crate::format::ImportError;
@@ -17,7 +17,7 @@ pub(super) struct JointRecord {
     offset: Mat4,
 }
 
-impl Record for JointRecord {
+impl DfmRecord for JointRecord {
     const SIZE: usize = 68;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -25,15 +25,15 @@ impl Record for JointRecord {
         out.floats(&self.offset.to_cols_array());
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         Ok(Self { bone: fields.u32(), offset: fields.mat4() })
     }
 }
 
-/// A mesh in the scene; its morph weights stand elsewhere.
+/// A mesh in the scene; its morph weights are stored elsewhere.
 pub(super) struct InstanceRecord(MeshInstance);
 
-impl Record for InstanceRecord {
+impl DfmRecord for InstanceRecord {
     const SIZE: usize = 84;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -46,7 +46,7 @@ impl Record for InstanceRecord {
         out.floats(&instance.to_bone.to_cols_array());
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let mesh = fields.u32();
         let (flags, node) = (only_bits(fields.u32(), 1)?, fields.u32());
         let (skin, bone, to_bone) = (some(fields.u32()), some(fields.u32()), fields.mat4());
@@ -56,33 +56,33 @@ impl Record for InstanceRecord {
 }
 
 /// Writes every skin of `model`.
-pub(super) fn write_skins(model: &ModelData, writer: &mut Writer) -> Result<(), WriteError> {
+pub(super) fn write_skins(model: &ModelData, writer: &mut DfmWriter) -> Result<(), WriteError> {
     for (number, skin) in model.skins.iter().enumerate() {
         if skin.bones.len() != skin.offsets.len() {
             let reason = format!("{} offsets for {} joints", skin.offsets.len(), skin.bones.len());
             return Err(refuse(format!("/skins/{number}"), reason));
         }
         writer.text(&skin.name);
-        writer.put(Part::Skins, &(skin.bones.len() as u32));
+        writer.put(DfmPart::Skins, &(skin.bones.len() as u32));
         for (&bone, &offset) in skin.bones.iter().zip(&skin.offsets) {
-            writer.put(Part::Joints, &JointRecord { bone, offset });
+            writer.put(DfmPart::Joints, &JointRecord { bone, offset });
         }
     }
     Ok(())
 }
 
-/// Every skin.
-pub(super) fn read_skins(reader: &mut Reader<'_, '_>) -> Result<Vec<Skin>, ImportError> {
-    let (count, of_skeleton) = (reader.count(Part::Skins), reader.count(Part::Bones));
-    let mut skins = reader.vec(Part::Skins, 0, count)?;
+/// Reads every skin.
+pub(super) fn read_skins(reader: &mut DfmReader<'_, '_>) -> Result<Vec<Skin>, ImportError> {
+    let (count, of_skeleton) = (reader.count(DfmPart::Skins), reader.count(DfmPart::Bones));
+    let mut skins = reader.vec(DfmPart::Skins, 0, count)?;
     for _ in 0..count {
         let name = reader.text()?;
-        let joints = reader.get::<u32>(Part::Skins)? as usize;
+        let joints = reader.get::<u32>(DfmPart::Skins)? as usize;
         reader.limit("joints", joints, JOINTS_PER_SKIN)?;
-        let mut bones = reader.vec(Part::Joints, 0, joints)?;
-        let mut offsets = reader.vec(Part::Joints, 0, joints)?;
+        let mut bones = reader.vec(DfmPart::Joints, 0, joints)?;
+        let mut offsets = reader.vec(DfmPart::Joints, 0, joints)?;
         for _ in 0..joints {
-            let joint: JointRecord = reader.get(Part::Joints)?;
+            let joint: JointRecord = reader.get(DfmPart::Joints)?;
             if joint.bone as usize >= of_skeleton {
                 return Err(reader.wrong(DFM_INDEX, format!("there is no bone {}", joint.bone)));
             }
@@ -95,34 +95,35 @@ pub(super) fn read_skins(reader: &mut Reader<'_, '_>) -> Result<Vec<Skin>, Impor
 }
 
 /// Writes every instance of `model`.
-pub(super) fn write_instances(model: &ModelData, writer: &mut Writer) -> Result<(), WriteError> {
+pub(super) fn write_instances(model: &ModelData, writer: &mut DfmWriter) -> Result<(), WriteError> {
     for (number, instance) in model.instances.iter().enumerate() {
         let targets = model.meshes.get(instance.mesh as usize).map(|mesh| mesh.morph_weights.len());
         if targets != Some(instance.morph_weights.len()) {
             let (mesh, weights) = (instance.mesh, instance.morph_weights.len());
-            let reason = format!("{weights} morph weights for {targets:?} targets of mesh {mesh}");
+            let reason =
+                format!("there are {weights} morph weights for the {targets:?} targets of mesh {mesh}");
             return Err(refuse(format!("/instances/{number}"), reason));
         }
         writer.put(
-            Part::Instances,
+            DfmPart::Instances,
             &InstanceRecord(MeshInstance { morph_weights: Vec::new(), ..instance.clone() }),
         );
-        writer.put_all(Part::Weights, &instance.morph_weights);
+        writer.put_all(DfmPart::Weights, &instance.morph_weights);
     }
     Ok(())
 }
 
-/// Every instance; `largest_joints` holds the largest joint that each mesh names.
+/// Reads every instance; `largest_joints` contains the largest joint that each mesh refers to.
 pub(super) fn read_instances(
-    reader: &mut Reader<'_, '_>,
+    reader: &mut DfmReader<'_, '_>,
     meshes: &[Mesh],
     skins: &[Skin],
     largest_joints: &[Option<u16>],
 ) -> Result<Vec<MeshInstance>, ImportError> {
-    let (count, bones) = (reader.count(Part::Instances), reader.count(Part::Bones));
-    let mut instances = reader.vec(Part::Instances, 0, count)?;
+    let (count, bones) = (reader.count(DfmPart::Instances), reader.count(DfmPart::Bones));
+    let mut instances = reader.vec(DfmPart::Instances, 0, count)?;
     for _ in 0..count {
-        let InstanceRecord(instance) = reader.get(Part::Instances)?;
+        let InstanceRecord(instance) = reader.get(DfmPart::Instances)?;
         let Some(mesh) = meshes.get(instance.mesh as usize) else {
             return Err(reader.wrong(DFM_INDEX, format!("there is no mesh {}", instance.mesh)));
         };
@@ -134,11 +135,11 @@ pub(super) fn read_instances(
             let joints = joints.ok_or_else(|| reader.wrong(DFM_INDEX, format!("there is no skin {skin}")))?;
             let largest = largest_joints.get(instance.mesh as usize).copied().flatten();
             if let Some(largest) = largest.filter(|&largest| usize::from(largest) >= joints) {
-                let reason = format!("a vertex names joint {largest}, skin {skin} has {joints}");
+                let reason = format!("a vertex refers to joint {largest}, skin {skin} has {joints} joints");
                 return Err(reader.wrong(DFM_INDEX, reason));
             }
         }
-        let morph_weights = reader.list(Part::Weights, mesh.morph_weights.len())?;
+        let morph_weights = reader.list(DfmPart::Weights, mesh.morph_weights.len())?;
         instances.push(MeshInstance { morph_weights, ..instance });
     }
     Ok(instances)

@@ -3,10 +3,10 @@
 use super::bone::{get_pose, put_pose};
 use super::code::{DFM_INDEX, DFM_VALUE};
 use super::keys;
-use super::part::Part;
-use super::reader::Reader;
-use super::record::{Fields, Put, Record, choice, number_of};
-use super::writer::Writer;
+use super::part::DfmPart;
+use super::reader::DfmReader;
+use super::record::{DfmRecord, Put, RecordFields, choice, number_of};
+use super::writer::DfmWriter;
 use super::{WriteError, refuse};
 use crate::data::{Interpolation, MeshInstance, ModelData, MorphTrack, Skeleton, Take, Transform};
 use crate::format::ImportError;
@@ -24,7 +24,7 @@ pub(super) struct TakeRecord {
     morphs: u32,
 }
 
-impl Record for TakeRecord {
+impl DfmRecord for TakeRecord {
     const SIZE: usize = 16;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -33,7 +33,7 @@ impl Record for TakeRecord {
         out.u32(self.morphs);
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         Ok(Self { start: fields.f32(), length: fields.f32(), tracks: fields.u32(), morphs: fields.u32() })
     }
 }
@@ -42,11 +42,11 @@ impl Record for TakeRecord {
 pub(super) struct TrackRecord {
     pub(super) bone: u32,
     pub(super) keyframes: u32,
-    /// Of translation, rotation, scale.
+    /// Interpolation of translation, rotation and scale.
     pub(super) interpolations: [Interpolation; 3],
 }
 
-impl Record for TrackRecord {
+impl DfmRecord for TrackRecord {
     const SIZE: usize = 12;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -56,7 +56,7 @@ impl Record for TrackRecord {
         out.push(0);
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (bone, keyframes) = (fields.u32(), fields.u32());
         let [translation, rotation, scale, _]: [u8; 4] = fields.take();
         let mut interpolations = [Interpolation::Linear; 3];
@@ -72,11 +72,12 @@ impl Record for TrackRecord {
 pub(super) struct KeyframeRecord {
     pub(super) time: f32,
     pub(super) pose: Transform,
-    /// 1 translation, 2 rotation, 4 scale; the others are what their channels give at this time.
+    /// Bits of the values that are keys: 1 translation, 2 rotation, 4 scale; the other values are those of their
+    /// channels at this time.
     pub(super) keys: u32,
 }
 
-impl Record for KeyframeRecord {
+impl DfmRecord for KeyframeRecord {
     const SIZE: usize = 48;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -85,10 +86,10 @@ impl Record for KeyframeRecord {
         out.u32(self.keys);
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (time, pose, keys) = (fields.f32(), get_pose(fields), fields.u32());
         if keys == 0 || keys > 7 {
-            return Err(format!("a key-frame with the keys {keys:#x}"));
+            return Err(format!("the key bits {keys:#x} of a key-frame are invalid"));
         }
         Ok(Self { time, pose, keys })
     }
@@ -102,7 +103,7 @@ pub(super) struct MorphTrackRecord {
     keys: u32,
 }
 
-impl Record for MorphTrackRecord {
+impl DfmRecord for MorphTrackRecord {
     const SIZE: usize = 16;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -112,7 +113,7 @@ impl Record for MorphTrackRecord {
         out.u32(self.keys);
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (instance, targets, number, keys) = (fields.u32(), fields.u32(), fields.u32(), fields.u32());
         let number = u8::try_from(number).unwrap_or(u8::MAX);
         let interpolation = choice(&INTERPOLATIONS, number, "interpolation")?;
@@ -121,7 +122,7 @@ impl Record for MorphTrackRecord {
 }
 
 /// Writes every take of `model`.
-pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteError> {
+pub(super) fn write(model: &ModelData, writer: &mut DfmWriter) -> Result<(), WriteError> {
     let skeleton = &model.animation.skeleton;
     writer.takes = model.animation.takes.len();
     for (number, take) in model.animation.takes.iter().enumerate() {
@@ -132,11 +133,11 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteE
         }
         writer.text(&take.name);
         let (tracks, morphs) = (take.tracks.len() as u32, take.morphs.len() as u32);
-        writer.put(Part::Takes, &TakeRecord { start: take.start, length: take.length, tracks, morphs });
+        writer.put(DfmPart::Takes, &TakeRecord { start: take.start, length: take.length, tracks, morphs });
         for (index, (track, bone)) in take.tracks.iter().zip(&skeleton.bones).enumerate() {
             let place = || format!("/takes/{number}/tracks/{index}");
             if track.bone as usize != index {
-                return Err(refuse(place(), format!("the track of bone {}", track.bone)));
+                return Err(refuse(place(), format!("the track is for bone {}", track.bone)));
             }
             keys::write_track(track, bone, writer).map_err(|reason| refuse(place(), reason))?;
         }
@@ -148,50 +149,51 @@ pub(super) fn write(model: &ModelData, writer: &mut Writer) -> Result<(), WriteE
     Ok(())
 }
 
-/// Weights of a morph track with so many keys.
+/// Returns the number of weights of a morph track with this number of keys.
 fn weights(keys: usize, targets: u32, interpolation: Interpolation) -> Option<usize> {
     let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
     keys.checked_mul(targets as usize)?.checked_mul(per_key)
 }
 
-fn write_morph(morph: &MorphTrack, writer: &mut Writer) -> Result<(), String> {
+fn write_morph(morph: &MorphTrack, writer: &mut DfmWriter) -> Result<(), String> {
     let keys = morph.times.len();
     if weights(keys, morph.targets, morph.interpolation) != Some(morph.weights.len()) {
         return Err(format!("{} weights for {keys} keys of {} targets", morph.weights.len(), morph.targets));
     }
     let MorphTrack { instance, targets, interpolation, .. } = *morph;
-    writer.put(Part::MorphTracks, &MorphTrackRecord { instance, targets, interpolation, keys: keys as u32 });
-    writer.put_all(Part::MorphKeys, &morph.times);
-    writer.put_all(Part::MorphKeys, &morph.weights);
+    writer
+        .put(DfmPart::MorphTracks, &MorphTrackRecord { instance, targets, interpolation, keys: keys as u32 });
+    writer.put_all(DfmPart::MorphKeys, &morph.times);
+    writer.put_all(DfmPart::MorphKeys, &morph.weights);
     Ok(())
 }
 
-/// Every take.
+/// Reads every take.
 pub(super) fn read(
-    reader: &mut Reader<'_, '_>,
+    reader: &mut DfmReader<'_, '_>,
     skeleton: &Skeleton,
     instances: &[MeshInstance],
 ) -> Result<Vec<Arc<Take>>, ImportError> {
-    let count = reader.count(Part::Takes);
-    let mut takes = reader.vec(Part::Takes, 0, count)?;
+    let count = reader.count(DfmPart::Takes);
+    let mut takes = reader.vec(DfmPart::Takes, 0, count)?;
     let mut keys = 0;
     for _ in 0..count {
         let name = reader.text()?;
-        let record: TakeRecord = reader.get(Part::Takes)?;
+        let record: TakeRecord = reader.get(DfmPart::Takes)?;
         if reader.strict && record.length < 0.0 {
-            return Err(reader.wrong(DFM_VALUE, format!("a take of {} seconds", record.length)));
+            return Err(reader.wrong(DFM_VALUE, format!("the length of a take is {} seconds", record.length)));
         }
         if record.tracks as usize != skeleton.len() {
             let reason = format!("{} tracks for {} bones", record.tracks, skeleton.len());
             return Err(reader.wrong(DFM_VALUE, reason));
         }
-        let mut tracks = reader.vec(Part::Takes, 1, record.tracks as usize)?;
+        let mut tracks = reader.vec(DfmPart::Takes, 1, record.tracks as usize)?;
         for index in 0..record.tracks {
             let track = keys::read_track(reader, index)?;
             keys += track.keys();
             tracks.push(track);
         }
-        let mut morphs = reader.vec(Part::MorphTracks, 0, record.morphs as usize)?;
+        let mut morphs = reader.vec(DfmPart::MorphTracks, 0, record.morphs as usize)?;
         for _ in 0..record.morphs {
             let morph = read_morph(reader, instances)?;
             keys += morph.times.len();
@@ -203,33 +205,31 @@ pub(super) fn read(
     Ok(takes)
 }
 
-fn read_morph(reader: &mut Reader<'_, '_>, instances: &[MeshInstance]) -> Result<MorphTrack, ImportError> {
-    let MorphTrackRecord { instance, targets, interpolation, keys } = reader.get(Part::MorphTracks)?;
+fn read_morph(reader: &mut DfmReader<'_, '_>, instances: &[MeshInstance]) -> Result<MorphTrack, ImportError> {
+    let MorphTrackRecord { instance, targets, interpolation, keys } = reader.get(DfmPart::MorphTracks)?;
     let expected = instances.get(instance as usize).map(|instance| instance.morph_weights.len());
     if expected != Some(targets as usize) {
-        let reason = format!("{targets} targets for instance {instance}, which has {expected:?}");
+        let reason = format!("there are {targets} targets for instance {instance}, which has {expected:?}");
         return Err(reader.wrong(DFM_INDEX, reason));
     }
     let weights = weights(keys as usize, targets, interpolation)
         .ok_or_else(|| reader.wrong(DFM_VALUE, format!("{keys} keys of {targets} targets")))?;
     reader.limit("keys of one channel", keys, KEYS_PER_CHANNEL)?;
-    let times: Vec<f32> = reader.list(Part::MorphKeys, keys as usize)?;
-    times_rise(reader, &times)?;
-    let weights: Vec<f32> = reader.list(Part::MorphKeys, weights)?;
-    // Each list is copied once more, to be shared.
-    reader.guard.charge(&reader.place(), 4 * (times.len() + weights.len()) as u64)?;
+    let times: Vec<f32> = reader.list(DfmPart::MorphKeys, keys as usize)?;
+    times_increase(reader, &times)?;
+    let weights: Vec<f32> = reader.list(DfmPart::MorphKeys, weights)?;
+    // Charged once more, since each list is copied to be shared.
+    reader.context.charge(&reader.place(), 4 * (times.len() + weights.len()) as u64)?;
     Ok(MorphTrack { instance, targets, times: times.into(), weights: weights.into(), interpolation })
 }
 
-/// What an importer promises of key times: they rise, and stay within a day of zero.
-pub(super) fn times_rise(reader: &Reader<'_, '_>, times: &[f32]) -> Result<(), ImportError> {
+/// Checks what an importer guarantees of key times: they increase, and are within a day of zero.
+pub(super) fn times_increase(reader: &DfmReader<'_, '_>, times: &[f32]) -> Result<(), ImportError> {
     if !reader.strict {
         return Ok(());
     }
     if let Some(pair) = times.windows(2).find(|pair| pair[0] >= pair[1]) {
-        return Err(
-            reader.wrong(DFM_VALUE, format!("a key at {} s comes after one at {} s", pair[1], pair[0]))
-        );
+        return Err(reader.wrong(DFM_VALUE, format!("a key at {} s follows one at {} s", pair[1], pair[0])));
     }
     match times.iter().find(|time| time.abs() > CLIP_SECONDS) {
         Some(time) => {

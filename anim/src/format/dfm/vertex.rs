@@ -1,13 +1,13 @@
-//! Vertices as the thesis has them, and the influences beyond the fourth.
+//! Vertices as in the thesis, and the influences after the fourth.
 
-use super::record::{Fields, Put, Record};
+use super::record::{DfmRecord, Put, RecordFields};
 use crate::data::Influence;
 use glam::{Vec2, Vec3};
 
-/// Influences of a vertex in the thesis's part.
+/// Number of influences of a vertex in the thesis's part.
 pub(super) const FIRST_INFLUENCES: usize = 4;
 
-/// One vertex. The bones and the material repeat what other parts say, for who reads no further.
+/// One vertex. The bones and the material repeat what other parts contain, for readers that do not read those.
 #[derive(Clone, Debug)]
 pub(super) struct VertexRecord {
     pub(super) position: Vec3,
@@ -15,11 +15,11 @@ pub(super) struct VertexRecord {
     pub(super) texture_coordinates: [Vec2; 2],
     pub(super) bones: [u32; FIRST_INFLUENCES],
     pub(super) material: u32,
-    /// Joint and weight; the joint stands behind what the thesis has.
+    /// Joint and weight; the joint comes after the thesis's fields.
     pub(super) influences: [Influence; FIRST_INFLUENCES],
 }
 
-impl Record for VertexRecord {
+impl DfmRecord for VertexRecord {
     const SIZE: usize = 84;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -38,7 +38,7 @@ impl Record for VertexRecord {
         }
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (position, normal) = (fields.vec3(), fields.vec3());
         let texture_coordinates = [fields.vec2(), fields.vec2()];
         let bones = [(); FIRST_INFLUENCES].map(|()| fields.u32());
@@ -49,10 +49,10 @@ impl Record for VertexRecord {
     }
 }
 
-/// An influence beyond the fourth.
+/// An influence after the fourth.
 pub(super) struct InfluenceRecord(pub(super) Influence);
 
-impl Record for InfluenceRecord {
+impl DfmRecord for InfluenceRecord {
     const SIZE: usize = 8;
 
     fn put(&self, out: &mut Vec<u8>) {
@@ -60,7 +60,7 @@ impl Record for InfluenceRecord {
         out.floats(&[self.0.weight]);
     }
 
-    fn get(fields: &mut Fields<'_>) -> Result<Self, String> {
+    fn get(fields: &mut RecordFields<'_>) -> Result<Self, String> {
         let (joint, weight) = (fields.u32(), fields.f32());
         let joint = u16::try_from(joint).map_err(|_| format!("joint {joint} does not fit 16 bits"))?;
         Ok(Self(Influence { joint, weight }))

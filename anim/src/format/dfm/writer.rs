@@ -1,56 +1,56 @@
-//! Collects the parts of a file and puts them one behind the other, the total and the checksums last.
+//! Collects the parts of a file and concatenates them, with the total length and the checksums at the end.
 
-use super::part::{PARTS, Part};
-use super::record::{Put, Record};
+use super::part::{DfmPart, PARTS};
+use super::record::{DfmRecord, Put};
 use super::take::{KeyframeRecord, TrackRecord};
 use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, WriteError};
 use crate::checksum::CRC_32;
 
-/// A file under way.
-pub(super) struct Writer {
-    /// The elements of each part, without its header.
+/// A file that is being written.
+pub(super) struct DfmWriter {
+    /// Elements of each part, without its header.
     parts: [Vec<u8>; PARTS.len()],
-    /// Number of takes: their elements are not of one size.
+    /// Number of takes, since their elements differ in size.
     pub(super) takes: usize,
 }
 
-impl Writer {
+impl DfmWriter {
     pub(super) fn new() -> Self {
         Self { parts: [const { Vec::new() }; PARTS.len()], takes: 0 }
     }
 
     /// Appends an element to `part`.
-    pub(super) fn put<R: Record>(&mut self, part: Part, record: &R) {
+    pub(super) fn put<R: DfmRecord>(&mut self, part: DfmPart, record: &R) {
         record.put(&mut self.parts[part as usize]);
     }
 
     /// Appends elements to `part`.
-    pub(super) fn put_all<R: Record>(&mut self, part: Part, records: &[R]) {
+    pub(super) fn put_all<R: DfmRecord>(&mut self, part: DfmPart, records: &[R]) {
         for record in records {
             self.put(part, record);
         }
     }
 
     /// Appends bytes to `part`, whose elements are bytes.
-    pub(super) fn bytes(&mut self, part: Part, bytes: &[u8]) {
+    pub(super) fn bytes(&mut self, part: DfmPart, bytes: &[u8]) {
         self.parts[part as usize].extend_from_slice(bytes);
     }
 
-    /// Appends a text; texts are read in the order they were written.
+    /// Appends a text; texts are read in the order in which they were written.
     pub(super) fn text(&mut self, text: &str) {
-        self.put(Part::TextLengths, &(text.len() as u32));
-        self.bytes(Part::Text, text.as_bytes());
+        self.put(DfmPart::TextLengths, &(text.len() as u32));
+        self.bytes(DfmPart::Text, text.as_bytes());
     }
 
-    /// How many elements `part` has so far.
-    pub(super) fn count(&self, part: Part) -> usize {
+    /// Returns the number of elements of `part` so far.
+    pub(super) fn count(&self, part: DfmPart) -> usize {
         match part {
-            Part::Takes => self.takes,
+            DfmPart::Takes => self.takes,
             part => self.parts[part as usize].len() / part.layout().size,
         }
     }
 
-    /// The whole file; refused above the 4 GiB that the first four bytes can say.
+    /// Returns the whole file, or an error above the 4 GiB that the first four bytes can represent.
     pub(super) fn finish(self) -> Result<Vec<u8>, WriteError> {
         let parts = PARTS
             .iter()
@@ -58,7 +58,7 @@ impl Writer {
         let bytes = 4 + parts.sum::<u64>() + 12 + 16 * (PARTS.len() as u64 + 1);
         let total = total(bytes)?;
         let mut file = Vec::with_capacity(bytes as usize);
-        // Filled in at the end, as the thesis has it.
+        // Overwritten at the end, as in the thesis.
         file.u32(0);
         let mut directory = Vec::new();
         for layout in &PARTS {
@@ -76,25 +76,25 @@ impl Writer {
         Ok(file)
     }
 
-    fn header(&self, part: Part, file: &mut Vec<u8>) {
+    fn header(&self, part: DfmPart, file: &mut Vec<u8>) {
         if !part.is_of_thesis() {
             file.extend_from_slice(&part.layout().tag);
         }
         file.u32(self.count(part) as u32);
         file.u32(part.layout().size as u32);
-        if part == Part::Takes {
+        if part == DfmPart::Takes {
             file.u32(TrackRecord::SIZE as u32);
             file.u32(KeyframeRecord::SIZE as u32);
         }
     }
 }
 
-/// The first four bytes of a file of so many.
+/// Returns the first four bytes of a file of this length.
 fn total(bytes: u64) -> Result<u32, WriteError> {
     u32::try_from(bytes).map_err(|_| WriteError::TooLarge { bytes })
 }
 
-/// The directory of the parts, and the last 16 bytes.
+/// Appends the directory of the parts, and the last 16 bytes.
 fn ending(file: &mut Vec<u8>, entries: &[u8]) {
     let at = file.len();
     file.extend_from_slice(&DIRECTORY_TAG);
@@ -115,7 +115,7 @@ mod tests {
     use crate::format::dfm::WriteError;
 
     #[test]
-    fn four_bytes_end_at_four_gibibytes() {
+    fn files_of_four_gibibytes_are_refused() {
         assert_eq!(total(u32::MAX.into()), Ok(u32::MAX));
         let error = total(1 << 32).unwrap_err();
         assert_eq!(error, WriteError::TooLarge { bytes: 1 << 32 });

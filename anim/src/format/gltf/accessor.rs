@@ -1,26 +1,26 @@
-//! The bounds layer: no byte of a buffer is looked at before its place has been checked here.
+//! Bounds checks: no byte of a buffer is read before its position has been checked in this module.
 
-use super::buffer::Buffer;
+use super::buffer::BufferData;
 use super::check as code;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{CANCEL_EVERY, VERTICES, ZERO_ELEMENTS};
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Index, Root, buffer};
 
-/// A document with its buffers: what everything else is read from.
-pub(super) struct Document<'a> {
+/// A document with its buffers; every other module of the importer reads from it.
+pub(super) struct GltfDocument<'a> {
     pub(super) root: &'a Root,
-    pub(super) buffers: Vec<Buffer<'a>>,
-    /// Bytes read in all.
+    pub(super) buffers: Vec<BufferData<'a>>,
+    /// Total number of bytes read.
     pub(super) bytes: usize,
-    pub(super) guard: &'a Guard<'a>,
+    pub(super) context: &'a ImportContext<'a>,
 }
 
-/// What one element of an accessor is: number type, shape, and whether integers stand for -1..1 or 0..1.
+/// Format of one accessor element: component type, shape, and whether integers are normalized (0..1 or -1..1).
 pub(super) type ElementFormat = (ComponentType, Type, bool);
 
-/// Evenly spaced pieces of a buffer, all inside it.
+/// Evenly spaced elements of a buffer, all inside it.
 #[derive(Clone, Copy)]
 struct Strided<'a> {
     bytes: &'a [u8],
@@ -41,19 +41,19 @@ struct Sparse<'a> {
     values: Strided<'a>,
 }
 
-/// An accessor whose every byte is known to be there.
-pub(super) struct Source<'a> {
-    /// `/accessors/3`
+/// An accessor whose bytes are all known to be inside its buffer.
+pub(super) struct AccessorSource<'a> {
+    /// JSON pointer to the accessor, such as `/accessors/3`.
     pub(super) place: Place,
     pub(super) count: usize,
     pub(super) format: ElementFormat,
     base: Option<Strided<'a>>,
     sparse: Option<Sparse<'a>>,
-    guard: &'a Guard<'a>,
+    context: &'a ImportContext<'a>,
 }
 
-impl<'a> Document<'a> {
-    /// Bytes of a buffer view and its stride. `from` is where the view is named.
+impl<'a> GltfDocument<'a> {
+    /// Returns the bytes of a buffer view and its stride. `from` is the JSON pointer of the reference to the view.
     pub(super) fn view(
         &self,
         index: Index<buffer::View>,
@@ -66,17 +66,20 @@ impl<'a> Document<'a> {
             .buffers
             .get(view.buffer.value())
             .ok_or_else(|| unresolved(&format!("{}/buffer", place()), view.buffer.value()))?;
-        if matches!(buffer, Buffer::Missing) {
+        if matches!(buffer, BufferData::Missing) {
             let at = Place::Pointer(format!("/buffers/{}", view.buffer.value()));
-            let reason = "the buffer has no URI, and there is no binary chunk for it".to_owned();
+            let reason = "the buffer has no URI, and the file has no binary chunk for it".to_owned();
             return Err(invalid(at, code::BUFFER_MISSING_GLB_DATA, reason));
         }
         let buffer = buffer.bytes();
         let offset = view.byte_offset.unwrap_or_default().0;
         let range = to_usize(offset).zip(offset.checked_add(view.byte_length.0).and_then(to_usize));
         let bytes = range.and_then(|(from, to)| buffer.get(from..to)).ok_or_else(|| {
-            let reason =
-                format!("{} bytes from {offset} do not fit a buffer of {}", view.byte_length.0, buffer.len());
+            let reason = format!(
+                "{} bytes from byte {offset} do not fit into a buffer of {} bytes",
+                view.byte_length.0,
+                buffer.len()
+            );
             invalid(Place::Pointer(place()), code::BUFFER_VIEW_TOO_LONG, reason)
         })?;
         let stride = view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0);
@@ -84,7 +87,7 @@ impl<'a> Document<'a> {
             && (!(4..=252).contains(&stride.0) || stride.0 % 4 != 0)
         {
             let text = format!("the byte stride {} should be a multiple of 4, 4..252", stride.0);
-            self.guard.warn(
+            self.context.warn(
                 Place::Pointer(place() + "/byteStride"),
                 code::BUFFER_VIEW_INVALID_BYTE_STRIDE,
                 text,
@@ -93,20 +96,21 @@ impl<'a> Document<'a> {
         Ok((bytes, stride))
     }
 
-    /// The accessor `index`, named at `from`, if it has one of the formats `allowed`; else an error called `wrong`.
+    /// Returns the accessor `index`, referred to at `from`, if its format is one of `allowed`; otherwise an error with
+    /// the code `wrong`.
     pub(super) fn source(
         &'a self,
         index: Index<Accessor>,
         from: &str,
         allowed: &[ElementFormat],
         wrong: &'static str,
-    ) -> Result<Source<'a>, ImportError> {
+    ) -> Result<AccessorSource<'a>, ImportError> {
         let number = index.value();
         let accessor = self.root.accessors.get(number).ok_or_else(|| unresolved(from, number))?;
         let path = format!("/accessors/{number}");
         let format = self.format_of(accessor, &path)?;
         if !allowed.contains(&format) {
-            let reason = format!("{} is {}, which is not allowed there", path, describe(format));
+            let reason = format!("{} is {}, which is not allowed here", path, describe(format));
             return Err(invalid(Place::Pointer(from.to_owned()), wrong, reason));
         }
         let size = format.0.size() * format.1.multiplicity();
@@ -124,12 +128,12 @@ impl<'a> Document<'a> {
             Some(_) => Some(self.sparse_of(accessor, count, size, &path)?),
             None => None,
         };
-        Ok(Source { place: Place::Pointer(path), count, format, base, sparse, guard: self.guard })
+        Ok(AccessorSource { place: Place::Pointer(path), count, format, base, sparse, context: self.context })
     }
 
     fn format_of(&self, accessor: &Accessor, path: &str) -> Result<ElementFormat, ImportError> {
         let not_in_list = |member: &str| {
-            let reason = "none of the values allowed".to_owned();
+            let reason = "the value is not one of those allowed".to_owned();
             invalid(Place::Pointer(format!("{path}/{member}")), code::VALUE_NOT_IN_LIST, reason)
         };
         let Checked::Valid(component) = &accessor.component_type else {
@@ -139,17 +143,17 @@ impl<'a> Document<'a> {
         let mut normalized = accessor.normalized;
         if normalized && matches!(component.0, ComponentType::F32 | ComponentType::U32) {
             let place = Place::Pointer(format!("{path}/normalized"));
-            self.guard.warn(
+            self.context.warn(
                 place,
                 code::ACCESSOR_NORMALIZED_INVALID,
-                "floats and 32-bit integers stay as they are",
+                "floats and 32-bit integers are not normalized",
             );
             normalized = false;
         }
         Ok((component.0, shape, normalized))
     }
 
-    /// How many elements; where no byte backs them, only as many as the input could be about.
+    /// Returns the number of elements. Without a buffer view the number is limited by the size of the input.
     fn count_of(&self, accessor: &Accessor, path: &str) -> Result<usize, ImportError> {
         let limit = match accessor.buffer_view {
             Some(_) => usize::MAX,
@@ -165,9 +169,9 @@ impl<'a> Document<'a> {
 
     fn check_alignment(&self, offset: USize64, component: ComponentType, path: &str) {
         if !offset.0.is_multiple_of(component.size() as u64) {
-            let text = format!("the offset {} is no multiple of {}", offset.0, component.size());
+            let text = format!("the offset {} is not a multiple of {}", offset.0, component.size());
             let place = Place::Pointer(format!("{path}/byteOffset"));
-            self.guard.warn(place, code::ACCESSOR_OFFSET_ALIGNMENT, text);
+            self.context.warn(place, code::ACCESSOR_OFFSET_ALIGNMENT, text);
         }
     }
 
@@ -178,7 +182,7 @@ impl<'a> Document<'a> {
         size: usize,
         path: &str,
     ) -> Result<Sparse<'_>, ImportError> {
-        let sparse = accessor.sparse.as_ref().expect("the caller has looked");
+        let sparse = accessor.sparse.as_ref().expect("the caller checks that the accessor is sparse");
         let path = format!("{path}/sparse");
         let count = to_usize(sparse.count.0).filter(|&count| count <= total).ok_or_else(|| {
             let reason = format!("{} of {total} elements are replaced", sparse.count.0);
@@ -186,7 +190,11 @@ impl<'a> Document<'a> {
         })?;
         let Checked::Valid(index_type) = &sparse.indices.component_type else {
             let place = Place::Pointer(format!("{path}/indices/componentType"));
-            return Err(invalid(place, code::VALUE_NOT_IN_LIST, "none of the values allowed".to_owned()));
+            return Err(invalid(
+                place,
+                code::VALUE_NOT_IN_LIST,
+                "the value is not one of those allowed".to_owned(),
+            ));
         };
         let part = |view, offset, size, name: &str| {
             let path = format!("{path}/{name}");
@@ -203,7 +211,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// `count` pieces of `size` bytes from `offset` on, all inside `bytes`.
+/// Returns `count` elements of `size` bytes, the first one at `offset`, all inside `bytes`.
 fn strided<'a>(
     bytes: &'a [u8],
     offset: USize64,
@@ -225,7 +233,7 @@ fn strided<'a>(
         to_usize(offset.0).zip(length).and_then(|(from, length)| Some(from..from.checked_add(length)?));
     let bytes_of = range.and_then(|range| bytes.get(range)).ok_or_else(|| {
         let reason = format!(
-            "{count} elements of {size} bytes, {stride} apart from byte {}, do not fit the {} bytes there",
+            "{count} elements of {size} bytes, {stride} apart from byte {}, do not fit into {} bytes",
             offset.0,
             bytes.len()
         );
@@ -234,8 +242,8 @@ fn strided<'a>(
     Ok(Strided { bytes: bytes_of, stride, size })
 }
 
-impl Source<'_> {
-    /// All elements as floats, integers normalised where the accessor says so. May hold NaN and infinity.
+impl AccessorSource<'_> {
+    /// Returns all elements as floats, with integers normalized if the accessor is. May contain NaN and infinity.
     pub(super) fn floats<const N: usize>(&self) -> Result<Vec<[f32; N]>, ImportError> {
         match (self.format.0, self.format.2) {
             (ComponentType::F32, _) => self.gather(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])),
@@ -256,7 +264,7 @@ impl Source<'_> {
         }
     }
 
-    /// [`Self::floats`], refused when one is not finite.
+    /// Returns [`Self::floats`], or an error if one is not finite.
     pub(super) fn finite<const N: usize>(&self) -> Result<Vec<[f32; N]>, ImportError> {
         let values = self.floats::<N>()?;
         let odd = values.iter().position(|value| !value.iter().all(|number| number.is_finite()));
@@ -269,7 +277,7 @@ impl Source<'_> {
         }
     }
 
-    /// All elements as unsigned integers; the format must be one.
+    /// Returns all elements as unsigned integers; the format must be one of unsigned integers.
     pub(super) fn integers<const N: usize>(&self) -> Result<Vec<[u32; N]>, ImportError> {
         match self.format.0 {
             ComponentType::U8 => self.gather(|b| u32::from(b[0])),
@@ -278,7 +286,7 @@ impl Source<'_> {
         }
     }
 
-    /// Decodes every element with `number`, which is given at least the bytes of one component.
+    /// Decodes every element with `number`, which gets at least the bytes of one component.
     fn gather<T: Copy + Default, const N: usize>(
         &self,
         number: impl Fn(&[u8]) -> T,
@@ -288,27 +296,27 @@ impl Source<'_> {
         let element =
             |bytes: &[u8]| std::array::from_fn::<T, N, _>(|i| number(&bytes[i * component..][..component]));
         let Some(base) = self.base else {
-            let mut values = self.guard.filled(&self.place, self.count, [T::default(); N])?;
+            let mut values = self.context.filled(&self.place, self.count, [T::default(); N])?;
             self.replace(&mut values, element)?;
             return Ok(values);
         };
-        let mut values = self.guard.vec(&self.place, self.count)?;
+        let mut values = self.context.vec(&self.place, self.count)?;
         while values.len() < self.count {
             let piece = CANCEL_EVERY.min(self.count - values.len());
-            self.guard.work(piece)?;
+            self.context.work(piece)?;
             values.extend((values.len()..values.len() + piece).map(|index| element(base.get(index))));
         }
         self.replace(&mut values, element)?;
         Ok(values)
     }
 
-    /// Puts the sparse elements in.
+    /// Replaces the elements that the sparse part of the accessor lists.
     fn replace<T>(&self, values: &mut [T], element: impl Fn(&[u8]) -> T) -> Result<(), ImportError> {
         let Some(sparse) = &self.sparse else { return Ok(()) };
         let mut last = None;
         let mut rises = true;
         for number in 0..sparse.count {
-            self.guard.work(1)?;
+            self.context.work(1)?;
             let index = little_endian(sparse.indices.get(number), sparse.index_type);
             rises &= last.is_none_or(|last| last < index);
             last = Some(index);
@@ -318,8 +326,8 @@ impl Source<'_> {
             })? = element(sparse.values.get(number));
         }
         if !rises {
-            let text = "the sparse indices do not rise; the last one counts";
-            self.guard.warn(self.place.clone(), code::ACCESSOR_SPARSE_INDICES_NON_INCREASING, text);
+            let text = "the sparse indices do not increase; the last value of an index is used";
+            self.context.warn(self.place.clone(), code::ACCESSOR_SPARSE_INDICES_NON_INCREASING, text);
         }
         Ok(())
     }
@@ -333,9 +341,9 @@ fn little_endian(bytes: &[u8], kind: ComponentType) -> usize {
     }
 }
 
-/// `VEC3 of normalised U8`
+/// Describes a format: `VEC3 of normalized U8`.
 fn describe((component, shape, normalized): ElementFormat) -> String {
-    let normalized = if normalized { "normalised " } else { "" };
+    let normalized = if normalized { "normalized " } else { "" };
     format!("{shape:?} of {normalized}{component:?}").to_uppercase()
 }
 
@@ -347,8 +355,8 @@ pub(super) fn invalid(place: Place, code: &'static str, reason: String) -> Impor
     ImportError::Invalid { place, code, reason }
 }
 
-/// The value at `from` is an index that names nothing.
+/// Returns the error of the index at `from`, which is out of range.
 pub(super) fn unresolved(from: &str, index: usize) -> ImportError {
-    let reason = format!("it names number {index}, which the file does not have");
+    let reason = format!("the index {index} is out of range");
     invalid(Place::Pointer(from.to_owned()), code::UNRESOLVED_REFERENCE, reason)
 }

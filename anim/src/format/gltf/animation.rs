@@ -1,10 +1,10 @@
-//! Animations become takes: a track a bone, a column a property.
+//! Animations become takes: one track per bone, one channel per property.
 
-use super::accessor::{Document, ElementFormat, invalid, unresolved};
+use super::accessor::{ElementFormat, GltfDocument, invalid, unresolved};
 use super::check as code;
 use super::document::NO_NODE;
-use super::keys::{self, Column, Keys};
-use super::scene::Stage;
+use super::keys::{self, SamplerTimes, SamplerValues};
+use super::scene::SceneLayout;
 use crate::data::{Channel, MorphTrack, Take, Track};
 use crate::format::{ImportError, Place};
 use crate::limits::KEYS;
@@ -32,11 +32,11 @@ const WEIGHT: &[ElementFormat] = &[
 ];
 const WRONG: &str = code::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT;
 
-/// Marks every node that a channel moves in `is_bone`.
-pub(super) fn mark_animated(document: &Document<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
+/// Sets `is_bone` for every node that a channel animates.
+pub(super) fn mark_animated(document: &GltfDocument<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
     for (index, animation) in document.root.animations.iter().enumerate() {
         for (number, channel) in animation.channels.iter().enumerate() {
-            document.guard.work(1)?;
+            document.context.work(1)?;
             let node = channel.target.node.value();
             if node == NO_NODE || channel.target.path == Checked::Invalid {
                 continue;
@@ -48,24 +48,24 @@ pub(super) fn mark_animated(document: &Document<'_>, is_bone: &mut [bool]) -> Re
     Ok(())
 }
 
-/// All animations, as takes with one track a bone of `stage`.
-pub(super) fn takes(document: &Document<'_>, stage: &Stage) -> Result<Vec<Take>, ImportError> {
-    let guard = document.guard;
+/// Returns all animations as takes with one track for each bone of `stage`.
+pub(super) fn takes(document: &GltfDocument<'_>, stage: &SceneLayout) -> Result<Vec<Take>, ImportError> {
+    let context = document.context;
     let count = document.root.animations.len();
-    let mut takes = guard.vec(&Place::Pointer("/animations".to_owned()), count)?;
+    let mut takes = context.vec(&Place::Pointer("/animations".to_owned()), count)?;
     let mut reader = TakeReader { document, stage, times: HashMap::new(), keys: 0 };
     for (index, animation) in document.root.animations.iter().enumerate() {
         takes.push(reader.take(animation, index)?);
-        guard.progress(0.7 + 0.3 * (index + 1) as f32 / count as f32)?;
+        context.progress(0.7 + 0.3 * (index + 1) as f32 / count as f32)?;
     }
     Ok(takes)
 }
 
-/// What is remembered from take to take: key times are shared between channels.
+/// State shared between takes: key times that several channels use are stored once.
 struct TakeReader<'a> {
-    document: &'a Document<'a>,
-    stage: &'a Stage,
-    times: HashMap<usize, Keys>,
+    document: &'a GltfDocument<'a>,
+    stage: &'a SceneLayout,
+    times: HashMap<usize, SamplerTimes>,
     keys: usize,
 }
 
@@ -74,12 +74,12 @@ impl TakeReader<'_> {
         let path = format!("/animations/{index}");
         let place = Place::Pointer(path.clone());
         let bones = self.stage.skeleton.len();
-        let mut tracks: Vec<Track> = self.document.guard.vec(&place, bones)?;
-        self.document.guard.work(bones)?;
+        let mut tracks: Vec<Track> = self.document.context.vec(&place, bones)?;
+        self.document.context.work(bones)?;
         tracks.extend((0..bones as u32).map(|bone| Track { bone, ..Track::default() }));
         let mut take = Take { name: animation.name.clone().unwrap_or_default(), tracks, ..Take::default() };
         if animation.channels.is_empty() {
-            self.document.guard.warn(place, code::EMPTY_ENTITY, "the animation has no channel");
+            self.document.context.warn(place, code::EMPTY_ENTITY, "the animation has no channel");
         }
         let mut moved = HashSet::new();
         for (number, channel) in animation.channels.iter().enumerate() {
@@ -100,7 +100,7 @@ impl TakeReader<'_> {
         moved: &mut HashSet<(usize, u8)>,
         take: &mut Take,
     ) -> Result<(), ImportError> {
-        let guard = self.document.guard;
+        let context = self.document.context;
         let number = channel.sampler.value();
         let sampler =
             animation.samplers.get(number).ok_or_else(|| unresolved(&format!("{path}/sampler"), number))?;
@@ -109,22 +109,22 @@ impl TakeReader<'_> {
         let property = match channel.target.path {
             Checked::Valid(property) if node != NO_NODE => property,
             _ => {
-                let text = "the channel moves something that is not shown";
-                guard.warn(target(), code::ANIMATION_CHANNEL_TARGET_UNKNOWN, text);
+                let text = "the channel animates something that is not shown";
+                context.warn(target(), code::ANIMATION_CHANNEL_TARGET_UNKNOWN, text);
                 return Ok(());
             }
         };
         if !moved.insert((node, property as u8)) {
-            guard.warn(
+            context.warn(
                 target(),
                 code::ANIMATION_DUPLICATE_TARGETS,
-                "moved by an earlier channel already; left out",
+                "an earlier channel animates the same property; this one is left out",
             );
             return Ok(());
         }
         if self.document.root.nodes[node].matrix.is_some() && property != Property::MorphTargetWeights {
-            let text = "the node has a matrix, of which the animated part is replaced";
-            guard.warn(target(), code::ANIMATION_CHANNEL_TARGET_NODE_MATRIX, text);
+            let text = "the node has a matrix; the animated part of it is replaced";
+            context.warn(target(), code::ANIMATION_CHANNEL_TARGET_NODE_MATRIX, text);
         }
         let sampler_path = format!("/animations/{index}/samplers/{number}");
         let bone = self.stage.bones[node].expect("every animated node was marked as a bone") as usize;
@@ -139,7 +139,7 @@ impl TakeReader<'_> {
             }
             Property::Rotation => {
                 let (keys, mut column) = self.column::<4>(sampler, QUATERNION, 1, &sampler_path)?;
-                keys::make_unit(&mut column, &format!("{sampler_path}/output"), guard);
+                keys::make_unit(&mut column, &format!("{sampler_path}/output"), context);
                 take.tracks[bone].rotation = channel_of(keys, column, Quat::from_array);
             }
             Property::MorphTargetWeights => self.weights(sampler, node, path, &sampler_path, take)?,
@@ -155,12 +155,12 @@ impl TakeReader<'_> {
         sampler_path: &str,
         take: &mut Take,
     ) -> Result<(), ImportError> {
-        let guard = self.document.guard;
+        let context = self.document.context;
         let place = || Place::Pointer(format!("{path}/target"));
         let targets = self.stage.morph_targets_of(self.document, node);
         if targets == 0 {
             let text = "the node has no mesh with morph targets; the channel is left out";
-            guard.warn(place(), code::ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS, text);
+            context.warn(place(), code::ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS, text);
             return Ok(());
         }
         let (keys, column) = self.column::<1>(sampler, WEIGHT, targets, sampler_path)?;
@@ -177,19 +177,19 @@ impl TakeReader<'_> {
         Ok(())
     }
 
-    /// Key times and values of a sampler, `width` values a key, sorted and finite.
+    /// Returns the key times and values of a sampler, `width` values per key, sorted and finite.
     fn column<const N: usize>(
         &mut self,
         sampler: &json::animation::Sampler,
         allowed: &[ElementFormat],
         width: usize,
         path: &str,
-    ) -> Result<(Keys, Column<N>), ImportError> {
+    ) -> Result<(SamplerTimes, SamplerValues<N>), ImportError> {
         let input = sampler.input.value();
         let keys = match self.times.get(&input) {
             Some(keys) => keys.clone(),
             None => {
-                let keys = Keys::read(self.document, sampler.input, path)?;
+                let keys = SamplerTimes::read(self.document, sampler.input, path)?;
                 self.times.insert(input, keys.clone());
                 keys
             }
@@ -202,25 +202,27 @@ impl TakeReader<'_> {
         }
         let output = format!("{path}/output");
         let source = self.document.source(sampler.output, &output, allowed, WRONG)?;
-        let interpolation = keys::interpolation(sampler, path, self.document.guard);
+        let interpolation = keys::interpolation(sampler, path, self.document.context);
         let per_key = width * if interpolation == crate::data::Interpolation::CubicSpline { 3 } else { 1 };
         if keys.count.checked_mul(per_key) != Some(source.count) {
             let reason = format!("{} values for {} keys of {per_key}", source.count, keys.count);
             let code = code::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT;
             return Err(invalid(Place::Pointer(output), code, reason));
         }
-        // Once as numbers, once as what the channel shares.
-        self.document.guard.charge(&source.place, (source.count as u64).saturating_mul(2 * 4 * N as u64))?;
-        let mut column = Column { values: source.floats()?, interpolation, width };
-        column.check(&source.place, self.document.guard)?;
-        column.sort(&keys, self.document.guard)?;
+        // Charged twice: as numbers, and as what the channel shares.
+        self.document
+            .context
+            .charge(&source.place, (source.count as u64).saturating_mul(2 * 4 * N as u64))?;
+        let mut column = SamplerValues { values: source.floats()?, interpolation, width };
+        column.check(&source.place, self.document.context)?;
+        column.sort(&keys, self.document.context)?;
         Ok((keys, column))
     }
 }
 
 fn channel_of<T: Copy, const N: usize>(
-    keys: Keys,
-    column: Column<N>,
+    keys: SamplerTimes,
+    column: SamplerValues<N>,
     value: fn([f32; N]) -> T,
 ) -> Channel<T> {
     if keys.times.is_empty() {

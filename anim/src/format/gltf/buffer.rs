@@ -1,92 +1,62 @@
-//! The bytes behind a document: the binary chunk, data URIs, files beside it.
+//! Bytes of a document's buffers: the binary chunk, data URIs, referenced files.
 
 use super::check as code;
+use crate::format::context::external;
 use crate::format::uri::{DataUri, UriError, relative_path};
-use crate::format::{AssetError, AssetFs, ImportError, Place, guard::Guard};
-use crate::limits::EXTERNAL_FILES;
+use crate::format::{ImportContext, ImportError, Place};
 use gltf::json;
-use std::cell::RefCell;
-use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Whom an importer asks for bytes that are elsewhere. Each file is read once.
-pub(super) struct Store<'a> {
-    door: &'a dyn AssetFs,
-    guard: &'a Guard<'a>,
-    files: RefCell<HashMap<String, Arc<[u8]>>>,
-}
-
-/// Bytes, and the type that a data URI gives them.
+/// Bytes that a URI contains or refers to.
 pub(super) struct Fetched {
     pub(super) bytes: Arc<[u8]>,
+    /// Media type of a data URI; empty for a file.
     pub(super) mime: String,
-    /// The checked relative path, when they came through the door.
+    /// Checked relative path of a file; `None` for a data URI.
     pub(super) path: Option<String>,
 }
 
-impl<'a> Store<'a> {
-    pub(super) fn new(door: &'a dyn AssetFs, guard: &'a Guard<'a>) -> Self {
-        Self { door, guard, files: RefCell::default() }
-    }
-
-    /// What `uri` stands for. Only a limit or a cancel is an error that nobody may mend.
-    pub(super) fn fetch(&self, uri: &str, place: &Place) -> Result<Fetched, ImportError> {
-        match DataUri::parse(uri) {
-            Some(data) => self.embedded(data.map_err(|error| not_followed(uri, place, &error))?, place, uri),
-            None => self.external(uri, place),
+/// Returns the bytes that `uri` contains or refers to. [`ImportError::External`] leaves the rest of the file readable.
+pub(super) fn fetch(uri: &str, place: &Place, context: &ImportContext<'_>) -> Result<Fetched, ImportError> {
+    match DataUri::parse(uri) {
+        Some(data) => {
+            let data = data.map_err(|error| not_followed(uri, place, &error))?;
+            decoded(&data, place, uri, context)
         }
-    }
-
-    fn embedded(&self, data: DataUri<'_>, place: &Place, uri: &str) -> Result<Fetched, ImportError> {
-        self.guard.work(data.capacity())?;
-        let mut bytes = self.guard.vec(place, data.capacity())?;
-        data.decode(&mut bytes).map_err(|error| not_followed(uri, place, &error))?;
-        self.guard.charge(place, bytes.len() as u64)?;
-        Ok(Fetched { bytes: bytes.into(), mime: data.mime.to_owned(), path: None })
-    }
-
-    fn external(&self, uri: &str, place: &Place) -> Result<Fetched, ImportError> {
-        let path = relative_path(uri).map_err(|error| not_followed(uri, place, &error))?;
-        let known = self.files.borrow().get(&path).cloned();
-        let bytes = match known {
-            Some(bytes) => bytes,
-            None => self.through_the_door(&path, uri, place)?,
-        };
-        Ok(Fetched { bytes, mime: String::new(), path: Some(path) })
-    }
-
-    fn through_the_door(&self, path: &str, uri: &str, place: &Place) -> Result<Arc<[u8]>, ImportError> {
-        let known = self.files.borrow().len();
-        if known >= EXTERNAL_FILES {
-            let (size, limit) = (known as u64 + 1, EXTERNAL_FILES as u64);
-            return Err(ImportError::TooLarge { place: place.clone(), what: "external files", size, limit });
+        None => {
+            context.progress(0.2)?;
+            let bytes = context.read_neighbor(uri, place)?;
+            Ok(Fetched { bytes, mime: String::new(), path: relative_path(uri).ok() })
         }
-        self.guard.progress(0.2)?;
-        // Twice: once as read, once shared.
-        let limit = self.guard.remaining() / 2;
-        let read = self.door.read(path, limit).and_then(|bytes| match bytes.len() as u64 {
-            size if size > limit => Err(AssetError::TooLarge { size, limit }),
-            _ => Ok(bytes),
-        });
-        let bytes = read.map_err(|error| external(uri, place, code::IO_ERROR, error.to_string()))?;
-        self.guard.charge(place, bytes.len() as u64 * 2)?;
-        self.guard.input(bytes.len());
-        let bytes: Arc<[u8]> = bytes.into();
-        self.files.borrow_mut().insert(path.to_owned(), bytes.clone());
-        Ok(bytes)
     }
 }
 
-/// One buffer: its bytes and how many of them count.
+/// Returns the bytes that a data URI contains.
+fn decoded(
+    data: &DataUri<'_>,
+    place: &Place,
+    uri: &str,
+    context: &ImportContext<'_>,
+) -> Result<Fetched, ImportError> {
+    context.work(data.capacity())?;
+    let mut bytes = context.vec(place, data.capacity())?;
+    data.decode(&mut bytes).map_err(|error| not_followed(uri, place, &error))?;
+    context.charge(place, bytes.len() as u64)?;
+    Ok(Fetched { bytes: bytes.into(), mime: data.mime.to_owned(), path: None })
+}
+
+/// Bytes of one buffer.
 #[derive(Clone)]
-pub(super) enum Buffer<'a> {
-    /// Has no URI and no binary chunk: an error for whoever needs it.
+pub(super) enum BufferData<'a> {
+    /// A buffer without a URI and without a binary chunk: an error as soon as an accessor needs it.
     Missing,
+    /// The binary chunk of the file.
     Chunk(&'a [u8]),
+    /// Other bytes, and the length of the buffer in them.
     Fetched(Arc<[u8]>, usize),
 }
 
-impl Buffer<'_> {
+impl BufferData<'_> {
     pub(super) fn bytes(&self) -> &[u8] {
         match self {
             Self::Missing => &[],
@@ -96,76 +66,67 @@ impl Buffer<'_> {
     }
 }
 
-/// All buffers of `root`, each at least as long as it announces.
+/// Returns all buffers of `root`, each with exactly the length that its JSON declares.
 pub(super) fn load<'a>(
     root: &json::Root,
     bin: Option<&'a [u8]>,
-    store: &Store<'_>,
-    guard: &Guard<'_>,
-) -> Result<Vec<Buffer<'a>>, ImportError> {
-    let mut buffers = guard.vec(&Place::Pointer("/buffers".to_owned()), root.buffers.len())?;
+    context: &ImportContext<'_>,
+) -> Result<Vec<BufferData<'a>>, ImportError> {
+    let mut buffers = context.vec(&Place::Pointer("/buffers".to_owned()), root.buffers.len())?;
     for (index, buffer) in root.buffers.iter().enumerate() {
-        guard.work(1)?;
+        context.work(1)?;
         let place = Place::Pointer(format!("/buffers/{index}"));
         let announced = buffer.byte_length.0;
         let loaded = match &buffer.uri {
             Some(uri) => {
                 let place = Place::Pointer(format!("/buffers/{index}/uri"));
-                Buffer::Fetched(store.fetch(uri, &place)?.bytes, 0)
+                BufferData::Fetched(fetch(uri, &place, context)?.bytes, 0)
             }
             None => match bin.filter(|_| index == 0) {
-                Some(bytes) => Buffer::Chunk(bytes),
+                Some(bytes) => BufferData::Chunk(bytes),
                 None => {
-                    let text = "the buffer has no URI, and there is no binary chunk for it";
-                    guard.warn(place, code::BUFFER_MISSING_GLB_DATA, text);
-                    buffers.push(Buffer::Missing);
+                    let text = "the buffer has no URI, and the file has no binary chunk for it";
+                    context.warn(place, code::BUFFER_MISSING_GLB_DATA, text);
+                    buffers.push(BufferData::Missing);
                     continue;
                 }
             },
         };
-        buffers.push(cut(loaded, announced, &place, guard)?);
+        buffers.push(cut(loaded, announced, &place, context)?);
     }
     Ok(buffers)
 }
 
-/// The first `announced` bytes of a buffer.
+/// Returns the buffer shortened to `announced` bytes.
 fn cut<'a>(
-    buffer: Buffer<'a>,
+    buffer: BufferData<'a>,
     announced: u64,
     place: &Place,
-    guard: &Guard<'_>,
-) -> Result<Buffer<'a>, ImportError> {
+    context: &ImportContext<'_>,
+) -> Result<BufferData<'a>, ImportError> {
     let present = match &buffer {
-        Buffer::Missing => 0,
-        Buffer::Chunk(bytes) => bytes.len(),
-        Buffer::Fetched(bytes, _) => bytes.len(),
+        BufferData::Missing => 0,
+        BufferData::Chunk(bytes) => bytes.len(),
+        BufferData::Fetched(bytes, _) => bytes.len(),
     };
     let length = usize::try_from(announced).ok().filter(|&length| length <= present).ok_or_else(|| {
-        let reason = format!("{announced} bytes are announced, {present} are there");
+        let reason = format!("byteLength is {announced}, but there are {present} bytes");
         let place = place.clone();
         ImportError::Invalid { place, code: code::BUFFER_BYTE_LENGTH_MISMATCH, reason }
     })?;
     // A binary chunk is padded to a multiple of four.
-    let slack = if matches!(buffer, Buffer::Chunk(_)) { 3 } else { 0 };
+    let slack = if matches!(buffer, BufferData::Chunk(_)) { 3 } else { 0 };
     if present - length > slack {
-        let text = format!("{announced} bytes are announced, {present} are there");
-        guard.warn(place.clone(), code::BUFFER_GLB_CHUNK_TOO_BIG, text);
+        let text = format!("byteLength is {announced}, but there are {present} bytes");
+        context.warn(place.clone(), code::BUFFER_GLB_CHUNK_TOO_BIG, text);
     }
     Ok(match buffer {
-        Buffer::Missing => Buffer::Missing,
-        Buffer::Chunk(bytes) => Buffer::Chunk(&bytes[..length]),
-        Buffer::Fetched(bytes, _) => Buffer::Fetched(bytes, length),
+        BufferData::Missing => BufferData::Missing,
+        BufferData::Chunk(bytes) => BufferData::Chunk(&bytes[..length]),
+        BufferData::Fetched(bytes, _) => BufferData::Fetched(bytes, length),
     })
 }
 
 fn not_followed(uri: &str, place: &Place, error: &UriError) -> ImportError {
     external(uri, place, code::INVALID_URI, error.to_string())
-}
-
-fn external(uri: &str, place: &Place, code: &'static str, reason: String) -> ImportError {
-    let uri = match uri.char_indices().nth(120) {
-        Some((end, _)) => format!("{}…", &uri[..end]),
-        None => uri.to_owned(),
-    };
-    ImportError::External { place: place.clone(), code, uri, reason }
 }

@@ -1,37 +1,38 @@
-//! From JSON text to the document model, with every error placed by a JSON pointer.
+//! Parses the JSON text into the document model; every error has a JSON pointer.
 
 use super::check as code;
 use super::survey::{Survey, survey};
 use super::walk::pointer_before;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use gltf::json;
 use std::borrow::Cow;
 use std::io::{self, Read};
 
-/// Texts longer than this are parsed through a reader that looks at the cancel flag; it is slower.
+/// Longest text that is parsed in one piece. Longer ones are parsed through a reader that polls the cancel flag, which
+/// is slower.
 const PARSE_AT_ONCE: usize = 4 << 20;
 
-/// Stands for "no node" in the target of an animation.
+/// Represents "no node" in the target of an animation.
 pub(super) const NO_NODE: usize = u32::MAX as usize;
 
-/// Parses the JSON text that begins at byte `at` of the file.
-pub(super) fn parse(bytes: &[u8], at: u64, guard: &Guard<'_>) -> Result<json::Root, ImportError> {
+/// Parses the JSON text that starts at byte `at` of the file.
+pub(super) fn parse(bytes: &[u8], at: u64, context: &ImportContext<'_>) -> Result<json::Root, ImportError> {
     let text = text_of(bytes, at)?;
-    let survey = survey(text.as_bytes(), guard)?;
+    let survey = survey(text.as_bytes(), context)?;
     check_version(&survey)?;
-    guard.charge(&Place::Pointer(String::new()), survey.memory)?;
-    let text = completed(text, &survey, guard)?;
+    context.charge(&Place::Pointer(String::new()), survey.memory)?;
+    let text = completed(text, &survey, context)?;
     let parsed = if text.len() <= PARSE_AT_ONCE {
         json::deserialize::from_str(&text)
     } else {
-        let reader = Watched { text: text.as_bytes(), guard, cancelled: false };
+        let reader = CancellableReader { text: text.as_bytes(), context, cancelled: false };
         json::deserialize::from_reader(io::BufReader::with_capacity(1 << 16, reader))
     };
-    guard.progress(0.2)?;
+    context.progress(0.2)?;
     parsed.map_err(|error| placed(&error, &text, at))
 }
 
-/// UTF-8 without a byte order mark and without padding.
+/// Returns the text as UTF-8, without byte order mark and padding.
 fn text_of(bytes: &[u8], at: u64) -> Result<&str, ImportError> {
     let (bytes, at) = match bytes.strip_prefix(b"\xef\xbb\xbf") {
         Some(rest) => (rest, at + 3),
@@ -47,7 +48,7 @@ fn text_of(bytes: &[u8], at: u64) -> Result<&str, ImportError> {
     }
 }
 
-/// Only 2.x is read, and only where 2.0 is enough.
+/// Accepts only version 2.x, and only where 2.0 is sufficient.
 fn check_version(survey: &Survey) -> Result<(), ImportError> {
     let unsupported = |member: &str, version: &str| {
         let place = Place::Pointer(format!("/asset/{member}"));
@@ -60,13 +61,17 @@ fn check_version(survey: &Survey) -> Result<(), ImportError> {
     }
 }
 
-/// The text with the members that the document model misses.
-fn completed<'a>(text: &'a str, survey: &Survey, guard: &Guard<'_>) -> Result<Cow<'a, str>, ImportError> {
+/// Returns the text with the members added that the document model requires and the file lacks.
+fn completed<'a>(
+    text: &'a str,
+    survey: &Survey,
+    context: &ImportContext<'_>,
+) -> Result<Cow<'a, str>, ImportError> {
     if survey.missing.is_empty() {
         return Ok(Cow::Borrowed(text));
     }
     let length = text.len() + survey.missing.iter().map(|(_, member)| member.len()).sum::<usize>();
-    guard.charge(&Place::Pointer(String::new()), length as u64)?;
+    context.charge(&Place::Pointer(String::new()), length as u64)?;
     let mut patched = String::with_capacity(length);
     let mut from = 0;
     for &(at, member) in &survey.missing {
@@ -78,7 +83,7 @@ fn completed<'a>(text: &'a str, survey: &Survey, guard: &Guard<'_>) -> Result<Co
     Ok(Cow::Owned(patched))
 }
 
-/// The parser's error with a place instead of its line and column.
+/// Returns the parser's error with a place instead of its line and column.
 fn placed(error: &json::Error, text: &str, at: u64) -> ImportError {
     if error.is_io() {
         return ImportError::Cancelled;
@@ -106,22 +111,22 @@ fn placed(error: &json::Error, text: &str, at: u64) -> ImportError {
     ImportError::Invalid { place: Place::Pointer(pointer_before(text.as_bytes(), end)), code, reason }
 }
 
-/// Byte offset of a line and column, both from 1; never past the end.
+/// Returns the byte offset of a line and column, both counted from 1; at most the length of the text.
 fn offset(text: &str, line: usize, column: usize) -> usize {
     let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
     (before + column).min(text.len())
 }
 
-/// Hands the text out in pieces and looks at the cancel flag between them.
-struct Watched<'a> {
+/// Reads the text in pieces and polls the cancel flag between them.
+struct CancellableReader<'a> {
     text: &'a [u8],
-    guard: &'a Guard<'a>,
+    context: &'a ImportContext<'a>,
     cancelled: bool,
 }
 
-impl Read for Watched<'_> {
+impl Read for CancellableReader<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.cancelled |= self.guard.work(buffer.len()).is_err();
+        self.cancelled |= self.context.work(buffer.len()).is_err();
         if self.cancelled {
             return Err(io::Error::other("cancelled"));
         }

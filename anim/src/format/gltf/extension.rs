@@ -1,10 +1,10 @@
-//! Extensions: those that are read, and what becomes of the others.
+//! Supported extensions, and the handling of all others.
 
 use super::check as code;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use gltf::json;
 
-/// Extensions that are read in full.
+/// Extensions that are supported completely.
 pub const SUPPORTED: &[&str] = &[
     "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
@@ -12,21 +12,21 @@ pub const SUPPORTED: &[&str] = &[
     "KHR_texture_transform",
 ];
 
-/// Keeps the numbers of accessors elsewhere. Where an accessor has none of its own, the file needs the extension even
-/// though it does not say so.
+/// Stores the data of accessors elsewhere. A file with accessors that have no data of their own needs this extension
+/// even if it does not list it as required.
 const DRACO: &str = "KHR_draco_mesh_compression";
 
-/// Refuses what the file needs and is not read; warns of what it uses.
-pub(super) fn check(root: &json::Root, guard: &Guard<'_>) -> Result<(), ImportError> {
+/// Refuses required extensions that are not supported; adds a warning for each other unsupported extension.
+pub(super) fn check(root: &json::Root, context: &ImportContext<'_>) -> Result<(), ImportError> {
     for (index, name) in root.extensions_required.iter().enumerate() {
-        guard.work(1)?;
+        context.work(1)?;
         if !SUPPORTED.contains(&name.as_str()) {
             let place = Place::Pointer(format!("/extensionsRequired/{index}"));
             return Err(ImportError::Unsupported { place, feature: format!("the extension {name}") });
         }
     }
     for (index, name) in root.extensions_used.iter().enumerate() {
-        guard.work(1)?;
+        context.work(1)?;
         if name == DRACO && root.accessors.iter().any(|a| a.buffer_view.is_none() && a.sparse.is_none()) {
             let place = Place::Pointer(format!("/extensionsUsed/{index}"));
             return Err(ImportError::Unsupported { place, feature: format!("the extension {name}") });
@@ -34,7 +34,7 @@ pub(super) fn check(root: &json::Root, guard: &Guard<'_>) -> Result<(), ImportEr
         if !SUPPORTED.contains(&name.as_str()) {
             let place = Place::Pointer(format!("/extensionsUsed/{index}"));
             let what = if name == "KHR_lights_punctual" { "the file's lights" } else { name };
-            guard.warn(place, code::UNSUPPORTED_EXTENSION, format!("{what} is not shown"));
+            context.warn(place, code::UNSUPPORTED_EXTENSION, format!("{what} is not shown"));
         }
     }
     Ok(())

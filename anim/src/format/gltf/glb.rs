@@ -1,9 +1,9 @@
 //! The binary container: a header of 12 bytes, then chunks (glTF 2.0 §4.4).
 
 use super::check as code;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 
-/// The parts of a container that mean something to us.
+/// The parts of a container that the importer uses.
 pub(super) struct Glb<'a> {
     pub(super) json: &'a [u8],
     /// Offset of `json` in the file.
@@ -16,20 +16,21 @@ const CHUNK_HEADER: usize = 8;
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
 
-/// Takes a container apart. Bytes after the announced end, and chunks of other kinds, are left out with a warning.
-pub(super) fn parse<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Glb<'a>, ImportError> {
-    let bytes = &bytes[..announced_length(bytes, guard)?];
+/// Splits a container into its chunks. Bytes after the declared end, and chunks of other kinds, are left out with a
+/// warning.
+pub(super) fn parse<'a>(bytes: &'a [u8], context: &ImportContext<'_>) -> Result<Glb<'a>, ImportError> {
+    let bytes = &bytes[..announced_length(bytes, context)?];
     let (mut json, mut bin) = (None, None);
     let mut at = HEADER;
     for number in 0.. {
         if at >= bytes.len() {
             break;
         }
-        guard.work(1)?;
+        context.work(1)?;
         let (kind, body) = chunk(bytes, at)?;
         if body.len() % 4 != 0 {
-            let text = format!("the chunk's length {} is no multiple of 4", body.len());
-            guard.warn(Place::Byte(at as u64), code::GLB_CHUNK_LENGTH_UNALIGNED, text);
+            let text = format!("the chunk's length {} is not a multiple of 4", body.len());
+            context.warn(Place::Byte(at as u64), code::GLB_CHUNK_LENGTH_UNALIGNED, text);
         }
         match (number, kind) {
             (0, JSON) => json = Some(body),
@@ -38,7 +39,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Glb<'a>, I
                 return Err(invalid(at, code::GLB_UNEXPECTED_FIRST_CHUNK, reason));
             }
             (1, BIN) => bin = Some(body),
-            _ => warn_left_out(kind, at, guard),
+            _ => warn_left_out(kind, at, context),
         }
         at += CHUNK_HEADER + body.len();
     }
@@ -46,7 +47,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Glb<'a>, I
         return Err(invalid(
             HEADER,
             code::GLB_UNEXPECTED_END_OF_CHUNK_HEADER,
-            "there is no chunk".to_owned(),
+            "the container has no chunk".to_owned(),
         ));
     };
     if json.is_empty() {
@@ -55,8 +56,8 @@ pub(super) fn parse<'a>(bytes: &'a [u8], guard: &Guard<'_>) -> Result<Glb<'a>, I
     Ok(Glb { json, json_at: (HEADER + CHUNK_HEADER) as u64, bin })
 }
 
-/// Checks the header; the length of the container, never more than is there.
-fn announced_length(bytes: &[u8], guard: &Guard<'_>) -> Result<usize, ImportError> {
+/// Checks the header and returns the length of the container, at most the length of the file.
+fn announced_length(bytes: &[u8], context: &ImportContext<'_>) -> Result<usize, ImportError> {
     if bytes.len() < HEADER {
         let reason = format!("the file ends inside its header: {} bytes of {HEADER}", bytes.len());
         return Err(invalid(bytes.len(), code::GLB_UNEXPECTED_END_OF_HEADER, reason));
@@ -75,17 +76,17 @@ fn announced_length(bytes: &[u8], guard: &Guard<'_>) -> Result<usize, ImportErro
         return Err(invalid(8, code::GLB_LENGTH_TOO_SMALL, reason));
     }
     if length > bytes.len() {
-        let reason = format!("the header announces {length} bytes, the file has {}", bytes.len());
+        let reason = format!("the header declares {length} bytes, the file has {}", bytes.len());
         return Err(invalid(8, code::GLB_LENGTH_MISMATCH, reason));
     }
     if length < bytes.len() {
-        let text = format!("{} bytes after the announced end are left out", bytes.len() - length);
-        guard.warn(Place::Byte(8), code::GLB_LENGTH_MISMATCH, text);
+        let text = format!("{} bytes after the declared end are left out", bytes.len() - length);
+        context.warn(Place::Byte(8), code::GLB_LENGTH_MISMATCH, text);
     }
     Ok(length)
 }
 
-/// Kind and body of the chunk at `at`.
+/// Returns the kind and body of the chunk at `at`.
 fn chunk(bytes: &[u8], at: usize) -> Result<(u32, &[u8]), ImportError> {
     let rest = &bytes[at..];
     if rest.len() < CHUNK_HEADER {
@@ -96,23 +97,22 @@ fn chunk(bytes: &[u8], at: usize) -> Result<(u32, &[u8]), ImportError> {
     match rest[CHUNK_HEADER..].get(..length) {
         Some(body) => Ok((word(rest, 4), body)),
         None => {
-            let reason =
-                format!("the chunk announces {length} bytes, {} are left", rest.len() - CHUNK_HEADER);
+            let reason = format!("the chunk declares {length} bytes, {} are left", rest.len() - CHUNK_HEADER);
             Err(invalid(at, code::GLB_CHUNK_TOO_BIG, reason))
         }
     }
 }
 
-fn warn_left_out(kind: u32, at: usize, guard: &Guard<'_>) {
+fn warn_left_out(kind: u32, at: usize, context: &ImportContext<'_>) {
     let (code, what) = match kind {
         JSON => (code::GLB_DUPLICATE_CHUNK, "a second JSON chunk"),
         BIN => (code::GLB_UNEXPECTED_BIN_CHUNK, "a binary chunk that is not the second chunk"),
         _ => (code::GLB_UNKNOWN_CHUNK_TYPE, "a chunk of unknown kind"),
     };
-    guard.warn(Place::Byte(at as u64), code, format!("{what} is left out"));
+    context.warn(Place::Byte(at as u64), code, format!("{what} is left out"));
 }
 
-/// What a file that should be a container may be instead.
+/// Describes what a file that should be a container probably is instead.
 fn not_a_glb(bytes: &[u8]) -> String {
     let instead = if bytes.starts_with(b"version https://git-lfs") {
         ": it is a git-lfs pointer, fetch the file itself with `git lfs pull`"

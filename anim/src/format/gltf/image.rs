@@ -1,39 +1,40 @@
-//! Images: found, measured, and handed on as they are. Nothing is decoded here.
+//! Images: found, measured and copied as they are. Nothing is decoded here.
 
-use super::accessor::{Document, invalid};
-use super::buffer::{Fetched, Store};
+use super::accessor::{GltfDocument, invalid};
+use super::buffer::{Fetched, fetch};
 use super::check as code;
 use crate::data::Image;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{IMAGE_PIXELS, IMAGE_SIDE, IMAGES_PIXELS};
 use gltf::json;
 use std::collections::HashMap;
 
-/// The images of a model, each source once, and which of them each image of the file became.
+/// The images of a model, each source once, and the number in this list for each image of the file.
 #[derive(Default)]
 pub(super) struct Images {
     pub(super) images: Vec<Image>,
     pub(super) numbers: Vec<u32>,
 }
 
-/// What two images of a file must share to be one.
+/// Source of an image; images of a file with the same source become one.
 #[derive(PartialEq, Eq, Hash)]
-enum Key<'a> {
+enum ImageSource<'a> {
     View(usize),
     Uri(&'a str),
 }
 
-/// All images. One that cannot be read is left empty with a warning: a model without its picture is worth seeing.
-pub(super) fn images(document: &Document<'_>, store: &Store<'_>) -> Result<Images, ImportError> {
+/// Returns all images. One that cannot be read is left empty with a warning, since a model without textures is still
+/// useful.
+pub(super) fn images(document: &GltfDocument<'_>) -> Result<Images, ImportError> {
     let mut read = Images::default();
-    let mut known: HashMap<Key<'_>, u32> = HashMap::new();
+    let mut known: HashMap<ImageSource<'_>, u32> = HashMap::new();
     let mut pixels = 0;
     for (index, image) in document.root.images.iter().enumerate() {
-        document.guard.work(1)?;
+        document.context.work(1)?;
         let path = format!("/images/{index}");
         let key = match (&image.buffer_view, &image.uri) {
-            (Some(view), None) => Key::View(view.value()),
-            (None, Some(uri)) => Key::Uri(uri),
+            (Some(view), None) => ImageSource::View(view.value()),
+            (None, Some(uri)) => ImageSource::Uri(uri),
             _ => {
                 let reason = "an image needs either a URI or a buffer view".to_owned();
                 return Err(invalid(Place::Pointer(path), code::UNDEFINED_PROPERTY, reason));
@@ -42,9 +43,9 @@ pub(super) fn images(document: &Document<'_>, store: &Store<'_>) -> Result<Image
         let next = read.images.len() as u32;
         let number = *known.entry(key).or_insert(next);
         if number == next {
-            let mut image = read_image(document, store, image, &path)?;
-            judge(&mut image, &mut pixels, &path, document.guard);
-            document.guard.charge(&Place::Pointer(path), 4 * size_of::<Image>() as u64)?;
+            let mut image = read_image(document, image, &path)?;
+            judge(&mut image, &mut pixels, &path, document.context);
+            document.context.charge(&Place::Pointer(path), 4 * size_of::<Image>() as u64)?;
             read.images.push(image);
         }
         read.numbers.push(number);
@@ -52,23 +53,18 @@ pub(super) fn images(document: &Document<'_>, store: &Store<'_>) -> Result<Image
     Ok(read)
 }
 
-fn read_image(
-    document: &Document<'_>,
-    store: &Store<'_>,
-    image: &json::Image,
-    path: &str,
-) -> Result<Image, ImportError> {
+fn read_image(document: &GltfDocument<'_>, image: &json::Image, path: &str) -> Result<Image, ImportError> {
     let declared = image.mime_type.as_ref().map(|mime| mime.0.clone()).unwrap_or_default();
     let name = image.name.clone().unwrap_or_default();
     let mut read = Image { name, mime: declared, ..Image::default() };
     if let Some(view) = image.buffer_view {
         let from = format!("{path}/bufferView");
         let (bytes, _) = document.view(view, &from)?;
-        document.guard.charge(&Place::Pointer(from), bytes.len() as u64)?;
+        document.context.charge(&Place::Pointer(from), bytes.len() as u64)?;
         read.bytes = bytes.into();
     } else if let Some(uri) = &image.uri {
         let place = Place::Pointer(format!("{path}/uri"));
-        match store.fetch(uri, &place) {
+        match fetch(uri, &place, document.context) {
             Ok(Fetched { bytes, mime, path }) => {
                 (read.bytes, read.file_name) = (bytes, path);
                 if read.mime.is_empty() {
@@ -77,7 +73,7 @@ fn read_image(
             }
             Err(ImportError::External { uri, reason, .. }) => {
                 let text = format!("\"{uri}\": {reason}; the image is left empty");
-                document.guard.warn(place, code::IMAGE_DATA_INVALID, text);
+                document.context.warn(place, code::IMAGE_DATA_INVALID, text);
             }
             Err(other) => return Err(other),
         }
@@ -85,22 +81,22 @@ fn read_image(
     Ok(read)
 }
 
-/// Looks at the first bytes: what kind, how large. Too large an image is emptied before anyone decodes it.
-fn judge(image: &mut Image, pixels: &mut u64, path: &str, guard: &Guard<'_>) {
+/// Checks the kind and size in the first bytes. An image that is too large is emptied before it is decoded.
+fn judge(image: &mut Image, pixels: &mut u64, path: &str, context: &ImportContext<'_>) {
     if image.bytes.is_empty() {
         return;
     }
     let place = || Place::Pointer(path.to_owned());
     let Some((mime, width, height)) = measure(&image.bytes) else {
-        guard.warn(place(), code::IMAGE_DATA_INVALID, "neither PNG nor JPEG; the image is left empty");
+        context.warn(place(), code::IMAGE_DATA_INVALID, "neither PNG nor JPEG; the image is left empty");
         image.bytes = Vec::new().into();
         return;
     };
     if !image.mime.is_empty() && image.mime != mime {
-        guard.warn(
+        context.warn(
             place(),
             code::IMAGE_MIME_TYPE_INVALID,
-            format!("\"{}\" is said, {mime} it is", image.mime),
+            format!("the declared type is \"{}\", the actual one {mime}", image.mime),
         );
     }
     image.mime = mime.to_owned();
@@ -109,13 +105,13 @@ fn judge(image: &mut Image, pixels: &mut u64, path: &str, guard: &Guard<'_>) {
     *pixels += size;
     if width > IMAGE_SIDE || height > IMAGE_SIDE || size > IMAGE_PIXELS || *pixels > IMAGES_PIXELS {
         let text = format!("{width}x{height} pixels are too many; the image is left empty");
-        guard.warn(place(), code::IMAGE_TOO_LARGE, text);
+        context.warn(place(), code::IMAGE_TOO_LARGE, text);
         image.bytes = Vec::new().into();
         *pixels -= size;
     }
 }
 
-/// Type, width and height as the header says; `None` when it is neither PNG nor JPEG.
+/// Returns the type, width and height in the header, or `None` for anything but PNG and JPEG.
 pub fn measure(bytes: &[u8]) -> Option<(&'static str, u32, u32)> {
     if let Some(rest) = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n") {
         let header = rest.get(4..16)?.strip_prefix(b"IHDR")?;
@@ -131,7 +127,7 @@ pub fn measure(bytes: &[u8]) -> Option<(&'static str, u32, u32)> {
         }
         let body = rest.get(1..)?;
         let length = usize::from(u16::from_be_bytes(*body.first_chunk()?));
-        // Start of frame, but not DHT, JPG and DAC, which lie in between.
+        // Start of frame, except DHT, JPG and DAC, which are in the same range.
         if (0xc0..=0xcf).contains(&marker) && !matches!(marker, 0xc4 | 0xc8 | 0xcc) {
             let height = u16::from_be_bytes(*body.get(3..)?.first_chunk()?);
             let width = u16::from_be_bytes(*body.get(5..)?.first_chunk()?);

@@ -1,6 +1,6 @@
-//! Which joints move a vertex: any number of sets in, the strongest four or eight out.
+//! Joint influences of vertices: reads any number of sets and keeps the strongest four or eight.
 
-use super::accessor::Document;
+use super::accessor::GltfDocument;
 use super::check as code;
 use super::mesh::{attribute, unequal};
 use crate::data::{Influence, MAX_INFLUENCES};
@@ -20,64 +20,64 @@ const WEIGHT_FORMATS: &[(ComponentType, Type, bool)] = &[
 
 /// The influences of a primitive's vertices.
 #[derive(Debug, Default)]
-pub(super) struct Influences {
-    /// `per_vertex` a vertex, strongest first.
+pub(super) struct VertexInfluences {
+    /// `per_vertex` influences for each vertex, strongest first.
     pub(super) list: Vec<Influence>,
-    /// 0, 4 or 8.
+    /// Number of influences per vertex: 0, 4 or 8.
     pub(super) per_vertex: usize,
-    /// The largest joint number that has a weight.
+    /// Largest joint number with a weight.
     pub(super) largest_joint: u16,
 }
 
-/// One pair of attributes: four joints and four weights a vertex.
+/// One pair of attributes: four joints and four weights per vertex.
 struct Set {
     joints: Vec<[u32; 4]>,
     weights: Vec<[f32; 4]>,
-    /// Distance of two neighbouring weights: integers cannot add up to one exactly.
+    /// Quantization step of the weights: quantized weights cannot add up to one exactly.
     step: f32,
 }
 
-/// What was mended, counted over the vertices.
+/// Number of vertices with each kind of corrected influences.
 #[derive(Default)]
-struct Mended {
+struct FixedVertices {
     negative: usize,
     zero: usize,
     twice: usize,
     sum: usize,
 }
 
-/// Reads every pair JOINTS_n, WEIGHTS_n.
+/// Reads every pair of JOINTS_n and WEIGHTS_n.
 pub(super) fn influences(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &Primitive,
     vertices: usize,
     path: &str,
-) -> Result<Influences, ImportError> {
+) -> Result<VertexInfluences, ImportError> {
     let sets = sets(document, primitive, vertices, path)?;
     if sets.is_empty() {
-        return Ok(Influences::default());
+        return Ok(VertexInfluences::default());
     }
-    let guard = document.guard;
+    let context = document.context;
     let place = Place::Pointer(format!("{path}/attributes/WEIGHTS_0"));
-    let mut list = guard.filled(&place, vertices.saturating_mul(MAX_INFLUENCES), Influence::default())?;
-    let (mut mended, mut most, mut largest_joint) = (Mended::default(), 0, 0);
+    let mut list = context.filled(&place, vertices.saturating_mul(MAX_INFLUENCES), Influence::default())?;
+    let (mut fixed, mut most, mut largest_joint) = (FixedVertices::default(), 0, 0);
     let mut found = Vec::with_capacity(sets.len() * 4);
     let coarse = sets.iter().map(|set| set.step).fold(0.0, f32::max);
     for vertex in 0..vertices {
-        guard.work(4 * sets.len())?;
-        gather(&sets, vertex, &mut found, &mut mended, coarse);
+        context.work(4 * sets.len())?;
+        gather(&sets, vertex, &mut found, &mut fixed, coarse);
         found.truncate(MAX_INFLUENCES);
-        share_out(&mut found, &mut mended);
+        share_out(&mut found, &mut fixed);
         most = most.max(found.len());
         for (slot, &influence) in list[vertex * MAX_INFLUENCES..].iter_mut().zip(&found) {
             *slot = influence;
             largest_joint = largest_joint.max(influence.joint);
         }
     }
-    report(&mended, &place, document);
+    report(&fixed, &place, document);
     let per_vertex = if most <= 4 { 4 } else { MAX_INFLUENCES };
     if per_vertex < MAX_INFLUENCES {
-        guard.work(vertices)?;
+        context.work(vertices)?;
         for vertex in 1..vertices {
             list.copy_within(
                 vertex * MAX_INFLUENCES..vertex * MAX_INFLUENCES + per_vertex,
@@ -87,11 +87,11 @@ pub(super) fn influences(
         list.truncate(vertices * per_vertex);
         list.shrink_to_fit();
     }
-    Ok(Influences { list, per_vertex, largest_joint })
+    Ok(VertexInfluences { list, per_vertex, largest_joint })
 }
 
 fn sets(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &Primitive,
     vertices: usize,
     path: &str,
@@ -126,16 +126,16 @@ fn sets(
             _ => {
                 let name = if is_joints { "JOINTS" } else { "WEIGHTS" };
                 let place = Place::Pointer(format!("{path}/attributes/{name}_{number}"));
-                let text = "stands without its other half and is left out";
-                document.guard.warn(place, code::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, text);
+                let text = "the other one of JOINTS and WEIGHTS is missing; the attribute is left out";
+                document.context.warn(place, code::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, text);
             }
         }
     }
     Ok(sets)
 }
 
-/// The influences of one vertex that have a weight, strongest first, each joint once.
-fn gather(sets: &[Set], vertex: usize, found: &mut Vec<Influence>, mended: &mut Mended, coarse: f32) {
+/// Collects the influences of one vertex that have a weight, strongest first, each joint once.
+fn gather(sets: &[Set], vertex: usize, found: &mut Vec<Influence>, fixed: &mut FixedVertices, coarse: f32) {
     found.clear();
     let (mut is_negative, mut is_twice, mut sum, mut count) = (false, false, 0.0_f32, 0);
     for set in sets {
@@ -150,7 +150,7 @@ fn gather(sets: &[Set], vertex: usize, found: &mut Vec<Influence>, mended: &mut 
             found.push(Influence { joint: joint as u16, weight });
         }
     }
-    // Sorted rather than searched: a file may have any number of sets.
+    // Sorted instead of searched, because a file may have any number of sets.
     found.sort_by_key(|influence| influence.joint);
     found.dedup_by(|next, kept| {
         let is_same = next.joint == kept.joint;
@@ -160,17 +160,17 @@ fn gather(sets: &[Set], vertex: usize, found: &mut Vec<Influence>, mended: &mut 
         }
         is_same
     });
-    mended.negative += usize::from(is_negative);
-    mended.twice += usize::from(is_twice);
-    mended.sum += usize::from(count > 0 && (sum - 1.0).abs() > 2e-7 * count as f32 + coarse);
+    fixed.negative += usize::from(is_negative);
+    fixed.twice += usize::from(is_twice);
+    fixed.sum += usize::from(count > 0 && (sum - 1.0).abs() > 2e-7 * count as f32 + coarse);
     found.sort_by(|a, b| b.weight.total_cmp(&a.weight));
 }
 
-/// Makes the weights add up to one; a vertex without any follows joint 0.
-fn share_out(found: &mut Vec<Influence>, mended: &mut Mended) {
+/// Scales the weights so that they add up to one; a vertex without weights follows joint 0.
+fn share_out(found: &mut Vec<Influence>, fixed: &mut FixedVertices) {
     let sum: f64 = found.iter().map(|influence| f64::from(influence.weight)).sum();
     if found.is_empty() {
-        mended.zero += 1;
+        fixed.zero += 1;
         found.clear();
         found.push(Influence { joint: 0, weight: 1.0 });
     } else if sum != 1.0 {
@@ -180,22 +180,26 @@ fn share_out(found: &mut Vec<Influence>, mended: &mut Mended) {
     }
 }
 
-fn report(mended: &Mended, place: &Place, document: &Document<'_>) {
+fn report(fixed: &FixedVertices, place: &Place, document: &GltfDocument<'_>) {
     let warn = |count: usize, code, what: &str| {
         if count > 0 {
-            document.guard.warn(place.clone(), code, format!("{count} vertices {what}"));
+            document.context.warn(place.clone(), code, format!("{count} vertices {what}"));
         }
     };
     warn(
-        mended.negative,
+        fixed.negative,
         code::ACCESSOR_WEIGHTS_NEGATIVE,
-        "had weights below zero or no numbers; those are left out",
+        "had weights that are negative or not a number; those are left out",
     );
-    warn(mended.twice, code::ACCESSOR_JOINTS_INDEX_DUPLICATE, "named a joint twice; its weights were added");
     warn(
-        mended.sum,
-        code::ACCESSOR_WEIGHTS_NON_NORMALIZED,
-        "had weights that do not add up to one; now they do",
+        fixed.twice,
+        code::ACCESSOR_JOINTS_INDEX_DUPLICATE,
+        "had the same joint twice; its weights were added",
     );
-    warn(mended.zero, code::ACCESSOR_WEIGHTS_ZERO, "had no weight; they follow joint 0");
+    warn(
+        fixed.sum,
+        code::ACCESSOR_WEIGHTS_NON_NORMALIZED,
+        "had weights that do not add up to one; they were scaled",
+    );
+    warn(fixed.zero, code::ACCESSOR_WEIGHTS_ZERO, "had no weight; they follow joint 0");
 }

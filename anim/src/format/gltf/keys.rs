@@ -1,10 +1,10 @@
-//! The columns of a sampler: times that rise, values that are finite and stand in the same order.
+//! Keys of a sampler: increasing times, and finite values in the same order.
 
-use super::accessor::{Document, ElementFormat, invalid};
+use super::accessor::{ElementFormat, GltfDocument, invalid};
 use super::check as code;
 use super::node::{ROTATION_TOLERANCE, unit};
 use crate::data::Interpolation;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{CLIP_SECONDS, HUGE, KEYS_PER_CHANNEL};
 use glam::Quat;
 use gltf::json;
@@ -16,23 +16,23 @@ const TIME: &[ElementFormat] = &[(ComponentType::F32, Type::Scalar, false)];
 
 /// The key times of a sampler.
 #[derive(Clone)]
-pub(super) struct Keys {
+pub(super) struct SamplerTimes {
     /// Seconds, strictly ascending.
     pub(super) times: Arc<[f32]>,
-    /// How many the file has; more than `times` where some were left out.
+    /// Number of keys in the file; larger than the length of `times` if some were left out.
     pub(super) count: usize,
-    /// Which of the file's keys each time is, where that is not simply the same.
+    /// Number of the file's key for each time; `None` if they are the same.
     order: Option<Arc<[u32]>>,
 }
 
-impl Keys {
-    /// Reads and sorts; of keys at the same time the last one counts.
+impl SamplerTimes {
+    /// Reads and sorts the key times; of several keys at the same time the last one is used.
     pub(super) fn read(
-        document: &Document<'_>,
+        document: &GltfDocument<'_>,
         input: json::Index<Accessor>,
         path: &str,
     ) -> Result<Self, ImportError> {
-        let guard = document.guard;
+        let context = document.context;
         let from = format!("{path}/input");
         let wrong = code::ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT;
         let source = document.source(input, &from, TIME, wrong)?;
@@ -46,34 +46,38 @@ impl Keys {
             return Err(too_large("keys", source.count as u64, KEYS_PER_CHANNEL as u64));
         }
         if source.count == 0 {
-            guard.warn(source.place.clone(), code::EMPTY_ENTITY, "the channel has no key and moves nothing");
+            context.warn(
+                source.place.clone(),
+                code::EMPTY_ENTITY,
+                "the channel has no key and animates nothing",
+            );
         }
-        // -0 would sort before 0 and yet be equal to it.
+        // Adding 0 turns -0 into 0, since -0 would sort before 0 and yet be equal to it.
         let times: Vec<f32> = source.finite::<1>()?.into_iter().map(|[time]| time + 0.0).collect();
-        guard.work(times.len())?;
-        guard.charge(&source.place, times.len() as u64 * 8)?;
+        context.work(times.len())?;
+        context.charge(&source.place, times.len() as u64 * 8)?;
         if let Some(far) = times.iter().find(|time| time.abs() > CLIP_SECONDS) {
             return Err(too_large("seconds", far.abs() as u64, CLIP_SECONDS as u64));
         }
         if times.iter().any(|&time| time < 0.0) {
             let text = "key times below zero are kept";
-            guard.warn(source.place.clone(), code::ACCESSOR_ANIMATION_INPUT_NEGATIVE, text);
+            context.warn(source.place.clone(), code::ACCESSOR_ANIMATION_INPUT_NEGATIVE, text);
         }
-        // Asked so that NaN would fail.
-        let rises = times.windows(2).all(|pair| pair[1] > pair[0]);
-        if !rises {
-            return Self::sorted(&times, &source.place, guard);
+        // Compared so that NaN counts as not increasing.
+        let increasing = times.windows(2).all(|pair| pair[1] > pair[0]);
+        if !increasing {
+            return Self::sorted(&times, &source.place, context);
         }
         Ok(Self { count: times.len(), times: times.into(), order: None })
     }
 
-    fn sorted(times: &[f32], place: &Place, guard: &Guard<'_>) -> Result<Self, ImportError> {
-        let text = "key times do not rise; they were sorted, and of equal ones the last was kept";
-        guard.warn(place.clone(), code::ACCESSOR_ANIMATION_INPUT_NON_INCREASING, text);
-        let mut order: Vec<u32> = guard.vec(place, times.len())?;
+    fn sorted(times: &[f32], place: &Place, context: &ImportContext<'_>) -> Result<Self, ImportError> {
+        let text = "key times do not increase; they were sorted, and of equal ones the last was kept";
+        context.warn(place.clone(), code::ACCESSOR_ANIMATION_INPUT_NON_INCREASING, text);
+        let mut order: Vec<u32> = context.vec(place, times.len())?;
         order.extend(0..times.len() as u32);
         order.sort_by(|&a, &b| times[a as usize].total_cmp(&times[b as usize]));
-        guard.work(times.len())?;
+        context.work(times.len())?;
         let is_last = |&(position, &key): &(usize, &u32)| {
             order.get(position + 1).is_none_or(|&next| times[next as usize] != times[key as usize])
         };
@@ -83,56 +87,60 @@ impl Keys {
     }
 }
 
-/// The values of a sampler as the file has them, `width` of them together.
-pub(super) struct Column<const N: usize> {
+/// Values of a sampler as in the file.
+pub(super) struct SamplerValues<const N: usize> {
     pub(super) values: Vec<[f32; N]>,
     pub(super) interpolation: Interpolation,
-    /// Values that belong together: 1, or the number of morph targets.
+    /// Number of values that belong together: 1, or the number of morph targets.
     pub(super) width: usize,
 }
 
-impl<const N: usize> Column<N> {
-    /// Values: a key, tangents included.
+impl<const N: usize> SamplerValues<N> {
+    /// Returns the number of values per key, tangents included.
     fn per_key(&self) -> usize {
         self.width * if self.interpolation == Interpolation::CubicSpline { 3 } else { 1 }
     }
 
-    /// Is the value at `index` a tangent?
+    /// Returns whether the value at `index` is a tangent.
     fn is_tangent(&self, index: usize) -> bool {
         self.interpolation == Interpolation::CubicSpline && index / self.width % 3 != 1
     }
 
-    /// Refuses values that are not finite, and mends tangents that are not.
-    pub(super) fn check(&mut self, place: &Place, guard: &Guard<'_>) -> Result<(), ImportError> {
-        let (mut mended, mut huge) = (0, false);
-        guard.work(self.values.len())?;
+    /// Refuses values that are not finite, and sets tangents that are not finite to zero.
+    pub(super) fn check(&mut self, place: &Place, context: &ImportContext<'_>) -> Result<(), ImportError> {
+        let (mut fixed, mut huge) = (0, false);
+        context.work(self.values.len())?;
         for index in 0..self.values.len() {
             if self.values[index].iter().all(|number| number.is_finite()) {
                 huge |= self.values[index].iter().any(|number| number.abs() > HUGE);
             } else if self.is_tangent(index) {
                 self.values[index] = [0.0; N];
-                mended += 1;
+                fixed += 1;
             } else {
                 let reason = format!("element {index} is not finite");
                 return Err(invalid(place.clone(), code::ACCESSOR_INVALID_FLOAT, reason));
             }
         }
-        if mended > 0 {
-            let text = format!("{mended} tangents are not finite; they were set to zero");
-            guard.warn(place.clone(), code::ANIMATION_TANGENT_NOT_FINITE, text);
+        if fixed > 0 {
+            let text = format!("{fixed} tangents are not finite; they were set to zero");
+            context.warn(place.clone(), code::ANIMATION_TANGENT_NOT_FINITE, text);
         }
         if huge {
-            guard.warn(place.clone(), code::HUGE_TRANSLATION, "a key is too large for single precision");
+            context.warn(place.clone(), code::HUGE_TRANSLATION, "a key is too large for single precision");
         }
         Ok(())
     }
 
-    /// Puts the values into the order of `keys`.
-    pub(super) fn sort(&mut self, keys: &Keys, guard: &Guard<'_>) -> Result<(), ImportError> {
+    /// Sorts the values into the order of `keys`.
+    pub(super) fn sort(
+        &mut self,
+        keys: &SamplerTimes,
+        context: &ImportContext<'_>,
+    ) -> Result<(), ImportError> {
         let Some(order) = &keys.order else { return Ok(()) };
         let per_key = self.per_key();
-        guard.work(self.values.len())?;
-        guard.charge(&Place::File, (self.values.len() * size_of::<[f32; N]>()) as u64)?;
+        context.work(self.values.len())?;
+        context.charge(&Place::File, (self.values.len() * size_of::<[f32; N]>()) as u64)?;
         let old = std::mem::take(&mut self.values);
         self.values =
             order.iter().flat_map(|&key| &old[key as usize * per_key..][..per_key]).copied().collect();
@@ -140,12 +148,11 @@ impl<const N: usize> Column<N> {
     }
 }
 
-/// Makes the rotations of all keys unit.
+/// Normalizes the rotations of all keys.
 ///
-/// Between keys that are mixed by distance, neighbours are brought into one hemisphere: q and -q are the same
-/// rotation, and the short way between them is meant. A spline is left as it is: with its tangents it says itself
-/// which way it goes.
-pub(super) fn make_unit(column: &mut Column<4>, place: &str, guard: &Guard<'_>) {
+/// If keys are interpolated linearly, neighbors are brought into one hemisphere: q and -q are the same rotation, and
+/// the interpolation should take the shorter way. A spline keeps its signs, because its tangents determine the way.
+pub(super) fn make_unit(column: &mut SamplerValues<4>, place: &str, context: &ImportContext<'_>) {
     let (mut zero, mut off) = (0, 0);
     let mut last: Option<Quat> = None;
     for index in 0..column.values.len() {
@@ -173,18 +180,18 @@ pub(super) fn make_unit(column: &mut Column<4>, place: &str, guard: &Guard<'_>) 
     let code = code::ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION;
     let warn = |count: usize, what: &str| {
         if count > 0 {
-            guard.warn(Place::Pointer(place.to_owned()), code, format!("{count} rotations {what}"));
+            context.warn(Place::Pointer(place.to_owned()), code, format!("{count} rotations {what}"));
         }
     };
-    warn(zero, "have no length; none is taken instead");
-    warn(off, "are not of unit length and were made so");
+    warn(zero, "have no length; the identity is used instead");
+    warn(off, "are not of unit length; they were normalized");
 }
 
-/// How to mix; linear where the file says something unknown.
+/// Returns the interpolation; linear if the file has an unknown one.
 pub(super) fn interpolation(
     sampler: &json::animation::Sampler,
     path: &str,
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Interpolation {
     match sampler.interpolation {
         Checked::Valid(json::animation::Interpolation::Step) => Interpolation::Step,
@@ -192,7 +199,11 @@ pub(super) fn interpolation(
         Checked::Valid(json::animation::Interpolation::Linear) => Interpolation::Linear,
         Checked::Invalid => {
             let place = Place::Pointer(format!("{path}/interpolation"));
-            guard.warn(place, code::VALUE_NOT_IN_LIST, "unknown; linear is taken instead");
+            context.warn(
+                place,
+                code::VALUE_NOT_IN_LIST,
+                "the interpolation is unknown; linear is used instead",
+            );
             Interpolation::Linear
         }
     }

@@ -1,37 +1,37 @@
-//! Materials: metallic-roughness values as the file has them, and Phong values derived from them.
+//! Materials: metallic-roughness values as in the file, and Phong values derived from them.
 
 use super::accessor::{invalid, unresolved};
 use super::check as code;
 use crate::data::{AlphaMode, Filter, Material, Metallic, Phong, TextureRef, TextureTransform, Wrap};
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json;
 use gltf::json::extensions::texture::TextureTransform as JsonTransform;
 use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
 
-/// All materials. `images` says which image of the model each image of the file became.
+/// Returns all materials. `images` contains the number in the model for each image of the file.
 pub(super) fn materials(
     root: &json::Root,
     images: &[u32],
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Result<Vec<Material>, ImportError> {
-    let mut materials = guard.vec(&Place::Pointer("/materials".to_owned()), root.materials.len())?;
+    let mut materials = context.vec(&Place::Pointer("/materials".to_owned()), root.materials.len())?;
     for (index, material) in root.materials.iter().enumerate() {
-        guard.work(1)?;
-        let reader = Reader { root, images, guard, path: format!("/materials/{index}") };
+        context.work(1)?;
+        let reader = MaterialReader { root, images, context, path: format!("/materials/{index}") };
         materials.push(reader.material(material)?);
     }
     Ok(materials)
 }
 
-/// Phong values that look like metallic-roughness ones.
+/// Returns Phong values that look similar to metallic-roughness values.
 ///
-/// * diffuse = base × (1 − metallic): metals have no colour of their own below the surface;
-/// * specular = 0.04 × (1 − metallic) + base × metallic: what either reflects, seen from the front;
+/// * diffuse = base × (1 − metallic): metals have no diffuse color;
+/// * specular = 0.04 × (1 − metallic) + base × metallic: reflectance of a dielectric or a metal, seen from the front;
 /// * ambient = a fifth of diffuse and specular together;
-/// * power = (2 / α² − 2) / 4 with α = roughness², 1..1000: the lobe of Blinn's exponent 2 / α² − 2 (Walter 2007)
-///   about the reflected ray is as wide as that of a Phong exponent a quarter as large.
+/// * power = (2 / α² − 2) / 4 with α = roughness², 1..1000: the lobe of Blinn's exponent 2 / α² − 2 (Walter 2007) about
+///   the reflected ray is as wide as that of a Phong exponent a quarter as large.
 pub fn phong(base: Vec3, metallic: f32, roughness: f32) -> Phong {
     let diffuse = base * (1.0 - metallic);
     let specular = Vec3::splat(0.04 * (1.0 - metallic)) + base * metallic;
@@ -40,14 +40,14 @@ pub fn phong(base: Vec3, metallic: f32, roughness: f32) -> Phong {
     Phong { ambient: (diffuse + specular) * 0.2, diffuse, specular, specular_power }
 }
 
-struct Reader<'a> {
+struct MaterialReader<'a> {
     root: &'a json::Root,
     images: &'a [u32],
-    guard: &'a Guard<'a>,
+    context: &'a ImportContext<'a>,
     path: String,
 }
 
-impl Reader<'_> {
+impl MaterialReader<'_> {
     fn material(&self, material: &json::Material) -> Result<Material, ImportError> {
         let pbr = &material.pbr_metallic_roughness;
         self.finite(&pbr.base_color_factor.0, "pbrMetallicRoughness/baseColorFactor")?;
@@ -112,10 +112,10 @@ impl Reader<'_> {
             Checked::Valid(json::material::AlphaMode::Mask) => AlphaMode::Mask(cutoff.max(0.0)),
             Checked::Valid(json::material::AlphaMode::Blend) => AlphaMode::Blend,
             Checked::Invalid => {
-                self.guard.warn(
+                self.context.warn(
                     self.at("alphaMode"),
                     code::VALUE_NOT_IN_LIST,
-                    "unknown; opaque is taken instead",
+                    "the alpha mode is unknown; opaque is used instead",
                 );
                 AlphaMode::Opaque
             }
@@ -132,7 +132,7 @@ impl Reader<'_> {
         self.texture(info.index, info.tex_coord, transform, member)
     }
 
-    /// Normal and occlusion textures: there the document model leaves the transform unread.
+    /// Reads normal and occlusion textures, whose transform the document model leaves unparsed.
     fn with_raw_transform(
         &self,
         index: json::Index<json::Texture>,
@@ -149,7 +149,7 @@ impl Reader<'_> {
         self.texture(index, set, transform.as_ref(), member)
     }
 
-    /// A use of a texture; `None`, with a warning, where its image is in a format that is not shown.
+    /// Returns a use of a texture; `None`, with a warning, if its image has a format that is not supported.
     fn texture(
         &self,
         index: json::Index<json::Texture>,
@@ -170,18 +170,19 @@ impl Reader<'_> {
             ),
             None => None,
         };
-        // The document model's way to say that there is none.
+        // The document model's value for "no source".
         if texture.source.value() == u32::MAX as usize {
             let text = "the texture has no PNG or JPEG image and is left out";
-            self.guard.warn(Place::Pointer(path), code::TEXTURE_NO_SOURCE, text);
+            self.context.warn(Place::Pointer(path), code::TEXTURE_NO_SOURCE, text);
             return Ok(None);
         }
         let source = texture.source.value();
         let image = *self.images.get(source).ok_or_else(|| unresolved(&format!("{path}/source"), source))?;
         let mut set = transform.and_then(|transform| transform.tex_coord).unwrap_or(set);
         if set > 1 {
-            let text = format!("texture coordinates {set} are not read; set 0 is taken");
-            self.guard.warn(self.at(member), code::TEXTURE_COORDINATES, text);
+            let text =
+                format!("set {set} of the texture coordinates is not supported; set 0 is used instead");
+            self.context.warn(self.at(member), code::TEXTURE_COORDINATES, text);
             set = 0;
         }
         let (minify, mip) = minify(sampler);
@@ -231,7 +232,7 @@ fn wrap(mode: Option<&Checked<WrappingMode>>) -> Wrap {
     }
 }
 
-/// How to shrink, and whether with mip levels. A file that does not say gets the best.
+/// Returns the minification filter and whether to use mip levels. The default is the best quality.
 fn minify(sampler: Option<&json::texture::Sampler>) -> (Filter, bool) {
     match sampler.and_then(|sampler| sampler.min_filter.as_ref()) {
         Some(Checked::Valid(MinFilter::Nearest)) => (Filter::Nearest, false),

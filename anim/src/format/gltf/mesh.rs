@@ -1,6 +1,6 @@
-//! Meshes: attributes become columns, each as long as the positions.
+//! Meshes: attributes become columns, each of the length of the positions.
 
-use super::accessor::{Document, ElementFormat, invalid};
+use super::accessor::{ElementFormat, GltfDocument, invalid};
 use super::check as code;
 use super::influence::influences;
 use super::morph::{morph_targets, morph_weights};
@@ -15,14 +15,14 @@ use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
 
-/// A mesh, and what must be known to place it.
+/// A mesh, and what placing it in the scene requires.
 pub(super) struct ReadMesh {
     pub(super) mesh: Mesh,
-    /// The largest joint number in use, per mesh; `None` when no primitive has joints.
+    /// Largest joint number in use in the mesh; `None` if no primitive has joints.
     pub(super) largest_joint: Option<u16>,
 }
 
-/// All shapes and number types that an attribute may have.
+/// Returns all combinations of a shape with component types.
 const fn formats<const N: usize>(shape: Type, kinds: [(ComponentType, bool); N]) -> [ElementFormat; N] {
     let mut formats = [(ComponentType::F32, shape, false); N];
     let mut i = 0;
@@ -35,7 +35,7 @@ const fn formats<const N: usize>(shape: Type, kinds: [(ComponentType, bool); N])
 
 use ComponentType::{F32, I8, I16, U8, U16};
 
-/// Every format of KHR_mesh_quantization, allowed whether or not a file asks for the extension.
+/// Every format of KHR_mesh_quantization, allowed even if a file does not request the extension.
 const QUANTIZED: [(ComponentType, bool); 9] = [
     (F32, false),
     (I8, false),
@@ -56,21 +56,21 @@ const COLOR_4: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (U8, true)
 const COLOR: &[ElementFormat] = &[COLOR_3[0], COLOR_3[1], COLOR_3[2], COLOR_4[0], COLOR_4[1], COLOR_4[2]];
 const WRONG: &str = code::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT;
 
-/// All meshes.
-pub(super) fn meshes(document: &Document<'_>) -> Result<Vec<ReadMesh>, ImportError> {
-    let guard = document.guard;
+/// Returns all meshes.
+pub(super) fn meshes(document: &GltfDocument<'_>) -> Result<Vec<ReadMesh>, ImportError> {
+    let context = document.context;
     let count = document.root.meshes.len();
-    let mut meshes = guard.vec(&Place::Pointer("/meshes".to_owned()), count)?;
+    let mut meshes = context.vec(&Place::Pointer("/meshes".to_owned()), count)?;
     let mut vertices = 0;
     for (index, mesh) in document.root.meshes.iter().enumerate() {
         meshes.push(read_mesh(document, mesh, index, &mut vertices)?);
-        guard.progress(0.3 + 0.4 * (index + 1) as f32 / count as f32)?;
+        context.progress(0.3 + 0.4 * (index + 1) as f32 / count as f32)?;
     }
     Ok(meshes)
 }
 
 fn read_mesh(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     mesh: &json::Mesh,
     index: usize,
     total: &mut usize,
@@ -78,10 +78,10 @@ fn read_mesh(
     let path = format!("/meshes/{index}");
     if mesh.primitives.is_empty() {
         let place = Place::Pointer(format!("{path}/primitives"));
-        document.guard.warn(place, code::EMPTY_ENTITY, "the mesh has no primitive");
+        document.context.warn(place, code::EMPTY_ENTITY, "the mesh has no primitive");
     }
     let mut largest_joint = None;
-    let mut primitives = document.guard.vec(&Place::Pointer(path.clone()), mesh.primitives.len())?;
+    let mut primitives = document.context.vec(&Place::Pointer(path.clone()), mesh.primitives.len())?;
     for (number, primitive) in mesh.primitives.iter().enumerate() {
         let path = format!("{path}/primitives/{number}");
         primitives.push(read_primitive(document, primitive, &path, total, &mut largest_joint)?);
@@ -92,7 +92,7 @@ fn read_mesh(
 }
 
 fn read_primitive(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     path: &str,
     total: &mut usize,
@@ -104,7 +104,7 @@ fn read_primitive(
     }
     let Some(positions) = positions(document, primitive, path)? else {
         let text = "the primitive has no positions and stays empty";
-        document.guard.warn(Place::Pointer(path.to_owned()), code::MESH_PRIMITIVE_NO_POSITION, text);
+        document.context.warn(Place::Pointer(path.to_owned()), code::MESH_PRIMITIVE_NO_POSITION, text);
         return Ok(Primitive { material, ..Primitive::default() });
     };
     let mut vertices = Vertices { positions, ..Vertices::default() };
@@ -136,7 +136,7 @@ fn read_primitive(
     Ok(Primitive { vertices, indices, material, morph_targets })
 }
 
-/// The accessor of an attribute.
+/// Returns the accessor of an attribute.
 pub(super) fn attribute(
     primitive: &json::mesh::Primitive,
     semantic: Semantic,
@@ -144,7 +144,7 @@ pub(super) fn attribute(
     primitive.attributes.get(&Checked::Valid(semantic)).copied()
 }
 
-/// An error unless `count` is the number of vertices.
+/// Refuses an attribute whose `count` is not the number of vertices.
 pub(super) fn unequal(count: usize, vertices: usize, from: &str) -> Result<(), ImportError> {
     if count == vertices {
         return Ok(());
@@ -153,9 +153,9 @@ pub(super) fn unequal(count: usize, vertices: usize, from: &str) -> Result<(), I
     Err(invalid(Place::Pointer(from.to_owned()), code::MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT, reason))
 }
 
-/// An attribute as finite floats, if the primitive has it.
+/// Returns an attribute as finite floats, if the primitive has it.
 fn column<const N: usize>(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     semantic: Semantic,
     allowed: &[ElementFormat],
@@ -170,69 +170,69 @@ fn column<const N: usize>(
 }
 
 fn positions(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     path: &str,
 ) -> Result<Option<Vec<Vec3>>, ImportError> {
     let from = format!("{path}/attributes/POSITION");
     let Some(accessor) = attribute(primitive, Semantic::Positions) else { return Ok(None) };
     let positions = document.source(accessor, &from, ANY_VEC3, WRONG)?.finite::<3>()?;
-    document.guard.work(positions.len())?;
+    document.context.work(positions.len())?;
     let positions: Vec<Vec3> = positions.into_iter().map(Vec3::from).collect();
     if positions.iter().any(|&position| largest(position) > HUGE) {
         let text = "a vertex is too far away for single precision";
-        document.guard.warn(Place::Pointer(from), code::HUGE_TRANSLATION, text);
+        document.context.warn(Place::Pointer(from), code::HUGE_TRANSLATION, text);
     }
     Ok(Some(positions))
 }
 
-/// The file's normals made unit; those it lacks, and those without a length, from the triangles.
+/// Returns normalized normals; those that the file lacks, and those of length zero, are computed from the triangles.
 fn all_normals(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     positions: &[Vec3],
     indices: &[u32],
     path: &str,
 ) -> Result<Vec<Vec3>, ImportError> {
     let place = Place::Pointer(format!("{path}/attributes/NORMAL"));
-    let guard = document.guard;
+    let context = document.context;
     let Some(read) = column::<3>(document, primitive, Semantic::Normals, UNIT_VEC3, positions.len(), path)?
     else {
-        return normals(positions, indices, &place, guard);
+        return normals(positions, indices, &place, context);
     };
-    guard.work(read.len())?;
+    context.work(read.len())?;
     let mut odd = 0;
-    let mut unit: Vec<Option<Vec3>> = guard.vec(&place, read.len())?;
+    let mut unit: Vec<Option<Vec3>> = context.vec(&place, read.len())?;
     unit.extend(read.into_iter().map(Vec3::from).map(|normal| {
         odd += usize::from((normal.length() - 1.0).abs() > UNIT_TOLERANCE);
         direction(normal)
     }));
     if odd > 0 {
-        guard.warn(
+        context.warn(
             place.clone(),
             code::ACCESSOR_VECTOR3_NON_UNIT,
             format!("{odd} normals are not of unit length"),
         );
     }
-    let made = if unit.contains(&None) { normals(positions, indices, &place, guard)? } else { Vec::new() };
+    let made = if unit.contains(&None) { normals(positions, indices, &place, context)? } else { Vec::new() };
     Ok(unit.into_iter().enumerate().map(|(vertex, normal)| normal.unwrap_or_else(|| made[vertex])).collect())
 }
 
-/// The Khronos validator's tolerance, widened to the step of 8-bit normals.
+/// Tolerance of the Khronos validator, plus the step of 8-bit normals.
 const UNIT_TOLERANCE: f32 = 0.00674 + 1.0 / 127.0;
 
-fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -> Vec<Vec4> {
+fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &GltfDocument<'_>) -> Vec<Vec4> {
     let place = Place::Pointer(format!("{path}/attributes/TANGENT"));
     if tangents.iter().any(|tangent| tangent[3].abs() != 1.0) {
-        document.guard.warn(
+        document.context.warn(
             place.clone(),
             code::ACCESSOR_INVALID_SIGN,
-            "w should be 1 or -1; its sign is taken",
+            "w should be 1 or -1; its sign is used",
         );
     }
     if tangents.iter().any(|t| (Vec3::new(t[0], t[1], t[2]).length() - 1.0).abs() > UNIT_TOLERANCE) {
         let text = "tangents are not of unit length";
-        document.guard.warn(place, code::ACCESSOR_VECTOR3_NON_UNIT, text);
+        document.context.warn(place, code::ACCESSOR_VECTOR3_NON_UNIT, text);
     }
     let unit = |[x, y, z, w]: [f32; 4]| {
         let side = if w < 0.0 { -1.0 } else { 1.0 };
@@ -242,7 +242,7 @@ fn unit_tangents(tangents: Vec<[f32; 4]>, path: &str, document: &Document<'_>) -
 }
 
 fn colors(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     count: usize,
     path: &str,
@@ -255,29 +255,29 @@ fn colors(
         Type::Vec3 => source.finite::<3>()?.into_iter().map(|color| Vec3::from(color).extend(1.0)).collect(),
         _ => source.finite::<4>()?.into_iter().map(Vec4::from).collect(),
     };
-    document.guard.charge(&source.place, colors.len() as u64 * size_of::<Vec4>() as u64)?;
+    document.context.charge(&source.place, colors.len() as u64 * size_of::<Vec4>() as u64)?;
     let clamped = |color: &Vec4| color.clamp(Vec4::ZERO, Vec4::ONE);
     if colors.iter().any(|color| clamped(color) != *color) {
-        document.guard.warn(
+        document.context.warn(
             Place::Pointer(from),
             code::ACCESSOR_NON_CLAMPED,
-            "colours outside 0..1 were clamped",
+            "colors outside 0..1 were clamped",
         );
     }
     Ok(colors.iter().map(clamped).collect())
 }
 
-/// Attributes that nobody looks at, once each.
-fn warn_unknown(document: &Document<'_>, primitive: &json::mesh::Primitive, path: &str) {
+/// Adds one warning for each attribute that is not used.
+fn warn_unknown(document: &GltfDocument<'_>, primitive: &json::mesh::Primitive, path: &str) {
     for semantic in primitive.attributes.keys() {
         let name = match semantic {
-            Checked::Invalid => "an attribute of unknown name".to_owned(),
+            Checked::Invalid => "an attribute with an unknown name".to_owned(),
             Checked::Valid(semantic @ (Semantic::Colors(1..) | Semantic::TexCoords(2..))) => {
                 semantic.to_string()
             }
             Checked::Valid(_) => continue,
         };
         let place = Place::Pointer(format!("{path}/attributes"));
-        document.guard.warn(place, code::MESH_PRIMITIVE_INVALID_ATTRIBUTE, format!("{name} is not used"));
+        document.context.warn(place, code::MESH_PRIMITIVE_INVALID_ATTRIBUTE, format!("{name} is not used"));
     }
 }

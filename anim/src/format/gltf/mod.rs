@@ -1,8 +1,8 @@
-//! glTF 2.0, as JSON with files beside it (`.gltf`) or in one binary container (`.glb`).
+//! glTF 2.0, as JSON text with referenced files (`.gltf`) or in one binary container (`.glb`).
 //!
-//! The JSON text becomes the `gltf` crate's document model and nothing more of that crate is used: its own checks,
-//! readers and file access panic, hang or take gigabytes on small files. What stands between the model and the bytes
-//! is here: `accessor` is the only module that looks into a buffer, `graph` the only one that walks the nodes.
+//! Of the `gltf` crate only the document model is used, to parse the JSON text. Its checks, readers and file access
+//! panic, hang or allocate gigabytes on small files, so this module has its own: `accessor` is the only module that
+//! reads a buffer, `graph` the only one that walks the nodes.
 //!
 //! Reading order: `survey` and `document` (text → model), `buffer`, `accessor`, `graph`, `node`, `skin`, `mesh`,
 //! `animation`, `scene`. [`check`] lists every rule.
@@ -34,65 +34,74 @@ pub use extension::SUPPORTED;
 pub use image::measure as measure_image;
 pub use material::phong;
 
-use super::{AssetFs, Format, ImportError, Place, guard::Guard};
+use super::{Format, ImportContext, ImportError, Place, WriteSupport};
 use crate::data::{AnimationData, ModelData};
-use accessor::Document;
-use buffer::Store;
+use accessor::GltfDocument;
 use std::sync::Arc;
 
-/// Binary container.
-pub const GLB: Format =
-    Format { name: "glb", extensions: &["glb"], detect: |bytes| bytes.starts_with(b"glTF"), read: read_glb };
+/// glTF 2.0 in one binary container, `.glb`.
+pub const GLB: Format = Format {
+    name: "glb",
+    title: "glTF 2.0, binary",
+    extensions: &["glb"],
+    sniff: |bytes| bytes.starts_with(b"glTF"),
+    read: read_glb,
+    write: WriteSupport::Surgical(save::open),
+};
 
-/// JSON text.
-pub const GLTF: Format =
-    Format { name: "gltf", extensions: &["gltf"], detect: looks_like_json, read: read_gltf };
+/// glTF 2.0 as JSON text, `.gltf`.
+pub const GLTF: Format = Format {
+    name: "gltf",
+    title: "glTF 2.0, text",
+    extensions: &["gltf"],
+    sniff: looks_like_json,
+    read: read_gltf,
+    write: WriteSupport::Surgical(save::open),
+};
 
 fn looks_like_json(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     text.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{')
 }
 
-fn read_glb(bytes: &[u8], door: &dyn AssetFs, guard: &Guard<'_>) -> Result<ModelData, ImportError> {
-    let glb = glb::parse(bytes, guard)?;
-    read_document(glb.json, glb.json_at, glb.bin, bytes.len(), door, guard)
+fn read_glb(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {
+    let glb = glb::parse(bytes, context)?;
+    read_document(glb.json, glb.json_at, glb.bin, bytes.len(), context)
 }
 
-fn read_gltf(bytes: &[u8], door: &dyn AssetFs, guard: &Guard<'_>) -> Result<ModelData, ImportError> {
-    read_document(bytes, 0, None, bytes.len(), door, guard)
+fn read_gltf(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {
+    read_document(bytes, 0, None, bytes.len(), context)
 }
 
-/// `json` begins at byte `json_at` of a file of `size` bytes.
+/// Reads the document whose JSON text starts at byte `json_at` of a file of `size` bytes.
 fn read_document(
     json: &[u8],
     json_at: u64,
     bin: Option<&[u8]>,
     size: usize,
-    door: &dyn AssetFs,
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Result<ModelData, ImportError> {
-    let root = document::parse(json, json_at, guard)?;
-    extension::check(&root, guard)?;
-    references::check(&root, guard)?;
-    let graph = graph::graph(&root, guard)?;
-    let store = Store::new(door, guard);
-    let buffers = buffer::load(&root, bin, &store, guard)?;
+    let root = document::parse(json, json_at, context)?;
+    extension::check(&root, context)?;
+    references::check(&root, context)?;
+    let graph = graph::graph(&root, context)?;
+    let buffers = buffer::load(&root, bin, context)?;
     let bytes = size.saturating_add(buffers.iter().map(|buffer| buffer.bytes().len()).sum());
-    let document = Document { root: &root, buffers, bytes, guard };
+    let document = GltfDocument { root: &root, buffers, bytes, context };
 
-    let mut is_bone = guard.filled(&Place::Pointer("/nodes".to_owned()), root.nodes.len(), false)?;
+    let mut is_bone = context.filled(&Place::Pointer("/nodes".to_owned()), root.nodes.len(), false)?;
     skin::mark_joints(&document, &mut is_bone)?;
     animation::mark_animated(&document, &mut is_bone)?;
     let bones = scene::number_bones(&document, &graph, &mut is_bone)?;
 
-    let locals = node::locals(&root, guard)?;
-    let globals = node::globals(&graph, &locals, guard)?;
+    let locals = node::locals(&root, context)?;
+    let globals = node::globals(&graph, &locals, context)?;
     let skins = skin::skins(&document, &bones)?;
     let skeleton = scene::skeleton(&document, &graph, &locals, &globals, &bones, &skins)?;
-    guard.progress(0.3)?;
+    context.progress(0.3)?;
 
-    let images = image::images(&document, &store)?;
-    let materials = material::materials(&root, &images.numbers, guard)?;
+    let images = image::images(&document)?;
+    let materials = material::materials(&root, &images.numbers, context)?;
     let meshes = mesh::meshes(&document)?;
     let stage = scene::stage(&document, &graph, &locals, skeleton, bones, &meshes)?;
     let takes = animation::takes(&document, &stage)?;

@@ -1,6 +1,6 @@
 //! Morph targets and their weights.
 
-use super::accessor::{Document, invalid};
+use super::accessor::{GltfDocument, invalid};
 use super::check as code;
 use super::mesh::{ANY_VEC3, UNIT_VEC3};
 use crate::data::{MorphTarget, Primitive};
@@ -11,15 +11,15 @@ use gltf::json::accessor::Accessor;
 use serde_json::value::RawValue;
 use std::collections::HashMap;
 
-/// The morph targets of a primitive; each column is empty or as long as the primitive.
+/// Returns the morph targets of a primitive; each column is empty or of the length of the primitive.
 pub(super) fn morph_targets(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &json::mesh::Primitive,
     vertices: usize,
     path: &str,
 ) -> Result<Vec<MorphTarget>, ImportError> {
     let targets = primitive.targets.as_deref().unwrap_or(&[]);
-    let mut read = document.guard.vec(&Place::Pointer(format!("{path}/targets")), targets.len())?;
+    let mut read = document.context.vec(&Place::Pointer(format!("{path}/targets")), targets.len())?;
     for (number, target) in targets.iter().enumerate() {
         let column = |accessor: Option<json::Index<Accessor>>, name: &str, allowed| {
             let from = format!("{path}/targets/{number}/{name}");
@@ -43,26 +43,27 @@ pub(super) fn morph_targets(
     Ok(read)
 }
 
-/// The mesh's own weights, one a target; gives all primitives the same number of targets, and the targets names.
+/// Returns the default weights of the mesh, one per target. Gives all primitives the same number of targets, and the
+/// targets their names.
 pub(super) fn morph_weights(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     mesh: &json::Mesh,
     primitives: &mut [Primitive],
     path: &str,
 ) -> Result<Vec<f32>, ImportError> {
-    let guard = document.guard;
+    let context = document.context;
     let targets = primitives.iter().map(|primitive| primitive.morph_targets.len()).max().unwrap_or(0);
     let names = target_names(mesh);
     for (number, primitive) in primitives.iter_mut().enumerate() {
         if primitive.morph_targets.len() != targets {
             let place = Place::Pointer(format!("{path}/primitives/{number}/targets"));
             let text = format!("{} morph targets, {targets} in the mesh", primitive.morph_targets.len());
-            guard.charge(&place, (targets * size_of::<MorphTarget>()) as u64)?;
-            guard.warn(place, code::MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT, text);
+            context.charge(&place, (targets * size_of::<MorphTarget>()) as u64)?;
+            context.warn(place, code::MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT, text);
             primitive.morph_targets.resize_with(targets, MorphTarget::default);
         }
         for (target, name) in primitive.morph_targets.iter_mut().zip(&names) {
-            guard.charge(&Place::Pointer(path.to_owned()), name.len() as u64)?;
+            context.charge(&Place::Pointer(path.to_owned()), name.len() as u64)?;
             target.name.clone_from(name);
         }
     }
@@ -70,31 +71,31 @@ pub(super) fn morph_weights(
     fitted(mesh.weights.as_deref(), targets, &[], place, code::MESH_INVALID_WEIGHTS_COUNT, document)
 }
 
-/// `weights` with one value a target, filled up from `default` and zeros.
+/// Returns `weights` with one value per target; missing ones are taken from `default`, then zero.
 pub(super) fn fitted(
     weights: Option<&[f32]>,
     targets: usize,
     default: &[f32],
     place: Place,
     code: &'static str,
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
 ) -> Result<Vec<f32>, ImportError> {
     let given = weights.unwrap_or(default);
     if given.iter().any(|weight| !weight.is_finite()) {
         return Err(invalid(place, code::VALUE_NOT_IN_RANGE, "a weight is not finite".to_owned()));
     }
-    let mut fitted = document.guard.vec(&place, targets)?;
+    let mut fitted = document.context.vec(&place, targets)?;
     fitted.extend(given.iter().copied().chain(std::iter::repeat(0.0)).take(targets));
     if weights.is_some_and(|weights| weights.len() != targets) {
-        document.guard.warn(place, code, format!("{} weights for {targets} morph targets", given.len()));
+        document.context.warn(place, code, format!("{} weights for {targets} morph targets", given.len()));
     }
     Ok(fitted)
 }
 
-/// Extras longer than this are not searched for names.
+/// Longest extras that are searched for names.
 const EXTRAS_BYTES: usize = 1 << 20;
 
-/// `extras.targetNames`: not in the specification, but what everybody writes.
+/// Returns `extras.targetNames`, which is not in the specification, but which most exporters write.
 fn target_names(mesh: &json::Mesh) -> Vec<String> {
     let names = |text: &str| -> Option<Vec<String>> {
         let members: HashMap<String, &RawValue> = serde_json::from_str(text).ok()?;

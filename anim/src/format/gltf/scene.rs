@@ -1,43 +1,43 @@
-//! From nodes to bones and instances: what moves, and what is shown.
+//! Turns nodes into bones and instances: what is animated, and what is shown.
 
-use super::accessor::{Document, invalid, unresolved};
+use super::accessor::{GltfDocument, invalid, unresolved};
 use super::check as code;
 use super::graph::Graph;
 use super::mesh::ReadMesh;
 use super::morph::fitted;
-use super::node::{Local, inverse};
+use super::node::{LocalTransform, inverse};
 use crate::data::{Bone, BoneIndex, MeshInstance, Skeleton, Skin};
 use crate::format::{ImportError, Place};
 use glam::Mat4;
 
-/// Bones and instances, and how nodes map to them.
-pub(super) struct Stage {
+/// Bones and instances, and the mapping from nodes to them.
+pub(super) struct SceneLayout {
     pub(super) skeleton: Skeleton,
     pub(super) instances: Vec<MeshInstance>,
-    /// The bone of each node.
+    /// Bone of each node.
     pub(super) bones: Vec<Option<BoneIndex>>,
     /// Number of morph targets of each mesh.
     morph_targets: Vec<usize>,
 }
 
-impl Stage {
-    /// The instance that node `node` is; `None` for one without mesh, or outside the scene.
+impl SceneLayout {
+    /// Returns the instance of node `node`; `None` for one without mesh, or outside the scene.
     pub(super) fn instance_of(&self, node: usize) -> Option<u32> {
-        // Instances are in node order.
+        // Instances are in the order of the nodes.
         let found = self.instances.binary_search_by_key(&Some(node as u32), |instance| instance.node);
         found.ok().map(|index| index as u32)
     }
 
-    /// How many morph targets the mesh of `node` has.
-    pub(super) fn morph_targets_of(&self, document: &Document<'_>, node: usize) -> usize {
+    /// Returns the number of morph targets of the mesh of `node`.
+    pub(super) fn morph_targets_of(&self, document: &GltfDocument<'_>, node: usize) -> usize {
         let mesh = document.root.nodes[node].mesh;
         mesh.and_then(|mesh| self.morph_targets.get(mesh.value()).copied()).unwrap_or(0)
     }
 }
 
-/// Numbers the bones: parents first, depth first from the roots. `is_bone` gets the ancestors too.
+/// Numbers the bones: parents first, depth first from the roots. Also sets `is_bone` for the ancestors.
 pub(super) fn number_bones(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     graph: &Graph,
     is_bone: &mut [bool],
 ) -> Result<Vec<Option<BoneIndex>>, ImportError> {
@@ -46,7 +46,7 @@ pub(super) fn number_bones(
             is_bone[parent as usize] |= is_bone[node as usize];
         }
     }
-    let mut bones = document.guard.filled(&Place::Pointer("/nodes".to_owned()), is_bone.len(), None)?;
+    let mut bones = document.context.filled(&Place::Pointer("/nodes".to_owned()), is_bone.len(), None)?;
     let moving = graph.order.iter().filter(|&&node| is_bone[node as usize]);
     for (bone, &node) in moving.enumerate() {
         bones[node as usize] = Some(bone as BoneIndex);
@@ -54,20 +54,20 @@ pub(super) fn number_bones(
     Ok(bones)
 }
 
-/// The bones themselves. A bone's offset is that of the first skin that uses it.
+/// Returns the bones. A bone's offset is that of the first skin that uses it.
 pub(super) fn skeleton(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     graph: &Graph,
-    locals: &[Local],
+    locals: &[LocalTransform],
     globals: &[Mat4],
     bones: &[Option<BoneIndex>],
     skins: &[Skin],
 ) -> Result<Skeleton, ImportError> {
     let place = Place::Pointer("/nodes".to_owned());
     let count = bones.iter().flatten().count();
-    let mut list = document.guard.vec(&place, count)?;
+    let mut list = document.context.vec(&place, count)?;
     for &node in graph.order.iter().filter(|&&node| bones[node as usize].is_some()) {
-        document.guard.work(1)?;
+        document.context.work(1)?;
         let local = &locals[node as usize];
         list.push(Bone {
             name: document.root.nodes[node as usize].name.clone().unwrap_or_default(),
@@ -79,8 +79,8 @@ pub(super) fn skeleton(
         });
     }
     for skin in skins.iter().rev() {
-        document.guard.work(skin.bones.len())?;
-        // Backwards, so that the first joint counts where one is named twice.
+        document.context.work(skin.bones.len())?;
+        // Iterated backwards, so that the first joint is used where one is listed twice.
         for (&bone, &offset) in skin.bones.iter().zip(&skin.offsets).rev() {
             list[bone as usize].offset = offset;
         }
@@ -88,20 +88,20 @@ pub(super) fn skeleton(
     Ok(Skeleton { bones: list })
 }
 
-/// Places every mesh of the scene that is shown: the default one, else the first, else all nodes.
+/// Places every mesh of the scene that is shown: the default scene, otherwise the first one, otherwise all nodes.
 pub(super) fn stage(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     graph: &Graph,
-    locals: &[Local],
+    locals: &[LocalTransform],
     skeleton: Skeleton,
     bones: Vec<Option<BoneIndex>>,
     meshes: &[ReadMesh],
-) -> Result<Stage, ImportError> {
+) -> Result<SceneLayout, ImportError> {
     let is_shown = shown(document, graph)?;
     let carriers = carriers(document, graph, locals, &bones)?;
     let mut instances = Vec::new();
     for (index, node) in document.root.nodes.iter().enumerate() {
-        document.guard.work(1)?;
+        document.context.work(1)?;
         check_references(document, index)?;
         let Some(mesh) = node.mesh else { continue };
         let path = format!("/nodes/{index}");
@@ -109,8 +109,8 @@ pub(super) fn stage(
             meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
         let skin = skin_of(document, index, read)?;
         if !is_shown[index] {
-            let text = "the mesh stands outside the scene that is shown";
-            document.guard.warn(Place::Pointer(path), code::NODE_NOT_IN_SCENE, text);
+            let text = "the mesh is not in the scene that is shown";
+            document.context.warn(Place::Pointer(path), code::NODE_NOT_IN_SCENE, text);
             continue;
         }
         let place = Place::Pointer(format!("{path}/weights"));
@@ -119,16 +119,16 @@ pub(super) fn stage(
         let morph_weights =
             fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
         let (bone, to_bone) = carriers[index];
-        document.guard.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
+        document.context.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
         let (mesh, node) = (mesh.value() as u32, Some(index as u32));
         instances.push(MeshInstance { mesh, node, skin, bone, to_bone, morph_weights });
     }
     let morph_targets = meshes.iter().map(|read| read.mesh.morph_weights.len()).collect();
-    Ok(Stage { skeleton, instances, bones, morph_targets })
+    Ok(SceneLayout { skeleton, instances, bones, morph_targets })
 }
 
-/// The skin of a node, if its mesh has joints; refused where a vertex names a joint that the skin lacks.
-fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
+/// Returns the skin of a node, if its mesh has joints; an error if a vertex refers to a joint that the skin lacks.
+fn skin_of(document: &GltfDocument<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
     let Some(skin) = document.root.nodes[index].skin else { return Ok(None) };
     let path = format!("/nodes/{index}/skin");
     let joints =
@@ -136,28 +136,29 @@ fn skin_of(document: &Document<'_>, index: usize, read: &ReadMesh) -> Result<Opt
     match read.largest_joint {
         None => {
             let text = "the mesh has no joints; the skin is left out";
-            document.guard.warn(Place::Pointer(path), code::NODE_SKIN_WITH_NON_SKINNED_MESH, text);
+            document.context.warn(Place::Pointer(path), code::NODE_SKIN_WITH_NON_SKINNED_MESH, text);
             Ok(None)
         }
         Some(largest) if usize::from(largest) >= joints => {
-            let reason = format!("a vertex names joint {largest}, the skin has {joints}");
+            let reason = format!("a vertex refers to joint {largest}, the skin has {joints} joints");
             Err(invalid(Place::Pointer(path), code::ACCESSOR_JOINTS_INDEX_OOB, reason))
         }
         Some(_) => Ok(Some(skin.value() as u32)),
     }
 }
 
-/// For each node the bone that carries it, and the way there: from the node up to the first bone, or to the scene.
+/// Returns for each node the bone that carries it, and the transform to that bone: from the node up to the first bone,
+/// or to the scene.
 fn carriers(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     graph: &Graph,
-    locals: &[Local],
+    locals: &[LocalTransform],
     bones: &[Option<BoneIndex>],
 ) -> Result<Vec<(Option<BoneIndex>, Mat4)>, ImportError> {
     let place = Place::Pointer("/nodes".to_owned());
-    let mut carriers = document.guard.filled(&place, bones.len(), (None, Mat4::IDENTITY))?;
+    let mut carriers = document.context.filled(&place, bones.len(), (None, Mat4::IDENTITY))?;
     for &node in &graph.order {
-        document.guard.work(1)?;
+        document.context.work(1)?;
         let node = node as usize;
         carriers[node] = match (bones[node], graph.parents[node]) {
             (Some(bone), _) => (Some(bone), Mat4::IDENTITY),
@@ -171,37 +172,37 @@ fn carriers(
     Ok(carriers)
 }
 
-/// Which nodes belong to the scene that is shown.
-fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
+/// Returns for each node whether it is in the scene that is shown.
+fn shown(document: &GltfDocument<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
     let root = document.root;
     let place = Place::Pointer("/scenes".to_owned());
     let index = match root.scene {
         Some(scene) if scene.value() < root.scenes.len() => scene.value(),
         Some(scene) => {
-            let text = format!("there is no number {}; the first scene is shown", scene.value());
-            document.guard.warn(Place::Pointer("/scene".to_owned()), code::UNRESOLVED_REFERENCE, text);
+            let text = format!("there is no scene {}; the first one is shown", scene.value());
+            document.context.warn(Place::Pointer("/scene".to_owned()), code::UNRESOLVED_REFERENCE, text);
             0
         }
         None => 0,
     };
     for (number, scene) in root.scenes.iter().enumerate() {
         for (position, node) in scene.nodes.iter().enumerate() {
-            document.guard.work(1)?;
+            document.context.work(1)?;
             let from = || format!("/scenes/{number}/nodes/{position}");
             match graph.parents.get(node.value()) {
                 None => return Err(unresolved(&from(), node.value())),
                 Some(Some(parent)) => {
                     let text = format!("node {} is a child of node {parent}", node.value());
-                    document.guard.warn(Place::Pointer(from()), code::SCENE_NON_ROOT_NODE, text);
+                    document.context.warn(Place::Pointer(from()), code::SCENE_NON_ROOT_NODE, text);
                 }
                 Some(None) => {}
             }
         }
     }
     let Some(scene) = root.scenes.get(index) else {
-        return document.guard.filled(&place, root.nodes.len(), true);
+        return document.context.filled(&place, root.nodes.len(), true);
     };
-    let mut is_shown = document.guard.filled(&place, root.nodes.len(), false)?;
+    let mut is_shown = document.context.filled(&place, root.nodes.len(), false)?;
     for node in &scene.nodes {
         is_shown[node.value()] = true;
     }
@@ -213,15 +214,15 @@ fn shown(document: &Document<'_>, graph: &Graph) -> Result<Vec<bool>, ImportErro
     Ok(is_shown)
 }
 
-/// References of a node that nothing else looks at.
-fn check_references(document: &Document<'_>, index: usize) -> Result<(), ImportError> {
+/// Checks the references of a node that no other module uses.
+fn check_references(document: &GltfDocument<'_>, index: usize) -> Result<(), ImportError> {
     let node = &document.root.nodes[index];
     if let Some(camera) = node.camera {
         let path = format!("/nodes/{index}/camera");
         if camera.value() >= document.root.cameras.len() {
             return Err(unresolved(&path, camera.value()));
         }
-        document.guard.warn(Place::Pointer(path), code::CAMERA_NOT_SHOWN, "the file's camera is not used");
+        document.context.warn(Place::Pointer(path), code::CAMERA_NOT_SHOWN, "the file's camera is not used");
     }
     match node.skin {
         Some(skin) if skin.value() >= document.root.skins.len() => {

@@ -1,6 +1,6 @@
-//! Skins: which nodes are joints, and the way from bind space to each.
+//! Skins: the joints, and the transforms from bind space to them.
 
-use super::accessor::{Document, invalid, unresolved};
+use super::accessor::{GltfDocument, invalid, unresolved};
 use super::check as code;
 use super::node::{inverse, set_last_row};
 use crate::data::{BoneIndex, Skin};
@@ -10,19 +10,23 @@ use glam::{Mat4, Vec4};
 use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
 
-/// Checks the joints of every skin; marks each in `is_bone`.
-pub(super) fn mark_joints(document: &Document<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
+/// Checks the joints of every skin and sets `is_bone` for each of them.
+pub(super) fn mark_joints(document: &GltfDocument<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
     for (index, skin) in document.root.skins.iter().enumerate() {
         let path = format!("/skins/{index}/joints");
         if skin.joints.is_empty() {
-            return Err(invalid(Place::Pointer(path), code::EMPTY_ENTITY, "a skin has no joint".to_owned()));
+            return Err(invalid(
+                Place::Pointer(path),
+                code::EMPTY_ENTITY,
+                "the skin has no joint".to_owned(),
+            ));
         }
         if skin.joints.len() > JOINTS_PER_SKIN {
             let (size, limit) = (skin.joints.len() as u64, JOINTS_PER_SKIN as u64);
             return Err(ImportError::TooLarge { place: Place::Pointer(path), what: "joints", size, limit });
         }
-        document.guard.work(skin.joints.len())?;
-        let mut seen = document.guard.vec(&Place::Pointer(path.clone()), skin.joints.len())?;
+        document.context.work(skin.joints.len())?;
+        let mut seen = document.context.vec(&Place::Pointer(path.clone()), skin.joints.len())?;
         for (number, joint) in skin.joints.iter().enumerate() {
             let marked = is_bone.get_mut(joint.value());
             *marked.ok_or_else(|| unresolved(&format!("{path}/{number}"), joint.value()))? = true;
@@ -30,19 +34,22 @@ pub(super) fn mark_joints(document: &Document<'_>, is_bone: &mut [bool]) -> Resu
         }
         seen.sort_unstable();
         if seen.windows(2).any(|pair| pair[0] == pair[1]) {
-            document.guard.warn(Place::Pointer(path), code::DUPLICATE_ELEMENTS, "a joint is named twice");
+            document.context.warn(Place::Pointer(path), code::DUPLICATE_ELEMENTS, "a joint is listed twice");
         }
     }
     Ok(())
 }
 
-/// All skins; `bones` names the bone of each node.
-pub(super) fn skins(document: &Document<'_>, bones: &[Option<BoneIndex>]) -> Result<Vec<Skin>, ImportError> {
-    let guard = document.guard;
-    let mut skins = guard.vec(&Place::Pointer("/skins".to_owned()), document.root.skins.len())?;
+/// Returns all skins; `bones` contains the bone of each node.
+pub(super) fn skins(
+    document: &GltfDocument<'_>,
+    bones: &[Option<BoneIndex>],
+) -> Result<Vec<Skin>, ImportError> {
+    let context = document.context;
+    let mut skins = context.vec(&Place::Pointer("/skins".to_owned()), document.root.skins.len())?;
     for (index, skin) in document.root.skins.iter().enumerate() {
         let place = Place::Pointer(format!("/skins/{index}/joints"));
-        let mut joints = guard.vec(&place, skin.joints.len())?;
+        let mut joints = context.vec(&place, skin.joints.len())?;
         joints.extend(
             skin.joints.iter().map(|joint| bones[joint.value()].expect("every joint was marked as a bone")),
         );
@@ -52,13 +59,13 @@ pub(super) fn skins(document: &Document<'_>, bones: &[Option<BoneIndex>]) -> Res
     Ok(skins)
 }
 
-/// Inverse bind matrices, one a joint; identities where the skin names none.
-fn offsets(document: &Document<'_>, skin: &json::Skin, index: usize) -> Result<Vec<Mat4>, ImportError> {
+/// Returns the inverse bind matrices, one per joint; identities if the skin has none.
+fn offsets(document: &GltfDocument<'_>, skin: &json::Skin, index: usize) -> Result<Vec<Mat4>, ImportError> {
     let path = format!("/skins/{index}/inverseBindMatrices");
     let place = Place::Pointer(path.clone());
-    let guard = document.guard;
+    let context = document.context;
     let Some(accessor) = skin.inverse_bind_matrices else {
-        return guard.filled(&place, skin.joints.len(), Mat4::IDENTITY);
+        return context.filled(&place, skin.joints.len(), Mat4::IDENTITY);
     };
     let allowed = [(ComponentType::F32, Type::Mat4, false)];
     let source = document.source(accessor, &path, &allowed, code::SKIN_IBM_INVALID_FORMAT)?;
@@ -67,7 +74,7 @@ fn offsets(document: &Document<'_>, skin: &json::Skin, index: usize) -> Result<V
         return Err(invalid(place, code::INVALID_IBM_ACCESSOR_COUNT, reason));
     }
     let values = source.finite::<16>()?;
-    let mut matrices = guard.vec(&place, skin.joints.len())?;
+    let mut matrices = context.vec(&place, skin.joints.len())?;
     let (mut singular, mut skewed) = (0, 0);
     for value in values.iter().take(skin.joints.len()) {
         let mut matrix = Mat4::from_cols_array(value);
@@ -80,12 +87,12 @@ fn offsets(document: &Document<'_>, skin: &json::Skin, index: usize) -> Result<V
         matrices.push(matrix);
     }
     if singular > 0 {
-        let text = format!("{singular} matrices cannot be inverted; the identity is taken instead");
-        guard.warn(place.clone(), code::ACCESSOR_INVALID_IBM, text);
+        let text = format!("{singular} matrices cannot be inverted; the identity is used instead");
+        context.warn(place.clone(), code::ACCESSOR_INVALID_IBM, text);
     }
     if skewed > 0 {
-        let text = format!("the last row of {skewed} matrices should be 0 0 0 1 and is taken to be so");
-        guard.warn(place, code::ACCESSOR_INVALID_IBM, text);
+        let text = format!("the last row of {skewed} matrices should be 0 0 0 1 and was replaced by that");
+        context.warn(place, code::ACCESSOR_INVALID_IBM, text);
     }
     Ok(matrices)
 }

@@ -1,68 +1,64 @@
-//! One look over the JSON text before it becomes data: how deep, how much memory it will take, which version.
+//! One pass over the JSON text before it is parsed: its depth, the memory that it needs, its version.
 //!
-//! The document model's parser cuts indices to 32 bits without a word and builds hundreds of bytes from `{}`, so both
-//! are judged here, before.
+//! The parser of the document model silently truncates indices to 32 bits and allocates hundreds of bytes for a `{}`,
+//! so both are checked here first.
 
 use super::check as code;
-use super::walk::{Step, Walk};
-use crate::format::{ImportError, Place, guard::Guard};
+use super::walk::{Walk, WalkStep};
+use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{JSON_DEPTH, NODES};
 use gltf::json;
 
-/// What the parser needs to know.
+/// Facts that the parser needs.
 #[derive(Debug, Default)]
 pub(super) struct Survey {
-    /// Most bytes that the document will take.
+    /// Upper bound of the memory of the document, in bytes.
     pub(super) memory: u64,
-    /// `/asset/version` and `/asset/minVersion`, as written.
+    /// `/asset/version` and `/asset/minVersion`, as in the file.
     pub(super) version: Option<String>,
     pub(super) min_version: Option<String>,
-    /// Members that the specification does not ask for but the document model does: where, and what to put there.
+    /// Members that the document model requires and the specification does not: where to insert them, and the text to
+    /// insert.
     pub(super) missing: Vec<(usize, &'static str)>,
 }
 
-/// Looks over `text`.
-pub(super) fn survey(text: &[u8], guard: &Guard<'_>) -> Result<Survey, ImportError> {
+/// Surveys `text`.
+pub(super) fn survey(text: &[u8], context: &ImportContext<'_>) -> Result<Survey, ImportError> {
     let mut survey = Survey::default();
     let mut walk = Walk::new(text);
-    // Depth of the member that holds data nobody reads, where we are in one.
+    // Depth of the enclosing member whose data is not used.
     let mut skipping: Option<usize> = None;
     while let Some(step) = walk.step() {
-        guard.work(1)?;
+        context.work(1)?;
         let depth = walk.frames().len();
         if depth > JSON_DEPTH {
             let place = Place::Pointer(walk.pointer(1));
             let (size, limit) = (depth as u64, JSON_DEPTH as u64);
-            return Err(ImportError::TooLarge {
-                place,
-                what: "arrays and objects inside each other",
-                size,
-                limit,
-            });
+            return Err(ImportError::TooLarge { place, what: "levels of arrays and objects", size, limit });
         }
         if skipping.is_some_and(|outer| depth > outer) {
             continue;
         }
         skipping = None;
         match step {
-            Step::Key if matches!(walk.key(depth - 1), b"extras") => skipping = Some(depth),
-            Step::Key => {
+            WalkStep::Key if matches!(walk.key(depth - 1), b"extras") => skipping = Some(depth),
+            WalkStep::Key => {
                 survey.memory += MEMBER;
                 if asked_for(&mut walk, depth).is_some_and(|member| walk.key(depth - 1) == member.name) {
                     walk.frames()[depth - 1].note = 0;
                 }
             }
-            Step::Open => survey.opened(&mut walk, depth)?,
-            Step::Close => survey.closed(&mut walk, depth),
-            Step::Scalar(from, to) => survey.scalar(&mut walk, &text[from..to])?,
+            WalkStep::Open => survey.opened(&mut walk, depth)?,
+            WalkStep::Close => survey.closed(&mut walk, depth),
+            WalkStep::Scalar(from, to) => survey.scalar(&mut walk, &text[from..to])?,
         }
     }
     Ok(survey)
 }
 
-/// Bytes for a member of an object: the objects of the model are counted with their arrays, maps are not.
+/// Bytes for a member of an object. The objects of the model are counted with their arrays; this is for maps.
 const MEMBER: u64 = 40;
-/// Bytes for what a small allocation costs on top.
+/// Overhead of a small allocation, in bytes.
 const ALLOCATION: u64 = 32;
 
 impl Survey {
@@ -119,7 +115,7 @@ impl Survey {
         Ok(())
     }
 
-    /// One more value in the array of frame `depth`: vectors grow by doubling, so each counts three times.
+    /// Counts one more value in the array of frame `depth`. Vectors grow by doubling, so each value counts three times.
     fn element(&mut self, walk: &mut Walk<'_>, depth: usize) -> Result<(), ImportError> {
         let frame = walk.frames()[depth];
         if frame.count > 4 {
@@ -134,20 +130,22 @@ impl Survey {
     }
 }
 
-/// A member that the document model insists on.
-struct Member {
+/// A member that the document model requires.
+struct RequiredMember {
     name: &'static [u8],
-    /// What stands for it in an empty object, and before other members.
+    /// Text to insert into an empty object, and before other members.
     alone: &'static str,
     followed: &'static str,
 }
 
-/// No node: an extension says what is animated, if anything.
-const NODE: Member = Member { name: b"node", alone: "\"node\":4294967295", followed: "\"node\":4294967295," };
-const NODES_OF_SCENE: Member = Member { name: b"nodes", alone: "\"nodes\":[]", followed: "\"nodes\":[]," };
+/// Represents "no node"; an extension may specify what is animated.
+const NODE: RequiredMember =
+    RequiredMember { name: b"node", alone: "\"node\":4294967295", followed: "\"node\":4294967295," };
+const NODES_OF_SCENE: RequiredMember =
+    RequiredMember { name: b"nodes", alone: "\"nodes\":[]", followed: "\"nodes\":[]," };
 
-/// The member that the innermost object must have for the document model, and need not have for the specification.
-fn asked_for(walk: &mut Walk<'_>, depth: usize) -> Option<&'static Member> {
+/// Returns the member that the document model requires in the innermost object and the specification does not.
+fn asked_for(walk: &mut Walk<'_>, depth: usize) -> Option<&'static RequiredMember> {
     if depth == 0 || walk.frames()[depth - 1].is_array {
         return None;
     }
@@ -161,7 +159,8 @@ fn asked_for(walk: &mut Walk<'_>, depth: usize) -> Option<&'static Member> {
     }
 }
 
-/// Bytes of one element of the array called `key` in the document model; `top`: directly in the root.
+/// Returns the size of one element of the array called `key` in the document model, in bytes. `top`: the array is
+/// directly in the root.
 fn element_bytes(key: &[u8], top: bool) -> usize {
     match (key, top) {
         (b"accessors", true) => size_of::<json::Accessor>(),
@@ -187,7 +186,7 @@ fn element_bytes(key: &[u8], top: bool) -> usize {
     }
 }
 
-/// Does the number here become a 32-bit index or enumerated value?
+/// Returns whether the number here becomes a 32-bit index or enumerated value.
 fn is_index(walk: &Walk<'_>, last: usize) -> bool {
     const NAMES: &[&[u8]] = &[
         b"buffer",
@@ -222,7 +221,7 @@ fn is_index(walk: &Walk<'_>, last: usize) -> bool {
         || last.checked_sub(2).is_some_and(|outer| walk.key(outer) == b"targets")
 }
 
-/// Is this a whole number beyond 32 bits?
+/// Returns whether this is a whole number of more than 32 bits.
 fn too_long(text: &[u8]) -> bool {
     let digits = text.strip_prefix(b"-").unwrap_or(text);
     let number = std::str::from_utf8(digits).ok().filter(|_| digits.iter().all(u8::is_ascii_digit));

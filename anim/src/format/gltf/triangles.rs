@@ -1,8 +1,8 @@
-//! Indices: strips and fans become lists, lists are checked, and what has no indices gets them.
+//! Triangle indices: strips and fans become lists, lists are checked, and primitives without indices get them.
 
-use super::accessor::{Document, invalid};
+use super::accessor::{GltfDocument, invalid};
 use super::check as code;
-use crate::format::{ImportError, Place, guard::Guard};
+use crate::format::{ImportContext, ImportError, Place};
 use glam::Vec3;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::{Mode, Primitive};
@@ -14,41 +14,41 @@ const INDEX_FORMATS: &[(ComponentType, Type, bool)] = &[
     (ComponentType::U32, Type::Scalar, false),
 ];
 
-/// Three indices a triangle, each below `vertices`; none for points and lines.
+/// Returns three indices per triangle, each below `vertices`; none for points and lines.
 pub(super) fn triangles(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &Primitive,
     vertices: usize,
     path: &str,
 ) -> Result<Vec<u32>, ImportError> {
-    let guard = document.guard;
+    let context = document.context;
     let from = format!("{path}/indices");
     let place = Place::Pointer(from.clone());
     let indices = match primitive.indices {
         Some(accessor) => {
             let wrong = code::MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT;
             let values = document.source(accessor, &from, INDEX_FORMATS, wrong)?.integers::<1>()?;
-            check_indices(&values, vertices, &place, guard)?;
+            check_indices(&values, vertices, &place, context)?;
             values.into_iter().map(|[index]| index).collect()
         }
         None => {
-            let mut indices = guard.vec(&place, vertices)?;
-            guard.work(vertices)?;
+            let mut indices = context.vec(&place, vertices)?;
+            context.work(vertices)?;
             indices.extend(0..vertices as u32);
             indices
         }
     };
     match primitive.mode {
-        Checked::Valid(Mode::Triangles) => Ok(list(indices, &place, guard)),
-        Checked::Valid(Mode::TriangleStrip) => strip(&indices, &place, guard),
-        Checked::Valid(Mode::TriangleFan) => fan(&indices, &place, guard),
+        Checked::Valid(Mode::Triangles) => Ok(list(indices, &place, context)),
+        Checked::Valid(Mode::TriangleStrip) => strip(&indices, &place, context),
+        Checked::Valid(Mode::TriangleFan) => fan(&indices, &place, context),
         Checked::Valid(mode) => {
             let text = format!("{mode:?} are not shown");
-            guard.warn(Place::Pointer(format!("{path}/mode")), code::MESH_PRIMITIVE_MODE_NOT_SHOWN, text);
+            context.warn(Place::Pointer(format!("{path}/mode")), code::MESH_PRIMITIVE_MODE_NOT_SHOWN, text);
             Ok(Vec::new())
         }
         Checked::Invalid => {
-            let reason = "none of the modes 0..6".to_owned();
+            let reason = "the mode is not one of 0..6".to_owned();
             Err(invalid(Place::Pointer(format!("{path}/mode")), code::VALUE_NOT_IN_LIST, reason))
         }
     }
@@ -58,9 +58,9 @@ fn check_indices(
     indices: &[[u32; 1]],
     vertices: usize,
     place: &Place,
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Result<(), ImportError> {
-    guard.work(indices.len())?;
+    context.work(indices.len())?;
     match indices.iter().position(|[index]| *index as usize >= vertices) {
         None => Ok(()),
         Some(number) => {
@@ -70,68 +70,70 @@ fn check_indices(
     }
 }
 
-fn list(mut indices: Vec<u32>, place: &Place, guard: &Guard<'_>) -> Vec<u32> {
+fn list(mut indices: Vec<u32>, place: &Place, context: &ImportContext<'_>) -> Vec<u32> {
     if !indices.len().is_multiple_of(3) {
-        let text =
-            format!("{} indices do not make whole triangles; the last ones are left out", indices.len());
-        guard.warn(place.clone(), code::MESH_PRIMITIVE_INCOMPATIBLE_MODE, text);
+        let text = format!(
+            "{} indices are not a whole number of triangles; the last ones are left out",
+            indices.len()
+        );
+        context.warn(place.clone(), code::MESH_PRIMITIVE_INCOMPATIBLE_MODE, text);
         indices.truncate(indices.len() / 3 * 3);
     }
     indices
 }
 
-/// glTF 2.0 §3.7.2.1: triangle i of a strip is i, i + 1 + i % 2, i + 2 - i % 2.
-fn strip(indices: &[u32], place: &Place, guard: &Guard<'_>) -> Result<Vec<u32>, ImportError> {
+/// Converts a strip: triangle i is i, i + 1 + i % 2, i + 2 - i % 2 (glTF 2.0 §3.7.2.1).
+fn strip(indices: &[u32], place: &Place, context: &ImportContext<'_>) -> Result<Vec<u32>, ImportError> {
     let count = indices.len().saturating_sub(2);
-    let mut list = guard.vec(place, count.saturating_mul(3))?;
-    guard.work(count)?;
+    let mut list = context.vec(place, count.saturating_mul(3))?;
+    context.work(count)?;
     for i in 0..count {
         list.extend([indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]]);
     }
     Ok(list)
 }
 
-/// glTF 2.0 §3.7.2.1: triangle i of a fan is i + 1, i + 2, 0.
-fn fan(indices: &[u32], place: &Place, guard: &Guard<'_>) -> Result<Vec<u32>, ImportError> {
+/// Converts a fan: triangle i is i + 1, i + 2, 0 (glTF 2.0 §3.7.2.1).
+fn fan(indices: &[u32], place: &Place, context: &ImportContext<'_>) -> Result<Vec<u32>, ImportError> {
     let count = indices.len().saturating_sub(2);
-    let mut list = guard.vec(place, count.saturating_mul(3))?;
-    guard.work(count)?;
+    let mut list = context.vec(place, count.saturating_mul(3))?;
+    context.work(count)?;
     for i in 0..count {
         list.extend([indices[i + 1], indices[i + 2], indices[0]]);
     }
     Ok(list)
 }
 
-/// Normals from the triangles around each vertex, weighted by area; +Y where there is no triangle with one.
+/// Returns normals from the triangles around each vertex, weighted by area; +Y for a vertex without a proper triangle.
 ///
-/// The specification asks for flat normals. Those need vertices of their own a triangle, and vertices keep the
-/// file's number and order here, so that edits and comparisons can name them.
+/// The specification requires flat normals. Those need separate vertices for each triangle, whereas vertices keep the
+/// number and order of the file here, so that edits and comparisons can refer to them.
 pub(super) fn normals(
     positions: &[Vec3],
     indices: &[u32],
     place: &Place,
-    guard: &Guard<'_>,
+    context: &ImportContext<'_>,
 ) -> Result<Vec<Vec3>, ImportError> {
-    let mut normals = guard.filled(place, positions.len(), Vec3::ZERO)?;
-    guard.work(indices.len())?;
+    let mut normals = context.filled(place, positions.len(), Vec3::ZERO)?;
+    context.work(indices.len())?;
     for corners in indices.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| positions[corners[corner] as usize]);
         let across = (b - a).cross(c - a);
-        // Huge positions overflow; such a triangle says nothing about the direction.
+        // Huge positions overflow; such a triangle has no direction.
         if across.is_finite() {
             for &corner in corners {
                 normals[corner as usize] += across;
             }
         }
     }
-    guard.work(normals.len())?;
+    context.work(normals.len())?;
     for normal in &mut normals {
         *normal = direction(*normal).unwrap_or(Vec3::Y);
     }
     Ok(normals)
 }
 
-/// `vector` with length one, however long or short; `None` for zero.
+/// Returns `vector` normalized, however long or short; `None` for zero.
 pub(super) fn direction(vector: Vec3) -> Option<Vec3> {
     let wide = vector.as_dvec3();
     let length = wide.length();

@@ -1,40 +1,40 @@
-//! A walk over a JSON text, value by value, that knows where it is and uses neither recursion nor memory to speak of.
+//! A walk over a JSON text, value by value, that knows its position and needs neither recursion nor much memory.
 //!
-//! It does not check the text (the parser does, afterwards); it only never goes wrong on a broken one. As long as
-//! the text is right, it sees what the parser will see.
+//! It does not validate the text, which the parser does afterwards, but it never panics or loops on an invalid one. On
+//! a valid text it finds the same values as the parser.
 
-/// What the walk came upon; [`Walk::pointer`] tells where.
+/// Result of one step of the walk; [`Walk::pointer`] returns its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Step {
+pub(super) enum WalkStep {
     /// `[` or `{`
     Open,
-    /// `]` or `}`; the walk still stands in what it closes.
+    /// `]` or `}`; the frame that it closes is still the innermost one.
     Close,
-    /// The name of a member; its value comes next.
+    /// The name of a member; its value is next.
     Key,
-    /// A string, a number, `true`, `false`, `null`; the bytes from-to.
+    /// A string, a number, `true`, `false` or `null`; the range of its bytes.
     Scalar(usize, usize),
 }
 
-/// An array or object that the walk stands in.
+/// An enclosing array or object.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(super) struct WalkFrame {
     pub(super) is_array: bool,
-    /// Values begun.
+    /// Number of values started.
     pub(super) count: usize,
-    /// Name of the member, quotes left out.
+    /// Range of the name of the member, without the quotes.
     key: (usize, usize),
     expects_key: bool,
-    /// Free for whoever walks.
+    /// For use by the caller.
     pub(super) note: usize,
 }
 
-/// A walk under way.
+/// A walk in progress.
 pub(super) struct Walk<'a> {
     text: &'a [u8],
     at: usize,
-    frames: Vec<Frame>,
-    /// Take the innermost frame away with the next step.
+    frames: Vec<WalkFrame>,
+    /// The innermost frame is removed with the next step.
     closing: bool,
 }
 
@@ -43,17 +43,18 @@ impl<'a> Walk<'a> {
         Self { text, at: 0, frames: Vec::new(), closing: false }
     }
 
-    /// Bytes walked over.
+    /// Returns the number of bytes walked over.
     pub(super) fn at(&self) -> usize {
         self.at
     }
 
-    /// Arrays and objects around, innermost last; after [`Step::Open`] and [`Step::Close`] that one included.
-    pub(super) fn frames(&mut self) -> &mut [Frame] {
+    /// Returns the enclosing arrays and objects, innermost last; after [`Step::Open`] and [`Step::Close`] with that one
+    /// included.
+    pub(super) fn frames(&mut self) -> &mut [WalkFrame] {
         &mut self.frames
     }
 
-    /// Name of the member that the walk stands at in the `depth`-th frame; empty in an array.
+    /// Returns the name of the current member in the frame `depth`; empty in an array.
     pub(super) fn key(&self, depth: usize) -> &'a [u8] {
         match self.frames.get(depth) {
             Some(frame) if !frame.is_array => &self.text[frame.key.0..frame.key.1],
@@ -61,8 +62,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The next step; `None` at the end of the text, or where it breaks off.
-    pub(super) fn step(&mut self) -> Option<Step> {
+    /// Returns the next step; `None` at the end of the text, or where it is invalid.
+    pub(super) fn step(&mut self) -> Option<WalkStep> {
         if std::mem::take(&mut self.closing) {
             self.frames.pop();
         }
@@ -81,7 +82,7 @@ impl<'a> Walk<'a> {
                     self.at += 1;
                     self.frames.last()?;
                     self.closing = true;
-                    return Some(Step::Close);
+                    return Some(WalkStep::Close);
                 }
                 b'"' => return self.string(),
                 _ => return Some(self.word()),
@@ -89,14 +90,14 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn open(&mut self, is_array: bool) -> Step {
+    fn open(&mut self, is_array: bool) -> WalkStep {
         self.value_begins();
         self.at += 1;
-        self.frames.push(Frame { is_array, count: 0, key: (0, 0), expects_key: !is_array, note: 0 });
-        Step::Open
+        self.frames.push(WalkFrame { is_array, count: 0, key: (0, 0), expects_key: !is_array, note: 0 });
+        WalkStep::Open
     }
 
-    fn string(&mut self) -> Option<Step> {
+    fn string(&mut self) -> Option<WalkStep> {
         let from = self.at;
         let mut to = from + 1;
         loop {
@@ -112,20 +113,20 @@ impl<'a> Walk<'a> {
         {
             frame.key = (from + 1, to);
             frame.expects_key = false;
-            return Some(Step::Key);
+            return Some(WalkStep::Key);
         }
         self.value_begins();
-        Some(Step::Scalar(from, self.at))
+        Some(WalkStep::Scalar(from, self.at))
     }
 
-    fn word(&mut self) -> Step {
+    fn word(&mut self) -> WalkStep {
         let from = self.at;
         let ends = |byte: &u8| {
             matches!(byte, b' ' | b'\t' | b'\n' | b'\r' | b',' | b':' | b'[' | b']' | b'{' | b'}' | b'"')
         };
         self.at = self.text[from..].iter().position(ends).map_or(self.text.len(), |length| from + length);
         self.value_begins();
-        Step::Scalar(from, self.at)
+        WalkStep::Scalar(from, self.at)
     }
 
     fn value_begins(&mut self) {
@@ -134,9 +135,9 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Where the last step was made, as a JSON pointer.
+    /// Returns the place of the last step as a JSON pointer.
     ///
-    /// `outside` takes away that many innermost frames: 1 names the array or object that was just opened or closed.
+    /// `outside` removes that many innermost frames: 1 refers to the array or object that was just opened or closed.
     pub(super) fn pointer(&self, outside: usize) -> String {
         let mut pointer = String::new();
         for frame in &self.frames[..self.frames.len().saturating_sub(outside)] {
@@ -152,13 +153,13 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Pointer to the innermost value that the byte before `end` belongs to.
+/// Returns the pointer to the innermost value that the byte before `end` belongs to.
 pub(super) fn pointer_before(text: &[u8], end: usize) -> String {
     let mut walk = Walk::new(text);
     let mut pointer = String::new();
     while let Some(step) = walk.step() {
         if walk.at() >= end {
-            pointer = walk.pointer(usize::from(matches!(step, Step::Open | Step::Close)));
+            pointer = walk.pointer(usize::from(matches!(step, WalkStep::Open | WalkStep::Close)));
             break;
         }
     }

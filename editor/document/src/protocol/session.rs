@@ -1,9 +1,10 @@
 //! One conversation: a document, and who talks to it.
 
 use super::{Deed, Request};
+use crate::Editable;
 use crate::adapter::ModelAdapter;
 use crate::history::Edited;
-use crate::{Editable, SavePlan};
+use dragonfly_anim::format::SavePlan;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -95,8 +96,5 @@ impl Session {
 
 /// What a save changes; null where the whole file is written.
 fn changes(plan: &SavePlan) -> Value {
-    plan.changes
-        .as_ref()
-        .and_then(|changes| serde_json::from_str(&changes.to_json()).ok())
-        .unwrap_or(Value::Null)
+    plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.json).ok()).unwrap_or(Value::Null)
 }

@@ -13,12 +13,9 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
     let model = &loaded.model;
     ui.add(egui::Label::new(RichText::new(&file.title).heading()).truncate());
     // What is part of the program may have been saved as a file.
-    let kind = match (file.path.as_ref().or(loaded.path.as_ref()), loaded.format.as_str()) {
-        (None, _) => "Part of the program".to_owned(),
-        (Some(_), "glb") => "glTF 2.0, binary".to_owned(),
-        (Some(_), "gltf") => "glTF 2.0, text".to_owned(),
-        (Some(_), "dfm") => "Dragonfly model".to_owned(),
-        (Some(_), other) => other.to_uppercase(),
+    let kind = match (file.path.as_ref().or(loaded.path.as_ref()), loaded.format) {
+        (Some(_), Some(format)) => format.title,
+        (None, _) | (_, None) => "Part of the program",
     };
     let kind = ui.label(RichText::new(kind).color(theme.weak));
     if let Some(path) = &file.path {

@@ -18,7 +18,7 @@ pub fn loaded() -> Arc<LoadedModel> {
         bounds: bounds_of_pose(&model, None, 0.0),
         title: "Arm".to_owned(),
         path: None,
-        format: "code".to_owned(),
+        format: None,
         model,
         images: Vec::new(),
         warnings: Vec::new(),

@@ -84,7 +84,7 @@ pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> Vi
     let loaded = LoadedModel {
         title: title.to_owned(),
         path: Some(title.into()),
-        format: "glb".to_owned(),
+        format: Some(dragonfly_anim::format::gltf::GLB),
         model,
         bounds,
         images: Vec::new(),

@@ -14,7 +14,7 @@ pub fn loaded(model: ModelData, images: Vec<DecodedImage>) -> Arc<LoadedModel> {
         bounds: bounds_of_pose(&model, None, 0.0),
         title: "Made".to_owned(),
         path: None,
-        format: "code".to_owned(),
+        format: None,
         model,
         images: images.into_iter().map(|image| Some(Arc::new(image))).collect(),
         warnings: Vec::new(),

@@ -1,27 +1,27 @@
-//! What an edit makes of one animation: which channels go, which samplers are written, which are new.
+//! Edit of one animation: which channels are removed, which samplers are rewritten, which are new.
 
 use super::channels::{Action, ChannelEdit};
-use super::document::{Document, FileAnimation, Target};
+use super::document::{ChannelTarget, FileAnimation, SourceDocument};
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::Patch;
-use super::json::style::{Fresh, Style};
+use super::json::patch::TextPatch;
+use super::json::style::{Fresh, JsonStyle};
 use super::json::token::quoted;
-use super::json::tree::{Id, Kind};
+use super::json::tree::{JsonKind, ValueId};
 use super::needs::{NeedId, Needs};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// The numbers of a sampler: key times, or values.
+/// The key times or the values of a sampler.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Numbers {
-    /// Those of an accessor that is there and holds them.
+pub(super) enum SamplerNumbers {
+    /// An existing accessor that contains them.
     Kept(usize),
     Needed(NeedId),
 }
 
-impl Numbers {
-    /// Their accessor; `accessors` are those that the needs became.
+impl SamplerNumbers {
+    /// Returns their accessor; `accessors` contains the accessor of each need.
     fn accessor(self, accessors: &[usize]) -> usize {
         match self {
             Self::Kept(accessor) => accessor,
@@ -30,51 +30,52 @@ impl Numbers {
     }
 }
 
-/// A sampler that is written.
+/// A sampler to be written.
 #[derive(Clone, Debug)]
 pub(super) struct SamplerDraft {
-    /// Which of the animation's; the count and above for new ones.
+    /// Number of the sampler in the animation; new ones start at the number of existing samplers.
     pub(super) number: usize,
-    pub(super) input: Numbers,
-    pub(super) output: Numbers,
+    pub(super) input: SamplerNumbers,
+    pub(super) output: SamplerNumbers,
     interpolation: &'static str,
 }
 
 /// A channel that gets a sampler.
 #[derive(Clone, Debug)]
 enum ChannelDraft {
-    /// One that is there, by number, is sent to another sampler.
+    /// An existing channel, by number, that refers to another sampler now.
     Moved(usize, usize),
-    New(Target, usize),
+    New(ChannelTarget, usize),
 }
 
-/// An animation, edited.
+/// An edited animation.
 #[derive(Debug, Default)]
 pub(super) struct Draft {
-    /// Another name.
+    /// New name, if it changes.
     pub(super) name: Option<String>,
-    removed: Vec<Id>,
+    removed: Vec<ValueId>,
     channels: Vec<ChannelDraft>,
     pub(super) samplers: Vec<SamplerDraft>,
 }
 
 impl Draft {
-    /// What the new channels move.
-    pub(super) fn new_targets(&self) -> impl Iterator<Item = Target> + '_ {
+    /// Returns the targets of the new channels.
+    pub(super) fn new_targets(&self) -> impl Iterator<Item = ChannelTarget> + '_ {
         self.channels.iter().filter_map(|channel| match channel {
             ChannelDraft::New(target, _) => Some(*target),
             ChannelDraft::Moved(..) => None,
         })
     }
 
-    /// The samplers of the animation that are written over.
+    /// Returns the samplers of the animation that are overwritten.
     pub(super) fn rewritten(&self) -> HashSet<usize> {
         self.samplers.iter().map(|sampler| sampler.number).collect()
     }
 
-    /// What `edits` make of `animation`, or of nothing. `is_ours` says which accessors earlier saves wrote.
+    /// Returns the draft that applies `edits` to `animation`, or to an empty one. `is_ours` returns whether an earlier
+    /// save wrote an accessor.
     pub(super) fn of(
-        document: &Document<'_>,
+        document: &SourceDocument<'_>,
         animation: Option<&FileAnimation>,
         edits: &[ChannelEdit],
         name: Option<String>,
@@ -85,8 +86,8 @@ impl Draft {
         let Some(animation) = animation else {
             for (number, channel) in edits.iter().enumerate() {
                 let Action::Set(keys) = &channel.action else { continue };
-                let input = Numbers::Needed(needs.input(&keys.times, None));
-                let output = Numbers::Needed(needs.output(keys, None));
+                let input = SamplerNumbers::Needed(needs.input(&keys.times, None));
+                let output = SamplerNumbers::Needed(needs.output(keys, None));
                 draft.samplers.push(SamplerDraft {
                     number,
                     input,
@@ -97,9 +98,9 @@ impl Draft {
             }
             return draft;
         };
-        let removed: HashSet<Target> =
+        let removed: HashSet<ChannelTarget> =
             edits.iter().filter(|e| matches!(e.action, Action::Remove)).map(|e| e.target).collect();
-        let goes = |target: Option<Target>| target.is_some_and(|target| removed.contains(&target));
+        let goes = |target: Option<ChannelTarget>| target.is_some_and(|target| removed.contains(&target));
         draft.removed = animation.channels.iter().filter(|c| goes(c.target)).map(|c| c.id).collect();
         let mut pool = Pool::of(document, animation, &draft.removed, is_ours);
         for channel in edits {
@@ -108,7 +109,7 @@ impl Draft {
             let old = there.and_then(|there| animation.channels[there].sampler);
             let before = |name| old.and_then(|old| pool.accessor(document, animation, old, name));
             let kept = before("input").filter(|&input| document.holds_times(input, &keys.times));
-            // Where only times, or what lies between the keys, are others, the file's own values stay.
+            // If only the times or the interpolation change, the file keeps its own values.
             let in_order =
                 |times: &Arc<[f32]>| before("input").is_some_and(|old| document.holds_times(old, times));
             let values = before("output").filter(|_| channel.values_of.as_ref().is_some_and(in_order));
@@ -123,12 +124,12 @@ impl Draft {
             };
             let before = |name| pool.accessor(document, animation, number, name);
             let input = match kept {
-                Some(kept) => Numbers::Kept(kept),
-                None => Numbers::Needed(needs.input(&keys.times, before("input"))),
+                Some(kept) => SamplerNumbers::Kept(kept),
+                None => SamplerNumbers::Needed(needs.input(&keys.times, before("input"))),
             };
             let output = match values {
-                Some(values) => Numbers::Kept(values),
-                None => Numbers::Needed(needs.output(keys, before("output"))),
+                Some(values) => SamplerNumbers::Kept(values),
+                None => SamplerNumbers::Needed(needs.output(keys, before("output"))),
             };
             draft.samplers.push(SamplerDraft { number, input, output, interpolation: keys.interpolation });
             match there {
@@ -140,31 +141,31 @@ impl Draft {
         draft
     }
 
-    /// The patches to the text of `animation`. `accessors` are those that the needs became.
+    /// Returns the patches to the text of `animation`. `accessors` contains the accessor of each need.
     pub(super) fn patches(
         &self,
-        document: &Document<'_>,
+        document: &SourceDocument<'_>,
         animation: &FileAnimation,
         accessors: &[usize],
-        style: &Style,
+        style: &JsonStyle,
         pointer: &str,
-    ) -> Result<Vec<Patch>, SaveError> {
+    ) -> Result<Vec<TextPatch>, SaveError> {
         let json = document.json;
         let mut patches = Vec::new();
         let list = |name: &str| match json.member(animation.id, name) {
-            Some(list) if json.kind(list) == Kind::Array => Ok(list),
+            Some(list) if json.kind(list) == JsonKind::Array => Ok(list),
             _ => Err(SaveError::File {
                 place: format!("{pointer}/{name}"),
                 reason: "the animation has no such list".to_owned(),
             }),
         };
-        // Only those members of the animation itself that are new.
+        // Only the new members of the animation itself.
         let mut members = ListEdit::default();
         let spot = style.spot(json, Some(animation.id), 3);
         if let Some(name) = &self.name {
             match json.member(animation.id, "name") {
                 Some(old) => {
-                    patches.push(Patch::new(json.span(old), quoted(name), format!("{pointer}/name")))
+                    patches.push(TextPatch::new(json.span(old), quoted(name), format!("{pointer}/name")))
                 }
                 None => members.inserted.push((None, style.member("name", &Fresh::string(name), &spot))),
             }
@@ -182,9 +183,9 @@ impl Draft {
                         let id = animation.channels[*number].id;
                         let token = json.member(id, "sampler").ok_or_else(|| SaveError::File {
                             place: pointer.clone(),
-                            reason: "the channel names no sampler".to_owned(),
+                            reason: "the channel has no sampler".to_owned(),
                         })?;
-                        patches.push(Patch::new(json.span(token), sampler.to_string(), pointer));
+                        patches.push(TextPatch::new(json.span(token), sampler.to_string(), pointer));
                     }
                     ChannelDraft::New(target, sampler) => {
                         let fresh = fresh_channel(*target, *sampler);
@@ -217,7 +218,7 @@ impl Draft {
         Ok(patches)
     }
 
-    /// The whole of a new animation.
+    /// Returns the JSON value of a new animation.
     pub(super) fn fresh(&self, accessors: &[usize]) -> Fresh {
         let mut members = Vec::new();
         if let Some(name) = self.name.as_ref().filter(|name| !name.is_empty()) {
@@ -237,13 +238,13 @@ impl Draft {
     }
 }
 
-fn fresh_channel((node, path): Target, sampler: usize) -> Fresh {
+fn fresh_channel((node, path): ChannelTarget, sampler: usize) -> Fresh {
     let target = vec![("node", Fresh::whole(node as usize)), ("path", Fresh::string(path.name()))];
     Fresh::Object(vec![("sampler", Fresh::whole(sampler)), ("target", Fresh::Object(target))])
 }
 
 impl SamplerDraft {
-    /// Numbers of its accessors.
+    /// Returns the numbers of its accessors.
     fn accessors(&self, accessors: &[usize]) -> (usize, usize) {
         (self.input.accessor(accessors), self.output.accessor(accessors))
     }
@@ -256,16 +257,16 @@ impl SamplerDraft {
         Fresh::Object(members)
     }
 
-    /// The tokens of the sampler `old` that differ.
+    /// Returns the patches of the changed tokens of the sampler `old`.
     fn rewritten(
         &self,
-        document: &Document<'_>,
-        old: Id,
+        document: &SourceDocument<'_>,
+        old: ValueId,
         input: usize,
         output: usize,
-        style: &Style,
+        style: &JsonStyle,
         pointer: &str,
-    ) -> Vec<Patch> {
+    ) -> Vec<TextPatch> {
         let json = document.json;
         let mut patches = Vec::new();
         let mut members = ListEdit::default();
@@ -278,7 +279,7 @@ impl SamplerDraft {
         ] {
             match json.member(old, name) {
                 Some(id) if same_value(document, id, &token) => {}
-                Some(id) => patches.push(Patch::new(json.span(id), token, format!("{pointer}/{name}"))),
+                Some(id) => patches.push(TextPatch::new(json.span(id), token, format!("{pointer}/{name}"))),
                 None if is_default => {}
                 None => members.inserted.push((last, style.member(name, &Fresh::Raw(token), &spot))),
             }
@@ -288,30 +289,30 @@ impl SamplerDraft {
     }
 }
 
-/// Does the value say what `token` says, however it is spelt?
-fn same_value(document: &Document<'_>, id: Id, token: &str) -> bool {
+/// Returns whether the value equals the one that `token` spells, in whatever notation.
+fn same_value(document: &SourceDocument<'_>, id: ValueId, token: &str) -> bool {
     let json = document.json;
     match json.string(id) {
-        Some(said) => quoted(&said) == token,
+        Some(text) => quoted(&text) == token,
         None => json.whole(id).is_some_and(|number| number.to_string() == token),
     }
 }
 
-/// The samplers of an animation while its channels change hands.
+/// The samplers of an animation while channels are reassigned.
 struct Pool {
-    /// Channels that use each sampler.
+    /// Number of channels that use each sampler.
     users: HashMap<usize, usize>,
-    /// Samplers that nobody uses and that an earlier save wrote.
+    /// Samplers that no channel uses and that an earlier save wrote.
     idle: Vec<usize>,
-    /// The number of the next new one.
+    /// Number of the next new sampler.
     next: usize,
 }
 
 impl Pool {
     fn of(
-        document: &Document<'_>,
+        document: &SourceDocument<'_>,
         animation: &FileAnimation,
-        removed: &[Id],
+        removed: &[ValueId],
         is_ours: &dyn Fn(usize) -> bool,
     ) -> Self {
         let mut users: HashMap<usize, usize> = HashMap::new();
@@ -333,14 +334,14 @@ impl Pool {
         self.users.get(&sampler) == Some(&1)
     }
 
-    /// A channel goes to another sampler.
+    /// Removes one channel from the users of a sampler.
     fn leave(&mut self, sampler: usize) {
         if let Some(users) = self.users.get_mut(&sampler) {
             *users = users.saturating_sub(1);
         }
     }
 
-    /// A sampler that nobody uses.
+    /// Returns a sampler that no channel uses.
     fn another(&mut self) -> usize {
         self.idle.pop().unwrap_or_else(|| {
             self.next += 1;
@@ -348,10 +349,10 @@ impl Pool {
         })
     }
 
-    /// The accessor that a sampler of the file names.
+    /// Returns the accessor that a sampler of the file refers to.
     fn accessor(
         &self,
-        document: &Document<'_>,
+        document: &SourceDocument<'_>,
         animation: &FileAnimation,
         sampler: usize,
         name: &str,

@@ -1,7 +1,7 @@
 //! The buffer that new numbers are appended to.
 
-use super::document::Document;
-use super::json::patch::Patch;
+use super::document::SourceDocument;
+use super::json::patch::TextPatch;
 use super::json::token::{unquoted, written_at};
 use super::reuse::is_ours;
 use super::source::is_data;
@@ -10,35 +10,35 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use percent_encoding::{NON_ALPHANUMERIC, percent_encode};
 use std::collections::HashSet;
 
-/// Where the bytes of a buffer are.
+/// Storage of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Home {
-    /// In the binary chunk; it may have to be made.
+pub(super) enum BufferHome {
+    /// The binary chunk, which is created if needed.
     Chunk,
-    /// In a data URI that is there.
+    /// An existing data URI.
     DataUri,
-    /// In a file beside this one that an earlier save wrote. It is not overwritten: the next save writes another.
+    /// A referenced file that an earlier save wrote. It is not overwritten: the next save writes another one.
     OurFile,
-    /// In a file beside this one that is to be written.
+    /// A referenced file to be written.
     NewFile,
-    /// In a data URI that is to be written.
+    /// A data URI to be written.
     NewDataUri,
 }
 
-/// The buffer that new numbers go to.
+/// The buffer that new numbers are appended to.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Target {
-    pub(super) home: Home,
-    /// Its number, which may be that of a new one.
+pub(super) struct TargetBuffer {
+    pub(super) home: BufferHome,
+    /// Number of the buffer, which may be that of a new one.
     pub(super) index: usize,
-    /// Bytes that are there.
+    /// Number of existing bytes.
     pub(super) present: usize,
 }
 
-impl Target {
-    /// The binary chunk where there can be one; else what an earlier save wrote; else a data URI; else, where the
-    /// file has buffers beside it, a new one of those; else a new data URI.
-    pub(super) fn choose(document: &Document<'_>) -> Self {
+impl TargetBuffer {
+    /// Chooses the binary chunk where there can be one; otherwise the file that an earlier save wrote; otherwise a data
+    /// URI; otherwise, if the document has buffers in referenced files, a new file; otherwise a new data URI.
+    pub(super) fn choose(document: &SourceDocument<'_>) -> Self {
         let json = document.json;
         let uri = |index: usize| json.string_member(document.buffers[index], "uri");
         let count = document.buffers.len();
@@ -46,7 +46,7 @@ impl Target {
         if let Some(chunks) = &document.source.container.glb {
             let bin = chunks.bin.as_ref();
             if count == 0 || (bin.is_some() && json.member(document.buffers[0], "uri").is_none()) {
-                return Self { home: Home::Chunk, index: 0, present: bin.map_or(0, |bin| bin.len()) };
+                return Self { home: BufferHome::Chunk, index: 0, present: bin.map_or(0, |bin| bin.len()) };
             }
         }
         let ours = (0..count).find(|&index| {
@@ -55,25 +55,29 @@ impl Target {
                 && document.buffer(index).is_some()
         });
         if let Some(index) = ours {
-            return Self { home: Home::OurFile, index, present: present(index) };
+            return Self { home: BufferHome::OurFile, index, present: present(index) };
         }
         let data =
             |index: &usize| uri(*index).is_some_and(|uri| is_data(&uri)) && document.buffer(*index).is_some();
         if let Some(index) = (0..count).find(data) {
-            return Self { home: Home::DataUri, index, present: present(index) };
+            return Self { home: BufferHome::DataUri, index, present: present(index) };
         }
         let beside = (0..count).any(|index| uri(index).is_some_and(|uri| !is_data(&uri)));
-        Self { home: if beside { Home::NewFile } else { Home::NewDataUri }, index: count, present: 0 }
+        Self {
+            home: if beside { BufferHome::NewFile } else { BufferHome::NewDataUri },
+            index: count,
+            present: 0,
+        }
     }
 
-    /// Is the buffer no element of `/buffers` yet?
-    pub(super) fn is_new(&self, document: &Document<'_>) -> bool {
+    /// Returns whether the buffer is not yet an element of `/buffers`.
+    pub(super) fn is_new(&self, document: &SourceDocument<'_>) -> bool {
         self.index >= document.buffers.len()
     }
 
-    /// The bytes that are there.
-    pub(super) fn bytes<'d>(&self, document: &'d Document<'_>) -> &'d [u8] {
-        if let (Home::Chunk, true) = (self.home, self.is_new(document)) {
+    /// Returns the existing bytes.
+    pub(super) fn bytes<'d>(&self, document: &'d SourceDocument<'_>) -> &'d [u8] {
+        if let (BufferHome::Chunk, true) = (self.home, self.is_new(document)) {
             let bin = document.source.container.glb.as_ref().and_then(|chunks| chunks.bin.clone());
             return bin.and_then(|bin| document.source.bytes.get(bin)).unwrap_or_default();
         }
@@ -81,15 +85,16 @@ impl Target {
     }
 }
 
-/// The end of a buffer, exchanged: everything from byte `from` on.
+/// The replaced end of a buffer: everything from byte `from` on.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tail {
+pub(super) struct BufferTail {
     pub(super) from: usize,
     pub(super) bytes: Vec<u8>,
 }
 
-impl Tail {
-    /// A buffer of `old` bytes, made `end` bytes long, with `writes` over it: where, and what.
+impl BufferTail {
+    /// Returns the tail of a buffer of `old` bytes that is resized to `end` bytes and then overwritten by `writes`
+    /// (offset and bytes).
     pub(super) fn of(old: &[u8], writes: &[(usize, Vec<u8>)], end: usize) -> Self {
         let from = writes.iter().map(|write| write.0).min().unwrap_or(end).min(old.len()).min(end);
         let mut bytes = old[from..old.len().min(end)].to_vec();
@@ -101,30 +106,30 @@ impl Tail {
     }
 }
 
-/// The patch that puts a tail into the data URI that is the string `uri` of the text.
+/// Returns the patch that replaces the end of a data URI; `uri` is its string in the text.
 pub(super) fn data_uri_patch(
-    document: &Document<'_>,
+    document: &SourceDocument<'_>,
     uri: usize,
     old: &[u8],
-    tail: &Tail,
+    tail: &BufferTail,
     pointer: &str,
-) -> Patch {
+) -> TextPatch {
     let token = document.json.token(uri);
     let span = document.json.span(uri);
-    let said = unquoted(token);
-    let body = said.find(',').map_or(said.len(), |comma| comma + 1);
-    let is_base64 = DataUri::parse(&said).is_some_and(|data| data.is_ok_and(|data| data.is_base64()));
-    let (from, text) = if is_base64 {
+    let text = unquoted(token);
+    let body = text.find(',').map_or(text.len(), |comma| comma + 1);
+    let is_base64 = DataUri::parse(&text).is_some_and(|data| data.is_ok_and(|data| data.is_base64()));
+    let (from, new) = if is_base64 {
         let whole = tail.from / 3 * 3;
         let bytes = [&old[whole..tail.from], &tail.bytes].concat();
         (body + whole / 3 * 4, base64(&bytes))
     } else {
-        (body + written_bytes(&said.as_bytes()[body..], tail.from), percent(&tail.bytes))
+        (body + written_bytes(&text.as_bytes()[body..], tail.from), percent(&tail.bytes))
     };
-    Patch::new(span.start + written_at(token, from)..span.end - 1, text, pointer)
+    TextPatch::new(span.start + written_at(token, from)..span.end - 1, new, pointer)
 }
 
-/// Bytes of a percent-encoded text that write its first `count` bytes.
+/// Returns the length of the percent-encoded text of the first `count` bytes.
 fn written_bytes(text: &[u8], count: usize) -> usize {
     let mut at = 0;
     for _ in 0..count {
@@ -133,23 +138,24 @@ fn written_bytes(text: &[u8], count: usize) -> usize {
     at.min(text.len())
 }
 
-/// Base64 (RFC 4648 §4) with padding.
+/// Encodes as base64 (RFC 4648 §4) with padding.
 pub(super) fn base64(bytes: &[u8]) -> String {
     BASE64_STANDARD.encode(bytes)
 }
 
-/// Every byte as `%41`, letters and digits as they are.
+/// Percent-encodes every byte except letters and digits.
 fn percent(bytes: &[u8]) -> String {
     percent_encode(bytes, NON_ALPHANUMERIC).to_string()
 }
 
-/// A name for a new buffer beside the file called `name`, after its content: what is there under it is the same.
+/// Returns a name for a new buffer next to the file called `name`. The name contains a hash of the content, so that an
+/// existing file of this name has the same content.
 ///
-/// `taken` are paths that the file names already.
+/// `taken` contains the paths that the file refers to.
 pub(super) fn beside(name: &str, content: &[u8], taken: &HashSet<String>) -> String {
     let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-    // Only what any system and any URI takes, and not too much of it.
+    // Only characters that every system and every URI accepts, and not too many.
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     let stem: String = stem.chars().map(|c| if plain(c) { c } else { '_' }).take(100).collect();
     let stem =
@@ -159,10 +165,10 @@ pub(super) fn beside(name: &str, content: &[u8], taken: &HashSet<String>) -> Str
         0 => format!("{stem}.dragonfly-{hash:016x}.bin"),
         _ => format!("{stem}.dragonfly-{hash:016x}-{number}.bin"),
     });
-    names.find(|name| !taken.contains(name)).expect("the file does not name so many")
+    names.find(|name| !taken.contains(name)).expect("the file refers to a finite number of names")
 }
 
-/// FNV-1a, 64 bits (Fowler, Noll and Vo).
+/// Computes FNV-1a, 64 bits (Fowler, Noll and Vo).
 fn fingerprint(bytes: &[u8]) -> u64 {
     bytes
         .iter()
@@ -174,7 +180,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn base64_reads_back_as_it_was() {
+    fn encoded_base64_decodes_to_the_same_bytes() {
         let all: Vec<u8> = (0..=255).collect();
         for length in [0, 1, 2, 3, 4, 5, 255, 256] {
             let uri = format!("data:;base64,{}", base64(&all[..length]));
@@ -189,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_beside_gets_a_name_that_any_system_takes() {
+    fn the_name_of_a_new_buffer_file_is_valid_on_every_system() {
         let taken = HashSet::new();
         for (name, stem) in [
             ("a/Fox 2.gltf", "Fox_2"),

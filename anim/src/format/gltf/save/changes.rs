@@ -1,35 +1,35 @@
-//! What a save will change, before it is written.
+//! Description of what a save will change.
 
 use crate::format::one_line;
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// What happens to a take.
+/// Change of a take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TakeChange {
-    /// It is new.
+    /// The take is new.
     Added,
-    /// It goes.
+    /// The take is deleted.
     Deleted,
-    /// It gets another name.
+    /// The take gets another name.
     Renamed,
-    /// It gets another place in the list.
+    /// The take gets another position in the list.
     Moved,
 }
 
-/// What happens to a channel.
+/// Change of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChannelChange {
-    /// It is new.
+    /// The channel is new.
     Added,
-    /// It goes.
+    /// The channel is removed.
     Removed,
-    /// It gets other keys.
+    /// The channel gets other keys.
     Changed,
 }
 
-/// A channel that a save touches.
+/// A channel that a save changes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChangedChannel {
     /// Name of the take.
@@ -38,79 +38,79 @@ pub struct ChangedChannel {
     pub node: u32,
     /// Name of the bone; `mesh 3` for the weights of a mesh instance.
     pub bone: String,
-    /// `translation`, `rotation`, `scale`, `weights`.
+    /// Property: `translation`, `rotation`, `scale` or `weights`.
     pub path: &'static str,
-    /// What happens to it.
+    /// How the channel changes.
     pub change: ChannelChange,
 }
 
 /// An accessor that a save writes, with its buffer view.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenAccessor {
-    /// Its number in `/accessors`.
+    /// Number of the accessor in `/accessors`.
     pub accessor: usize,
-    /// The number of its view in `/bufferViews`.
+    /// Number of its view in `/bufferViews`.
     pub view: usize,
-    /// Its elements: `SCALAR`, `VEC3`, `VEC4`, of floats.
+    /// Type of its elements, made of floats: `SCALAR`, `VEC3` or `VEC4`.
     pub shape: &'static str,
-    /// How many there are.
+    /// Number of elements.
     pub count: usize,
-    /// Bytes that they take.
+    /// Number of bytes.
     pub bytes: usize,
-    /// Is it one that an earlier save appended, used again? Else both are new.
+    /// Whether an earlier save appended the accessor and its view; otherwise both are new.
     pub is_reused: bool,
 }
 
-/// Bytes of the JSON text that are exchanged for others.
+/// A replaced range of bytes of the JSON text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChangedToken {
-    /// Where, as a JSON pointer into the file as it was opened: to the value that changes, or to the list or object
-    /// that something is put into or taken from.
+    /// Place as a JSON pointer into the file as it was opened: the value that changes, or the list or object that
+    /// something is inserted into or removed from.
     pub pointer: String,
-    /// The first byte in the file as it was opened.
+    /// Offset of the first replaced byte in the file as it was opened.
     pub offset: usize,
-    /// How many bytes there give way.
+    /// Number of replaced bytes.
     pub length: usize,
-    /// Those bytes, shortened when there are many; empty when something is only put in.
+    /// The replaced bytes, shortened if there are many; empty for an insertion.
     pub old: String,
-    /// What comes in their place, shortened when it is long; empty when something is only taken away.
+    /// The new text, shortened if it is long; empty for a removal.
     pub new: String,
-    /// How many bytes come.
+    /// Number of new bytes.
     pub new_length: usize,
 }
 
-/// What a save will change. Everything that is not named here keeps its bytes.
+/// All changes of a save. Everything that is not listed here keeps its bytes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
-    /// Takes, by name (the new one where it changes), with what happens to them.
+    /// Changed takes, by name (the new one if it changes).
     pub takes: Vec<(String, TakeChange)>,
-    /// Channels.
+    /// Changed channels.
     pub channels: Vec<ChangedChannel>,
     /// Nodes whose matrix is written as translation, rotation and scale, since glTF animates no matrices.
     pub nodes: Vec<u32>,
-    /// Nodes that nothing will move any more, no joint of a skin among them, with their names. They stay in the file and
-    /// are shown at rest; a file that is opened again has no bone for them.
+    /// Nodes, with their names, that no take animates any more and that are no joint of a skin. They stay in the file
+    /// and are shown at rest; a file that is opened again has no bone for them.
     pub bones_lost: Vec<(u32, String)>,
-    /// Accessors.
+    /// Written accessors.
     pub accessors: Vec<WrittenAccessor>,
-    /// Tokens of the JSON text, in its order.
+    /// Changed tokens of the JSON text, in the order of the text.
     pub tokens: Vec<ChangedToken>,
-    /// Bytes by which the buffer grows.
+    /// Number of bytes by which the buffer grows.
     pub bytes_appended: usize,
-    /// Bytes of the buffer that earlier saves appended and that are written over.
+    /// Number of bytes that earlier saves appended to the buffer and that this save overwrites.
     pub bytes_reused: usize,
-    /// Bytes by which the buffer shrinks; only [`super::compact`] does that.
+    /// Number of bytes by which the buffer shrinks; only [`super::compact`] does that.
     pub bytes_removed: usize,
     /// Names of the files that will be written, relative to the folder, in order.
     pub files: Vec<String>,
-    /// Names of files that earlier saves wrote and that this file will not need any more. Another file may.
+    /// Names of files that earlier saves wrote and that this file no longer needs. Another file may still need them.
     pub files_left: Vec<String>,
 }
 
-/// Characters of a token that are shown.
+/// Number of characters of a token that are shown.
 const SHOWN: usize = 60;
 
-/// The first characters of a token, on one line.
+/// Returns the first characters of a token, on one line.
 pub(super) fn shortened(token: &str) -> String {
     let short: String = token.chars().take(SHOWN).collect();
     let more = token.chars().nth(SHOWN).is_some();
@@ -118,7 +118,7 @@ pub(super) fn shortened(token: &str) -> String {
 }
 
 impl Changes {
-    /// Will the file be the same, byte for byte?
+    /// Returns whether the file stays the same, byte for byte.
     pub fn is_empty(&self) -> bool {
         self.tokens.is_empty()
             && self.bytes_appended == 0
@@ -126,7 +126,7 @@ impl Changes {
             && self.bytes_removed == 0
     }
 
-    /// How much it is, in one line for people.
+    /// Returns the amount of changes as one line for users.
     pub fn summary(&self) -> String {
         let takes: BTreeSet<&str> = self.channels.iter().map(|channel| channel.take.as_str()).collect();
         let bones: BTreeSet<u32> = self.channels.iter().map(|channel| channel.node).collect();
@@ -138,14 +138,14 @@ impl Changes {
         let parts = [
             channels,
             some(self.accessors.len(), "accessor"),
-            some(self.tokens.len(), "place").map(|places| places + " in the JSON text"),
+            some(self.tokens.len(), "change").map(|changes| changes + " of the JSON text"),
             some(self.bytes_appended, "byte").map(|bytes| bytes + " more"),
             some(self.bytes_removed, "byte").map(|bytes| bytes + " fewer"),
         ];
         parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
-    /// The same as JSON text, in one line.
+    /// Returns the changes as one line of JSON text.
     pub fn to_json(&self) -> String {
         let takes: Vec<_> =
             self.takes.iter().map(|(name, c)| json!({"name": name, "change": word(c)})).collect();
@@ -183,7 +183,7 @@ impl Changes {
     }
 }
 
-/// `1 channel`, `2 channels`.
+/// Returns a number with its noun: `1 channel`, `2 channels`.
 fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
@@ -193,7 +193,7 @@ fn word(change: &impl fmt::Debug) -> String {
 }
 
 impl fmt::Display for Changes {
-    /// For people: how much it is, then a line a thing; what happens alike to several channels of a bone is one.
+    /// Writes the summary, then one line for each change; the same change of several channels of a bone is one line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_empty() {
             return writeln!(f, "nothing changes");
@@ -214,17 +214,17 @@ impl fmt::Display for Changes {
             writeln!(f, "take \"{take}\", \"{bone}\" (node {}), {paths}: {change}", first.node)?;
         }
         for node in &self.nodes {
-            writeln!(f, "node {node}: its matrix becomes translation, rotation and scale")?;
+            writeln!(f, "node {node}: its matrix is replaced by translation, rotation and scale")?;
         }
         for (node, name) in &self.bones_lost {
             let name = one_line(name);
             writeln!(
                 f,
-                "\"{name}\" (node {node}): nothing moves it any more; opened again, the file has no bone for it"
+                "\"{name}\" (node {node}): no take animates it any more; the saved file has no bone for it"
             )?;
         }
         for a in &self.accessors {
-            let how = if a.is_reused { "written over" } else { "new" };
+            let how = if a.is_reused { "overwritten" } else { "new" };
             writeln!(
                 f,
                 "accessor {}: {how}, {} {} of floats, {} bytes",
@@ -240,8 +240,8 @@ impl fmt::Display for Changes {
         }
         for (bytes, what) in [
             (self.bytes_appended, "appended to the buffer"),
-            (self.bytes_reused, "of earlier saves written over"),
-            (self.bytes_removed, "of earlier saves taken away"),
+            (self.bytes_reused, "of earlier saves overwritten"),
+            (self.bytes_removed, "of earlier saves removed"),
         ] {
             if bytes > 0 {
                 writeln!(f, "{bytes} bytes {what}")?;
@@ -251,7 +251,7 @@ impl fmt::Display for Changes {
             writeln!(f, "file {} will be written", one_line(file))?;
         }
         for file in &self.files_left {
-            writeln!(f, "file {} is not needed any more", one_line(file))?;
+            writeln!(f, "file {} is no longer needed", one_line(file))?;
         }
         Ok(())
     }

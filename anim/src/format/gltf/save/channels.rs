@@ -1,41 +1,41 @@
-//! Which channels an edit changed: the takes as they were opened against the takes as they are now.
+//! Finds the edited channels by comparing the takes as they were opened with the takes as they are now.
 
-use super::columns::{Column, Keys, Owner, keys};
-use super::document::{FileAnimation, Path, Target};
+use super::columns::{ChannelKeys, EncodedKeys, KeysOwner, keys};
+use super::document::{ChannelTarget, FileAnimation, TargetPath};
 use super::error::SaveError;
 use crate::data::{Channel, Interpolation, ModelData, MorphTrack, Take, Track};
 use crate::limits::CLIP_SECONDS;
 use glam::Vec3;
 use std::sync::Arc;
 
-/// What becomes of a channel.
+/// Change of a channel.
 #[derive(Clone, Debug)]
 pub(super) enum Action {
     Remove,
-    Set(Keys),
+    Set(EncodedKeys),
 }
 
 /// A channel that differs.
 #[derive(Clone, Debug)]
 pub(super) struct ChannelEdit {
-    pub(super) target: Target,
+    pub(super) target: ChannelTarget,
     /// Name of the bone, or `mesh 3`.
     pub(super) label: String,
     pub(super) action: Action,
-    /// The times with which it was opened, where its values are, one by one, those that were opened.
+    /// The opened key times of each value, if the values are a subset of the opened ones.
     pub(super) values_of: Option<Arc<[f32]>>,
 }
 
-/// The three columns of a track.
-fn columns(track: &Track) -> [(Path, Column<'_>); 3] {
+/// Returns the three channels of a track.
+fn columns(track: &Track) -> [(TargetPath, ChannelKeys<'_>); 3] {
     [
-        (Path::Translation, Column::Vector(&track.translation)),
-        (Path::Rotation, Column::Rotation(&track.rotation)),
-        (Path::Scale, Column::Vector(&track.scale)),
+        (TargetPath::Translation, ChannelKeys::Vector(&track.translation)),
+        (TargetPath::Rotation, ChannelKeys::Rotation(&track.rotation)),
+        (TargetPath::Scale, ChannelKeys::Vector(&track.scale)),
     ]
 }
 
-/// The channels in which `now` differs from `opened` (`None` for a take that is new altogether).
+/// Returns the channels in which `now` differs from `opened` (`None` for a new take).
 pub(super) fn edits(
     model: &ModelData,
     opened: Option<(&Take, &FileAnimation)>,
@@ -51,7 +51,7 @@ pub(super) fn edits(
     let still = Track::default();
     for (index, (bone, track)) in bones.iter().zip(&now.tracks).enumerate() {
         if track.bone as usize != index {
-            return Err(mismatch(format!("the track at {index} moves bone {}", track.bone)));
+            return Err(mismatch(format!("the track at {index} is for bone {}", track.bone)));
         }
         let before = columns(opened.and_then(|(take, _)| take.tracks.get(index)).unwrap_or(&still));
         for ((path, before), (_, after)) in before.into_iter().zip(columns(track)) {
@@ -59,9 +59,9 @@ pub(super) fn edits(
                 continue;
             }
             let Some(node) = bone.node else {
-                return Err(no_node(now, &bone.name, "is no node of the file"));
+                return Err(no_node(now, &bone.name, "is not a node of the file"));
             };
-            let owner = Owner { take: &now.name, bone: &bone.name, path, may_be_negative };
+            let owner = KeysOwner { take: &now.name, bone: &bone.name, path, may_be_negative };
             found.push(edit((node, path), opened, before, after, owner)?);
         }
     }
@@ -74,11 +74,11 @@ fn no_node(take: &Take, bone: &str, reason: &'static str) -> SaveError {
 }
 
 fn edit(
-    target: Target,
+    target: ChannelTarget,
     opened: Option<(&Take, &FileAnimation)>,
-    before: Column<'_>,
-    after: Column<'_>,
-    owner: Owner<'_>,
+    before: ChannelKeys<'_>,
+    after: ChannelKeys<'_>,
+    owner: KeysOwner<'_>,
 ) -> Result<ChannelEdit, SaveError> {
     let in_file = opened.is_some_and(|(_, animation)| animation.channel(target).is_some());
     if !before.times().is_empty() && !in_file {
@@ -91,7 +91,7 @@ fn edit(
     Ok(ChannelEdit { target, label: owner.bone.to_owned(), action, values_of })
 }
 
-/// Morph weights, by mesh instance.
+/// Finds the edited morph weights, by mesh instance.
 fn weights(
     model: &ModelData,
     opened: Option<(&Take, &FileAnimation)>,
@@ -118,7 +118,7 @@ fn weights(
                 return Err(refuse(format!("{} weights for {targets} targets", track.targets)));
             }
             if by_instance[track.instance as usize].replace(track.clone()).is_some() {
-                return Err(refuse("two tracks move it".to_owned()));
+                return Err(refuse("two tracks animate it".to_owned()));
             }
         }
         Ok(by_instance)
@@ -135,22 +135,22 @@ fn weights(
         let targets = before.as_ref().or(after.as_ref()).map_or(0, |track| track.targets);
         let before = before.unwrap_or_else(|| no_keys(index as u32, targets));
         let after = after.unwrap_or_else(|| no_keys(index as u32, targets));
-        let (before, after) = (Column::Weights(&before), Column::Weights(&after));
+        let (before, after) = (ChannelKeys::Weights(&before), ChannelKeys::Weights(&after));
         if before.is_same(&after) {
             continue;
         }
         let label = format!("mesh {index}");
         let Some(node) = model.instances[index].node else {
-            return Err(no_node(now, &label, "is no node of the file"));
+            return Err(no_node(now, &label, "is not a node of the file"));
         };
-        let owner = Owner { take: &now.name, bone: &label, path: Path::Weights, may_be_negative };
-        found.push(edit((node, Path::Weights), opened, before, after, owner)?);
+        let owner = KeysOwner { take: &now.name, bone: &label, path: TargetPath::Weights, may_be_negative };
+        found.push(edit((node, TargetPath::Weights), opened, before, after, owner)?);
     }
     Ok(())
 }
 
-/// What stands for "nothing moves", since an animation must have a channel: one key, at the start of the take, that
-/// holds the first bone where it rests. `None` when it is there already.
+/// Returns an edit for a take that animates nothing, since an animation must have a channel: one key at the start of
+/// the take that keeps the first bone at rest. `None` if the file has it already.
 pub(super) fn placeholder(
     model: &ModelData,
     opened: Option<&Take>,
@@ -159,18 +159,23 @@ pub(super) fn placeholder(
     let bones = &model.animation.skeleton.bones;
     let still = bones.iter().enumerate().find(|(_, bone)| bone.node.is_some() && bone.rest_matrix.is_none());
     let Some((index, bone)) = still else {
-        return Err(no_node(now, "", "moves nothing, and the file has no node that could stand for it"));
+        return Err(no_node(now, "", "animates nothing, and the file has no node for a placeholder channel"));
     };
     let start = if now.start.is_finite() { now.start.clamp(0.0, CLIP_SECONDS) } else { 0.0 };
     let rest = bone.rest.translation;
     let rest = if rest.is_finite() { rest } else { Vec3::ZERO };
     let channel = Channel::new([start], [rest], Interpolation::Step);
     let before = opened.and_then(|take| Some(&take.tracks.get(index)?.translation));
-    if before.is_some_and(|before| Column::Vector(before).is_same(&Column::Vector(&channel))) {
+    if before.is_some_and(|before| ChannelKeys::Vector(before).is_same(&ChannelKeys::Vector(&channel))) {
         return Ok(None);
     }
-    let owner = Owner { take: &now.name, bone: &bone.name, path: Path::Translation, may_be_negative: false };
-    let keys = keys(Column::Vector(&channel), owner)?;
-    let target = (bone.node.unwrap_or_default(), Path::Translation);
+    let owner = KeysOwner {
+        take: &now.name,
+        bone: &bone.name,
+        path: TargetPath::Translation,
+        may_be_negative: false,
+    };
+    let keys = keys(ChannelKeys::Vector(&channel), owner)?;
+    let target = (bone.node.unwrap_or_default(), TargetPath::Translation);
     Ok(Some(ChannelEdit { target, label: bone.name.clone(), action: Action::Set(keys), values_of: None }))
 }

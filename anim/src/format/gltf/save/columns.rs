@@ -1,6 +1,6 @@
-//! A channel as glTF wants it: times and values as bytes, and the interpolation's name.
+//! Converts a channel to glTF: times and values as bytes, and the name of the interpolation.
 
-use super::document::Path;
+use super::document::TargetPath;
 use super::error::SaveError;
 use crate::data::{Channel, Interpolation, MorphTrack};
 use crate::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
@@ -8,18 +8,18 @@ use crate::sample::find_keys;
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// How far a rotation's length may be from one (the Khronos validator's tolerance).
+/// Largest deviation of a rotation's length from one (the Khronos validator's tolerance).
 const ROTATION_TOLERANCE: f64 = 0.00769;
 
-/// The keys of one target, whichever kind they are.
+/// The keys of one target, of whatever type.
 #[derive(Clone, Copy)]
-pub(super) enum Column<'a> {
+pub(super) enum ChannelKeys<'a> {
     Vector(&'a Channel<Vec3>),
     Rotation(&'a Channel<Quat>),
     Weights(&'a MorphTrack),
 }
 
-impl Column<'_> {
+impl ChannelKeys<'_> {
     pub(super) fn times(&self) -> &Arc<[f32]> {
         match self {
             Self::Vector(channel) => &channel.times,
@@ -36,7 +36,7 @@ impl Column<'_> {
         }
     }
 
-    /// All numbers of all values.
+    /// Returns all numbers of all values.
     fn numbers(&self) -> Vec<f32> {
         match self {
             Self::Vector(channel) => channel.values.iter().flat_map(|value| value.to_array()).collect(),
@@ -45,7 +45,7 @@ impl Column<'_> {
         }
     }
 
-    /// Numbers of one value.
+    /// Returns the number of components of one value.
     fn width(&self) -> usize {
         match self {
             Self::Vector(_) => 3,
@@ -62,12 +62,12 @@ impl Column<'_> {
         }
     }
 
-    /// Are these its numbers, bit for bit?
+    /// Returns whether these are its numbers, bit for bit.
     pub(super) fn holds(&self, numbers: &[f32]) -> bool {
         !numbers.is_empty() && same_bits(&self.numbers(), numbers)
     }
 
-    /// Are all bits the same? Two columns without keys are, whatever else they say.
+    /// Returns whether all bits are the same. Two channels without keys are the same, whatever their other fields.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         if self.times().is_empty() && other.times().is_empty() {
             return true;
@@ -90,21 +90,21 @@ fn same_bits(a: &[f32], b: &[f32]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// A column ready to be written.
+/// Keys ready to be written.
 #[derive(Clone, Debug)]
-pub(super) struct Keys {
-    /// Seconds, strictly ascending; shared where channels share them.
+pub(super) struct EncodedKeys {
+    /// Seconds, strictly ascending; shared between channels where possible.
     pub(super) times: Arc<[f32]>,
-    /// Numbers of the values, tangents included.
+    /// Components of the values, tangents included.
     pub(super) values: Vec<f32>,
-    /// `VEC3`, `VEC4`, `SCALAR`.
+    /// Type of a value: `VEC3`, `VEC4` or `SCALAR`.
     pub(super) shape: &'static str,
-    /// `STEP`, `LINEAR`, `CUBICSPLINE`.
+    /// Interpolation: `STEP`, `LINEAR` or `CUBICSPLINE`.
     pub(super) interpolation: &'static str,
 }
 
-impl Keys {
-    /// How many elements the output accessor has.
+impl EncodedKeys {
+    /// Returns the number of elements of the output accessor.
     pub(super) fn value_count(&self) -> usize {
         self.values.len() / shape_width(self.shape)
     }
@@ -118,17 +118,17 @@ pub(super) fn shape_width(shape: &str) -> usize {
     }
 }
 
-/// Whose keys they are, for errors.
+/// Owner of the keys, for error messages.
 #[derive(Clone, Copy)]
-pub(super) struct Owner<'a> {
+pub(super) struct KeysOwner<'a> {
     pub(super) take: &'a str,
     pub(super) bone: &'a str,
-    pub(super) path: Path,
-    /// May key times be negative? glTF forbids them; a file that has them may keep them.
+    pub(super) path: TargetPath,
+    /// Whether key times may be negative. glTF forbids them; a file that has them may keep them.
     pub(super) may_be_negative: bool,
 }
 
-impl Owner<'_> {
+impl KeysOwner<'_> {
     fn refuse<T>(&self, reason: impl Into<String>) -> Result<T, SaveError> {
         Err(SaveError::Keys {
             take: self.take.to_owned(),
@@ -139,12 +139,12 @@ impl Owner<'_> {
     }
 }
 
-/// Checks a column that has keys, and turns it into what glTF can say.
+/// Checks a channel with keys and converts it to what glTF can represent.
 ///
-/// * Closest key becomes step, exactly: a step at each time from which on the next key is the nearest, and one more at
-///   the end, so that the take keeps its length.
-/// * A spline of one key is written as that key, linear: glTF wants two keys of a spline.
-pub(super) fn keys(column: Column<'_>, owner: Owner<'_>) -> Result<Keys, SaveError> {
+/// * Closest-key interpolation becomes an exact step: a step at each time from which on the next key is the nearest,
+///   and one more at the end, so that the take keeps its length.
+/// * A spline of one key is written as that key with linear interpolation, because glTF requires two keys of a spline.
+pub(super) fn keys(column: ChannelKeys<'_>, owner: KeysOwner<'_>) -> Result<EncodedKeys, SaveError> {
     let interpolation = column.interpolation();
     let numbers = column.numbers();
     check_times(column.times(), owner)?;
@@ -157,27 +157,27 @@ pub(super) fn keys(column: Column<'_>, owner: Owner<'_>) -> Result<Keys, SaveErr
     if let Some(odd) = numbers.iter().position(|number| !number.is_finite()) {
         return owner.refuse(format!("key {} is not finite", odd / per_key));
     }
-    let keys = Keys {
+    let keys = EncodedKeys {
         times: column.times().clone(),
         values: numbers,
         shape: column.shape(),
         interpolation: "LINEAR",
     };
     let keys = match interpolation {
-        Interpolation::Step => Keys { interpolation: "STEP", ..keys },
+        Interpolation::Step => EncodedKeys { interpolation: "STEP", ..keys },
         Interpolation::Linear => keys,
         Interpolation::CubicSpline if count == 1 => {
             let width = column.width();
-            Keys { values: keys.values[width..2 * width].to_vec(), ..keys }
+            EncodedKeys { values: keys.values[width..2 * width].to_vec(), ..keys }
         }
-        Interpolation::CubicSpline => Keys { interpolation: "CUBICSPLINE", ..keys },
+        Interpolation::CubicSpline => EncodedKeys { interpolation: "CUBICSPLINE", ..keys },
         Interpolation::Closest => stepped(&keys, column.width()),
     };
     check_rotations(&keys, owner)?;
     Ok(keys)
 }
 
-fn check_times(times: &[f32], owner: Owner<'_>) -> Result<(), SaveError> {
+fn check_times(times: &[f32], owner: KeysOwner<'_>) -> Result<(), SaveError> {
     if times.len() > KEYS_PER_CHANNEL {
         return owner.refuse(format!("{} keys, at most {KEYS_PER_CHANNEL}", times.len()));
     }
@@ -186,21 +186,21 @@ fn check_times(times: &[f32], owner: Owner<'_>) -> Result<(), SaveError> {
             return owner.refuse(format!("the time of key {key} is {time}"));
         }
         if time.abs() > CLIP_SECONDS {
-            return owner.refuse(format!("key {key} lies at {time} s, at most {CLIP_SECONDS} s"));
+            return owner.refuse(format!("key {key} is at {time} s, at most {CLIP_SECONDS} s"));
         }
         if time < 0.0 && !owner.may_be_negative {
-            return owner.refuse(format!("key {key} lies at {time} s, before zero, which glTF forbids"));
+            return owner.refuse(format!("key {key} is at {time} s, but glTF forbids negative key times"));
         }
         if key > 0 && times[key - 1] >= time {
-            return owner.refuse(format!("key {key} at {time} s does not come after the one before"));
+            return owner.refuse(format!("key {key} at {time} s is not later than the key before it"));
         }
     }
     Ok(())
 }
 
-/// Every rotation must be one: readers disagree about others.
-fn check_rotations(keys: &Keys, owner: Owner<'_>) -> Result<(), SaveError> {
-    if owner.path != Path::Rotation {
+/// Refuses rotations that are not of unit length, because readers differ in how they treat them.
+fn check_rotations(keys: &EncodedKeys, owner: KeysOwner<'_>) -> Result<(), SaveError> {
+    if owner.path != TargetPath::Rotation {
         return Ok(());
     }
     let spline = keys.interpolation == "CUBICSPLINE";
@@ -217,8 +217,8 @@ fn check_rotations(keys: &Keys, owner: Owner<'_>) -> Result<(), SaveError> {
     Ok(())
 }
 
-/// Closest key as step.
-fn stepped(keys: &Keys, width: usize) -> Keys {
+/// Converts closest-key interpolation to steps.
+fn stepped(keys: &EncodedKeys, width: usize) -> EncodedKeys {
     let value = |key: usize| &keys.values[key * width..][..width];
     let last = keys.times.len() - 1;
     let mut times = vec![keys.times[0]];
@@ -231,14 +231,14 @@ fn stepped(keys: &Keys, width: usize) -> Keys {
         times.push(keys.times[last]);
         values.extend(value(last));
     }
-    Keys { times: times.into(), values, shape: keys.shape, interpolation: "STEP" }
+    EncodedKeys { times: times.into(), values, shape: keys.shape, interpolation: "STEP" }
 }
 
-/// The first time after `before` at which sampling finds `after` the nearer of the two.
+/// Returns the first time after `before` at which sampling finds `after` the nearer of the two.
 fn nearest_from(before: f32, after: f32) -> f32 {
     let is_after =
         |time: f32| time >= after || find_keys(&[before, after], time).is_some_and(|keys| keys.mix >= 0.5);
-    // The share between two keys never falls with time, so the first is found by halving.
+    // The share between two keys never decreases with time, so a binary search finds the first time.
     let (mut low, mut high) = (before, after);
     while low.next_up() < high {
         let middle = low + (high - low) * 0.5;
@@ -254,12 +254,12 @@ mod tests {
     use crate::sample::sample_channel;
 
     #[test]
-    fn closest_key_as_step_gives_the_same_at_every_time() {
+    fn closest_key_converted_to_step_has_the_same_value_at_every_time() {
         let times: [f32; 5] = [0.0, 0.1, 0.3, 7.7, 7.700_001];
         let values: Vec<Vec3> = (0..5).map(|key| Vec3::splat(key as f32)).collect();
         let closest = Channel::new(times, values, Interpolation::Closest);
-        let owner = Owner { take: "", bone: "", path: Path::Translation, may_be_negative: false };
-        let keys = keys(Column::Vector(&closest), owner).unwrap();
+        let owner = KeysOwner { take: "", bone: "", path: TargetPath::Translation, may_be_negative: false };
+        let keys = keys(ChannelKeys::Vector(&closest), owner).unwrap();
         assert_eq!(keys.interpolation, "STEP");
         assert!(keys.times.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", keys.times);
         assert_eq!(keys.times.last(), times.last());

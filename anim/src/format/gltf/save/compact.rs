@@ -1,27 +1,27 @@
-//! Taking away what earlier saves appended and nothing uses any more.
+//! Removes what earlier saves appended and nothing uses any more.
 
-use super::buffer::Target;
+use super::buffer::TargetBuffer;
 use super::columns::shape_width;
-use super::document::Document;
+use super::document::SourceDocument;
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::Patch;
+use super::json::patch::TextPatch;
 use super::json::style::Fresh;
-use super::json::tree::Id;
+use super::json::tree::ValueId;
 use super::plan::{Plan, fresh_view};
-use super::reuse::{Granted, MARK, Slot, others_past, slots};
+use super::reuse::{Granted, MARK, SavedSlot, others_past, slots};
 use super::source::SourceFile;
 use std::collections::{HashMap, HashSet};
 
 /// Plans a file without what earlier saves appended and nothing uses any more: bytes of the buffer, accessors, buffer
-/// views. All takes stay as they are, and so does every byte that no save of ours wrote.
+/// views. All takes stay as they are, and so does every byte that was not written by a save of this crate.
 ///
-/// Nothing changes where somebody else appended to the buffer after us. Accessors and views are taken out of their
-/// lists only where ours are the last ones, since the numbers of others must stay; else only their room shrinks.
+/// Nothing changes if another program appended to the buffer afterwards. Accessors and views are removed from their
+/// lists only if they are the last ones, since the numbers of others must stay; otherwise only their room shrinks.
 pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
-    let document = Document::of(source);
-    let target = Target::choose(&document);
+    let document = SourceDocument::of(source);
+    let target = TargetBuffer::choose(&document);
     let mut slots = slots(&document, target.index, target.present);
     slots.sort_by_key(|slot| slot.offset);
     let mut draw = Draw::new(&document);
@@ -31,14 +31,14 @@ pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
         return draw.finish();
     }
     let start = first.offset;
-    let idle = Idle::of(&document, &slots);
+    let idle = IdleSamplers::of(&document, &slots);
     let used = idle.used_accessors(&document);
     let (accessors, views) = (document.accessors.len() - slots.len(), document.views.len() - slots.len());
     let at_end = slots.iter().all(|slot| slot.accessor >= accessors && slot.view >= views);
-    let mut live: Vec<Slot> =
+    let mut live: Vec<SavedSlot> =
         slots.iter().filter(|slot| !at_end || used.contains(&slot.accessor)).copied().collect();
     if live.is_empty() && (accessors == 0 || views == 0 || start == 0) {
-        // A list or a buffer may not be empty.
+        // glTF forbids an empty list or buffer.
         live.push(slots[0]);
     }
     let mut end = start;
@@ -47,7 +47,7 @@ pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
     let bytes = target.bytes(&document);
     for (number, slot) in live.iter().enumerate() {
         let to = match at_end {
-            true => Slot { accessor: accessors + number, view: views + number, ..*slot },
+            true => SavedSlot { accessor: accessors + number, view: views + number, ..*slot },
             false => *slot,
         };
         let room = needed(&document, slot);
@@ -68,21 +68,21 @@ pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
         cut(&mut draw, "accessors", &document.accessors, accessors + live.len())?;
         cut(&mut draw, "bufferViews", &document.views, views + live.len())?;
     }
-    send_samplers(&mut draw, &idle, &moves);
+    redirect_samplers(&mut draw, &idle, &moves);
     draw.buffer(target, &writes, end)?;
     draw.finish()
 }
 
-/// Bytes that the accessor of a slot takes.
-fn needed(document: &Document<'_>, slot: &Slot) -> usize {
+/// Returns the number of bytes of a slot's accessor.
+fn needed(document: &SourceDocument<'_>, slot: &SavedSlot) -> usize {
     let (json, id) = (document.json, document.accessors[slot.accessor]);
     let shape = json.string_member(id, "type").unwrap_or_default();
     let size = json.index_member(id, "count").and_then(|count| count.checked_mul(shape_width(&shape) * 4));
     size.filter(|&size| size > 0 && size <= slot.room).unwrap_or(slot.room)
 }
 
-/// The accessor over another view.
-fn moved_accessor(document: &Document<'_>, accessor: usize, view: usize) -> Fresh {
+/// Returns the accessor with another view.
+fn moved_accessor(document: &SourceDocument<'_>, accessor: usize, view: usize) -> Fresh {
     let (json, id) = (document.json, document.accessors[accessor]);
     let mut members = vec![("name", Fresh::string(MARK)), ("bufferView", Fresh::whole(view))];
     for name in ["componentType", "count", "type", "min", "max"] {
@@ -93,8 +93,8 @@ fn moved_accessor(document: &Document<'_>, accessor: usize, view: usize) -> Fres
     Fresh::Object(members)
 }
 
-/// A token, or a list of tokens, as it stands.
-fn copied(document: &Document<'_>, id: Id) -> Fresh {
+/// Copies a token, or a list of tokens.
+fn copied(document: &SourceDocument<'_>, id: ValueId) -> Fresh {
     let json = document.json;
     let raw = |id| Fresh::Raw(String::from_utf8_lossy(json.token(id)).into_owned());
     match json.items(id).next() {
@@ -103,8 +103,8 @@ fn copied(document: &Document<'_>, id: Id) -> Fresh {
     }
 }
 
-/// Takes the elements from `keep` on away.
-fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[Id], keep: usize) -> Result<(), SaveError> {
+/// Removes the elements from `keep` on.
+fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[ValueId], keep: usize) -> Result<(), SaveError> {
     let Some(list) = draw.list(name)? else { return Ok(()) };
     let change = ListEdit { removed: items[keep..].to_vec(), inserted: Vec::new() };
     let json = draw.document.json;
@@ -113,15 +113,15 @@ fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[Id], keep: usize) -> Result
     Ok(())
 }
 
-/// Samplers that no channel uses and whose accessors are ours: they are sent to the accessors of another sampler of
-/// their animation, which frees their own.
-struct Idle {
+/// Samplers that no channel uses and whose accessors earlier saves wrote. They are redirected to the accessors of
+/// another sampler of their animation, which makes their own accessors unused.
+struct IdleSamplers {
     /// By animation and sampler: the sampler whose accessors it gets.
     instead: HashMap<(usize, usize), usize>,
 }
 
-impl Idle {
-    fn of(document: &Document<'_>, slots: &[Slot]) -> Self {
+impl IdleSamplers {
+    fn of(document: &SourceDocument<'_>, slots: &[SavedSlot]) -> Self {
         let ours: HashSet<usize> = slots.iter().map(|slot| slot.accessor).collect();
         let mut instead = HashMap::new();
         for (index, animation) in document.animations.iter().enumerate() {
@@ -141,13 +141,13 @@ impl Idle {
         Self { instead }
     }
 
-    /// The sampler whose accessors the sampler gets: mostly itself.
-    fn source(&self, document: &Document<'_>, animation: usize, sampler: usize) -> Id {
+    /// Returns the sampler whose accessors a sampler gets, in most cases the sampler itself.
+    fn source(&self, document: &SourceDocument<'_>, animation: usize, sampler: usize) -> ValueId {
         let number = self.instead.get(&(animation, sampler)).copied().unwrap_or(sampler);
         document.animations[animation].samplers[number]
     }
 
-    fn used_accessors(&self, document: &Document<'_>) -> HashSet<usize> {
+    fn used_accessors(&self, document: &SourceDocument<'_>) -> HashSet<usize> {
         let mut used = HashSet::new();
         for (index, animation) in document.animations.iter().enumerate() {
             for number in 0..animation.samplers.len() {
@@ -161,7 +161,7 @@ impl Idle {
 }
 
 /// Writes the new numbers of accessors into the samplers.
-fn send_samplers(draw: &mut Draw<'_, '_>, idle: &Idle, moves: &HashMap<usize, usize>) {
+fn redirect_samplers(draw: &mut Draw<'_, '_>, idle: &IdleSamplers, moves: &HashMap<usize, usize>) {
     let document = draw.document;
     let json = document.json;
     for (index, animation) in document.animations.iter().enumerate() {
@@ -176,7 +176,7 @@ fn send_samplers(draw: &mut Draw<'_, '_>, idle: &Idle, moves: &HashMap<usize, us
                 let new = moves.get(&wanted).copied().unwrap_or(wanted);
                 if new != old {
                     let pointer = format!("/animations/{index}/samplers/{number}/{name}");
-                    draw.patches.push(Patch::new(json.span(token), new.to_string(), pointer));
+                    draw.patches.push(TextPatch::new(json.span(token), new.to_string(), pointer));
                 }
             }
         }

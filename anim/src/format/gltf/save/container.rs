@@ -1,39 +1,39 @@
-//! The frame around the JSON text: nothing for `.gltf`, chunks for `.glb`.
+//! The container of the JSON text: none for `.gltf`, chunks for `.glb`.
 
 use super::super::glb;
-use super::json::patch::{Patch, patched};
-use crate::format::{ImportError, guard::Guard};
+use super::json::patch::{TextPatch, patched};
+use crate::format::{ImportContext, ImportError};
 use std::ops::Range;
 
 const HEADER: usize = 12;
 const CHUNK_HEADER: usize = 8;
 
-/// Where the parts of a file lie.
+/// Ranges of the parts of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Container {
-    /// The JSON text, without byte order mark before and zeros behind.
+    /// The JSON text, without byte order mark and without trailing zeros.
     pub(super) text: Range<usize>,
-    /// The chunks, where the file is a container.
+    /// The chunks, if the file is a binary container.
     pub(super) glb: Option<Chunks>,
 }
 
-/// Where the chunks of a container lie.
+/// Ranges of the chunks of a container.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Chunks {
     json: Range<usize>,
-    /// The second chunk's bytes, if it is the binary one.
+    /// Bytes of the second chunk, if it is the binary one.
     pub(super) bin: Option<Range<usize>>,
-    /// The end that the header announces.
+    /// End of the container according to its header.
     end: usize,
 }
 
 impl Container {
-    /// Finds the parts; what is wrong with the frame is an error, as in reading.
-    pub(super) fn of(file: &[u8], guard: &Guard<'_>) -> Result<Self, ImportError> {
+    /// Finds the parts. An invalid container is an error, as for the importer.
+    pub(super) fn of(file: &[u8], context: &ImportContext<'_>) -> Result<Self, ImportError> {
         if !file.starts_with(b"glTF") {
             return Ok(Self { text: text_in(file, 0..file.len()), glb: None });
         }
-        let glb = glb::parse(file, guard)?;
+        let glb = glb::parse(file, context)?;
         let from = glb.json_at as usize;
         let json = from..from + glb.json.len();
         let bin = glb.bin.map(|bin| json.end + CHUNK_HEADER..json.end + CHUNK_HEADER + bin.len());
@@ -41,17 +41,17 @@ impl Container {
         Ok(Self { text: text_in(file, json.clone()), glb: Some(Chunks { json, bin, end }) })
     }
 
-    /// The file with the sorted `patches` made in its text, and with another binary chunk if one is given: a length
-    /// of its bytes that stay, and what follows them.
-    pub(super) fn write(&self, file: &[u8], patches: &[Patch], bin: Option<(usize, &[u8])>) -> Vec<u8> {
+    /// Returns the file with the sorted `patches` applied to its text, and with another binary chunk if `bin` is given:
+    /// the number of its bytes that stay, and the bytes after them.
+    pub(super) fn write(&self, file: &[u8], patches: &[TextPatch], bin: Option<(usize, &[u8])>) -> Vec<u8> {
         let Some(chunks) = &self.glb else { return patched(file, 0..file.len(), patches) };
         let mut out = file[..HEADER].to_vec();
         if patches.is_empty() {
             out.extend_from_slice(&file[HEADER..chunks.json.end]);
         } else {
             let mut text = patched(file, chunks.json.clone(), patches);
-            let behind = chunks.json.end - self.text.end;
-            align(&mut text, behind);
+            let trailing = chunks.json.end - self.text.end;
+            align(&mut text, trailing);
             chunk(&mut out, b"JSON", &[&text]);
         }
         match (bin, &chunks.bin) {
@@ -71,7 +71,7 @@ impl Container {
     }
 }
 
-/// The part of `range` that is text.
+/// Returns the part of `range` that is text.
 fn text_in(file: &[u8], range: Range<usize>) -> Range<usize> {
     let bytes = &file[range.clone()];
     let mark = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
@@ -79,11 +79,11 @@ fn text_in(file: &[u8], range: Range<usize>) -> Range<usize> {
     range.start + mark..range.end - zeros
 }
 
-/// Brings the length to a multiple of four by taking or adding spaces at the end of the text, before the last
-/// `behind` bytes of `bytes`. As many saves as one likes leave at most three of our spaces.
-fn align(bytes: &mut Vec<u8>, behind: usize) {
+/// Pads the length to a multiple of four by removing or adding spaces at the end of the text, before the last
+/// `trailing` bytes of `bytes`. Any number of saves leaves at most three added spaces.
+fn align(bytes: &mut Vec<u8>, trailing: usize) {
     let over = bytes.len() % 4;
-    let end = bytes.len() - behind;
+    let end = bytes.len() - trailing;
     if over == 0 {
         return;
     }
@@ -96,7 +96,7 @@ fn align(bytes: &mut Vec<u8>, behind: usize) {
 
 fn chunk(out: &mut Vec<u8>, kind: &[u8; 4], parts: &[&[u8]]) {
     let length: usize = parts.iter().map(|part| part.len()).sum();
-    // A plan whose lengths do not fit is not made.
+    // A plan in which the length would not fit is refused earlier.
     let padding = length.next_multiple_of(4) - length;
     out.extend(((length + padding) as u32).to_le_bytes());
     out.extend(kind);
@@ -109,8 +109,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn spaces_come_and_go_with_the_length_of_the_text() {
-        for (before, behind, after) in [
+    fn padding_spaces_are_added_and_removed_with_the_length_of_the_text() {
+        for (before, trailing, after) in [
             ("{}", 0, "{}  "),
             ("{}  ", 0, "{}  "),
             ("{1}  ", 0, "{1} "),
@@ -120,7 +120,7 @@ mod tests {
             ("{12} \0\0", 2, "{12} \0\0 ".trim_end()),
         ] {
             let mut bytes = before.as_bytes().to_vec();
-            align(&mut bytes, behind);
+            align(&mut bytes, trailing);
             assert_eq!(bytes.len() % 4, 0, "{before:?}");
             if before != "{12} \0\0" {
                 assert_eq!(String::from_utf8(bytes).unwrap(), after, "{before:?}");

@@ -1,6 +1,6 @@
-//! What the JSON says about animations and where their numbers are, without reading the numbers.
+//! The animations of the JSON text and where their numbers are stored, without reading the numbers.
 
-use super::json::tree::{Id, Json};
+use super::json::tree::{Json, ValueId};
 use super::source::{SourceFile, is_data};
 use crate::format::uri::DataUri;
 use std::cell::OnceCell;
@@ -8,17 +8,17 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What a channel moves of a node or mesh.
+/// Animated property of a node or mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum Path {
+pub(super) enum TargetPath {
     Translation,
     Rotation,
     Scale,
     Weights,
 }
 
-impl Path {
-    /// As the file says it.
+impl TargetPath {
+    /// Returns the name in the file.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Translation => "translation",
@@ -35,30 +35,30 @@ impl Path {
     }
 }
 
-/// A node and what of it is moved.
-pub(super) type Target = (u32, Path);
+/// A node and its animated property.
+pub(super) type ChannelTarget = (u32, TargetPath);
 
 /// A channel of an animation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FileChannel {
-    pub(super) id: Id,
+    pub(super) id: ValueId,
     pub(super) sampler: Option<usize>,
-    /// `None` when it moves something that importing leaves out.
-    pub(super) target: Option<Target>,
+    /// `None` for a target that the importer leaves out.
+    pub(super) target: Option<ChannelTarget>,
 }
 
 /// An animation of the file.
 #[derive(Clone, Debug)]
 pub(super) struct FileAnimation {
-    pub(super) id: Id,
+    pub(super) id: ValueId,
     pub(super) channels: Vec<FileChannel>,
-    pub(super) samplers: Vec<Id>,
-    /// The first channel of each target: the one that importing takes.
-    firsts: HashMap<Target, usize>,
+    pub(super) samplers: Vec<ValueId>,
+    /// The first channel of each target, which is the one that the importer uses.
+    firsts: HashMap<ChannelTarget, usize>,
 }
 
 impl FileAnimation {
-    fn of(json: Json<'_>, id: Id) -> Self {
+    fn of(json: Json<'_>, id: ValueId) -> Self {
         let channels = json.list(id, "channels").into_iter().map(|id| {
             let target = json.member(id, "target").and_then(|target| target_of(json, target));
             FileChannel { id, sampler: json.index_member(id, "sampler"), target }
@@ -73,41 +73,41 @@ impl FileAnimation {
         Self { id, channels, samplers: json.list(id, "samplers"), firsts }
     }
 
-    /// The number of the channel that importing takes for a target.
-    pub(super) fn channel(&self, target: Target) -> Option<usize> {
+    /// Returns the number of the channel that the importer uses for a target.
+    pub(super) fn channel(&self, target: ChannelTarget) -> Option<usize> {
         self.firsts.get(&target).copied()
     }
 }
 
-fn target_of(json: Json<'_>, target: Id) -> Option<Target> {
-    let path = Path::named(&json.string_member(target, "path")?)?;
+fn target_of(json: Json<'_>, target: ValueId) -> Option<ChannelTarget> {
+    let path = TargetPath::named(&json.string_member(target, "path")?)?;
     let node = u32::try_from(json.whole_member(target, "node")?).ok()?;
     (node != u32::MAX).then_some((node, path))
 }
 
-/// The lists of a document that a save deals with.
-pub(super) struct Document<'a> {
+/// The lists of a document that a save uses.
+pub(super) struct SourceDocument<'a> {
     pub(super) source: &'a SourceFile,
     pub(super) json: Json<'a>,
-    pub(super) accessors: Vec<Id>,
-    pub(super) views: Vec<Id>,
-    pub(super) buffers: Vec<Id>,
-    pub(super) nodes: Vec<Id>,
+    pub(super) accessors: Vec<ValueId>,
+    pub(super) views: Vec<ValueId>,
+    pub(super) buffers: Vec<ValueId>,
+    pub(super) nodes: Vec<ValueId>,
     pub(super) animations: Vec<FileAnimation>,
-    /// Bytes of the buffers, as they are asked for.
+    /// Bytes of the buffers, loaded when needed.
     bytes: Vec<OnceCell<Option<BufferBytes>>>,
 }
 
-/// The bytes of a buffer: all that are there, which may be more than it announces.
+/// Bytes of a buffer: all that exist, which may be more than its `byteLength`.
 #[derive(Clone)]
 pub(super) enum BufferBytes {
-    /// A part of the file.
+    /// A range of the file.
     Chunk(Range<usize>),
-    /// A decoded data URI, or a file beside this one.
+    /// A decoded data URI, or a referenced file.
     Shared(Arc<[u8]>),
 }
 
-impl<'a> Document<'a> {
+impl<'a> SourceDocument<'a> {
     pub(super) fn of(source: &'a SourceFile) -> Self {
         let json = source.json();
         let buffers = json.list(0, "buffers");
@@ -124,7 +124,7 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// All bytes that are there for a buffer; `None` where they cannot be had.
+    /// Returns all bytes of a buffer; `None` if they are not available.
     pub(super) fn buffer(&self, index: usize) -> Option<&[u8]> {
         match self.bytes.get(index)?.get_or_init(|| self.load(index)).as_ref()? {
             BufferBytes::Chunk(range) => self.source.bytes.get(range.clone()),
@@ -147,12 +147,12 @@ impl<'a> Document<'a> {
         Some(BufferBytes::Shared(bytes.into()))
     }
 
-    /// Is there an extension on this object?
-    pub(super) fn is_extended(&self, id: Id) -> bool {
+    /// Returns whether this object has an extension.
+    pub(super) fn is_extended(&self, id: ValueId) -> bool {
         self.json.member(id, "extensions").is_some()
     }
 
-    /// Buffer, offset and length of a view.
+    /// Returns buffer, offset and length of a view.
     pub(super) fn view_range(&self, view: usize) -> Option<(usize, u64, u64)> {
         let id = *self.views.get(view)?;
         let offset = match self.json.member(id, "byteOffset") {
@@ -162,7 +162,8 @@ impl<'a> Document<'a> {
         Some((self.json.index_member(id, "buffer")?, offset, self.json.whole_member(id, "byteLength")?))
     }
 
-    /// Do the key times that an accessor holds equal `times`, as plain floats in a row? `false` where it is not known.
+    /// Returns whether the accessor contains exactly the key times `times` as contiguous floats; `false` if its bytes
+    /// are not available.
     pub(super) fn holds_times(&self, accessor: usize, times: &[f32]) -> bool {
         let bytes = self.plain_floats(accessor, "SCALAR", times.len());
         bytes.is_some_and(|bytes| {
@@ -172,7 +173,7 @@ impl<'a> Document<'a> {
         })
     }
 
-    /// The bytes of an accessor of `count` elements, if they are floats of that shape without gaps.
+    /// Returns the bytes of an accessor of `count` elements, if they are floats of that shape without gaps.
     fn plain_floats(&self, accessor: usize, shape: &str, count: usize) -> Option<&[u8]> {
         let json = self.json;
         let id = *self.accessors.get(accessor)?;

@@ -1,39 +1,40 @@
-//! Patches as they come together: lists that grow or have to be made, and the buffer they are about.
+//! Collects the patches of a save: lists that grow or are created, and the buffer of the new numbers.
 
-use super::buffer::{Home, Tail, Target, base64, beside, data_uri_patch};
+use super::buffer::{BufferHome, BufferTail, TargetBuffer, base64, beside, data_uri_patch};
 use super::changes::{ChangedToken, Changes, shortened};
-use super::document::Document;
+use super::document::SourceDocument;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::{Patch, sort};
-use super::json::style::{Fresh, Spot, Style};
+use super::json::patch::{TextPatch, sort};
+use super::json::style::{Fresh, JsonSpot, JsonStyle};
 use super::json::token::quoted;
-use super::json::tree::{Id, Kind};
-use super::plan::{OutputFile, Plan};
+use super::json::tree::{JsonKind, ValueId};
+use super::plan::Plan;
 use super::reuse::MARK;
+use crate::format::OutputFile;
 use crate::format::uri::relative_path;
 use crate::limits::FILE_BYTES;
 use std::collections::{HashMap, HashSet};
 
-/// A plan in the making.
+/// A plan that is being made.
 pub(super) struct Draw<'d, 'a> {
-    pub(super) document: &'d Document<'a>,
-    pub(super) style: Style,
-    pub(super) patches: Vec<Patch>,
-    /// Members of the root that come or go.
+    pub(super) document: &'d SourceDocument<'a>,
+    pub(super) style: JsonStyle,
+    pub(super) patches: Vec<TextPatch>,
+    /// Added and removed members of the root.
     pub(super) root: ListEdit,
     pub(super) changes: Changes,
-    chunk: Option<Tail>,
+    chunk: Option<BufferTail>,
     beside: Option<OutputFile>,
-    /// Where elements of a list of the root go, by the list's name.
-    spots: HashMap<&'static str, Spot>,
+    /// Positions of new elements of a list of the root, by the name of the list.
+    spots: HashMap<&'static str, JsonSpot>,
 }
 
 impl<'d, 'a> Draw<'d, 'a> {
-    pub(super) fn new(document: &'d Document<'a>) -> Self {
+    pub(super) fn new(document: &'d SourceDocument<'a>) -> Self {
         Self {
             document,
-            style: Style::of(document.json),
+            style: JsonStyle::of(document.json),
             patches: Vec::new(),
             root: ListEdit::default(),
             changes: Changes::default(),
@@ -43,23 +44,23 @@ impl<'d, 'a> Draw<'d, 'a> {
         }
     }
 
-    fn spot(&mut self, list: &'static str) -> Spot {
+    fn spot(&mut self, list: &'static str) -> JsonSpot {
         let (document, style) = (self.document, &self.style);
         let spot = || style.spot(document.json, document.json.member(0, list), 2);
         self.spots.entry(list).or_insert_with(spot).clone()
     }
 
-    /// The array that is the member `name` of the root, if there is such a member.
-    pub(super) fn list(&self, name: &str) -> Result<Option<Id>, SaveError> {
+    /// Returns the array that is the member `name` of the root, if there is such a member.
+    pub(super) fn list(&self, name: &str) -> Result<Option<ValueId>, SaveError> {
         let json = self.document.json;
         match json.member(0, name) {
-            Some(list) if json.kind(list) == Kind::Array => Ok(Some(list)),
+            Some(list) if json.kind(list) == JsonKind::Array => Ok(Some(list)),
             None => Ok(None),
-            Some(_) => Err(SaveError::File { place: format!("/{name}"), reason: "not a list".to_owned() }),
+            Some(_) => Err(SaveError::File { place: format!("/{name}"), reason: "is not a list".to_owned() }),
         }
     }
 
-    /// Appends elements to a list of the root, which is made when it is not there.
+    /// Appends elements to a list of the root, which is created if needed.
     pub(super) fn append(&mut self, name: &'static str, items: Vec<Fresh>) -> Result<(), SaveError> {
         if items.is_empty() {
             return Ok(());
@@ -77,7 +78,7 @@ impl<'d, 'a> Draw<'d, 'a> {
         Ok(())
     }
 
-    /// A list of the root that was not there.
+    /// Adds a list to the root.
     pub(super) fn new_list(&mut self, name: &'static str, items: Vec<Fresh>) {
         let json = self.document.json;
         let spot = self.style.spot(json, Some(0), 1).with_lines(&self.style);
@@ -85,20 +86,20 @@ impl<'d, 'a> Draw<'d, 'a> {
         self.root.inserted.push((last, self.style.member(name, &Fresh::Array(items), &spot)));
     }
 
-    /// Writes `fresh` in the place of an element, unless it is written there already.
-    pub(super) fn replace(&mut self, id: Id, list: &'static str, number: usize, fresh: &Fresh) {
+    /// Replaces an element by `fresh`, unless it has this text already.
+    pub(super) fn replace(&mut self, id: ValueId, list: &'static str, number: usize, fresh: &Fresh) {
         let json = self.document.json;
         let spot = self.spot(list);
         let text = self.style.write(fresh, &spot);
         if text.as_bytes() != json.token(id) {
-            self.patches.push(Patch::new(json.span(id), text, format!("/{list}/{number}")));
+            self.patches.push(TextPatch::new(json.span(id), text, format!("/{list}/{number}")));
         }
     }
 
     /// Writes `writes` over the buffer, which is `end` bytes long afterwards.
     pub(super) fn buffer(
         &mut self,
-        target: Target,
+        target: TargetBuffer,
         writes: &[(usize, Vec<u8>)],
         end: usize,
     ) -> Result<(), SaveError> {
@@ -107,17 +108,19 @@ impl<'d, 'a> Draw<'d, 'a> {
         if writes.is_empty() && end == old.len() {
             return Ok(());
         }
-        let tail = Tail::of(old, writes, end);
+        let tail = BufferTail::of(old, writes, end);
         self.changes.bytes_appended = end.saturating_sub(old.len());
         self.changes.bytes_removed = old.len().saturating_sub(end);
         let within = |write: &(usize, Vec<u8>)| write.1.len().min(old.len().saturating_sub(write.0));
         self.changes.bytes_reused = writes.iter().map(within).sum();
         let mut members = vec![("name", Fresh::string(MARK)), ("byteLength", Fresh::whole(end))];
         let uri = match target.home {
-            Home::Chunk => None,
-            Home::DataUri => None,
-            Home::NewDataUri => Some(format!("data:application/octet-stream;base64,{}", base64(&tail.bytes))),
-            Home::OurFile | Home::NewFile => Some(self.file_beside(target, old, &tail)),
+            BufferHome::Chunk => None,
+            BufferHome::DataUri => None,
+            BufferHome::NewDataUri => {
+                Some(format!("data:application/octet-stream;base64,{}", base64(&tail.bytes)))
+            }
+            BufferHome::OurFile | BufferHome::NewFile => Some(self.neighbor_file(target, old, &tail)),
         };
         if target.is_new(document) {
             members.extend(uri.map(|uri| ("uri", Fresh::Raw(quoted(&uri)))));
@@ -125,19 +128,19 @@ impl<'d, 'a> Draw<'d, 'a> {
         } else {
             self.adjust(target, end, old, &tail, uri)?;
         }
-        if target.home == Home::Chunk {
+        if target.home == BufferHome::Chunk {
             self.chunk = Some(tail);
         }
         Ok(())
     }
 
-    /// Patches the length, and the URI, of a buffer that is there.
+    /// Patches the length, and the URI, of an existing buffer.
     fn adjust(
         &mut self,
-        target: Target,
+        target: TargetBuffer,
         end: usize,
         old: &[u8],
-        tail: &Tail,
+        tail: &BufferTail,
         uri: Option<String>,
     ) -> Result<(), SaveError> {
         let json = self.document.json;
@@ -149,21 +152,21 @@ impl<'d, 'a> Draw<'d, 'a> {
         };
         let length = member("byteLength")?;
         if json.whole(length) != Some(end as u64) {
-            self.patches.push(Patch::new(json.span(length), end.to_string(), pointer("byteLength")));
+            self.patches.push(TextPatch::new(json.span(length), end.to_string(), pointer("byteLength")));
         }
-        if target.home == Home::DataUri {
+        if target.home == BufferHome::DataUri {
             self.patches.push(data_uri_patch(self.document, member("uri")?, old, tail, &pointer("uri")));
         }
         if let Some(uri) = uri {
-            self.patches.push(Patch::new(json.span(member("uri")?), quoted(&uri), pointer("uri")));
+            self.patches.push(TextPatch::new(json.span(member("uri")?), quoted(&uri), pointer("uri")));
         }
         Ok(())
     }
 
-    /// Plans a buffer beside the file; its URI.
-    fn file_beside(&mut self, target: Target, old: &[u8], tail: &Tail) -> String {
+    /// Plans a buffer in a new file and returns its URI.
+    fn neighbor_file(&mut self, target: TargetBuffer, old: &[u8], tail: &BufferTail) -> String {
         let json = self.document.json;
-        let uri = |id: &Id| relative_path(&json.string_member(*id, "uri")?).ok();
+        let uri = |id: &ValueId| relative_path(&json.string_member(*id, "uri")?).ok();
         let taken: HashSet<String> =
             self.document.buffers.iter().chain(&json.list(0, "images")).filter_map(uri).collect();
         let bytes = [&old[..tail.from], &tail.bytes].concat();
@@ -178,7 +181,7 @@ impl<'d, 'a> Draw<'d, 'a> {
         name
     }
 
-    /// The plan, if nothing in it contradicts itself and the file does not grow too large.
+    /// Returns the plan, or an error if its patches overlap or the file becomes too large.
     pub(super) fn finish(mut self) -> Result<Plan<'a>, SaveError> {
         let document = self.document;
         let json = document.json;
@@ -190,7 +193,7 @@ impl<'d, 'a> Draw<'d, 'a> {
             return Err(SaveError::File { place: "file".to_owned(), reason });
         }
         self.check_size()?;
-        let token = |patch: &Patch| ChangedToken {
+        let token = |patch: &TextPatch| ChangedToken {
             pointer: patch.pointer.clone(),
             offset: patch.span.start,
             length: patch.span.len(),
@@ -221,11 +224,11 @@ impl<'d, 'a> Draw<'d, 'a> {
     }
 }
 
-fn document_size(document: &Document<'_>) -> u64 {
+fn document_size(document: &SourceDocument<'_>) -> u64 {
     document.source.bytes.len() as u64
 }
 
-/// Refuses a file that could not be opened again. A container could say twice as much.
+/// Refuses a file that would be too large to be opened again. A container could be twice as large.
 fn check_size(bytes: u64) -> Result<(), SaveError> {
     if bytes > FILE_BYTES { Err(SaveError::TooLarge { bytes, limit: FILE_BYTES }) } else { Ok(()) }
 }
@@ -235,7 +238,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_that_could_not_be_opened_again_is_not_planned() {
+    fn a_file_too_large_to_be_opened_again_is_refused() {
         assert_eq!(check_size(FILE_BYTES), Ok(()));
         for bytes in [FILE_BYTES + 1, u64::from(u32::MAX) + 1, u64::MAX] {
             assert_eq!(check_size(bytes), Err(SaveError::TooLarge { bytes, limit: FILE_BYTES }));

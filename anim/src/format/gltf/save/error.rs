@@ -1,21 +1,21 @@
-//! Why a file is not saved.
+//! Errors of a save.
 
 use crate::format::one_line;
 use thiserror::Error;
 
-/// Why a save is refused. Nothing is half done then: there is no plan. Shown as `place: reason`, on one line.
+/// Reason why a save is refused. There is no partial result. Displayed as `place: reason`, on one line.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SaveError {
-    /// The model or the takes do not belong to this file, or break the promises of their types.
+    /// The model or the takes do not belong to this file, or break the invariants of their types.
     #[error("{}: {}", one_line(place), one_line(reason))]
     Mismatch {
-        /// `take 2`, `take 2 bone 5`.
+        /// Place, such as `take 2` or `take 2 bone 5`.
         place: String,
-        /// What does not fit, with the numbers.
+        /// Description of the mismatch, with the numbers.
         reason: String,
     },
-    /// Keys that glTF cannot hold, or that no reader would take.
+    /// Keys that glTF cannot represent, or that no reader would accept.
     #[error("take \"{}\", {} \"{}\", {path}: {}", one_line(take), if *path == "weights" { "mesh" } else { "bone" },
         one_line(bone), one_line(reason))]
     Keys {
@@ -23,35 +23,35 @@ pub enum SaveError {
         take: String,
         /// Name of the bone, or number of the mesh instance.
         bone: String,
-        /// `translation`, `rotation`, `scale` or `weights`.
+        /// Property: `translation`, `rotation`, `scale` or `weights`.
         path: &'static str,
-        /// What is wrong, with the key.
+        /// Description of the error, with the number of the key.
         reason: String,
     },
-    /// A bone or mesh that moves is no node of the file, or a node that glTF cannot animate.
+    /// An animated bone or mesh is not a node of the file, or a node that glTF cannot animate.
     #[error("take \"{}\": \"{}\" {reason}", one_line(take), one_line(bone))]
     Node {
         /// Name of the take.
         take: String,
         /// Name of the bone, or number of the mesh instance.
         bone: String,
-        /// Why not.
+        /// Reason why it cannot be animated.
         reason: &'static str,
     },
-    /// The file is of a kind that an edit cannot be put into.
+    /// The structure of the file does not allow the edit.
     #[error("{}: {}", one_line(place), one_line(reason))]
     File {
         /// JSON pointer, or `file`.
         place: String,
-        /// Why not.
+        /// Reason.
         reason: String,
     },
-    /// More bytes than the container can say, or than could be opened again.
+    /// The file would be too large for its container, or to be opened again.
     #[error("file: {bytes} bytes, at most {limit}")]
     TooLarge {
-        /// Bytes that the file would have.
+        /// Number of bytes that the file would have.
         bytes: u64,
-        /// Bytes that it may have.
+        /// Largest number of bytes allowed.
         limit: u64,
     },
 }

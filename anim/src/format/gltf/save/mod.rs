@@ -1,44 +1,44 @@
-//! Saving into a glTF file without touching what was not edited.
+//! Saves edited takes into a glTF file without changing the bytes of anything else.
 //!
-//! A file is never rebuilt. [`SourceFile`] keeps its bytes and knows where every value of its JSON lies; [`plan`]
-//! compares the takes as they were opened with the takes as they are now, and finds the few tokens and bytes that have
-//! to differ; [`Plan::changes`] says what they are; [`Plan::write`] puts the file together. Bytes in, bytes out: no
-//! file is opened or written here.
+//! A file is never rebuilt. [`SourceFile`] keeps its bytes and the range of every value of its JSON. [`plan`] compares
+//! the takes as they were opened with the takes as they are now and finds the few tokens and bytes that have to change;
+//! [`Plan::changes`] lists them; [`Plan::write`] returns the new file. Only bytes go in and out: no file is opened or
+//! written here.
 //!
-//! What is promised:
+//! Guarantees:
 //!
-//! * Nothing edited: the same bytes, whatever the file looks like.
-//! * A channel counts as edited only where its bits differ from what was opened. What importing mended (rotations made
-//!   unit, keys sorted) and left out (unknown targets, second channels of a target, extensions) stays as it is in the
-//!   file, in edited takes too.
-//! * New numbers are appended to the buffer, as floats: to the binary chunk of a `.glb`; in a `.gltf` to its data URI,
-//!   or to a new file beside it (the old ones are not touched). In the JSON only those tokens change that must; new
-//!   ones are written as their neighbours are. Quantised, normalised, sparse and compressed accessors stay beside.
-//! * A sampler that other channels use is left to them: the edited channel gets one of its own. No accessor of the
-//!   file is ever written over, except those that an earlier save appended ([`MARK`]) and that nothing else uses.
-//! * Ten saves are no larger than one: room that is no longer used is used again. [`compact`] takes away what is left.
+//! * Without an edit the bytes stay the same, whatever the file contains.
+//! * A channel counts as edited only if its bits differ from the opened ones. What the importer corrected (rotations
+//!   normalized, keys sorted) and left out (unknown targets, second channels of a target, extensions) stays as it is in
+//!   the file, even in edited takes.
+//! * New numbers are appended to the buffer as floats: to the binary chunk of a `.glb`; in a `.gltf` to its data URI, or
+//!   to a new file (existing ones are not changed). In the JSON only the necessary tokens change, and new ones are
+//!   formatted like their neighbors. Quantized, normalized, sparse and compressed accessors are kept.
+//! * A sampler that other channels use stays unchanged: the edited channel gets its own. No accessor of the file is
+//!   overwritten, except those that an earlier save appended ([`MARK`]) and that nothing else uses.
+//! * Ten saves are no larger than one: room that is no longer used is reused. [`compact`] removes the remaining rest.
 //!
-//! What glTF cannot say, and what becomes of it:
+//! What glTF cannot represent:
 //!
 //! | in the take | in the file |
 //! |---|---|
 //! | [`Interpolation::Closest`](crate::data::Interpolation) | `STEP` with the times moved, the same at every time |
-//! | a spline of one key | that key, `LINEAR`; glTF wants two |
-//! | a take that moves nothing | one key that holds the first bone where it rests, since an animation must have a channel |
-//! | start and length of a take | nothing: they are those of its keys |
-//! | a bone that is no joint and that nothing moves any more | its node, at rest; opened again, the file has no bone for it ([`Changes::bones_lost`]) |
+//! | a spline of one key | that key, `LINEAR`; glTF requires two |
+//! | a take that animates nothing | one key that keeps the first bone at rest, since an animation must have a channel |
+//! | start and length of a take | not stored: they are those of its keys |
+//! | a bone that is not a joint and that no take animates any more | its node, at rest; the saved file has no bone for it ([`Changes::bones_lost`]) |
 //! | a channel of a node with a matrix | the matrix becomes translation, rotation and scale |
 //! | key times below zero, in a take that had none | [`SaveError::Keys`] |
-//! | rotations that are not unit | [`SaveError::Keys`] |
-//! | rotations whose neighbours lie in different hemispheres, or that are unit but for rounding | their bits; reading turns and mends them |
+//! | rotations that are not of unit length | [`SaveError::Keys`] |
+//! | neighboring rotations in different hemispheres, or of unit length except for rounding | their bits; the importer negates and normalizes them |
 //!
-//! Taking a channel away takes all channels of its target away, also those that importing left out as second ones:
-//! else one of them would appear. Animations are known to extensions by number; those numbers are not followed when
+//! Removing a channel removes all channels of its target, including those that the importer left out as duplicates;
+//! otherwise one of them would take effect. Extensions refer to animations by number; those numbers are not updated when
 //! takes are deleted or reordered.
 //!
 //! ```
-//! use dragonfly_anim::format::gltf::save::{SourceFile, TakeNow, plan};
-//! use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+//! use dragonfly_anim::format::gltf::save::{SourceFile, plan};
+//! use dragonfly_anim::format::{EditedTake, NoFiles, ReadOptions, read};
 //! use std::sync::Arc;
 //!
 //! let bytes: &[u8] = br#"{
@@ -57,7 +57,7 @@
 //!
 //! let mut take = (*model.animation.takes[0]).clone();
 //! take.name = "wag slowly".to_owned();
-//! let now = [TakeNow { origin: Some(0), take: Arc::new(take) }];
+//! let now = [EditedTake { origin: Some(0), take: Arc::new(take) }];
 //! let plan = plan(&source, &model, &now)?;
 //! assert_eq!(plan.changes().tokens[0].pointer, "/animations/0/name");
 //! let files = plan.write();
@@ -65,12 +65,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Reading order: `json` (spans and patches), `container`, `source`, `document`; `channels` and `columns` (what
+//! Reading order: `json` (ranges and patches), `container`, `source`, `document`; `channels` and `columns` (what
 //! changed), `animation`, `order`, `nodes` (the tokens), `needs`, `reuse`, `buffer` (the bytes), `plan`, `draw`,
 //! `changes`; `compact`.
 
 mod animation;
-mod beside;
 mod buffer;
 mod changes;
 mod channels;
@@ -87,10 +86,12 @@ mod order;
 mod plan;
 mod reuse;
 mod source;
+mod surgical;
 
 pub use changes::{ChangedChannel, ChangedToken, Changes, ChannelChange, TakeChange, WrittenAccessor};
 pub use compact::compact;
 pub use error::SaveError;
-pub use plan::{OutputFile, Plan, TakeNow, plan};
+pub use plan::{Plan, plan};
 pub use reuse::MARK;
 pub use source::SourceFile;
+pub(super) use surgical::open;

@@ -1,10 +1,10 @@
-//! The accessors that a save needs: what is to be in them, each once.
+//! The accessors that a save needs, each content once.
 
-use super::columns::Keys;
+use super::columns::EncodedKeys;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// An accessor that is to be written.
+/// An accessor to be written.
 #[derive(Clone, Debug)]
 pub(super) struct Need {
     pub(super) bytes: Vec<u8>,
@@ -12,25 +12,25 @@ pub(super) struct Need {
     pub(super) count: usize,
     /// Least and greatest number, for key times.
     pub(super) bounds: Option<(f32, f32)>,
-    /// The accessor that held the predecessor.
+    /// The accessor of the replaced content.
     pub(super) before: Option<usize>,
 }
 
-/// A number in [`Needs::list`].
+/// Index into [`Needs::list`].
 pub(super) type NeedId = usize;
 
-/// All of them.
+/// All accessors to be written.
 #[derive(Default)]
 pub(super) struct Needs {
     pub(super) list: Vec<Need>,
     shared: HashMap<*const f32, NeedId>,
-    /// Key times that are still referred to, so that their addresses stay theirs.
+    /// Key times that are still referred to, so that their addresses stay valid.
     kept: Vec<Arc<[f32]>>,
     equal: HashMap<Vec<u8>, NeedId>,
 }
 
 impl Needs {
-    /// Key times, which all channels that have the same ones share.
+    /// Adds key times. Channels with the same times share them.
     pub(super) fn input(&mut self, times: &Arc<[f32]>, before: Option<usize>) -> NeedId {
         if let Some(&known) = self.shared.get(&times.as_ptr()) {
             return known;
@@ -50,8 +50,8 @@ impl Needs {
         id
     }
 
-    /// Values.
-    pub(super) fn output(&mut self, keys: &Keys, before: Option<usize>) -> NeedId {
+    /// Adds values.
+    pub(super) fn output(&mut self, keys: &EncodedKeys, before: Option<usize>) -> NeedId {
         let (bytes, count) = (little_endian(&keys.values), keys.value_count());
         self.list.push(Need { bytes, shape: keys.shape, count, bounds: None, before });
         self.list.len() - 1

@@ -1,16 +1,16 @@
-//! Nodes that begin to move: glTF animates no matrices.
+//! Nodes that become animated: glTF animates no matrices.
 
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::Patch;
+use super::json::patch::TextPatch;
 use super::json::style::Fresh;
 use super::json::token::number;
 use crate::data::{Bone, ModelData};
 use std::collections::BTreeMap;
 
-/// Writes the matrix of each of the `nodes` that has one as translation, rotation and scale: those that importing
-/// took it apart into, so that the pose stays the same. With each node comes the name of a take that moves it.
+/// Replaces the matrix of each of the `nodes` that has one by the translation, rotation and scale that the importer
+/// decomposed it into, so that the pose stays the same. Each node comes with the name of a take that animates it.
 pub(super) fn without_matrix<'t>(
     draw: &mut Draw<'_, '_>,
     opened: &ModelData,
@@ -36,16 +36,16 @@ pub(super) fn without_matrix<'t>(
             .into_iter()
             .map(|(name, numbers)| (Some(matrix), draw.style.member(name, &numbers, &spot)))
             .collect();
-        // The new members stand where the matrix stood.
+        // The new members replace the matrix.
         let added = ListEdit { removed: Vec::new(), inserted };
         let pointer = format!("/nodes/{node}");
         let mut patches = edit(json, id, &added, &draw.style, &spot, &pointer);
         let mut text: String = patches.drain(..).map(|patch| patch.text).collect();
-        // The first comes without the comma and space that it would have after the matrix.
+        // The first member goes without the comma and space that would follow the matrix.
         let first = text.find('"').unwrap_or(0);
         text.drain(..first);
         let span = json.item_span(matrix);
-        draw.patches.push(Patch::new(span, text, format!("{pointer}/matrix")));
+        draw.patches.push(TextPatch::new(span, text, format!("{pointer}/matrix")));
         draw.changes.nodes.push(node);
     }
     Ok(())

@@ -1,15 +1,15 @@
-//! The list of animations: which stay, which go, which come, in which order.
+//! The list of animations: which stay, which are removed or added, and their order.
 
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
-use super::json::patch::{Patch, patched, sort};
+use super::json::patch::{TextPatch, patched, sort};
 use super::json::style::Fresh;
 use super::plan::TakeDraft;
 use std::collections::HashSet;
 
-/// Writes the list. Animations that stay in their order keep their places and bytes; where the order changes, each
-/// place gets the text of the animation that belongs there, and the space between the places stays.
+/// Writes the list. Animations that stay in order keep their position and bytes. Where the order changes, each position
+/// gets the text of the animation that belongs there, and the space between positions stays.
 pub(super) fn write_animations(
     draw: &mut Draw<'_, '_>,
     takes: &[TakeDraft],
@@ -26,7 +26,7 @@ pub(super) fn write_animations(
         return Ok(());
     };
     if takes.is_empty() {
-        // An empty list is not allowed.
+        // glTF forbids an empty list.
         if !document.animations.is_empty() {
             draw.root.removed.push(list);
         }
@@ -50,7 +50,7 @@ pub(super) fn write_animations(
             }
             None => Vec::new(),
         };
-        let text = |patches: Vec<Patch>| match take.base {
+        let text = |patches: Vec<TextPatch>| match take.base {
             Some(base) => text_of(draw, base, patches),
             None => Ok(draw.style.write(&take.draft.fresh(accessors), &spot)),
         };
@@ -66,15 +66,15 @@ pub(super) fn write_animations(
         } else {
             let text = text(patches)?;
             let span = json.span(document.animations[place].id);
-            draw.patches.push(Patch::new(span, text, format!("/animations/{place}")));
+            draw.patches.push(TextPatch::new(span, text, format!("/animations/{place}")));
         }
     }
     draw.patches.extend(edit(json, list, &change, &draw.style, &spot, "/animations"));
     Ok(())
 }
 
-/// The text of an animation with patches made in it.
-fn text_of(draw: &Draw<'_, '_>, animation: usize, mut patches: Vec<Patch>) -> Result<String, SaveError> {
+/// Returns the text of an animation with patches applied.
+fn text_of(draw: &Draw<'_, '_>, animation: usize, mut patches: Vec<TextPatch>) -> Result<String, SaveError> {
     let json = draw.document.json;
     let broken = || SaveError::File {
         place: format!("/animations/{animation}"),

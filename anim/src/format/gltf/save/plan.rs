@@ -1,64 +1,44 @@
 //! From takes to the bytes that change.
 
-use super::animation::{Draft, Numbers};
-use super::buffer::{Tail, Target};
+use super::animation::{Draft, SamplerNumbers};
+use super::buffer::{BufferTail, TargetBuffer};
 use super::changes::{ChangedChannel, Changes, ChannelChange, TakeChange, WrittenAccessor};
 use super::channels::{Action, ChannelEdit, edits, placeholder};
 use super::columns::shape_width;
-use super::document::{Document, FileAnimation, Path};
+use super::document::{FileAnimation, SourceDocument, TargetPath};
 use super::draw::Draw;
 use super::error::SaveError;
-use super::json::patch::Patch;
+use super::json::patch::TextPatch;
 use super::json::style::Fresh;
 use super::json::token::number;
 use super::needs::{Need, Needs};
 use super::nodes::without_matrix;
 use super::order::write_animations;
-use super::reuse::{Granted, MARK, Request, Slot, grant, slots};
+use super::reuse::{Granted, MARK, RoomRequest, SavedSlot, grant, slots};
 use super::source::SourceFile;
-use crate::data::{ModelData, Take};
+use crate::data::ModelData;
+use crate::format::{EditedTake, OutputFile};
 use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
 
-/// A take as it is to be in the file.
-#[derive(Clone, Debug)]
-pub struct TakeNow {
-    /// The animation of the file that it was made from, by number; `None` for one that is new. The first take with an
-    /// origin is that animation; further ones are copies of it, with what importing left out.
-    pub origin: Option<usize>,
-    /// Name and keys. Where a channel is the one that was opened (the same `Arc`, or the same bits), the file's own
-    /// numbers stay. Start and length are not written: in glTF they are what the keys say.
-    pub take: Arc<Take>,
-}
-
-/// A file to be written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OutputFile {
-    /// Relative to the folder of the file that was opened; its own name for the file itself.
-    pub name: String,
-    /// All of it.
-    pub bytes: Vec<u8>,
-}
-
-/// What a save will do: made by [`plan`], shown by [`Plan::changes`], done by [`Plan::write`].
+/// A planned save: made by [`plan`], described by [`Plan::changes`], carried out by [`Plan::write`].
 #[derive(Clone)]
 pub struct Plan<'a> {
     pub(super) source: &'a SourceFile,
-    pub(super) patches: Vec<Patch>,
-    /// The end of the binary chunk, exchanged.
-    pub(super) chunk: Option<Tail>,
+    pub(super) patches: Vec<TextPatch>,
+    /// The replaced end of the binary chunk.
+    pub(super) chunk: Option<BufferTail>,
     pub(super) beside: Option<OutputFile>,
     pub(super) changes: Changes,
 }
 
 impl Plan<'_> {
-    /// What will change.
+    /// Returns the description of the changes.
     pub fn changes(&self) -> &Changes {
         &self.changes
     }
 
-    /// The files to write, in the order in which to write them: what is beside the file first, the file itself last.
-    /// Just the same bytes where nothing changes.
+    /// Returns the files to write, in the order in which to write them: referenced files first, the main file last.
+    /// Exactly the opened bytes if nothing changes.
     pub fn write(&self) -> Vec<OutputFile> {
         let chunk = self.chunk.as_ref().map(|tail| (tail.from, tail.bytes.as_slice()));
         let bytes = if self.patches.is_empty() && chunk.is_none() {
@@ -71,25 +51,30 @@ impl Plan<'_> {
     }
 }
 
-/// A take on its way into the file.
+/// An edited take.
 pub(super) struct TakeDraft {
-    /// The animation that it is, or is a copy of.
+    /// The animation that it replaces or is a copy of.
     pub(super) base: Option<usize>,
-    /// Is it that animation, or a copy?
+    /// Whether it is a copy of that animation.
     pub(super) is_copy: bool,
     pub(super) name: String,
     edits: Vec<ChannelEdit>,
     pub(super) draft: Draft,
 }
 
-/// Finds out what a save has to change so that `source` holds the takes `now`, in that order.
+/// Plans a save after which `source` contains the takes `now`, in this order.
 ///
-/// `opened` is the model as it was read from the same bytes. Errors: it is not, or keys that glTF cannot hold; see
-/// [`SaveError`]. Takes time and memory in proportion to the file's JSON text and to the channels that changed.
-pub fn plan<'a>(source: &'a SourceFile, opened: &ModelData, now: &[TakeNow]) -> Result<Plan<'a>, SaveError> {
-    let document = Document::of(source);
+/// `opened` is the model as it was read from the same bytes. Errors: the model is not from these bytes, or glTF cannot
+/// represent the keys; see [`SaveError`]. Time and memory are proportional to the length of the JSON text and to the
+/// channels that changed.
+pub fn plan<'a>(
+    source: &'a SourceFile,
+    opened: &ModelData,
+    now: &[EditedTake],
+) -> Result<Plan<'a>, SaveError> {
+    let document = SourceDocument::of(source);
     check_same_file(&document, opened)?;
-    let target = Target::choose(&document);
+    let target = TargetBuffer::choose(&document);
     let slots = slots(&document, target.index, target.present);
     let ours: HashSet<usize> = slots.iter().map(|slot| slot.accessor).collect();
     let mut needs = Needs::default();
@@ -102,7 +87,7 @@ pub fn plan<'a>(source: &'a SourceFile, opened: &ModelData, now: &[TakeNow]) -> 
     let mut draw = Draw::new(&document);
     let accessors = write_numbers(&mut draw, target, slots, &takes, needs)?;
     let animated = takes.iter().flat_map(|take| take.draft.new_targets().map(|target| (target, &*take.name)));
-    let animated = animated.filter(|(target, _)| target.1 != Path::Weights);
+    let animated = animated.filter(|(target, _)| target.1 != TargetPath::Weights);
     let animated = animated.map(|(target, take)| (target.0, take));
     without_matrix(&mut draw, opened, animated)?;
     write_animations(&mut draw, &takes, &accessors)?;
@@ -111,8 +96,8 @@ pub fn plan<'a>(source: &'a SourceFile, opened: &ModelData, now: &[TakeNow]) -> 
     draw.finish()
 }
 
-/// The animations of the file are the takes that were opened.
-fn check_same_file(document: &Document<'_>, opened: &ModelData) -> Result<(), SaveError> {
+/// Checks that the animations of the file are the takes that were opened.
+fn check_same_file(document: &SourceDocument<'_>, opened: &ModelData) -> Result<(), SaveError> {
     let mismatch = |place: &str, reason: String| Err(SaveError::Mismatch { place: place.to_owned(), reason });
     let (takes, animations) = (opened.animation.takes.len(), document.animations.len());
     if takes != animations {
@@ -134,9 +119,9 @@ fn check_same_file(document: &Document<'_>, opened: &ModelData) -> Result<(), Sa
 }
 
 fn take_draft(
-    document: &Document<'_>,
+    document: &SourceDocument<'_>,
     opened: &ModelData,
-    now: &TakeNow,
+    now: &EditedTake,
     is_copy: bool,
     ours: &HashSet<usize>,
     needs: &mut Needs,
@@ -157,7 +142,7 @@ fn take_draft(
     if (!edits.is_empty() || base.is_none()) && !moves(base.map(|base| base.1), &edits) {
         let still = placeholder(opened, base.map(|base| base.0), take)?;
         let kept = bone_at_rest(opened);
-        edits.retain(|edit| Some(edit.target.0) != kept || edit.target.1 != Path::Translation);
+        edits.retain(|edit| Some(edit.target.0) != kept || edit.target.1 != TargetPath::Translation);
         edits.extend(still);
     }
     let name = match base {
@@ -169,13 +154,13 @@ fn take_draft(
     Ok(TakeDraft { base: now.origin, is_copy, name: take.name.clone(), edits, draft })
 }
 
-/// The node that stands for "nothing moves".
+/// Returns the node that is used where nothing is animated.
 fn bone_at_rest(opened: &ModelData) -> Option<u32> {
     let mut bones = opened.animation.skeleton.bones.iter();
     bones.find(|bone| bone.node.is_some() && bone.rest_matrix.is_none())?.node
 }
 
-/// Will the animation have a channel?
+/// Returns whether the animation will have a channel.
 fn moves(animation: Option<&FileAnimation>, edits: &[ChannelEdit]) -> bool {
     let removed: HashSet<_> =
         edits.iter().filter(|edit| matches!(edit.action, Action::Remove)).map(|edit| edit.target).collect();
@@ -186,17 +171,17 @@ fn moves(animation: Option<&FileAnimation>, edits: &[ChannelEdit]) -> bool {
     edits.iter().any(|edit| matches!(edit.action, Action::Set(_))) || animation.is_some_and(stays)
 }
 
-/// Finds room for what the takes need, and writes accessors, views and bytes; the accessor of each need.
+/// Finds room for what the takes need and writes accessors, views and bytes; returns the accessor of each need.
 fn write_numbers(
     draw: &mut Draw<'_, '_>,
-    target: Target,
-    slots: Vec<Slot>,
+    target: TargetBuffer,
+    slots: Vec<SavedSlot>,
     takes: &[TakeDraft],
     needs: Needs,
 ) -> Result<Vec<usize>, SaveError> {
     let document = draw.document;
     let pinned = pinned(document, takes);
-    let (held, free): (Vec<Slot>, Vec<Slot>) =
+    let (held, free): (Vec<SavedSlot>, Vec<SavedSlot>) =
         slots.into_iter().partition(|slot| pinned.contains(&slot.accessor));
     let bytes = target.bytes(document);
     let inputs: HashMap<&[u8], usize> =
@@ -205,8 +190,8 @@ fn write_numbers(
     let mut accessors: Vec<Option<usize>> = needs.list.iter().map(known).collect();
     let open: Vec<usize> = (0..accessors.len()).filter(|&need| accessors[need].is_none()).collect();
     let request =
-        |&need: &usize| Request { size: needs.list[need].bytes.len(), before: needs.list[need].before };
-    let requests: Vec<Request> = open.iter().map(request).collect();
+        |&need: &usize| RoomRequest { size: needs.list[need].bytes.len(), before: needs.list[need].before };
+    let requests: Vec<RoomRequest> = open.iter().map(request).collect();
     if requests.is_empty() {
         return Ok(accessors.into_iter().flatten().collect());
     }
@@ -236,7 +221,7 @@ fn write_numbers(
                 new_views.push(fresh_view);
             }
         }
-        // A need that is there already, byte for byte, costs nothing.
+        // Content that is already there, byte for byte, is not written again.
         if bytes.get(granted.offset..granted.offset + need.bytes.len()) != Some(&need.bytes) {
             writes.push((granted.offset, need.bytes.clone()));
         }
@@ -256,8 +241,8 @@ fn write_numbers(
     Ok(accessors.into_iter().flatten().collect())
 }
 
-/// Accessors that animations will still refer to without having written them.
-fn pinned(document: &Document<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
+/// Returns the accessors that animations will still refer to without having written them.
+fn pinned(document: &SourceDocument<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
     let mut pinned = HashSet::new();
     for take in takes {
         let Some(animation) = take.base.and_then(|base| document.animations.get(base)) else { continue };
@@ -270,15 +255,15 @@ fn pinned(document: &Document<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
         }
         let numbers = take.draft.samplers.iter().flat_map(|sampler| [sampler.input, sampler.output]);
         pinned.extend(numbers.filter_map(|numbers| match numbers {
-            Numbers::Kept(accessor) => Some(accessor),
-            Numbers::Needed(_) => None,
+            SamplerNumbers::Kept(accessor) => Some(accessor),
+            SamplerNumbers::Needed(_) => None,
         }));
     }
     pinned
 }
 
-/// The key times in a slot, if that is what it holds.
-fn input_bytes<'b>(document: &Document<'_>, slot: &Slot, bytes: &'b [u8]) -> Option<&'b [u8]> {
+/// Returns the key times in a slot, if it contains key times.
+fn input_bytes<'b>(document: &SourceDocument<'_>, slot: &SavedSlot, bytes: &'b [u8]) -> Option<&'b [u8]> {
     let (json, id) = (document.json, document.accessors[slot.accessor]);
     let size = json.index_member(id, "count")?.checked_mul(4).filter(|&size| size <= slot.room)?;
     let is_input = json.string_member(id, "type")? == "SCALAR" && json.member(id, "min").is_some();
@@ -310,17 +295,18 @@ pub(super) fn fresh_view(buffer: usize, granted: &Granted) -> Fresh {
     ])
 }
 
-/// Bones that are some because an animation of the file moves them or something below them, and will not be any more.
-fn bones_lost(document: &Document<'_>, opened: &ModelData, takes: &[TakeDraft]) -> Vec<(u32, String)> {
+/// Returns the bones that exist only because an animation of the file animates them or a descendant, and that will not
+/// be animated any more.
+fn bones_lost(document: &SourceDocument<'_>, opened: &ModelData, takes: &[TakeDraft]) -> Vec<(u32, String)> {
     let channels = |animation: &FileAnimation| -> Vec<_> {
         animation.channels.iter().filter_map(|channel| channel.target).collect()
     };
     let before: HashSet<u32> =
-        document.animations.iter().flat_map(channels).map(|(node, _): (u32, Path)| node).collect();
+        document.animations.iter().flat_map(channels).map(|(node, _): (u32, TargetPath)| node).collect();
     let mut after: HashSet<u32> = HashSet::new();
     for take in takes {
         let base = take.base.and_then(|base| document.animations.get(base));
-        let mut targets: HashSet<(u32, Path)> = base.into_iter().flat_map(channels).collect();
+        let mut targets: HashSet<(u32, TargetPath)> = base.into_iter().flat_map(channels).collect();
         for edit in &take.edits {
             match edit.action {
                 Action::Remove => targets.remove(&edit.target),
@@ -337,7 +323,8 @@ fn bones_lost(document: &Document<'_>, opened: &ModelData, takes: &[TakeDraft]) 
         .collect()
 }
 
-/// Which of the bones a file would have that moves these nodes: joints, what is moved, and all above.
+/// Returns for each bone whether it would still be one if only these nodes were animated: joints, animated nodes, and
+/// all their ancestors.
 fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
     let bones = &opened.animation.skeleton.bones;
     let mut are: Vec<bool> =
@@ -347,7 +334,7 @@ fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
             *is = true;
         }
     }
-    // Parents come first.
+    // Parents come before their children.
     for bone in (0..bones.len()).rev() {
         if let Some(parent) = bones[bone].parent.filter(|_| are[bone])
             && let Some(is) = are.get_mut(parent as usize)
@@ -358,8 +345,8 @@ fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
     are
 }
 
-/// Takes and channels, for people.
-fn describe(changes: &mut Changes, document: &Document<'_>, takes: &[TakeDraft]) {
+/// Describes the changes of takes and channels.
+fn describe(changes: &mut Changes, document: &SourceDocument<'_>, takes: &[TakeDraft]) {
     let names: HashMap<usize, String> = document
         .animations
         .iter()

@@ -1,34 +1,35 @@
-//! What earlier saves appended, and using its room again.
+//! Finds what earlier saves appended, so that its room can be reused.
 //!
-//! Each appended accessor has a buffer view of its own, and both are named [`MARK`]. A mark alone is not believed: a
-//! pair counts as ours only if it is as we write it, and if nothing but animation samplers refers to it, so that
-//! overwriting it changes nothing else. The view's length is the room there is; the accessor may need less.
+//! Each appended accessor has a buffer view of its own, and both are named [`MARK`]. The name alone is not sufficient:
+//! a pair counts as appended by us only if it has exactly the form that we write, and if nothing but animation samplers
+//! refers to it, so that overwriting it changes nothing else. The length of the view is the available room; the
+//! accessor may need less.
 
-use super::document::Document;
-use super::json::tree::{Id, Json, Kind};
+use super::document::SourceDocument;
+use super::json::tree::{Json, JsonKind, ValueId};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// The name of what a save appends: buffers, buffer views and accessors.
+/// Name of the buffers, buffer views and accessors that a save appends.
 pub const MARK: &str = "dragonfly.keys";
 
-/// Does an object bear the mark?
-pub(super) fn is_ours(json: Json<'_>, id: Id) -> bool {
+/// Returns whether an object has the name [`MARK`].
+pub(super) fn is_ours(json: Json<'_>, id: ValueId) -> bool {
     json.string_member(id, "name").as_deref() == Some(MARK)
 }
 
 /// An accessor and its view that an earlier save appended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Slot {
+pub(super) struct SavedSlot {
     pub(super) accessor: usize,
     pub(super) view: usize,
-    /// Bytes from the start of the buffer, a multiple of four.
+    /// Offset in the buffer in bytes, a multiple of four.
     pub(super) offset: usize,
-    /// Bytes of room, a multiple of four.
+    /// Number of available bytes, a multiple of four.
     pub(super) room: usize,
 }
 
-/// All slots in a buffer whose `length` bytes are there, by accessor.
-pub(super) fn slots(document: &Document<'_>, buffer: usize, length: usize) -> Vec<Slot> {
+/// Returns all slots in a buffer of `length` existing bytes, by accessor.
+pub(super) fn slots(document: &SourceDocument<'_>, buffer: usize, length: usize) -> Vec<SavedSlot> {
     let marked: Vec<usize> = (0..document.accessors.len())
         .filter(|&accessor| is_ours(document.json, document.accessors[accessor]))
         .collect();
@@ -58,29 +59,30 @@ pub(super) fn slots(document: &Document<'_>, buffer: usize, length: usize) -> Ve
             && !references.accessors.contains(&accessor)
             && references.views.get(&view) == Some(&1)
             && alone.contains(&view);
-        ours.then_some(Slot { accessor, view, offset, room })
+        ours.then_some(SavedSlot { accessor, view, offset, room })
     };
     marked.into_iter().filter_map(slot).collect()
 }
 
-/// Who refers to what, animation samplers left out.
+/// References from everything except animation samplers.
 struct References {
-    /// Accessors that something other than an animation sampler names.
+    /// Accessors that something other than an animation sampler refers to.
     accessors: HashSet<usize>,
-    /// How often each view is named.
+    /// Number of references to each view.
     views: HashMap<usize, usize>,
-    /// Pieces of buffers that extensions name themselves: buffer, from, to.
+    /// Ranges of buffers that extensions refer to directly: buffer, start, end.
     ranges: Vec<(usize, u64, u64)>,
 }
 
-/// Members that hold an accessor's number in meshes, skins and the extensions that are known.
+/// Members that contain the number of an accessor in meshes, skins and known extensions.
 const ACCESSORS: &[&str] = &["indices", "inverseBindMatrices", "accessor", "input", "output"];
 
-/// One look over the whole text. What an unknown extension means is guessed from the names of its members; better
-/// one reference too many than one too few.
-fn references(document: &Document<'_>) -> References {
+/// Collects the references in the whole text. The meaning of unknown extensions is guessed from the names of their
+/// members; a reference too many is harmless, a missing one is not.
+fn references(document: &SourceDocument<'_>) -> References {
     let json = document.json;
-    let samplers: HashSet<Id> = document.animations.iter().flat_map(|a| a.samplers.iter().copied()).collect();
+    let samplers: HashSet<ValueId> =
+        document.animations.iter().flat_map(|a| a.samplers.iter().copied()).collect();
     let mut found = References { accessors: HashSet::new(), views: HashMap::new(), ranges: Vec::new() };
     let mut around: Vec<Around> = Vec::new();
     for id in 0..json.len() {
@@ -93,9 +95,9 @@ fn references(document: &Document<'_>) -> References {
         let key = json.key(id);
         let key = key.as_deref().unwrap_or_default();
         match json.kind(id) {
-            Kind::Object | Kind::Array => {
+            JsonKind::Object | JsonKind::Array => {
                 found.ranges.extend(range_of(document, id));
-                // `/accessors` itself is no list of numbers.
+                // `/accessors` itself is not a list of numbers.
                 let is_list = around.len() > 1 && ["attributes", "targets", "accessors"].contains(&key);
                 around.push(Around {
                     end: json.end(id),
@@ -103,7 +105,7 @@ fn references(document: &Document<'_>) -> References {
                     is_sampler: samplers.contains(&id),
                 });
             }
-            Kind::Number => {
+            JsonKind::Number => {
                 let number = json.whole(id).and_then(|number| usize::try_from(number).ok());
                 match number {
                     Some(view) if key == "bufferView" => *found.views.entry(view).or_default() += 1,
@@ -121,23 +123,23 @@ fn references(document: &Document<'_>) -> References {
 
 /// An array or object around a value.
 struct Around {
-    end: Id,
-    /// Are the numbers in it accessors?
+    end: ValueId,
+    /// Whether the numbers in it are accessors.
     holds_accessors: bool,
-    /// Is it a sampler of an animation?
+    /// Whether it is a sampler of an animation.
     is_sampler: bool,
 }
 
-/// The piece of a buffer that an object names, if it does and is no buffer view.
-fn range_of(document: &Document<'_>, id: Id) -> Option<(usize, u64, u64)> {
+/// Returns the range of a buffer that an object refers to, unless the object is a buffer view.
+fn range_of(document: &SourceDocument<'_>, id: ValueId) -> Option<(usize, u64, u64)> {
     let json = document.json;
     let (buffer, length) = (json.index_member(id, "buffer")?, json.whole_member(id, "byteLength")?);
     let from = json.whole_member(id, "byteOffset").unwrap_or(0);
     document.views.binary_search(&id).is_err().then_some((buffer, from, from.saturating_add(length)))
 }
 
-/// The views of a buffer that share no byte with another view or range.
-fn undisturbed(document: &Document<'_>, buffer: usize, references: &References) -> HashSet<usize> {
+/// Returns the views of a buffer that share no byte with another view or range.
+fn undisturbed(document: &SourceDocument<'_>, buffer: usize, references: &References) -> HashSet<usize> {
     let views = (0..document.views.len()).filter_map(|view| {
         let (of, from, length) = document.view_range(view)?;
         (of == buffer).then_some((from, from.saturating_add(length), Some(view)))
@@ -157,8 +159,13 @@ fn undisturbed(document: &Document<'_>, buffer: usize, references: &References) 
     alone
 }
 
-/// Does anything but the slots reach past byte `start` of a buffer?
-pub(super) fn others_past(document: &Document<'_>, buffer: usize, start: usize, slots: &[Slot]) -> bool {
+/// Returns whether anything but the slots uses bytes of a buffer from `start` on.
+pub(super) fn others_past(
+    document: &SourceDocument<'_>,
+    buffer: usize,
+    start: usize,
+    slots: &[SavedSlot],
+) -> bool {
     let own: HashSet<usize> = slots.iter().map(|slot| slot.view).collect();
     let past = |range: (usize, u64, u64)| range.0 == buffer && range.2 > start as u64;
     let views = (0..document.views.len()).filter(|view| !own.contains(view));
@@ -169,38 +176,39 @@ pub(super) fn others_past(document: &Document<'_>, buffer: usize, start: usize, 
     views.any(past) || references(document).ranges.into_iter().any(past)
 }
 
-/// What a column needs of the buffer.
+/// Room that a channel needs in the buffer.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Request {
-    /// Bytes, a multiple of four.
+pub(super) struct RoomRequest {
+    /// Number of bytes, a multiple of four.
     pub(super) size: usize,
-    /// The accessor that held the column's predecessor.
+    /// The accessor of the replaced keys.
     pub(super) before: Option<usize>,
 }
 
-/// Where a column goes.
+/// Room granted to a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Granted {
-    /// The slot whose accessor and view are used again; `None` for new ones.
-    pub(super) slot: Option<Slot>,
+    /// The slot whose accessor and view are reused; `None` for new ones.
+    pub(super) slot: Option<SavedSlot>,
     pub(super) offset: usize,
     pub(super) room: usize,
 }
 
-/// Finds room for every request: its own old place where it fits; else the smallest free slot that is large enough;
-/// else the last slot of the buffer, made longer; else new room at `end`. The end moves along.
-pub(super) fn grant(requests: &[Request], free: Vec<Slot>, end: &mut usize) -> Vec<Granted> {
+/// Finds room for every request: its previous slot if it fits; otherwise the smallest free slot that is large enough;
+/// otherwise the last slot of the buffer, extended; otherwise new room at `end`, which moves along.
+pub(super) fn grant(requests: &[RoomRequest], free: Vec<SavedSlot>, end: &mut usize) -> Vec<Granted> {
     let mut granted: Vec<Option<Granted>> = vec![None; requests.len()];
-    let same = |slot: Slot| Granted { slot: Some(slot), offset: slot.offset, room: slot.room };
+    let same = |slot: SavedSlot| Granted { slot: Some(slot), offset: slot.offset, room: slot.room };
     let mut last = free.iter().find(|slot| slot.offset + slot.room == *end).copied();
-    let mut by_accessor: HashMap<usize, Slot> = free.into_iter().map(|slot| (slot.accessor, slot)).collect();
+    let mut by_accessor: HashMap<usize, SavedSlot> =
+        free.into_iter().map(|slot| (slot.accessor, slot)).collect();
     for (request, granted) in requests.iter().zip(&mut granted) {
         let Some(before) = request.before else { continue };
         if by_accessor.get(&before).is_some_and(|own| own.room >= request.size) {
             *granted = by_accessor.remove(&before).map(same);
         }
     }
-    let mut by_room: BTreeMap<(usize, usize), Slot> =
+    let mut by_room: BTreeMap<(usize, usize), SavedSlot> =
         by_accessor.into_values().map(|slot| ((slot.room, slot.offset), slot)).collect();
     for (request, granted) in requests.iter().zip(&mut granted).filter(|(_, granted)| granted.is_none()) {
         let fits = by_room.range((request.size, 0)..).next().map(|(key, _)| *key);
@@ -227,18 +235,18 @@ pub(super) fn grant(requests: &[Request], free: Vec<Slot>, end: &mut usize) -> V
 mod tests {
     use super::*;
 
-    fn slot(accessor: usize, offset: usize, room: usize) -> Slot {
-        Slot { accessor, view: accessor, offset, room }
+    fn slot(accessor: usize, offset: usize, room: usize) -> SavedSlot {
+        SavedSlot { accessor, view: accessor, offset, room }
     }
 
     #[test]
-    fn room_is_used_again_before_there_is_more_of_it() {
+    fn free_room_is_reused_before_the_buffer_grows() {
         let free = vec![slot(1, 100, 40), slot(2, 140, 12), slot(3, 152, 20)];
         let requests = [
-            Request { size: 12, before: None },
-            Request { size: 12, before: Some(1) },
-            Request { size: 24, before: Some(2) },
-            Request { size: 8, before: None },
+            RoomRequest { size: 12, before: None },
+            RoomRequest { size: 12, before: Some(1) },
+            RoomRequest { size: 24, before: Some(2) },
+            RoomRequest { size: 8, before: None },
         ];
         let mut end = 172;
         let granted = grant(&requests, free, &mut end);

@@ -4,30 +4,31 @@ use super::super::buffer;
 use super::container::Container;
 use super::json::tree::{Json, Tree};
 use super::reuse::is_ours;
-use crate::format::{AssetFs, ImportError, Place, ReadOptions, guard::Guard};
-use crate::limits::FILE_BYTES;
+use crate::format::definition::check_file_size;
+use crate::format::{AssetFs, ImportContext, ImportError, Place, ReadOptions};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// A `.gltf` or `.glb` file as it was opened: its bytes, and where every value of its JSON lies. Nothing changes it;
-/// copies share everything.
+/// A `.gltf` or `.glb` file as it was opened: its bytes, and the range of every value of its JSON. Immutable; clones
+/// share everything.
 #[derive(Clone)]
 pub struct SourceFile {
     pub(super) name: String,
     pub(super) bytes: Arc<[u8]>,
     pub(super) container: Container,
     tree: Arc<Tree>,
-    /// Buffers in files beside this one, as far as a save looks into them.
+    /// Buffers in referenced files, as far as a save reads them.
     pub(super) beside: Arc<HashMap<usize, Arc<[u8]>>>,
 }
 
 impl SourceFile {
-    /// Takes the bytes of a file called `name` (used to name a buffer beside it), and asks `door` for those buffers
-    /// beside it that a save needs to see: those with key times, and those that an earlier save wrote. One that
-    /// cannot be had is done without.
+    /// Opens the bytes of a file called `name` (from which a new buffer file gets its name). Reads through `door` those
+    /// referenced buffers that a save needs: those with key times, and those that an earlier save wrote. A buffer that
+    /// cannot be read is skipped.
     ///
-    /// Needs about 25 bytes of memory a JSON value, and the file's own. Errors: the frame or the text is broken; the
-    /// file is larger than [`FILE_BYTES`]. It does not check what the text says: [`crate::format::read`] does.
+    /// Needs about 25 bytes of memory per JSON value in addition to the file. Errors: the container or the JSON text is
+    /// invalid; the file is larger than [`FILE_BYTES`](crate::limits::FILE_BYTES). The content of the JSON is not
+    /// checked here; [`crate::format::read`] does that.
     pub fn open(
         name: &str,
         bytes: impl Into<Arc<[u8]>>,
@@ -35,13 +36,18 @@ impl SourceFile {
         options: &ReadOptions<'_>,
     ) -> Result<Self, ImportError> {
         let bytes: Arc<[u8]> = bytes.into();
-        if bytes.len() as u64 > FILE_BYTES {
-            let size = bytes.len() as u64;
-            return Err(ImportError::TooLarge { place: Place::File, what: "bytes", size, limit: FILE_BYTES });
-        }
+        check_file_size(bytes.len())?;
         options.budget.input(bytes.len());
-        let guard = Guard::new(options);
-        let container = Container::of(&bytes, &guard)?;
+        Self::parse(name, bytes, &ImportContext::new(door, options))
+    }
+
+    /// Finds the values of the JSON text and reads the buffers that a save needs.
+    pub(super) fn parse(
+        name: &str,
+        bytes: Arc<[u8]>,
+        context: &ImportContext<'_>,
+    ) -> Result<Self, ImportError> {
+        let container = Container::of(&bytes, context)?;
         let broken = |at: usize, reason: &str| ImportError::Invalid {
             place: Place::Byte(at as u64),
             code: super::super::check::INVALID_JSON,
@@ -53,16 +59,16 @@ impl SourceFile {
         let tree = Tree::read(&bytes, container.text.clone()).map_err(|e| broken(e.at, e.reason))?;
         let mut source =
             Self { name: name.to_owned(), bytes, container, tree: Arc::new(tree), beside: Arc::default() };
-        source.beside = Arc::new(source.fetched(door, &guard));
+        source.beside = Arc::new(source.fetched(context));
         Ok(source)
     }
 
-    /// The file's bytes.
+    /// Returns the bytes of the file.
     pub fn bytes(&self) -> &Arc<[u8]> {
         &self.bytes
     }
 
-    /// The name that it was opened under.
+    /// Returns the name under which the file was opened.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -71,15 +77,14 @@ impl SourceFile {
         Json::new(&self.bytes, &self.tree)
     }
 
-    /// Is the file a binary container?
+    /// Returns whether the file is a binary container.
     pub fn is_glb(&self) -> bool {
         self.container.glb.is_some()
     }
 
-    /// Buffers beside the file that matter here.
-    fn fetched(&self, door: &dyn AssetFs, guard: &Guard<'_>) -> HashMap<usize, Arc<[u8]>> {
+    /// Reads the referenced buffers that a save needs.
+    fn fetched(&self, context: &ImportContext<'_>) -> HashMap<usize, Arc<[u8]>> {
         let json = self.json();
-        let store = buffer::Store::new(door, guard);
         let mut wanted = buffers_of_key_times(json);
         let mut fetched = HashMap::new();
         let buffers = json.list(0, "buffers");
@@ -90,7 +95,7 @@ impl SourceFile {
             let Some(&buffer) = buffers.get(index) else { continue };
             let uri = json.string_member(buffer, "uri").filter(|uri| !is_data(uri));
             let place = Place::Pointer(format!("/buffers/{index}/uri"));
-            if let Some(Ok(file)) = uri.map(|uri| store.fetch(&uri, &place)) {
+            if let Some(Ok(file)) = uri.map(|uri| buffer::fetch(&uri, &place, context)) {
                 fetched.insert(index, file.bytes);
             }
         }
@@ -98,12 +103,12 @@ impl SourceFile {
     }
 }
 
-/// Does the URI carry its data itself?
+/// Returns whether the URI contains its data.
 pub(super) fn is_data(uri: &str) -> bool {
     uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }
 
-/// The buffers that inputs of animation samplers lie in.
+/// Returns the buffers with the key times of animation samplers.
 fn buffers_of_key_times(json: Json<'_>) -> Vec<usize> {
     let (accessors, views) = (json.list(0, "accessors"), json.list(0, "bufferViews"));
     let mut found = Vec::new();

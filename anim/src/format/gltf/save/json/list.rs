@@ -1,28 +1,28 @@
-//! Adding and removing elements of arrays and members of objects, commas included.
+//! Adds and removes elements of arrays and members of objects, with their commas.
 
-use super::patch::Patch;
-use super::style::{Spot, Style, gap, lead};
-use super::tree::{Id, Json};
+use super::patch::TextPatch;
+use super::style::{JsonSpot, JsonStyle, gap, lead};
+use super::tree::{Json, ValueId};
 
-/// What is to become of an array or object.
+/// An edit of an array or object.
 #[derive(Clone, Debug, Default)]
 pub(in super::super) struct ListEdit {
-    /// Items that go, ascending.
-    pub(in super::super) removed: Vec<Id>,
-    /// New items: after which of those that stay (`None`: before all), and their texts, in order.
-    pub(in super::super) inserted: Vec<(Option<Id>, String)>,
+    /// Removed items, ascending.
+    pub(in super::super) removed: Vec<ValueId>,
+    /// New items with their texts, in order, each with the remaining item that it follows (`None`: at the start).
+    pub(in super::super) inserted: Vec<(Option<ValueId>, String)>,
 }
 
-/// The patches that do it. Items that stay, and the space between them, keep their bytes.
+/// Returns the patches of the edit. Items that stay, and the space between them, keep their bytes.
 pub(in super::super) fn edit(
     json: Json<'_>,
-    list: Id,
+    list: ValueId,
     edit: &ListEdit,
-    style: &Style,
-    spot: &Spot,
+    style: &JsonStyle,
+    spot: &JsonSpot,
     pointer: &str,
-) -> Vec<Patch> {
-    let items: Vec<Id> = json.items(list).collect();
+) -> Vec<TextPatch> {
+    let items: Vec<ValueId> = json.items(list).collect();
     let stays: Vec<bool> = items.iter().map(|item| edit.removed.binary_search(item).is_err()).collect();
     let fresh = style.gaps(spot);
     if !stays.contains(&true) {
@@ -44,7 +44,7 @@ pub(in super::super) fn edit(
                 inner
             }
         };
-        return vec![Patch::new(span, text, pointer)];
+        return vec![TextPatch::new(span, text, pointer)];
     }
     let mut patches = removals(json, &items, &stays, pointer);
     let between = gap(json, list).unwrap_or_else(|| match lead(json, list) {
@@ -56,11 +56,11 @@ pub(in super::super) fn edit(
         let patch = match (after, first) {
             (None, Some(first)) => {
                 let at = json.item_span(first).start;
-                Patch::new(at..at, format!("{text},{between}"), pointer)
+                TextPatch::new(at..at, format!("{text},{between}"), pointer)
             }
             (Some(item), _) => {
                 let at = json.item_span(*item).end;
-                Patch::new(at..at, format!(",{between}{text}"), pointer)
+                TextPatch::new(at..at, format!(",{between}{text}"), pointer)
             }
             (None, None) => continue,
         };
@@ -69,8 +69,8 @@ pub(in super::super) fn edit(
     patches
 }
 
-/// Takes runs of items away, each with the comma and the space that it needed. One item stays at least.
-fn removals(json: Json<'_>, items: &[Id], stays: &[bool], pointer: &str) -> Vec<Patch> {
+/// Removes runs of items, each with its comma and space. At least one item stays.
+fn removals(json: Json<'_>, items: &[ValueId], stays: &[bool], pointer: &str) -> Vec<TextPatch> {
     let mut patches = Vec::new();
     let mut at = 0;
     while at < items.len() {
@@ -83,7 +83,7 @@ fn removals(json: Json<'_>, items: &[Id], stays: &[bool], pointer: &str) -> Vec<
             Some(&next) => json.item_span(items[at]).start..json.item_span(next).start,
             None => json.item_span(items[at - 1]).end..json.item_span(items[end - 1]).end,
         };
-        patches.push(Patch::new(span, "", pointer));
+        patches.push(TextPatch::new(span, "", pointer));
         at = end;
     }
     patches
@@ -99,7 +99,7 @@ mod tests {
     fn edited(text: &str, removed: &[usize], inserted: &[(Option<usize>, &str)]) -> String {
         let tree = Tree::read(text.as_bytes(), 0..text.len()).unwrap();
         let json = Json::new(text.as_bytes(), &tree);
-        let items: Vec<Id> = json.items(0).collect();
+        let items: Vec<ValueId> = json.items(0).collect();
         let change = ListEdit {
             removed: removed.iter().map(|&number| items[number]).collect(),
             inserted: inserted
@@ -107,7 +107,7 @@ mod tests {
                 .map(|(at, text)| (at.map(|at| items[at]), (*text).to_owned()))
                 .collect(),
         };
-        let style = Style::of(json);
+        let style = JsonStyle::of(json);
         let spot = style.spot(json, Some(0), 1);
         let mut patches = edit(json, 0, &change, &style, &spot, "");
         assert!(sort(&mut patches));
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn items_go_with_their_commas() {
+    fn removed_items_take_their_commas_with_them() {
         let list = "[ 1 , 2,3\n]";
         assert_eq!(edited(list, &[0], &[]), "[ 2,3\n]");
         assert_eq!(edited(list, &[1], &[]), "[ 1 , 3\n]");
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn items_come_as_their_neighbours_are() {
+    fn new_items_have_the_spacing_of_their_neighbors() {
         assert_eq!(edited("[]", &[], &[(None, "1"), (None, "2")]), "[1,2]");
         assert_eq!(edited("[1]", &[], &[(Some(0), "2"), (Some(0), "3")]), "[1,2,3]");
         assert_eq!(edited("[1, 2]", &[], &[(Some(1), "3")]), "[1, 2, 3]");
@@ -143,12 +143,12 @@ mod tests {
     }
 
     #[test]
-    fn a_new_value_is_written_as_its_neighbours_are() {
+    fn a_new_value_has_the_formatting_of_its_neighbors() {
         let written = |text: &str| {
             let tree = Tree::read(text.as_bytes(), 0..text.len()).unwrap();
             let json = Json::new(text.as_bytes(), &tree);
             let list = json.member(0, "list");
-            let style = Style::of(json);
+            let style = JsonStyle::of(json);
             let spot = style.spot(json, list, 2);
             let inner = Fresh::Object(vec![("d", Fresh::whole(3))]);
             let numbers = Fresh::Array(vec![Fresh::whole(1), Fresh::whole(2)]);

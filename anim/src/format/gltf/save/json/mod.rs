@@ -1,8 +1,8 @@
-//! JSON as bytes with places: which bytes are which value, and how to exchange some of them for others.
+//! JSON as bytes with places: the range of every value, and patches that replace ranges.
 //!
-//! Nothing here turns a text into data and back. [`tree`] says where every value and member lies, [`token`] reads
-//! single tokens, [`patch`] exchanges spans, [`list`] adds and removes elements and members, [`style`] writes new
-//! ones the way their neighbours are written.
+//! Nothing here converts a whole text to data and back. [`tree`] finds the range of every value and member, [`token`]
+//! reads single tokens, [`patch`] replaces ranges, [`list`] adds and removes elements and members, [`style`] formats
+//! new ones like their neighbors.
 
 pub(super) mod list;
 pub(super) mod patch;

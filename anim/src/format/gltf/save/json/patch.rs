@@ -1,17 +1,17 @@
-//! Exchanging spans of a text for others.
+//! Replaces ranges of a text.
 
 use std::ops::Range;
 
-/// One exchange: the bytes in `span` of the file become `text`. An empty span inserts.
+/// One replacement: the bytes in `span` of the file become `text`. An empty span inserts.
 #[derive(Clone, Debug, PartialEq)]
-pub(in super::super) struct Patch {
+pub(in super::super) struct TextPatch {
     pub(in super::super) span: Range<usize>,
     pub(in super::super) text: String,
-    /// JSON pointer of what is exchanged, for people.
+    /// JSON pointer of what is replaced, for users.
     pub(in super::super) pointer: String,
 }
 
-impl Patch {
+impl TextPatch {
     pub(in super::super) fn new(
         span: Range<usize>,
         text: impl Into<String>,
@@ -21,16 +21,16 @@ impl Patch {
     }
 }
 
-/// Puts patches in the order of the text; insertions at a place come before what is exchanged there, in the order
-/// given. `false` when two would exchange the same byte.
+/// Sorts patches by their position in the text; insertions at a position come before a replacement there, in the given
+/// order. Returns `false` if two patches would replace the same byte.
 #[must_use]
-pub(in super::super) fn sort(patches: &mut [Patch]) -> bool {
+pub(in super::super) fn sort(patches: &mut [TextPatch]) -> bool {
     patches.sort_by_key(|patch| (patch.span.start, patch.span.end));
     patches.windows(2).all(|pair| pair[0].span.end <= pair[1].span.start)
 }
 
-/// The bytes in `range` of the file with the sorted `patches` made, all of which lie in it.
-pub(in super::super) fn patched(file: &[u8], range: Range<usize>, patches: &[Patch]) -> Vec<u8> {
+/// Returns the bytes in `range` of the file with the sorted `patches` applied, all of which are in this range.
+pub(in super::super) fn patched(file: &[u8], range: Range<usize>, patches: &[TextPatch]) -> Vec<u8> {
     let more: usize = patches.iter().map(|patch| patch.text.len()).sum();
     let mut out = Vec::with_capacity(range.len() + more);
     let mut from = range.start;

@@ -1,65 +1,65 @@
-//! How a text is written, and new values written that way.
+//! Formatting of a JSON text, so that new values are formatted the same way.
 //!
-//! Indent, newline, the space around colons and after commas are taken from the neighbours of a new value; where it
-//! has none, from the document at large.
+//! Indentation, line ends, the space around colons and after commas are taken from the neighbors of a new value; if it
+//! has none, from the rest of the document.
 
-use super::tree::{Id, Json, Kind};
+use super::tree::{Json, JsonKind, ValueId};
 
 /// A value to be written.
 #[derive(Clone, Debug)]
 pub(in super::super) enum Fresh {
-    /// A token as it stands.
+    /// A token as it is.
     Raw(String),
     Object(Vec<(&'static str, Fresh)>),
     Array(Vec<Fresh>),
 }
 
 impl Fresh {
-    /// A whole number.
+    /// Returns a whole number.
     pub(in super::super) fn whole(number: usize) -> Self {
         Self::Raw(number.to_string())
     }
 
-    /// A string.
+    /// Returns a string.
     pub(in super::super) fn string(text: &str) -> Self {
         Self::Raw(super::token::quoted(text))
     }
 }
 
-/// Line ends and indent of a document that uses them.
+/// Line ends and indentation of a document that uses them.
 #[derive(Clone, Debug, PartialEq)]
 struct Lines {
     newline: String,
     unit: String,
 }
 
-/// How a document is written at large.
+/// Formatting of a document.
 #[derive(Clone, Debug, PartialEq)]
-pub(in super::super) struct Style {
+pub(in super::super) struct JsonStyle {
     lines: Option<Lines>,
     colon: String,
     comma: String,
     numbers_on_one_line: bool,
 }
 
-/// Where a new value goes: at which indent, and whether it and what is in it take several lines.
+/// Position of a new value: its indentation, and whether it and its content are on several lines.
 #[derive(Clone, Debug, PartialEq)]
-pub(in super::super) struct Spot {
+pub(in super::super) struct JsonSpot {
     indent: String,
     several_lines: bool,
     inner_lines: bool,
 }
 
-impl Spot {
-    /// The same place for a value that takes as many lines as the document at large.
-    pub(in super::super) fn with_lines(self, style: &Style) -> Self {
+impl JsonSpot {
+    /// Returns the same position for a value that is on several lines if the document uses lines.
+    pub(in super::super) fn with_lines(self, style: &JsonStyle) -> Self {
         let several = style.lines.is_some();
         Self { several_lines: several, inner_lines: several, ..self }
     }
 }
 
-impl Style {
-    /// The style of a document.
+impl JsonStyle {
+    /// Returns the style of a document.
     pub(in super::super) fn of(json: Json<'_>) -> Self {
         let first = json.items(0).next();
         let colon = first.and_then(|id| json.colon(id)).map_or(":".to_owned(), text);
@@ -73,8 +73,8 @@ impl Style {
         let spaced = || if style.colon.ends_with(' ') { " ".to_owned() } else { String::new() };
         style.comma = (0..json.len()).find_map(gap_on_one_line).unwrap_or_else(spaced);
         let numbers = (0..json.len()).find(|&id| {
-            json.kind(id) == Kind::Array
-                && json.items(id).next().is_some_and(|id| json.kind(id) == Kind::Number)
+            json.kind(id) == JsonKind::Array
+                && json.items(id).next().is_some_and(|id| json.kind(id) == JsonKind::Number)
         });
         if let Some(lead) = numbers.and_then(|id| lead(json, id)) {
             style.numbers_on_one_line = !lead.contains('\n');
@@ -82,41 +82,42 @@ impl Style {
         style
     }
 
-    /// Where a new item of the array or object `list`, at `depth` arrays and objects (the root's items: 1), goes.
-    pub(in super::super) fn spot(&self, json: Json<'_>, list: Option<Id>, depth: usize) -> Spot {
+    /// Returns the position of a new item of the array or object `list`, inside `depth` arrays and objects (the items
+    /// of the root: 1).
+    pub(in super::super) fn spot(&self, json: Json<'_>, list: Option<ValueId>, depth: usize) -> JsonSpot {
         let unit = self.lines.as_ref().map_or("", |lines| &lines.unit);
         let several = self.lines.is_some();
-        let mut spot = Spot { indent: unit.repeat(depth), several_lines: several, inner_lines: several };
+        let mut spot = JsonSpot { indent: unit.repeat(depth), several_lines: several, inner_lines: several };
         let Some(list) = list else { return spot };
         if let Some(between) = gap(json, list).or_else(|| lead(json, list))
             && let Some(end) = between.rfind('\n')
         {
             spot.indent = between[end + 1..].to_owned();
         }
-        let Some(neighbour) = json.items(list).last() else { return spot };
-        if let Some(lead) = lead(json, neighbour) {
+        let Some(neighbor) = json.items(list).last() else { return spot };
+        if let Some(lead) = lead(json, neighbor) {
             spot.several_lines = several && lead.contains('\n');
-            let inner = json.items(neighbour).find(|&id| json.kind(id) == Kind::Object);
+            let inner = json.items(neighbor).find(|&id| json.kind(id) == JsonKind::Object);
             let inner = inner.and_then(|id| self::lead(json, id));
             spot.inner_lines = spot.several_lines && inner.is_none_or(|lead| lead.contains('\n'));
         }
         spot
     }
 
-    /// The text of a value at a spot.
-    pub(in super::super) fn write(&self, value: &Fresh, spot: &Spot) -> String {
+    /// Returns the text of a value at a position.
+    pub(in super::super) fn write(&self, value: &Fresh, spot: &JsonSpot) -> String {
         let mut out = String::new();
         self.put(value, &spot.indent, spot.several_lines, spot.inner_lines, &mut out);
         out
     }
 
-    /// The text of a member at a spot.
-    pub(in super::super) fn member(&self, name: &str, value: &Fresh, spot: &Spot) -> String {
+    /// Returns the text of a member at a position.
+    pub(in super::super) fn member(&self, name: &str, value: &Fresh, spot: &JsonSpot) -> String {
         format!("\"{name}\"{}{}", self.colon, self.write(value, spot))
     }
 
-    /// What stands between a bracket and the first of new items at a spot, between them, and before the closing one.
-    pub(in super::super) fn gaps(&self, spot: &Spot) -> [String; 3] {
+    /// Returns the text before the first of new items at a position, between them, and before the closing bracket.
+    pub(in super::super) fn gaps(&self, spot: &JsonSpot) -> [String; 3] {
         match &self.lines {
             Some(lines) => {
                 let outer = spot.indent.strip_suffix(&lines.unit).unwrap_or("");
@@ -127,7 +128,7 @@ impl Style {
         }
     }
 
-    /// What stands after a comma between items on one line.
+    /// Returns the text after a comma between items on one line.
     pub(in super::super) fn comma(&self) -> &str {
         &self.comma
     }
@@ -175,18 +176,18 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// The space between the opening bracket and the first item; `None` when there is no item.
-pub(super) fn lead(json: Json<'_>, list: Id) -> Option<String> {
-    if !matches!(json.kind(list), Kind::Array | Kind::Object) {
+/// Returns the space between the opening bracket and the first item; `None` if there is no item.
+pub(super) fn lead(json: Json<'_>, list: ValueId) -> Option<String> {
+    if !matches!(json.kind(list), JsonKind::Array | JsonKind::Object) {
         return None;
     }
     let first = json.items(list).next()?;
     Some(text(&json.file[json.span(list).start + 1..json.item_span(first).start]))
 }
 
-/// The space between the last comma and the last item; `None` when there are less than two.
-pub(super) fn gap(json: Json<'_>, list: Id) -> Option<String> {
-    if !matches!(json.kind(list), Kind::Array | Kind::Object) {
+/// Returns the space between the last comma and the last item; `None` if there are less than two items.
+pub(super) fn gap(json: Json<'_>, list: ValueId) -> Option<String> {
+    if !matches!(json.kind(list), JsonKind::Array | JsonKind::Object) {
         return None;
     }
     let mut items = json.items(list);

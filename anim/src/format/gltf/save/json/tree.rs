@@ -1,19 +1,19 @@
-//! Where every value and member of a JSON text lies.
+//! Finds the range of every value and member of a JSON text.
 //!
-//! The tree is a list of values in the order of the text, parents first; each knows where its subtree ends in the
-//! list. Reading uses no recursion.
+//! The tree is a list of values in the order of the text, parents first; each value stores where its subtree ends in
+//! the list. Parsing uses no recursion.
 
 use super::token::{number_end, string_end, unquoted};
 use crate::limits::{JSON_DEPTH, MEMORY_MAX};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Place of a value in [`Tree`].
-pub(in super::super) type Id = usize;
+/// Index of a value in [`Tree`].
+pub(in super::super) type ValueId = usize;
 
-/// What kind of value.
+/// Kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) enum Kind {
+pub(in super::super) enum JsonKind {
     Object,
     Array,
     String,
@@ -24,37 +24,37 @@ pub(in super::super) enum Kind {
 
 /// One value. Offsets are bytes from the start of the file.
 #[derive(Clone, Copy, Debug)]
-struct Value {
+struct JsonValue {
     from: u32,
     to: u32,
-    /// The member's name with its quotes; empty for elements of arrays and for the root.
+    /// Name of the member with its quotes; empty for elements of arrays and for the root.
     key: (u32, u32),
-    /// The first value after this one and everything in it.
+    /// Index of the first value after this one and its descendants.
     end: u32,
-    kind: Kind,
+    kind: JsonKind,
 }
 
-/// Most values that are listed, so that the list stays within the memory of an import.
-const VALUES: usize = (MEMORY_MAX as usize / size_of::<Value>()) / 2;
+/// Largest number of values, so that the list stays within the memory limit of an import.
+const VALUES: usize = (MEMORY_MAX as usize / size_of::<JsonValue>()) / 2;
 
-/// Where every value of a text lies.
+/// The ranges of all values of a text.
 #[derive(Clone, Debug, Default)]
 pub(in super::super) struct Tree {
-    values: Vec<Value>,
+    values: Vec<JsonValue>,
 }
 
-/// Where a text breaks the rules of JSON, and how.
+/// An invalid JSON text: the place, and what is wrong.
 #[derive(Clone, Debug, PartialEq)]
-pub(in super::super) struct Broken {
+pub(in super::super) struct InvalidJson {
     pub(in super::super) at: usize,
     pub(in super::super) reason: &'static str,
 }
 
-/// What may come next.
+/// What may follow.
 #[derive(Clone, Copy, PartialEq)]
-enum Expected {
-    Value,
-    /// A value or `]`, a key or `}`: right after the bracket.
+enum ExpectedToken {
+    JsonValue,
+    /// A value or `]`, a name or `}`: directly after the opening bracket.
     First,
     Key,
     /// A comma or the closing bracket.
@@ -62,95 +62,95 @@ enum Expected {
 }
 
 impl Tree {
-    /// Reads the text that lies in `range` of the file.
-    pub(in super::super) fn read(file: &[u8], range: Range<usize>) -> Result<Self, Broken> {
+    /// Parses the text in `range` of the file.
+    pub(in super::super) fn read(file: &[u8], range: Range<usize>) -> Result<Self, InvalidJson> {
         let text = &file[..range.end];
         let mut tree = Self::default();
-        let mut open: Vec<Id> = Vec::new();
-        let mut expected = Expected::Value;
+        let mut open: Vec<ValueId> = Vec::new();
+        let mut expected = ExpectedToken::JsonValue;
         let mut key = (0, 0);
         let mut at = range.start;
         loop {
             at = skip_space(text, at);
-            let broken = |reason| Broken { at, reason };
+            let broken = |reason| InvalidJson { at, reason };
             let Some(&byte) = text.get(at) else {
                 let done = open.is_empty() && !tree.values.is_empty();
                 return if done { Ok(tree) } else { Err(broken("the text ends too early")) };
             };
             let Some(&inner) = open.last() else {
                 if !tree.values.is_empty() {
-                    return Err(broken("something stands after the end"));
+                    return Err(broken("there is something after the end of the text"));
                 }
                 at = tree.value(text, at, key, &mut open)?;
-                expected = if open.is_empty() { Expected::Next } else { Expected::First };
+                expected = if open.is_empty() { ExpectedToken::Next } else { ExpectedToken::First };
                 continue;
             };
-            let is_array = tree.values[inner].kind == Kind::Array;
+            let is_array = tree.values[inner].kind == JsonKind::Array;
             let closing = if is_array { b']' } else { b'}' };
             match expected {
-                Expected::First | Expected::Next if byte == closing => {
+                ExpectedToken::First | ExpectedToken::Next if byte == closing => {
                     at += 1;
                     tree.values[inner].to = at as u32;
                     tree.values[inner].end = tree.values.len() as u32;
                     open.pop();
-                    expected = Expected::Next;
+                    expected = ExpectedToken::Next;
                 }
-                Expected::Next if byte == b',' => {
+                ExpectedToken::Next if byte == b',' => {
                     at += 1;
-                    expected = if is_array { Expected::Value } else { Expected::Key };
+                    expected = if is_array { ExpectedToken::JsonValue } else { ExpectedToken::Key };
                 }
-                Expected::Next => return Err(broken("a comma or a closing bracket is missing")),
-                Expected::First | Expected::Key if !is_array => {
+                ExpectedToken::Next => return Err(broken("a comma or a closing bracket is missing")),
+                ExpectedToken::First | ExpectedToken::Key if !is_array => {
                     let end = if byte == b'"' { string_end(text, at) } else { None };
                     let end = end.ok_or(broken("the name of a member is missing"))?;
                     key = (at as u32, end as u32);
                     at = skip_space(text, end);
                     if text.get(at) != Some(&b':') {
-                        return Err(Broken { at, reason: "a colon is missing" });
+                        return Err(InvalidJson { at, reason: "a colon is missing" });
                     }
                     at += 1;
-                    expected = Expected::Value;
+                    expected = ExpectedToken::JsonValue;
                 }
                 _ => {
                     let depth = open.len();
                     at = tree.value(text, at, std::mem::take(&mut key), &mut open)?;
-                    expected = if open.len() > depth { Expected::First } else { Expected::Next };
+                    expected = if open.len() > depth { ExpectedToken::First } else { ExpectedToken::Next };
                 }
             }
         }
     }
 
-    /// Lists the value at `at`; the byte after it, or after its opening bracket.
+    /// Adds the value at `at` to the list and returns the position after it, or after its opening bracket.
     fn value(
         &mut self,
         text: &[u8],
         at: usize,
         key: (u32, u32),
-        open: &mut Vec<Id>,
-    ) -> Result<usize, Broken> {
-        let broken = |reason| Broken { at, reason };
+        open: &mut Vec<ValueId>,
+    ) -> Result<usize, InvalidJson> {
+        let broken = |reason| InvalidJson { at, reason };
         if self.values.len() >= VALUES {
             return Err(broken("there are too many values"));
         }
         let word = |word: &[u8]| text[at..].starts_with(word).then_some(at + word.len());
         let (kind, to) = match text[at] {
-            b'{' => (Kind::Object, Some(at + 1)),
-            b'[' => (Kind::Array, Some(at + 1)),
-            b'"' => (Kind::String, string_end(text, at)),
-            b't' => (Kind::Word, word(b"true")),
-            b'f' => (Kind::Word, word(b"false")),
-            b'n' => (Kind::Word, word(b"null")),
-            _ => (Kind::Number, number_end(text, at)),
+            b'{' => (JsonKind::Object, Some(at + 1)),
+            b'[' => (JsonKind::Array, Some(at + 1)),
+            b'"' => (JsonKind::String, string_end(text, at)),
+            b't' => (JsonKind::Word, word(b"true")),
+            b'f' => (JsonKind::Word, word(b"false")),
+            b'n' => (JsonKind::Word, word(b"null")),
+            _ => (JsonKind::Number, number_end(text, at)),
         };
-        let to = to.ok_or(broken("a value is broken"))?;
+        let to = to.ok_or(broken("a value is invalid"))?;
         let id = self.values.len();
-        if matches!(kind, Kind::Object | Kind::Array) {
+        if matches!(kind, JsonKind::Object | JsonKind::Array) {
             if open.len() >= JSON_DEPTH {
-                return Err(broken("too many arrays and objects inside each other"));
+                return Err(broken("there are too many levels of arrays and objects"));
             }
             open.push(id);
         }
-        self.values.push(Value { from: at as u32, to: to as u32, key, end: id as u32 + 1, kind });
+        self.values.push(JsonValue { from: at as u32, to: to as u32, key, end: id as u32 + 1, kind });
         Ok(to)
     }
 }
@@ -161,7 +161,7 @@ fn skip_space(text: &[u8], at: usize) -> usize {
     at + space.count()
 }
 
-/// A tree with the file it is about: what everything is asked of. The root is value 0.
+/// A tree with its file, on which all queries are made. The root is value 0.
 #[derive(Clone, Copy)]
 pub(in super::super) struct Json<'a> {
     pub(in super::super) file: &'a [u8],
@@ -173,92 +173,92 @@ impl<'a> Json<'a> {
         Self { file, tree }
     }
 
-    /// How many values there are.
+    /// Returns the number of values.
     pub(in super::super) fn len(self) -> usize {
         self.tree.values.len()
     }
 
-    pub(in super::super) fn kind(self, id: Id) -> Kind {
+    pub(in super::super) fn kind(self, id: ValueId) -> JsonKind {
         self.tree.values[id].kind
     }
 
-    /// The value's own bytes.
-    pub(in super::super) fn span(self, id: Id) -> Range<usize> {
+    /// Returns the range of the value.
+    pub(in super::super) fn span(self, id: ValueId) -> Range<usize> {
         let value = &self.tree.values[id];
         value.from as usize..value.to as usize
     }
 
-    /// From the member's name to the end of its value; the value alone in an array.
-    pub(in super::super) fn item_span(self, id: Id) -> Range<usize> {
+    /// Returns the range from the name of the member to the end of its value; in an array the range of the value.
+    pub(in super::super) fn item_span(self, id: ValueId) -> Range<usize> {
         let value = &self.tree.values[id];
         let from = if value.key.1 > 0 { value.key.0 } else { value.from };
         from as usize..value.to as usize
     }
 
-    pub(in super::super) fn token(self, id: Id) -> &'a [u8] {
+    pub(in super::super) fn token(self, id: ValueId) -> &'a [u8] {
         &self.file[self.span(id)]
     }
 
-    /// The name of the member that the value is; `None` in an array.
-    pub(in super::super) fn key(self, id: Id) -> Option<Cow<'a, str>> {
+    /// Returns the name of the member; `None` in an array.
+    pub(in super::super) fn key(self, id: ValueId) -> Option<Cow<'a, str>> {
         let (from, to) = self.tree.values[id].key;
         (to > 0).then(|| unquoted(&self.file[from as usize..to as usize]))
     }
 
-    /// The bytes between a member's name and its value: a colon and space.
-    pub(in super::super) fn colon(self, id: Id) -> Option<&'a [u8]> {
+    /// Returns the bytes between the name of a member and its value: a colon and space.
+    pub(in super::super) fn colon(self, id: ValueId) -> Option<&'a [u8]> {
         let value = &self.tree.values[id];
         (value.key.1 > 0).then(|| &self.file[value.key.1 as usize..value.from as usize])
     }
 
-    /// The first value after this one and everything in it.
-    pub(in super::super) fn end(self, id: Id) -> Id {
+    /// Returns the first value after this one and its descendants.
+    pub(in super::super) fn end(self, id: ValueId) -> ValueId {
         self.tree.values[id].end as usize
     }
 
-    /// Elements of an array or values of an object's members, in order; nothing for other values.
-    pub(in super::super) fn items(self, id: Id) -> impl Iterator<Item = Id> + 'a {
+    /// Returns the elements of an array or the member values of an object, in order; nothing for other values.
+    pub(in super::super) fn items(self, id: ValueId) -> impl Iterator<Item = ValueId> + 'a {
         let end = self.end(id);
         let first = Some(id + 1).filter(|&first| first < end);
         std::iter::successors(first, move |&item| Some(self.end(item)).filter(|&next| next < end))
     }
 
-    /// The value of the member `name` of an object; the last one where there are several.
-    pub(in super::super) fn member(self, id: Id, name: &str) -> Option<Id> {
-        if self.kind(id) != Kind::Object {
+    /// Returns the value of the member `name` of an object; the last one if there are several.
+    pub(in super::super) fn member(self, id: ValueId, name: &str) -> Option<ValueId> {
+        if self.kind(id) != JsonKind::Object {
             return None;
         }
         self.items(id).filter(|&item| self.key(item).as_deref() == Some(name)).last()
     }
 
-    /// Elements of the array that is the member `name`; none when there is no such array.
-    pub(in super::super) fn list(self, id: Id, name: &str) -> Vec<Id> {
-        let list = self.member(id, name).filter(|&list| self.kind(list) == Kind::Array);
+    /// Returns the elements of the array that is the member `name`; none if there is no such array.
+    pub(in super::super) fn list(self, id: ValueId, name: &str) -> Vec<ValueId> {
+        let list = self.member(id, name).filter(|&list| self.kind(list) == JsonKind::Array);
         list.map(|list| self.items(list).collect()).unwrap_or_default()
     }
 
-    /// A whole number that is not negative.
-    pub(in super::super) fn whole(self, id: Id) -> Option<u64> {
-        (self.kind(id) == Kind::Number).then(|| std::str::from_utf8(self.token(id)).ok()?.parse().ok())?
+    /// Returns the value as a non-negative whole number.
+    pub(in super::super) fn whole(self, id: ValueId) -> Option<u64> {
+        (self.kind(id) == JsonKind::Number).then(|| std::str::from_utf8(self.token(id)).ok()?.parse().ok())?
     }
 
-    /// [`Self::whole`] of a member.
-    pub(in super::super) fn whole_member(self, id: Id, name: &str) -> Option<u64> {
+    /// Returns [`Self::whole`] of a member.
+    pub(in super::super) fn whole_member(self, id: ValueId, name: &str) -> Option<u64> {
         self.whole(self.member(id, name)?)
     }
 
-    /// [`Self::whole_member`] as an index.
-    pub(in super::super) fn index_member(self, id: Id, name: &str) -> Option<usize> {
+    /// Returns [`Self::whole_member`] as an index.
+    pub(in super::super) fn index_member(self, id: ValueId, name: &str) -> Option<usize> {
         usize::try_from(self.whole_member(id, name)?).ok()
     }
 
-    /// What a string says.
-    pub(in super::super) fn string(self, id: Id) -> Option<Cow<'a, str>> {
-        (self.kind(id) == Kind::String).then(|| unquoted(self.token(id)))
+    /// Returns the value as a decoded string.
+    pub(in super::super) fn string(self, id: ValueId) -> Option<Cow<'a, str>> {
+        (self.kind(id) == JsonKind::String).then(|| unquoted(self.token(id)))
     }
 
-    /// [`Self::string`] of a member.
-    pub(in super::super) fn string_member(self, id: Id, name: &str) -> Option<Cow<'a, str>> {
+    /// Returns [`Self::string`] of a member.
+    pub(in super::super) fn string_member(self, id: ValueId, name: &str) -> Option<Cow<'a, str>> {
         self.string(self.member(id, name)?)
     }
 }
@@ -267,12 +267,12 @@ impl<'a> Json<'a> {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Tree, Broken> {
+    fn read(text: &str) -> Result<Tree, InvalidJson> {
         Tree::read(text.as_bytes(), 0..text.len())
     }
 
     #[test]
-    fn every_value_is_found_with_its_bytes() {
+    fn every_value_is_found_with_its_range() {
         let text = r#" {"a" : [1, {"b":"x"}, []] , "\u0061": -1e0, "c":null}  "#;
         let tree = read(text).unwrap();
         let json = Json::new(text.as_bytes(), &tree);
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_json_is_refused_with_its_place() {
+    fn invalid_json_is_refused_with_its_place() {
         let broken = [
             ("", 0),
             ("{", 1),
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn depth_ends_reading_not_the_stack() {
+    fn too_deep_a_text_is_refused_before_the_stack_overflows() {
         let text = |depth: usize| "[".repeat(depth) + &"]".repeat(depth);
         assert!(read(&text(JSON_DEPTH)).is_ok());
         assert_eq!(read(&text(JSON_DEPTH + 1)).unwrap_err().at, JSON_DEPTH);

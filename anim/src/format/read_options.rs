@@ -1,15 +1,16 @@
-//! What a caller may set about reading: how much memory, when to stop, whom to tell.
+//! Settings of an import: memory budget, cancel flag, progress listener.
 
 use crate::limits::{MEMORY_BASE, MEMORY_MAX, MEMORY_PER_BYTE};
 use std::cell::Cell;
 
-/// How to read. The default reads with the usual limits, cannot be cancelled and tells nobody.
+/// Settings of an import. The default has the usual limits, no way to cancel and no progress listener.
 pub struct ReadOptions<'a> {
-    /// Charged before each large allocation.
+    /// Memory budget, charged before each large allocation.
     pub budget: ByteBudget,
-    /// Asked at least every few milliseconds of work; `true` ends reading with [`super::ImportError::Cancelled`].
+    /// Cancel flag, polled at least every few milliseconds of work; `true` ends the import with
+    /// [`super::ImportError::Cancelled`].
     pub is_cancelled: &'a dyn Fn() -> bool,
-    /// Told how far reading is, 0..1, never falling.
+    /// Progress listener, called with a fraction 0..1 that never decreases.
     pub progress: &'a dyn Fn(f32),
 }
 
@@ -19,10 +20,11 @@ impl Default for ReadOptions<'_> {
     }
 }
 
-/// Memory that reading may use: asked before it is taken, so that a small file cannot make a large machine small.
+/// Memory budget of an import. Memory is charged before it is allocated, so that a small file cannot exhaust the memory
+/// of the machine.
 ///
-/// Starts at [`MEMORY_BASE`] and grows by [`MEMORY_PER_BYTE`] for each byte read, up to [`MEMORY_MAX`]. What was
-/// charged stays charged: the budget bounds work as well as memory.
+/// The limit starts at [`MEMORY_BASE`] and grows by [`MEMORY_PER_BYTE`] for each byte of input, up to [`MEMORY_MAX`].
+/// Charged bytes are never released: the budget bounds work as well as memory.
 #[derive(Clone, Debug)]
 pub struct ByteBudget {
     limit: Cell<u64>,
@@ -44,33 +46,34 @@ impl Default for ByteBudget {
     }
 }
 
-/// A budget that does not stretch so far.
+/// A charge that a [`ByteBudget`] refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OverBudget {
-    /// Bytes needed in all.
+    /// Total number of bytes needed, this charge included.
     pub needed: u64,
-    /// Bytes granted in all.
+    /// Total number of bytes granted.
     pub limit: u64,
 }
 
 impl ByteBudget {
-    /// At most `bytes`, however large the file is.
+    /// Returns a budget of at most `bytes`, however large the file is.
     pub fn at_most(bytes: u64) -> Self {
         Self { limit: Cell::new(bytes.min(MEMORY_BASE)), max: bytes, ..Self::default() }
     }
 
-    /// Refuses the `request`-th charge, counted from zero, and grants the others: for tests of every way to fail.
+    /// Returns a budget that refuses only the charge number `request`, counted from zero, for tests of every failure
+    /// path.
     pub fn failing_at(request: u64) -> Self {
         Self { fail_at: request, ..Self::default() }
     }
 
-    /// Grants more because `bytes` of input were read.
+    /// Raises the limit after `bytes` of input were read.
     pub fn input(&self, bytes: usize) {
         let more = (bytes as u64).saturating_mul(MEMORY_PER_BYTE);
         self.limit.set(self.limit.get().saturating_add(more).min(self.max));
     }
 
-    /// Takes `bytes`, or says by how much they are too many.
+    /// Charges `bytes`. The error contains the total that would have been needed.
     pub fn charge(&self, bytes: u64) -> Result<(), OverBudget> {
         let request = self.requests.get();
         self.requests.set(request + 1);
@@ -82,17 +85,17 @@ impl ByteBudget {
         Ok(())
     }
 
-    /// Bytes not yet taken.
+    /// Returns the number of bytes that can still be charged.
     pub fn remaining(&self) -> u64 {
         self.limit.get() - self.used.get()
     }
 
-    /// Bytes taken so far.
+    /// Returns the number of bytes charged so far.
     pub fn used(&self) -> u64 {
         self.used.get()
     }
 
-    /// How often [`Self::charge`] was called.
+    /// Returns how many times [`Self::charge`] was called.
     pub fn requests(&self) -> u64 {
         self.requests.get()
     }

@@ -1,8 +1,8 @@
-//! The formulas once more, in f64 and by hand, from nothing but the intermediate values of an explanation.
+//! A second implementation of the formulas, in f64, that uses nothing but the intermediate values of an explanation.
 
 pub(crate) type Matrix = [[f64; 4]; 4];
 
-/// Column-major, as glam has it.
+/// Column-major, as in glam.
 pub(crate) fn matrix(matrix: glam::Mat4) -> Matrix {
     matrix.to_cols_array_2d().map(|column| column.map(f64::from))
 }
@@ -21,7 +21,7 @@ pub(crate) fn point(matrix: Matrix, point: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|row| (0..3).map(|k| matrix[k][row] * point[k]).sum::<f64>() + matrix[3][row])
 }
 
-/// `T · R · S`, each entry from the quaternion's definition.
+/// Returns `T · R · S`, each entry from the definition of the quaternion.
 pub(crate) fn to_parent(t: [f64; 3], [x, y, z, w]: [f64; 4], s: [f64; 3]) -> Matrix {
     let turn = [
         [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)],
@@ -32,12 +32,12 @@ pub(crate) fn to_parent(t: [f64; 3], [x, y, z, w]: [f64; 4], s: [f64; 3]) -> Mat
     [column(0), column(1), column(2), [t[0], t[1], t[2], 1.0]]
 }
 
-/// Between two values, component by component.
+/// Interpolates between two values, component by component.
 pub(crate) fn lerp<const N: usize>(a: [f64; N], b: [f64; N], mix: f64) -> [f64; N] {
     std::array::from_fn(|k| a[k] + (b[k] - a[k]) * mix)
 }
 
-/// On the arc between two unit quaternions, the short way.
+/// Interpolates on the shorter arc between two unit quaternions.
 pub(crate) fn slerp(a: [f64; 4], b: [f64; 4], mix: f64) -> [f64; 4] {
     let dot: f64 = (0..4).map(|k| a[k] * b[k]).sum();
     let b = if dot < 0.0 { b.map(|n| -n) } else { b };
@@ -50,7 +50,7 @@ pub(crate) fn slerp(a: [f64; 4], b: [f64; 4], mix: f64) -> [f64; 4] {
     unit(std::array::from_fn(|k| weights[0] * a[k] + weights[1] * b[k]))
 }
 
-/// The Hermite polynomials.
+/// Evaluates the Hermite polynomials.
 pub(crate) fn hermite<const N: usize>(ends: [[f64; N]; 4], span: f64, m: f64) -> [f64; N] {
     let [a, leave, arrive, b] = ends;
     let h = |k: usize| {

@@ -1,0 +1,165 @@
+//! Saving edited takes into the file that they came from, in whatever way its format allows.
+
+use super::definition::check_file_size;
+use super::{
+    AssetFs, ExportError, Format, ImportContext, ImportError, ReadOptions, Warning, WriteModel, WriteSupport,
+};
+use crate::data::{AnimationData, ModelData, Take};
+use std::fmt;
+use std::sync::Arc;
+
+/// A take as it should be in the saved file.
+#[derive(Clone, Debug)]
+pub struct EditedTake {
+    /// Number of the take in the opened file that this one was made from; `None` for a new one. The first take with an
+    /// origin replaces that take; further ones are copies of it and also get what the importer left out.
+    pub origin: Option<usize>,
+    /// Name and keys. A surgical format keeps the bytes of each channel that is the opened one (the same `Arc`, or the
+    /// same bits). Formats in which the keys alone determine the start and length of a take, such as glTF, do not store
+    /// them.
+    pub take: Arc<Take>,
+}
+
+/// A file to be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutputFile {
+    /// Path relative to the folder of the opened file; the name of the opened file for the main file.
+    pub name: String,
+    /// Content of the file.
+    pub bytes: Vec<u8>,
+}
+
+/// The files that a save will write, and what they change.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SavePlan {
+    /// Files in the order in which to write them: referenced files first, the main file last, so that it never refers to
+    /// a file that does not exist.
+    pub files: Vec<OutputFile>,
+    /// Content of the model that the format cannot represent.
+    pub lost: Vec<Warning>,
+    /// Changes of a surgical save; `None` where the whole file is written.
+    pub changes: Option<ChangeReport>,
+}
+
+/// A description of what a surgical save changes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ChangeReport {
+    /// Text for users, one line for each change.
+    pub text: String,
+    /// The same as one JSON object, for programs.
+    pub json: String,
+}
+
+impl fmt::Display for SavePlan {
+    /// Writes one line for each change and each loss.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.changes, self.files.last()) {
+            (Some(changes), _) => f.write_str(&changes.text)?,
+            (None, Some(file)) => writeln!(f, "the whole file is written: {} bytes", file.bytes.len())?,
+            (None, None) => writeln!(f, "nothing changes")?,
+        }
+        self.lost.iter().try_for_each(|lost| writeln!(f, "not saved: {lost}"))
+    }
+}
+
+/// An opened file of a format that saves edits without touching the rest: the implementation of
+/// [`WriteSupport::Surgical`].
+pub trait SurgicalFile: Send + Sync {
+    /// Plans a save after which the file contains `takes` in this order. `opened` is the model as it was read from the
+    /// same bytes. Takes that are not edited keep their bytes.
+    fn plan(&self, opened: &ModelData, takes: &[EditedTake]) -> Result<SavePlan, ExportError>;
+
+    /// Plans a save that removes what earlier saves appended and nothing uses any more.
+    fn compact(&self) -> Result<SavePlan, ExportError>;
+
+    /// Returns the files that this one refers to, as paths relative to its folder, each once.
+    fn neighbors(&self) -> Vec<String>;
+}
+
+/// A file that is edited: everything that saving takes into it needs. Made by [`Format::edit`].
+pub struct EditableFile {
+    name: String,
+    format: Format,
+    source: SaveSource,
+}
+
+/// What a save starts from.
+enum SaveSource {
+    /// Nothing but the model.
+    Model(WriteModel),
+    /// The bytes of the opened file.
+    File(Box<dyn SurgicalFile>),
+}
+
+impl EditableFile {
+    pub(super) fn open(
+        format: Format,
+        name: &str,
+        bytes: Arc<[u8]>,
+        files: &dyn AssetFs,
+        options: &ReadOptions<'_>,
+    ) -> Result<Self, ImportError> {
+        let source = match format.write {
+            WriteSupport::None => return Err(ImportError::ReadOnly { title: format.title }),
+            WriteSupport::Whole(write) => SaveSource::Model(write),
+            WriteSupport::Surgical(open) => {
+                check_file_size(bytes.len())?;
+                options.budget.input(bytes.len());
+                SaveSource::File(open(name, bytes, &ImportContext::new(files, options))?)
+            }
+        };
+        Ok(Self { name: name.to_owned(), format, source })
+    }
+
+    /// Returns the name that the file was opened under.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Returns the format of the file. A save keeps it: a `.glb` stays a binary container.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
+    /// Plans a save after which the file contains `takes` in this order; nothing is written. `opened` is the model as it
+    /// was read from the same bytes.
+    pub fn plan(&self, opened: &ModelData, takes: &[EditedTake]) -> Result<SavePlan, ExportError> {
+        match &self.source {
+            SaveSource::File(file) => file.plan(opened, takes),
+            SaveSource::Model(write) => {
+                let skeleton = Arc::clone(&opened.animation.skeleton);
+                let takes = takes.iter().map(|edited| Arc::clone(&edited.take)).collect();
+                let animation = AnimationData { skeleton, takes };
+                self.whole(*write, &ModelData { animation, ..opened.clone() })
+            }
+        }
+    }
+
+    /// Plans a save that removes what earlier saves appended and nothing uses any more. Takes are as in `opened`.
+    pub fn compact(&self, opened: &ModelData) -> Result<SavePlan, ExportError> {
+        match &self.source {
+            SaveSource::File(file) => file.compact(),
+            SaveSource::Model(write) => self.whole(*write, opened),
+        }
+    }
+
+    /// Returns the files that this one refers to, as paths relative to its folder, each once.
+    pub fn neighbors(&self) -> Vec<String> {
+        match &self.source {
+            SaveSource::File(file) => file.neighbors(),
+            SaveSource::Model(_) => Vec::new(),
+        }
+    }
+
+    fn whole(&self, write: WriteModel, model: &ModelData) -> Result<SavePlan, ExportError> {
+        let file = write(model)?;
+        let files = vec![OutputFile { name: self.name.clone(), bytes: file.bytes }];
+        Ok(SavePlan { files, lost: file.lost, changes: None })
+    }
+}
+
+impl fmt::Debug for EditableFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "EditableFile({}, {})", self.name, self.format.name)
+    }
+}
