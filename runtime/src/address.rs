@@ -125,6 +125,11 @@ impl<M: Send + 'static> Address<M> {
         self.0.thread.mailbox.0.is_closed()
     }
 
+    /// The thread of the receiver.
+    pub(crate) fn thread(&self) -> &Arc<Shared> {
+        &self.0.thread
+    }
+
     /// A caller's mistake, not a thing that happens: addresses are not mixed up by chance.
     pub(crate) fn receiver_in(&self, thread: &Arc<Shared>) -> u32 {
         let (own, other) = (&self.0.thread.name, &thread.name);

@@ -47,9 +47,16 @@ pub(crate) fn allow_restart(failures: &mut Vec<Instant>, now: Instant) -> bool {
     failures.len() <= RESTARTS
 }
 
-/// The text of a panic, when it has one.
-pub(crate) fn reason(payload: &(dyn Any + Send)) -> String {
+/// Returns the text of a panic from the payload that `catch_unwind` or a join returns: the message
+/// that was given to `panic!`, or a fixed text when the payload is no string.
+///
+/// ```
+/// # use dragonfly_runtime::panic_text;
+/// let caught = std::panic::catch_unwind(|| std::panic::resume_unwind(Box::new("no such bone")));
+/// assert_eq!(panic_text(&*caught.unwrap_err()), "no such bone");
+/// ```
+pub fn panic_text(payload: &(dyn Any + Send)) -> &str {
     let text = payload.downcast_ref::<&str>().copied();
     let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
-    text.unwrap_or("a panic without a text").to_owned()
+    text.unwrap_or("a panic without a text")
 }

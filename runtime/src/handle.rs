@@ -11,10 +11,11 @@ use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What can be sent to a thread to be done there: any closure of this shape.
-pub trait Job<T = ()>: FnOnce(&mut Context) -> T + Send + 'static {}
+/// A closure that can be sent to a thread and runs in that thread's loop. Implemented for every
+/// closure of this signature. Work that takes long belongs in a [`Job`](crate::Job).
+pub trait ContextFn<T = ()>: FnOnce(&mut Context) -> T + Send + 'static {}
 
-impl<T, F: FnOnce(&mut Context) -> T + Send + 'static> Job<T> for F {}
+impl<T, F: FnOnce(&mut Context) -> T + Send + 'static> ContextFn<T> for F {}
 
 /// A thread's remote control: cheap to clone, usable anywhere, never waiting.
 ///
@@ -35,23 +36,23 @@ impl ThreadHandle {
         &self.shared.name
     }
 
-    /// Runs `job` in the thread, between two of its messages.
+    /// Runs `call` in the thread, between two of its messages.
     ///
     /// # Errors
-    /// When the thread has stopped; `job` is dropped.
-    pub fn run(&self, job: impl Job) -> Result<(), SendError<()>> {
-        self.ask("run", job).map_err(|_| SendError::Stopped(()))
+    /// When the thread has stopped; `call` is dropped.
+    pub fn run(&self, call: impl ContextFn) -> Result<(), SendError<()>> {
+        self.ask("run", call).map_err(|_| SendError::Stopped(()))
     }
 
     /// Adds the worker that `make` makes behind the others; see [`Context::register_worker`].
-    pub fn register_worker<W: Worker>(&self, make: impl Job<W>) -> WorkerId {
+    pub fn register_worker<W: Worker>(&self, make: impl ContextFn<W>) -> WorkerId {
         let id = self.shared.new_id() | WORKER;
         self.insert(id, |thread| Object::worker(make(thread)));
         WorkerId(id)
     }
 
     /// Adds the worker that `make` makes behind all; see [`Context::register_last_worker`].
-    pub fn register_last_worker<W: Worker>(&self, make: impl Job<W>) -> WorkerId {
+    pub fn register_last_worker<W: Worker>(&self, make: impl ContextFn<W>) -> WorkerId {
         let id = self.shared.new_id() | LAST;
         self.insert(id, |thread| Object::worker(make(thread)));
         WorkerId(id)
@@ -59,7 +60,7 @@ impl ThreadHandle {
 
     /// Adds the receiver that `make` makes. The address is good at once: what is sent to it after
     /// this call arrives after the receiver was made.
-    pub fn register_receiver<R: Receiver>(&self, make: impl Job<R>) -> Address<R::Message> {
+    pub fn register_receiver<R: Receiver>(&self, make: impl ContextFn<R>) -> Address<R::Message> {
         let address = self.reserve_address();
         self.register_receiver_at(&address, make);
         address
@@ -70,7 +71,7 @@ impl ThreadHandle {
     ///
     /// # Panics
     /// When the address belongs to another thread.
-    pub fn register_receiver_at<R: Receiver>(&self, address: &Address<R::Message>, make: impl Job<R>) {
+    pub fn register_receiver_at<R: Receiver>(&self, address: &Address<R::Message>, make: impl ContextFn<R>) {
         self.insert(address.receiver_in(&self.shared), |thread| Object::receiver(make(thread)));
     }
 
@@ -160,7 +161,7 @@ impl ThreadHandle {
         self.command(move |thread| _ = to.send(thread.trace()));
     }
 
-    fn insert(&self, id: u32, make: impl Job<Object>) {
+    fn insert(&self, id: u32, make: impl ContextFn<Object>) {
         self.command(move |thread| {
             let object = make(thread);
             thread.insert(id, object, None);
@@ -172,20 +173,20 @@ impl ThreadHandle {
     }
 
     /// A message that the thread itself understands. A stopped thread has no use for it.
-    fn command(&self, job: impl Job) {
-        let _ = self.ask("run", job);
+    fn command(&self, call: impl ContextFn) {
+        let _ = self.ask("run", call);
     }
 
-    fn ask(&self, name: &'static str, job: impl Job) -> Result<(), Asked> {
+    fn ask(&self, name: &'static str, call: impl ContextFn) -> Result<(), Asked> {
         let row = self.shared.mailbox.0.row::<Asked>();
-        self.shared.send(0, row, Asked { name, job: Box::new(job) })
+        self.shared.send(0, row, Asked { name, call: Box::new(call) })
     }
 }
 
 /// A letter to the thread itself: registers, observers, traces, sleep and stop.
 struct Asked {
     name: &'static str,
-    job: Box<dyn FnOnce(&mut Context) + Send>,
+    call: Box<dyn FnOnce(&mut Context) + Send>,
 }
 
 impl Content for Asked {
@@ -194,7 +195,7 @@ impl Content for Asked {
     }
 
     fn deliver(self, _: u32, _: Stamped, thread: &mut Context) {
-        thread.shown(RUN, &"run".into(), |thread| thread.contain("run", "run", self.job));
+        thread.shown(RUN, &"run".into(), |thread| thread.contain("run", "run", self.call));
     }
 
     fn discard(self) -> usize {

@@ -4,7 +4,7 @@
 //! workers, in order, until one returns `false`. Then say when the next iteration is due.
 
 use crate::Context;
-use crate::fault::{Fault, Outcome, allow_restart, reason};
+use crate::fault::{Fault, Outcome, allow_restart, panic_text};
 use crate::object::short_type_name;
 use crate::register::{LAST, Label, Object, Slot, WORKER};
 use crate::sync::atomic::Ordering;
@@ -168,7 +168,7 @@ impl Context {
         self.shared().tallies.0.panics.add_own(1);
         let thread = Arc::clone(&self.shared().name);
         let object = object.into();
-        let reason = reason(payload);
+        let reason = panic_text(payload).to_owned();
         tracing::error!(%thread, %object, call, reason, ?outcome, "panic");
         let fault = Fault { thread, object, call, reason, outcome };
         if let Some(mut observer) = self.observer.take() {
@@ -246,8 +246,9 @@ impl Context {
         self.stopped || self.suspended().is_some()
     }
 
-    /// Ends the thread: refuses messages, then drops all objects, users before what they use,
-    /// which is in reverse order of registration, and workers first; then tells who waits.
+    /// Ends the thread: refuses messages, then drops all objects in reverse order of registration,
+    /// workers first, so that users are dropped before what they use; then cancels the thread's
+    /// jobs and waits for them; then wakes the threads that wait for this one.
     pub(crate) fn finish(&mut self) {
         if std::mem::replace(&mut self.ended, true) {
             return;
@@ -262,6 +263,8 @@ impl Context {
         while let Some((_, slot)) = self.objects.pop_last() {
             self.drop_slot(slot);
         }
+        let shared = self.shared();
+        shared.jobs.finish(&shared.name);
         self.trace = None;
         tracing::debug!(thread = %self.shared().name, left, "stopped");
         self.shared().finish();

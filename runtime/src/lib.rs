@@ -135,6 +135,13 @@
 //! }
 //! ```
 //!
+//! # Work that takes long
+//!
+//! A call that takes long keeps all other messages of its thread waiting. Loading a file or waiting
+//! for a dialog therefore runs as a [`Job`], in an OS thread of its own: it reports its progress and
+//! its result as messages, also when it panics; dropping it cancels it; and its thread waits for it
+//! at the end.
+//!
 //! # The rules
 //!
 //! * **An iteration** delivers every message stored since the last one, then calls the workers.
@@ -156,7 +163,8 @@
 //!   An object that is registered twice, as worker and as receiver, keeps its other half: what a
 //!   panic left half done in it is still seen there.
 //! * **A thread ends** by refusing messages, dropping its workers, then its receivers, each in
-//!   reverse order of registration: users before what they use. Then those who wait are woken.
+//!   reverse order of registration: users before what they use. Then it cancels its [`Job`]s and
+//!   waits for them, for [`JOB_DEADLINE`] at most. Then those who wait are woken.
 //!
 //! # To see what happens
 //!
@@ -190,8 +198,8 @@
 //! `object` (the two traits), `register` (where objects lie), `iteration` (the loop), `batch` (where
 //! messages lie), `mailbox` (where threads meet), `address` and `handle` (what others hold), `context`
 //! (what objects hold), `thread`, `shared`; then `fault` and `clock`: that is how threads and messages
-//! work, in under 1,500 lines without comments, and a test keeps it there. What looks on is apart and
-//! comes last: `trace`, `watchdog`, `stage`.
+//! work, in under 1,500 lines without comments, and a test keeps it there. The files that only use the
+//! core come last: `job`, `trace`, `watchdog`, `stage`.
 
 #![forbid(unsafe_code)]
 
@@ -202,6 +210,7 @@ mod context;
 mod fault;
 mod handle;
 mod iteration;
+mod job;
 mod mailbox;
 /// What stands in for the system's threads under a model checker.
 #[cfg(any(loom, shuttle))]
@@ -220,9 +229,10 @@ mod watchdog;
 pub use address::{Address, SendError};
 pub use clock::Timer;
 pub use context::Context;
-pub use fault::{Fault, Outcome, RESTART_WINDOW, RESTARTS};
-pub use handle::{Job, ThreadHandle};
+pub use fault::{Fault, Outcome, RESTART_WINDOW, RESTARTS, panic_text};
+pub use handle::{ContextFn, ThreadHandle};
 pub use iteration::Next;
+pub use job::{CancelFlag, JOB_DEADLINE, Job, JobAnswer, JobContext, JobError};
 pub use object::{Receiver, Worker};
 pub use register::WorkerId;
 pub use shared::Counters;

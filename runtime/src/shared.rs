@@ -2,6 +2,7 @@
 
 use crate::batch::{Content, Letter};
 use crate::clock::Clock;
+use crate::job::Jobs;
 use crate::mailbox::Mailbox;
 use crate::register::Label;
 use crate::sync::atomic::{AtomicBool, Ordering};
@@ -29,6 +30,8 @@ pub(crate) struct Shared {
     pub(crate) finished: AtomicBool,
     /// Woken when the loop has ended.
     pub(crate) waiters: Held<Vec<thread::Thread>>,
+    /// The background work that belongs to the thread.
+    pub(crate) jobs: Jobs,
     /// What the objects are called, for a watchdog; empty without one.
     pub(crate) labels: Held<BTreeMap<u32, Label>>,
     next_id: AtomicU32,
@@ -48,6 +51,7 @@ impl Shared {
             stopping: AtomicBool::new(false),
             finished: AtomicBool::new(false),
             waiters: Held::new(Vec::new()),
+            jobs: Jobs::new(),
             labels: Held::new(BTreeMap::new()),
             next_id: AtomicU32::new(1),
             running: Apart(AtomicU64::new(0)),

@@ -5,6 +5,7 @@ mod cast;
 mod addresses;
 mod alarms_and_sleep;
 mod iteration;
+mod jobs;
 mod messages_at_rest;
 mod no_locks;
 mod overload;
