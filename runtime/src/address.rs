@@ -3,7 +3,7 @@
 use crate::batch::{Content, Wrapped};
 use crate::shared::Shared;
 use crate::sync::atomic::{AtomicUsize, Ordering};
-use crate::sync::{Held, planted};
+use crate::sync::{Held, mutant};
 use std::fmt;
 use std::sync::Arc;
 
@@ -150,13 +150,17 @@ impl<M: Send + 'static> Address<M> {
         if self.is_stopped() {
             return Err(SendError::Stopped(message));
         }
-        let early = planted("announced_too_long").then(|| waiting.with(|waiting| waiting.is_some()));
-        let old = waiting.with(|waiting| waiting.replace(message));
-        if early.unwrap_or(old.is_some()) {
+        mutant!(self.announced_too_long(waiting, message));
+        if waiting.with(|waiting| waiting.replace(message)).is_some() {
             self.0.thread.tallies.0.replaced.add(1);
             return Ok(());
         }
-        // When it stopped meanwhile, and a newer one came between, that one is given back.
+        self.announce()
+    }
+
+    /// Queues the letter that stands for the newest message. If the thread has stopped since, the
+    /// message is given back; a newer one, if another sender replaced it.
+    pub(crate) fn announce(&self) -> Result<(), SendError<M>> {
         let back = self.put(Newest(Arc::clone(&self.0))).err().and_then(Wrapped::open);
         back.map_or(Ok(()), |newest| Err(SendError::Stopped(newest)))
     }

@@ -12,7 +12,7 @@
 
 use crate::Context;
 use crate::object::short_type_name;
-use crate::sync::planted;
+use crate::sync::mutant;
 use crate::trace::Stamped;
 use std::any::Any;
 use std::collections::VecDeque;
@@ -130,12 +130,12 @@ impl Batch {
 
     /// Delivers in order, while the thread takes it.
     pub(crate) fn deliver(&mut self, thread: &mut Context) {
+        mutant!(self.reversed_batch(thread));
         while let Some((row, count)) = self.order.front_mut() {
-            let (before, reversed) = (*count, planted("reversed_batch") as usize);
+            let before = *count;
             if let Some(row) = &mut self.rows[*row as usize] {
                 // Counted off one by one, and outside of what a panic unwinds.
-                let place = (before as usize - 1) * reversed;
-                thread.contain("message", "drop", |thread| row.deliver(place, count, thread));
+                thread.contain("message", "drop", |thread| row.deliver(0, count, thread));
             }
             self.len -= (before - *count) as usize;
             if *count == before {

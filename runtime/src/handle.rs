@@ -4,7 +4,7 @@ use crate::batch::Content;
 use crate::register::{LAST, Object, RUN, WORKER, WorkerId};
 use crate::shared::{Counters, Shared};
 use crate::sync::atomic::Ordering;
-use crate::sync::planted;
+use crate::sync::mutant;
 use crate::trace::Stamped;
 use crate::{Address, Context, Fault, Receiver, SendError, TraceSnapshot, Worker};
 use std::fmt;
@@ -118,10 +118,9 @@ impl ThreadHandle {
 
     /// Ends a pause. Pauses do not add up.
     pub fn resume(&self) {
+        mutant!(self.silent_resume());
         self.shared.paused.store(false, Ordering::SeqCst);
-        if !planted("silent_resume") {
-            self.shared.mailbox.0.wake_now();
-        }
+        self.shared.mailbox.0.wake_now();
     }
 
     /// Has the loop ended, with every object of the thread dropped?

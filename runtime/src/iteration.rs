@@ -8,7 +8,7 @@ use crate::fault::{Fault, Outcome, allow_restart, panic_text};
 use crate::object::short_type_name;
 use crate::register::{LAST, Label, Object, Slot, WORKER};
 use crate::sync::atomic::Ordering;
-use crate::sync::planted;
+use crate::sync::mutant;
 use crate::trace::{self, End, Event, Record, Stamped};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -227,7 +227,8 @@ impl Context {
 
     /// Told to sleep or to pause, and until when. A stop in the queue overrules both.
     fn suspended(&mut self) -> Option<Next> {
-        if self.shared().stopping.load(Ordering::SeqCst) && !planted("stuck_in_pause") {
+        mutant!(self.stuck_in_pause());
+        if self.shared().stopping.load(Ordering::SeqCst) {
             self.sleep_until = None;
             return None;
         }
@@ -253,9 +254,13 @@ impl Context {
         if std::mem::replace(&mut self.ended, true) {
             return;
         }
-        if planted("finished_too_early") {
-            self.shared().finish();
-        }
+        mutant!(self.finished_too_early());
+        self.drop_everything();
+        self.shared().finish();
+    }
+
+    /// All of [`finish`](Self::finish) before the wake-up.
+    pub(crate) fn drop_everything(&mut self) {
         let mut left = std::mem::take(&mut self.batch);
         left.append(&mut self.shared().mailbox.0.close());
         let left = left.discard();
@@ -267,7 +272,6 @@ impl Context {
         shared.jobs.finish(&shared.name);
         self.trace = None;
         tracing::debug!(thread = %self.shared().name, left, "stopped");
-        self.shared().finish();
     }
 }
 

@@ -217,6 +217,10 @@ mod mailbox;
 #[allow(missing_docs)]
 #[path = "../../tests/runtime/modelled.rs"]
 pub mod modelled;
+/// Faulty versions of functions, which the model checkers must find.
+#[cfg(any(loom, shuttle))]
+#[path = "../../tests/runtime/mutants.rs"]
+mod mutants;
 mod object;
 mod register;
 mod shared;

@@ -16,26 +16,26 @@
 
 use crate::batch::{Batch, Content, Letter};
 use crate::sync::atomic::{AtomicU8, Ordering};
-use crate::sync::{Held, planted};
+use crate::sync::{Held, mutant};
 use std::any::TypeId;
 
-const AWAKE: u8 = 0;
-const ASLEEP: u8 = 1;
-const CLOSED: u8 = 2;
+pub(crate) const AWAKE: u8 = 0;
+pub(crate) const ASLEEP: u8 = 1;
+pub(crate) const CLOSED: u8 = 2;
 /// Does nothing but look at the state: as good as asleep, but need not be woken.
 const LOOKING: u8 = 3;
 
 /// The queue of one thread. Any thread may [`send`](Self::send); everything else is the owner's.
 pub(crate) struct Mailbox {
-    stored: Held<Stored>,
+    pub(crate) stored: Held<Stored>,
     /// Changed under the lock, and looked at from outside, where a moment ago is good enough.
-    state: AtomicU8,
+    pub(crate) state: AtomicU8,
     wake: Box<dyn Fn() + Send + Sync>,
 }
 
 #[derive(Default)]
-struct Stored {
-    batch: Batch,
+pub(crate) struct Stored {
+    pub(crate) batch: Batch,
     /// The types of the batch's rows.
     rows: Vec<TypeId>,
 }
@@ -61,15 +61,14 @@ impl Mailbox {
     /// Stores `letter`, or gives its content back when the mailbox is closed. Never waits for
     /// more than another's move of a message.
     pub(crate) fn send<C: Content>(&self, row: u32, letter: Letter<C>) -> Result<(), C> {
-        let early = planted("lost_notify").then(|| self.state());
-        let late = planted("late_send").then(|| self.state());
+        mutant!(self.lost_notify(row, letter));
+        mutant!(self.late_send(row, letter));
         let state = self.stored.with(|stored| {
-            let state = late.unwrap_or_else(|| self.state());
+            let state = self.state();
             if state == CLOSED {
                 return Err(letter.content);
             }
             stored.batch.push(row, letter);
-            let state = early.unwrap_or(state);
             if state != AWAKE {
                 self.state.store(AWAKE, Ordering::SeqCst);
             }
@@ -95,14 +94,13 @@ impl Mailbox {
 
     /// The owner wants to sleep until a message comes. `false`: one is here already.
     pub(crate) fn fall_asleep(&self) -> bool {
-        let empty = |stored: &mut Stored| stored.batch.len() == 0;
-        let early = planted("unchecked_sleep").then(|| self.stored.with(empty));
+        mutant!(self.unchecked_sleep());
         self.stored.with(|stored| {
-            let sleeps = early.unwrap_or_else(|| empty(stored));
-            if sleeps {
+            let empty = stored.batch.len() == 0;
+            if empty {
                 self.state.store(ASLEEP, Ordering::SeqCst);
             }
-            sleeps
+            empty
         })
     }
 
@@ -131,11 +129,10 @@ impl Mailbox {
 
     /// Refuses what comes from now on: what was stored before.
     pub(crate) fn close(&self) -> Batch {
-        let take = |stored: &mut Stored| std::mem::take(&mut stored.batch);
-        let early = planted("sweep_before_close").then(|| self.stored.with(take));
+        mutant!(self.sweep_before_close());
         self.stored.with(|stored| {
             self.state.store(CLOSED, Ordering::SeqCst);
-            early.unwrap_or_else(|| take(stored))
+            std::mem::take(&mut stored.batch)
         })
     }
 
@@ -152,7 +149,7 @@ impl Mailbox {
         self.stored.with(|stored| stored.batch.len())
     }
 
-    fn state(&self) -> u8 {
+    pub(crate) fn state(&self) -> u8 {
         self.state.load(Ordering::SeqCst)
     }
 }

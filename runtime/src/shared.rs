@@ -6,7 +6,7 @@ use crate::job::Jobs;
 use crate::mailbox::Mailbox;
 use crate::register::Label;
 use crate::sync::atomic::{AtomicBool, Ordering};
-use crate::sync::{Held, planted, thread};
+use crate::sync::{Held, mutant, thread};
 use crate::trace;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -79,8 +79,8 @@ impl Shared {
 
     /// Says that the loop has ended and all objects are dropped, and wakes who waits for it.
     pub(crate) fn finish(&self) {
-        let order = if planted("relaxed_finish") { Ordering::Relaxed } else { Ordering::SeqCst };
-        self.finished.store(true, order);
+        mutant!(self.relaxed_finish());
+        self.finished.store(true, Ordering::SeqCst);
         self.waiters.with(std::mem::take).into_iter().for_each(|waiter| waiter.unpark());
     }
 

@@ -12,7 +12,7 @@
 /// The checkers' lock and atomics, and threads that park as the standard library's do.
 #[cfg(any(loom, shuttle))]
 use crate::modelled as parts;
-pub(crate) use parts::{atomic, planted, thread};
+pub(crate) use parts::{atomic, thread};
 use std::time::Instant;
 
 #[cfg(not(any(loom, shuttle)))]
@@ -22,16 +22,19 @@ mod parts {
     #[cfg(not(tsan))]
     pub(crate) use std::sync::Mutex;
     pub(crate) use std::{sync::atomic, thread};
-
-    /// Is the planted bug of this name on? Never, in a normal build: the question compiles to
-    /// nothing.
-    ///
-    /// A model that cannot fail proves nothing. `.ci/models` turns each bug on in turn and demands
-    /// that a checker finds it.
-    pub(crate) const fn planted(_bug: &str) -> bool {
-        false
-    }
 }
+
+/// `mutant!(self.faulty(arguments))` returns what `faulty` returns, if a model checker has planted
+/// the bug of that name: see `tests/runtime/mutants.rs`. Expands to nothing in a normal build.
+macro_rules! mutant {
+    ($object:ident $(. $method:ident)? $(:: $function:ident)? ($($argument:expr),*)) => {
+        #[cfg(any(loom, shuttle))]
+        if crate::modelled::planted(concat!($(stringify!($method))? $(stringify!($function))?)) {
+            return $object $(. $method)? $(:: $function)? ($($argument),*);
+        }
+    };
+}
+pub(crate) use mutant;
 
 /// The one lock of the crate, and so the one thing that two threads ever wait for in it: as in the
 /// thesis, whose queue has one for the same reason (§3.2.6.1).

@@ -2,7 +2,7 @@
 
 use crate::clock::Clock;
 use crate::shared::Shared;
-use crate::sync::{Held, park, planted, thread};
+use crate::sync::{Held, mutant, park, thread};
 use crate::{Context, Next, ThreadHandle};
 use std::cell::Cell;
 use std::io;
@@ -67,15 +67,15 @@ impl Thread {
     /// # Errors
     /// The names of those that still run at `deadline`.
     pub fn wait_for(threads: &[ThreadHandle], deadline: Instant) -> Result<(), Vec<String>> {
+        mutant!(Self::unchecked_wait(threads, deadline));
         let names = || -> Vec<String> {
             let running = threads.iter().filter(|one| !one.is_stopped());
             running.map(|one| one.name().to_owned()).collect()
         };
-        let early = planted("unchecked_wait").then(names);
         // First said, then looked: a thread that finishes in between either sees who waits or is
         // seen as finished.
         threads.iter().for_each(|one| one.shared.waiters.with(|waiters| waiters.push(thread::current())));
-        let mut running = early.unwrap_or_else(names);
+        let mut running = names();
         while !running.is_empty() {
             if Instant::now() >= deadline {
                 return Err(running);
