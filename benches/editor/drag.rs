@@ -17,7 +17,7 @@ use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
 };
-use dragonfly_runtime::{Address, Context, Event, Receiver, Record, Thread, TraceSnapshot};
+use dragonfly_runtime::{Address, Context, Receiver, Thread, TraceEvent, TraceRecord, TraceSnapshot};
 use glam::{Mat4, Quat, Vec3};
 use std::cell::RefCell;
 use std::path::Path;
@@ -258,9 +258,9 @@ fn measure(name: &str, load: Load, bone: &str) -> Duration {
 }
 
 /// When a view was taken and the scene computed for it.
-fn arrived(record: &Record) -> Option<Instant> {
+fn arrived(record: &TraceRecord) -> Option<Instant> {
     match &record.event {
-        Event::Message { to, .. } if &**to == "picture" => Some(record.at + record.took),
+        TraceEvent::Message { to, .. } if &**to == "picture" => Some(record.at + record.took),
         _ => None,
     }
 }

@@ -1,4 +1,4 @@
-//! When a call panics: what is reported, and whether the object gets another chance.
+//! Panics of objects: how they are reported, and whether the object is restarted.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -6,41 +6,41 @@ use std::time::{Duration, Instant};
 
 /// A panic in a worker, a receiver, or a closure that was sent to a thread.
 ///
-/// The thread lives on; of the messages only the one being received is lost.
+/// The thread continues. Only the message being received is lost.
 #[derive(Clone, Debug)]
 pub struct Fault {
     /// The thread's name.
     pub thread: Arc<str>,
     /// The object's name.
     pub object: Arc<str>,
-    /// The type of the message being received; `"update"` for a worker, else what was being done
-    /// with the object (`"make"`, `"drop"`, `"run"`).
+    /// The type of the message being received; `"update"` for a worker; otherwise what was being
+    /// done with the object: `"make"`, `"drop"` or `"run"`.
     pub call: &'static str,
-    /// The text of the panic.
+    /// The text of the panic, see [`panic_text`].
     pub reason: String,
-    /// What became of the object.
+    /// Whether the object was removed or restarted.
     pub outcome: Outcome,
 }
 
-/// What became of an object that panicked.
+/// Removal or restart of an object that panicked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It is dropped and no longer registered.
+    /// It was dropped and is no longer registered.
     Removed,
-    /// It was dropped, and its factory made a new one in the same place.
+    /// It was dropped, and its factory made a new one at the same position.
     Restarted,
-    /// It panicked more than [`RESTARTS`] times within [`RESTART_WINDOW`] (or its factory did) and
-    /// is removed for good.
+    /// It panicked more than [`RESTARTS`] times within [`RESTART_WINDOW`], or its factory panicked,
+    /// and it was removed for good.
     GivenUp,
 }
 
-/// How many restarts an object gets within [`RESTART_WINDOW`].
+/// Number of times that an object is restarted within [`RESTART_WINDOW`].
 pub const RESTARTS: usize = 3;
-/// See [`RESTARTS`].
+/// Time after which a panic no longer counts against [`RESTARTS`].
 pub const RESTART_WINDOW: Duration = Duration::from_secs(10);
 
-/// Counts a panic at `now` among those of one restartable object that still count: may the object be
-/// made anew?
+/// Adds a panic at `now` to the recent `failures` of a restartable object. Returns whether the object
+/// may be restarted.
 pub(crate) fn allow_restart(failures: &mut Vec<Instant>, now: Instant) -> bool {
     failures.retain(|then| now.saturating_duration_since(*then) < RESTART_WINDOW);
     failures.push(now);

@@ -1,8 +1,8 @@
 //! Background work: each job runs in an OS thread of its own and belongs to a runtime thread.
 
 use crate::fault::panic_text;
-use crate::shared::Shared;
-use crate::sync::{Held, thread};
+use crate::shared::ThreadShared;
+use crate::sync::{Lock, thread};
 use crate::{Address, ThreadHandle, trace};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -105,7 +105,7 @@ impl CancelFlag {
 #[doc(alias = "spawn")]
 pub struct Job(Arc<JobState>);
 
-/// Shared by a [`Job`], its OS thread and the thread that it belongs to.
+/// ThreadShared by a [`Job`], its OS thread and the thread that it belongs to.
 struct JobState {
     name: Arc<str>,
     cancel: CancelFlag,
@@ -175,7 +175,8 @@ impl Job {
         Self::spawn(None, name, move |state| _ = caught(state, work)).map(Self::detach)
     }
 
-    /// The name given at the start; also that of the OS thread, of which Linux shows 15 bytes.
+    /// Returns the name given at the start. It is also the name of the OS thread, of which Linux
+    /// shows 15 bytes.
     pub fn name(&self) -> &str {
         &self.0.name
     }
@@ -197,11 +198,12 @@ impl Job {
     }
 
     fn spawn(
-        owner: Option<&Arc<Shared>>,
+        owner: Option<&Arc<ThreadShared>>,
         name: &str,
         body: impl FnOnce(&JobState) + Send + 'static,
     ) -> io::Result<Self> {
-        let stopped = |owner: &Arc<Shared>| io::Error::other(format!("thread {:?} has stopped", owner.name));
+        let stopped =
+            |owner: &Arc<ThreadShared>| io::Error::other(format!("thread {:?} has stopped", owner.name));
         if let Some(owner) = owner.filter(|owner| owner.mailbox.0.is_closed()) {
             return Err(stopped(owner));
         }
@@ -248,7 +250,7 @@ impl fmt::Debug for Job {
     }
 }
 
-/// What the work of a [`Job`] can ask and report while it runs.
+/// Passed to the work of a [`Job`]: whether to end, and a way to report progress.
 pub struct JobContext<M> {
     address: Address<M>,
     cancel: CancelFlag,
@@ -263,7 +265,7 @@ impl<M: Send + 'static> JobContext<M> {
         self.cancel.is_cancelled()
     }
 
-    /// The flag behind [`is_cancelled`](Self::is_cancelled), for code that takes it as a
+    /// Returns the flag that [`is_cancelled`](Self::is_cancelled) reads, for code that takes it as a
     /// parameter.
     pub fn cancel_flag(&self) -> &CancelFlag {
         &self.cancel
@@ -327,9 +329,9 @@ impl fmt::Display for JobError {
 impl std::error::Error for JobError {}
 
 /// The jobs of one thread. `None` once the thread has ended.
-pub(crate) struct Jobs(Held<Option<Vec<RunningJob>>>);
+pub(crate) struct Jobs(Lock<Option<Vec<RunningJob>>>);
 
-/// What is needed to wait for a job.
+/// A job in the list of its thread.
 struct RunningJob {
     state: Arc<JobState>,
     os_thread: thread::JoinHandle<()>,
@@ -337,7 +339,7 @@ struct RunningJob {
 
 impl Jobs {
     pub(crate) fn new() -> Self {
-        Self(Held::new(Some(Vec::new())))
+        Self(Lock::new(Some(Vec::new())))
     }
 
     /// Adds a job and forgets those that have finished. Returns `false` when the thread has ended.

@@ -5,18 +5,18 @@
 //!
 //! Most of them check something under one lock and act on it under another, so that a second thread comes between.
 
-use crate::batch::{Batch, Content, Letter};
-use crate::mailbox::{ASLEEP, AWAKE, CLOSED, Mailbox, Stored};
-use crate::shared::Shared;
+use crate::batch::{Batch, Letter, LetterContent};
+use crate::mailbox::{ASLEEP, AWAKE, CLOSED, Mailbox, MailboxContent};
+use crate::shared::ThreadShared;
 use crate::sync::atomic::Ordering;
-use crate::sync::{Held, park, thread};
+use crate::sync::{Lock, park, thread};
 use crate::{Address, Context, Next, SendError, Thread, ThreadHandle};
 use std::time::Instant;
 
 impl Mailbox {
     /// For [`send`](Self::send): reads before it stores the message whether the owner must be woken. An owner that falls
     /// asleep in between is not woken.
-    pub(crate) fn lost_notify<C: Content>(&self, row: u32, letter: Letter<C>) -> Result<(), C> {
+    pub(crate) fn lost_notify<C: LetterContent>(&self, row: u32, letter: Letter<C>) -> Result<(), C> {
         let early = self.state();
         self.stored.with(|stored| {
             if self.state() == CLOSED {
@@ -35,7 +35,7 @@ impl Mailbox {
     }
 
     /// For [`send`](Self::send): stores a message in a mailbox that was closed in between.
-    pub(crate) fn late_send<C: Content>(&self, row: u32, letter: Letter<C>) -> Result<(), C> {
+    pub(crate) fn late_send<C: LetterContent>(&self, row: u32, letter: Letter<C>) -> Result<(), C> {
         let early = self.state();
         if early == CLOSED {
             return Err(letter.content);
@@ -65,7 +65,7 @@ impl Mailbox {
 
     /// For [`close`](Self::close): misses a message that was stored in between.
     pub(crate) fn sweep_before_close(&self) -> Batch {
-        let take = |stored: &mut Stored| std::mem::take(&mut stored.batch);
+        let take = |stored: &mut MailboxContent| std::mem::take(&mut stored.batch);
         let left = self.stored.with(take);
         self.stored.with(|_| self.state.store(CLOSED, Ordering::SeqCst));
         left
@@ -76,7 +76,7 @@ impl<M: Send + 'static> Address<M> {
     /// For `replace`: takes a message for queued that was delivered in between, so the new one is not.
     pub(crate) fn announced_too_long(
         &self,
-        waiting: &Held<Option<M>>,
+        waiting: &Lock<Option<M>>,
         message: M,
     ) -> Result<(), SendError<M>> {
         let queued = waiting.with(|waiting| waiting.is_some());
@@ -116,7 +116,7 @@ impl Context {
     }
 }
 
-impl Shared {
+impl ThreadShared {
     /// For [`finish`](Self::finish): what the thread wrote may not be visible yet to those it wakes.
     pub(crate) fn relaxed_finish(&self) {
         self.finished.store(true, Ordering::Relaxed);

@@ -1,7 +1,7 @@
 //! The stage: everything in the order a test says.
 
 use crate::cast::{Log, hear, listen, note, work};
-use dragonfly_runtime::{Context, Next, Stage, Waiting};
+use dragonfly_runtime::{Context, Next, PendingMessage, Stage};
 use std::time::Duration;
 
 #[test]
@@ -32,8 +32,11 @@ fn what_waits_can_be_seen() {
     gone.send("x".to_owned()).unwrap();
     thread.remote_sleep(Duration::ZERO);
     thread.remote_stop();
-    let seen: Vec<_> =
-        stage.waiting(&thread).into_iter().map(|Waiting { to, message }| format!("{to}<{message}")).collect();
+    let seen: Vec<_> = stage
+        .waiting(&thread)
+        .into_iter()
+        .map(|PendingMessage { to, message }| format!("{to}<{message}"))
+        .collect();
     assert_eq!(seen, ["Ear<u32", "Ear<u32", "<String", "<sleep", "<stop"]);
 }
 

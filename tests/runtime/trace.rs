@@ -1,7 +1,9 @@
 //! The trace: who sent what to whom, how long it waited, how long it took.
 
 use crate::cast::{LIMIT, Log, hear, note, outlet, panic_quietly, work};
-use dragonfly_runtime::{Context, End, Event, Receiver, Record, Stage, Thread, TraceSnapshot, Worker};
+use dragonfly_runtime::{
+    CallEnd, Context, Receiver, Stage, Thread, TraceEvent, TraceRecord, TraceSnapshot, Worker,
+};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
@@ -26,13 +28,13 @@ impl Receiver for Cook {
     }
 }
 
-fn line(record: &Record) -> String {
+fn line(record: &TraceRecord) -> String {
     let turn = record.iteration;
     match &record.event {
-        Event::Message { from, to, message, waited, end } => {
+        TraceEvent::Message { from, to, message, waited, end } => {
             format!("{turn}: {from} -{message}-> {to} waited {waited:?} {end:?}")
         }
-        Event::Worker { name, end } => format!("{turn}: {name} {end:?}"),
+        TraceEvent::Worker { name, end } => format!("{turn}: {name} {end:?}"),
     }
 }
 
@@ -86,11 +88,11 @@ fn the_trace_shows_what_went_wrong() {
     gone.send(1).unwrap();
     bad.send(2).unwrap();
     stage.iterate(&thread);
-    let end = |record: &Record| match record.event {
-        Event::Message { end, .. } | Event::Worker { end, .. } => end,
+    let end = |record: &TraceRecord| match record.event {
+        TraceEvent::Message { end, .. } | TraceEvent::Worker { end, .. } => end,
     };
     let ends: Vec<_> = stage.context(&thread).trace().records.iter().map(end).collect();
-    assert_eq!(ends, [End::Undeliverable, End::Panicked]);
+    assert_eq!(ends, [CallEnd::Undeliverable, CallEnd::Panicked]);
 }
 
 #[test]
