@@ -1,6 +1,6 @@
 //! Background work: exactly one answer for each job, cancelled by dropping it, joined by its thread.
 
-use crate::cast::{LIMIT, deadline, hear, outlet, panic_quietly};
+use crate::helpers::{LIMIT, deadline, fn_receiver, forwarder, panic_quietly};
 use dragonfly_kit::eventually;
 use dragonfly_runtime::{CancelFlag, JOB_DEADLINE, Job, JobContext, JobError, Stage, Thread};
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::Instant;
 
-/// What the jobs of these tests send.
+/// The messages of the jobs in these tests.
 #[derive(Debug, PartialEq)]
 enum JobMessage {
     Progress(f32),
@@ -29,7 +29,7 @@ fn until_cancelled(cancel: &CancelFlag) -> bool {
 #[test]
 fn the_result_arrives_as_a_message() {
     let thread = Thread::start("owner").unwrap();
-    let (receiver, messages) = outlet();
+    let (receiver, messages) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
     let job = Job::start(&address, "answer", |_| JobMessage::Done(42), failed).unwrap();
     assert_eq!(messages.recv_timeout(LIMIT), Ok(JobMessage::Done(42)));
@@ -40,7 +40,7 @@ fn the_result_arrives_as_a_message() {
 #[test]
 fn a_panic_arrives_as_a_message() {
     let thread = Thread::start("owner").unwrap();
-    let (receiver, messages) = outlet();
+    let (receiver, messages) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
     let job = Job::start(&address, "clumsy", |_| panic_quietly("no such file"), failed).unwrap();
     assert_eq!(messages.recv_timeout(LIMIT), Ok(failed("no such file")));
@@ -49,7 +49,7 @@ fn a_panic_arrives_as_a_message() {
 }
 
 #[test]
-fn a_oneshot_job_gives_its_result_or_its_panic_to_who_waits() {
+fn a_oneshot_job_returns_its_result_or_its_panic() {
     let thread = Thread::start("owner").unwrap();
     let (_job, answer) = Job::start_oneshot(thread.handle(), "sum", |_| 1 + 1).unwrap();
     assert_eq!(answer.wait(deadline()), Ok(2));
@@ -88,7 +88,7 @@ fn dropping_a_job_cancels_it_without_waiting_for_it() {
 #[test]
 fn a_cancelled_job_can_still_be_observed_until_its_answer_comes() {
     let thread = Thread::start("owner").unwrap();
-    let (receiver, messages) = outlet();
+    let (receiver, messages) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
     let work = |job: &JobContext<_>| {
         let cancelled = until_cancelled(job.cancel_flag());
@@ -104,7 +104,7 @@ fn a_cancelled_job_can_still_be_observed_until_its_answer_comes() {
 #[test]
 fn progress_is_rationed_to_one_message_for_each_hundredth() {
     let thread = Thread::start("owner").unwrap();
-    let (receiver, messages) = outlet();
+    let (receiver, messages) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
     let made = Arc::new(AtomicUsize::new(0));
     let count = Arc::clone(&made);
@@ -161,7 +161,7 @@ fn a_job_sees_its_thread_drop_its_objects_first() {
     let thread = stage.start("owner");
     let dropped = Arc::new(AtomicBool::new(false));
     let (object, seen) = (DropFlag(Arc::clone(&dropped)), Arc::clone(&dropped));
-    stage.context(&thread).register_receiver(hear(move |(), _| {
+    stage.context(&thread).register_receiver(fn_receiver(move |(), _| {
         let DropFlag(_) = &object;
     }));
     let work = move |cancel: &CancelFlag| until_cancelled(cancel) && seen.load(Ordering::SeqCst);
@@ -231,7 +231,7 @@ fn a_thread_that_has_stopped_takes_no_jobs() {
 fn the_trace_names_the_job_that_sent_a_message() {
     let mut stage = Stage::new();
     let thread = stage.start("owner");
-    let address = stage.context(&thread).register_receiver(hear(|_: JobMessage, _| {}));
+    let address = stage.context(&thread).register_receiver(fn_receiver(|_: JobMessage, _| {}));
     stage.context(&thread).set_trace(8);
     let job = Job::start(&address, "load", |_| JobMessage::Done(1), failed).unwrap();
     eventually(LIMIT, || job.is_finished());

@@ -1,4 +1,4 @@
-//! What the tests of all crates share. Small on purpose: a test should show what it does.
+//! Helpers shared by the tests of all crates. Deliberately small: a test should show what it does.
 
 pub mod bench;
 pub mod counting;
