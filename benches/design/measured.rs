@@ -36,7 +36,7 @@ struct Bone {
     angle: f32,
     // feature: begin
     /// Of its line.
-    colour: u32,
+    color: u32,
     // feature: end
 }
 
@@ -53,7 +53,7 @@ impl Panel {
 }
 
 enum Edit {
-    SetColour, // feature
+    SetColor, // feature
 }
 
 #[cfg(test)]
@@ -116,7 +116,7 @@ fn the_counts_say_what_the_page_says_in_words() {
 fn handles_have_the_names_of_the_objects() {
     let sources = [include_str!("messages/document.rs"), include_str!("messages/viewport.rs")];
     let handles = include_str!("messages/handles.rs");
-    for name in ["set_angle", "set_colour", "toggle_visible", "show", "pick"] {
+    for name in ["set_angle", "set_color", "toggle_visible", "show", "pick"] {
         let method = format!("pub fn {name}(");
         assert!(sources.iter().any(|source| source.contains(&method)), "no object has {name}");
         assert!(handles.contains(&method), "no handle has {name}");

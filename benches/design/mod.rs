@@ -1,7 +1,7 @@
 //! The other cost: what it takes to write the same thing with messages and with locks.
 //!
 //! A tiny editor (a panel in the main thread, a viewport in the graphics thread, a skeleton between them) is written
-//! [`messages`] first and [`locks`] second. Then both get the same feature: bones have a colour and can be hidden. Its
+//! [`messages`] first and [`locks`] second. Then both get the same feature: bones have a color and can be hidden. Its
 //! lines are marked `// feature`, so that [`count`] can tell what it cost, and so that the editors can be built without
 //! it: the build script does that, and the tests run both.
 

@@ -6,10 +6,10 @@ pub type Point = [f32; 2];
 
 // feature: begin
 /// Red, green and blue.
-pub type Colour = [u8; 3];
+pub type Color = [u8; 3];
 
-/// The colour of a bone for which nobody has chosen one.
-pub const WHITE: Colour = [255, 255, 255];
+/// The color of a bone for which nobody has chosen one.
+pub const WHITE: Color = [255, 255, 255];
 // feature: end
 
 /// One bone.
@@ -21,7 +21,7 @@ pub struct Bone {
     pub angle: f32,
     // feature: begin
     /// Of its line in the picture.
-    pub colour: Colour,
+    pub color: Color,
     /// A hidden bone is not drawn and cannot be picked; those behind it stay where they are.
     pub visible: bool,
     // feature: end
@@ -34,7 +34,7 @@ impl Bone {
             name: name.to_owned(),
             angle,
             // feature: begin
-            colour: WHITE,
+            color: WHITE,
             visible: true,
             // feature: end
         }
@@ -50,8 +50,8 @@ pub struct Line {
     pub from: Point,
     /// Where it ends.
     pub to: Point,
-    /// In which colour it is drawn.
-    pub colour: Colour, // feature
+    /// In which color it is drawn.
+    pub color: Color, // feature
 }
 
 /// The picture of the whole chain.
@@ -65,7 +65,7 @@ pub fn draw(bones: &[Bone]) -> Vec<Line> {
             bone: number,
             from,
             to,
-            colour: bone.colour, // feature
+            color: bone.color, // feature
         };
         lines.extend(bone.visible.then_some(line)); // feature, before: lines.push(line);
         from = to;
@@ -87,7 +87,7 @@ pub fn pick(lines: &[Line], point: Point) -> Option<usize> {
 pub fn describe(bone: &Bone) -> String {
     let mut text = format!("{} {:.2}", bone.name, bone.angle);
     // feature: begin
-    let [red, green, blue] = bone.colour;
+    let [red, green, blue] = bone.color;
     text += &format!(" #{red:02x}{green:02x}{blue:02x}");
     if !bone.visible {
         text += " hidden";

@@ -36,7 +36,7 @@ const LIMIT: Duration = Duration::from_millis(4);
 /// Fails where it takes longer than [`LIMIT`].
 fn main() -> ExitCode {
     let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
-    let cases: [(&str, Load, &str); 2] =
+    let cases: [(&str, LoadFn, &str); 2] =
         [("editor/drag/fox", fox, "b_Head_05"), ("editor/drag/thousand_bones", thousand, "bone 500")];
     let mut late = false;
     for (name, load, bone) in cases {
@@ -47,7 +47,7 @@ fn main() -> ExitCode {
     if late { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-type Load = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
+type LoadFn = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
 
 fn fox(_: &Source, tell: &mut dyn FnMut(Progress), cancel: &Cancel) -> Result<Opened, LoadError> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/gltf/Fox.glb");
@@ -126,9 +126,9 @@ impl Receiver for Heard {
 
 /// Counts the views that were taken.
 #[derive(Clone, Default)]
-struct Count(Rc<RefCell<usize>>);
+struct Counted(Rc<RefCell<usize>>);
 
-impl Receiver for Count {
+impl Receiver for Counted {
     type Message = Taken;
 
     fn receive(&mut self, _: Taken, _: &mut Context) {
@@ -147,7 +147,7 @@ impl Receiver for Traces {
 }
 
 /// Measures a drag; tells the 99th percentile.
-fn measure(name: &str, load: Load, bone: &str) -> Duration {
+fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
     let heard = Heard::default();
     let traced = Rc::new(RefCell::new(None));
     // As in the window, the main thread sleeps until it is told that something came: it does not take a processor.
@@ -156,7 +156,7 @@ fn measure(name: &str, load: Load, bone: &str) -> Duration {
     let graphics = Thread::start("graphics").expect("a thread");
     let replies = main.context().register_receiver(heard.clone());
     let traces: Address<TraceSnapshot> = main.context().register_receiver(Traces(Rc::clone(&traced)));
-    let count = Count::default();
+    let count = Counted::default();
     let taken = main.context().register_receiver(count.clone());
     let pictures = graphics.handle().reserve_address();
     let own = pictures.clone();

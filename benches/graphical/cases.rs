@@ -7,7 +7,7 @@ use super::scenario::{Bed, Scenario, Verdict, run};
 use super::script::Edits;
 use super::sharing::{WAYS, Way};
 use super::{cores, table};
-use crate::{Mode, Study, Variant};
+use crate::{Study, StudyMode, Variant};
 use std::time::Duration;
 
 const HERTZ_60: Option<Duration> = Some(Duration::from_nanos(16_666_667));
@@ -25,7 +25,7 @@ enum Field {
 }
 
 impl Field {
-    fn ways(self, mode: Mode) -> Vec<Way> {
+    fn ways(self, mode: StudyMode) -> Vec<Way> {
         /// A short run has no time for more.
         const FEW: [&str; 6] = [
             "messages, newest",
@@ -36,9 +36,9 @@ impl Field {
             "arcswap, cow",
         ];
         let wanted = |way: &&Way| match self {
-            _ if self == Self::All || mode == Mode::Check => true,
+            _ if self == Self::All || mode == StudyMode::Check => true,
             Self::And(names) if names.contains(&way.name) => true,
-            _ if mode == Mode::Short => FEW.contains(&way.name),
+            _ if mode == StudyMode::Short => FEW.contains(&way.name),
             _ => way.telling,
         };
         WAYS.iter().filter(wanted).copied().collect()
@@ -50,10 +50,10 @@ pub fn all(study: &mut Study) {
     study.prints = false;
     let usual = Size::USUAL.document();
     let draws = match study.mode {
-        Mode::Check => 1,
+        StudyMode::Check => 1,
         _ => Frame::calibrate(usual.skeleton.clone()),
     };
-    if study.mode != Mode::Check {
+    if study.mode != StudyMode::Check {
         println!("# a frame draws its mesh {draws} times, which takes 3 ms when nothing disturbs it");
         println!("# times in microseconds; medians of the repeats");
     }
@@ -67,7 +67,7 @@ pub fn all(study: &mut Study) {
     let flood = Scenario { rate: Rate::FlatOut, ..core };
     let takes = Scenario { edits: Edits::Large, rate: slow, ..core };
     // A test looks at results, and those do not depend on how fast it goes.
-    if study.mode != Mode::Check {
+    if study.mode != StudyMode::Check {
         compare(study, "drag/60 Hz", bed, Scenario { rate: slow, ..core }, Field::Telling);
         compare(study, "drag/frames 144 Hz", bed, Scenario { period: HERTZ_144, ..core }, Field::Telling);
         compare(study, "takes/60 Hz", bed, takes, Field::And(&["mutex a take"]));
@@ -75,7 +75,7 @@ pub fn all(study: &mut Study) {
     compare(study, "drag/frames unpaced", bed, Scenario { period: None, ..core }, Field::Telling);
     compare(study, "flood", bed, flood, Field::And(&["messages", "messages, merged", "triple buffer"]));
     let flood = Scenario { rate: Rate::FlatOut, ..takes };
-    if study.mode != Mode::Short {
+    if study.mode != StudyMode::Short {
         compare(study, "takes/flood", bed, flood, Field::And(&["mutex a take"]));
     }
     disturbed(study, bed, core);
@@ -83,7 +83,7 @@ pub fn all(study: &mut Study) {
     large(study, draws, core);
 }
 
-fn basis(mode: Mode) -> Scenario {
+fn basis(mode: StudyMode) -> Scenario {
     let milliseconds = |check, short, full| Duration::from_millis(mode.pick(check, short, full));
     Scenario {
         edits: Edits::Small,
@@ -95,7 +95,7 @@ fn basis(mode: Mode) -> Scenario {
         main_stall: None,
         busy: 0,
         questions: None,
-        thorough: mode == Mode::Check,
+        thorough: mode == StudyMode::Check,
     }
 }
 
@@ -107,18 +107,18 @@ fn disturbed(study: &mut Study, bed: &Bed, core: Scenario) {
         let lasting = Scenario { length: core.length + length, ..core };
         let stall = Scenario { graphics_stall: Some((at, length)), ..lasting };
         compare(study, &format!("graphics stall {milliseconds} ms"), bed, stall, Field::Telling);
-        if study.mode != Mode::Short {
+        if study.mode != StudyMode::Short {
             let stall = Scenario { main_stall: Some((at, length)), ..lasting };
             compare(study, &format!("main stall {milliseconds} ms"), bed, stall, Field::Telling);
         }
     }
-    if study.mode == Mode::Check {
+    if study.mode == StudyMode::Check {
         return;
     }
     let also = &["messages, relayed", "messages, spinning", "parking, cow"];
     compare(study, "import", bed, Scenario { busy: 1, ..core }, Field::And(also));
     let also = &["parking, poses", "parking, cow"];
-    if study.mode != Mode::Short {
+    if study.mode != StudyMode::Short {
         compare(study, "more threads than cores", bed, Scenario { busy: 3, ..core }, Field::And(also));
     }
     if !study.wants("one core") {
@@ -142,12 +142,12 @@ fn questions(study: &mut Study, bed: &Bed, core: Scenario) {
         ..core
     };
     let also = &["messages, read", "messages, spinning", "rwlock, frame"];
-    if study.mode != Mode::Check {
+    if study.mode != StudyMode::Check {
         compare(study, "question/idle", bed, idle, Field::And(also));
     }
     let load = Scenario { rate: Rate::EVERY_MILLISECOND, period: None, ..idle };
     compare(study, "question/load", bed, load, Field::And(also));
-    if study.mode != Mode::Short {
+    if study.mode != StudyMode::Short {
         let busy = Scenario { busy: 2, ..load };
         compare(study, "question/more threads than cores", bed, busy, Field::And(also));
     }
@@ -155,11 +155,11 @@ fn questions(study: &mut Study, bed: &Bed, core: Scenario) {
 
 /// The same drag in long takes.
 fn large(study: &mut Study, draws: u32, core: Scenario) {
-    if study.mode == Mode::Check {
+    if study.mode == StudyMode::Check {
         return;
     }
     for (name, size) in [("long takes", Size::LONG), ("43 million keys", Size::HUGE)] {
-        if study.wants(name) && (study.mode == Mode::Full || size == Size::LONG) {
+        if study.wants(name) && (study.mode == StudyMode::Full || size == Size::LONG) {
             let bed = Bed::new(size, draws);
             compare(study, name, &bed, core, Field::And(&["mutex, clone"]));
         }
@@ -179,7 +179,7 @@ fn compare(study: &mut Study, case: &str, bed: &Bed, scenario: Scenario, field: 
     });
     let first = study.rows().len();
     study.compare(case, study.mode.pick(1, 1, 3), variants.collect());
-    if study.mode != Mode::Check {
+    if study.mode != StudyMode::Check {
         table::print(case, &ways.iter().map(|way| way.name).collect::<Vec<_>>(), &study.rows()[first..]);
     }
 }

@@ -9,8 +9,8 @@ use super::ledger::{Ledger, MOST_WAITING};
 use super::model::Size;
 use super::script::{Edits, Script};
 use super::sharing::{Start, Way};
-use crate::machine::Load;
-use crate::{Distribution, Measured};
+use crate::machine::CpuLoad;
+use crate::{Distribution, RunValues};
 use dragonfly_kit::counting;
 use dragonfly_runtime::Thread;
 use std::sync::Arc;
@@ -72,7 +72,7 @@ pub struct Verdict {
 }
 
 /// Runs `scenario` with `way`, writes down what was measured, and says what was wrong.
-pub fn run(bed: &Bed, way: &Way, scenario: &Scenario, measured: &mut Measured) -> Verdict {
+pub fn run(bed: &Bed, way: &Way, scenario: &Scenario, measured: &mut RunValues) -> Verdict {
     let flood = scenario.rate == Rate::FlatOut;
     let ledger = Arc::new(Ledger::new(if flood { MOST_WAITING } else { 1 << 13 }));
     let (memory, (record, frames, verdict)) =
@@ -106,7 +106,7 @@ fn run_counted(bed: &Bed, way: &Way, scenario: &Scenario, ledger: &Arc<Ledger>) 
     let slow = if scenario.rate == Rate::FlatOut { Rate::EVERY_MILLISECOND } else { scenario.rate };
     hand.replay(slow, scenario.warm_up, None, None);
     hand.start_recording();
-    let (load, begin) = (Load::now(), Instant::now());
+    let (load, begin) = (CpuLoad::now(), Instant::now());
     hand.replay(scenario.rate, scenario.length, scenario.questions, scenario.main_stall);
     let lost = !hand.wait_until_seen();
     ledger.end();
@@ -127,7 +127,7 @@ fn run_counted(bed: &Bed, way: &Way, scenario: &Scenario, ledger: &Arc<Ledger>) 
     (record, frames, verdict)
 }
 
-fn write(scenario: &Scenario, record: &Record, frames: &Frames, memory: u64, measured: &mut Measured) {
+fn write(scenario: &Scenario, record: &Record, frames: &Frames, memory: u64, measured: &mut RunValues) {
     let mut distribution = |name: &str, durations: &Distribution| {
         if durations.count() > 0 {
             measured.distribution(name, durations);

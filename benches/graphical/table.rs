@@ -1,6 +1,6 @@
 //! One line a way, with what matters most; the rest is in the raw data.
 
-use crate::Row;
+use crate::Measurement;
 
 /// Heading, metric, and what it is divided by.
 const COLUMNS: [(&str, &str, f64); 18] = [
@@ -25,9 +25,9 @@ const COLUMNS: [(&str, &str, f64); 18] = [
 ];
 
 /// Prints what `rows` say about `case`; columns that nobody has filled are left out.
-pub fn print(case: &str, variants: &[&str], rows: &[Row]) {
-    let others = rows.iter().map(|row| row.others).fold(0.0, f64::max);
-    println!("\n## {case} (others kept at most {others:.2} cores busy)");
+pub fn print(case: &str, variants: &[&str], rows: &[Measurement]) {
+    let background = rows.iter().map(|row| row.background).fold(0.0, f64::max);
+    println!("\n## {case} (background kept at most {background:.2} cores busy)");
     let columns: Vec<_> =
         COLUMNS.iter().filter(|column| rows.iter().any(|row| row.metric == column.1)).collect();
     print!("{:<20}", "");
@@ -36,7 +36,7 @@ pub fn print(case: &str, variants: &[&str], rows: &[Row]) {
     for variant in variants {
         print!("{variant:<20}");
         for (_, metric, unit) in &columns {
-            let of = |row: &&Row| row.variant == *variant && row.metric == *metric;
+            let of = |row: &&Measurement| row.variant == *variant && row.metric == *metric;
             let mut values: Vec<f64> = rows.iter().filter(of).map(|row| row.value / unit).collect();
             values.sort_by(f64::total_cmp);
             match values.get(values.len() / 2) {

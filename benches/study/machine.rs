@@ -1,23 +1,23 @@
-//! What the machine itself costs, measured before anything else: its clock, its wake-ups, and who else is working.
+//! Properties of the machine, measured before anything else: its clock, its wake-ups, and the background load.
 
 use crate::Distribution;
 use std::fs;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Processor time since the machine started, in ticks of the kernel: all programs together, and this one.
+/// CPU time since the machine started, in kernel ticks: of all programs, and of this one.
 #[derive(Clone, Copy)]
-pub struct Load {
+pub struct CpuLoad {
     when: Instant,
     all: u64,
     own: u64,
 }
 
-/// Ticks a second, as Linux reports them to programs whatever the kernel's own rate is.
+/// Ticks per second in the numbers that Linux reports, independent of the kernel's own rate.
 const TICKS: f64 = 100.0;
 
-impl Load {
-    /// Now. Zero where there is no `/proc`.
+impl CpuLoad {
+    /// Reads the current numbers. Zero on systems without `/proc`.
     pub fn now() -> Self {
         let number = |word: &str| word.parse::<u64>().unwrap_or(0);
         let stat = fs::read_to_string("/proc/stat").unwrap_or_default();
@@ -26,46 +26,46 @@ impl Load {
             stat.lines().next().unwrap_or("").split_whitespace().skip(1).map(number).collect();
         let all = first.iter().take(8).sum::<u64>() - first.get(3).unwrap_or(&0) - first.get(4).unwrap_or(&0);
         let own = fs::read_to_string("/proc/self/stat").unwrap_or_default();
-        // The name in brackets may hold spaces; what follows it does not.
+        // The name in brackets may contain spaces; the fields after it do not.
         let rest = own.rsplit_once(')').map_or("", |(_, rest)| rest);
         let words: Vec<u64> = rest.split_whitespace().map(number).collect();
         let own = words.get(11).unwrap_or(&0) + words.get(12).unwrap_or(&0);
         Self { when: Instant::now(), all, own }
     }
 
-    /// How many cores other programs kept busy since `self`, on average.
-    pub fn others_since(self) -> f64 {
+    /// Returns the background load since `self`: the average number of cores that other programs used.
+    pub fn background_since(self) -> f64 {
         let now = Self::now();
-        let others = (now.all - self.all).saturating_sub(now.own - self.own) as f64;
-        others / TICKS / (now.when - self.when).as_secs_f64().max(1e-9)
+        let background = (now.all - self.all).saturating_sub(now.own - self.own) as f64;
+        background / TICKS / (now.when - self.when).as_secs_f64().max(1e-9)
     }
 
-    /// Processor time of this program since `self`, all its threads together.
+    /// Returns the CPU time of this program since `self`, of all its threads.
     pub fn own_since(self) -> Duration {
         Duration::from_secs_f64((Self::now().own - self.own) as f64 / TICKS)
     }
 }
 
-/// What the machine is, and what its clock and wake-ups cost.
+/// The machine, and the cost of its clock and wake-ups.
 pub struct Machine {
-    /// The processor's name.
+    /// Name of the processor.
     pub processor: String,
-    /// Cores that this program may use.
+    /// Number of cores that this program may use.
     pub cores: usize,
-    /// The kernel's release.
+    /// Release of the kernel.
     pub kernel: String,
-    /// What reading the clock costs, in nanoseconds.
+    /// Cost of reading the clock, in nanoseconds.
     pub clock_cost: f64,
-    /// The smallest step of the clock that was seen, in nanoseconds.
+    /// Smallest observed step of the clock, in nanoseconds.
     pub clock_step: u64,
-    /// There and back between two threads that wake each other with nothing else to do: two wake-ups.
+    /// Round trips between two threads that only wake each other: two wake-ups each.
     pub wake_ups: Distribution,
-    /// How much later than asked a sleep of one millisecond ends.
+    /// Lateness of a sleep of one millisecond.
     pub overshoot: Distribution,
 }
 
 impl Machine {
-    /// Looks and measures; takes about half a second.
+    /// Reads and measures them, in about half a second.
     pub fn measure() -> Self {
         let cpu = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         let processor = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
@@ -99,7 +99,7 @@ fn clock() -> (f64, u64) {
     (begin.elapsed().as_nanos() as f64 / f64::from(READS), step)
 }
 
-/// Two bare threads that unpark each other: the least that any message between sleeping threads can cost.
+/// Measures round trips of two threads that unpark each other: the lower limit for messages between sleeping threads.
 fn wake_ups() -> Distribution {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicU32, Ordering};
@@ -146,12 +146,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn work_of_this_program_is_not_laid_to_others() {
-        let load = Load::now();
+    fn work_of_this_program_does_not_count_as_background_load() {
+        let load = CpuLoad::now();
         let begin = Instant::now();
         while begin.elapsed() < Duration::from_millis(200) {}
         let own = load.own_since();
         assert!(own >= Duration::from_millis(50), "{own:?} of 200 ms of work were seen");
-        assert!(load.others_since() >= 0.0);
+        assert!(load.background_since() >= 0.0);
     }
 }

@@ -116,7 +116,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn colour_and_visibility_go_from_the_panel_to_the_picture_and_back() {
+    fn color_and_visibility_go_from_the_panel_to_the_picture_and_back() {
         let bones = ["hip", "knee", "foot"].map(|name| Bone::new(name, 0.0)).to_vec();
         let (seen, pictures) = mpsc::channel();
         let mut editor = open(bones, move |lines| _ = seen.send(lines.to_vec())).unwrap();
@@ -124,7 +124,7 @@ mod tests {
         assert_eq!(editor.panel.rows(), ["hip 0.00 #ffffff", "knee 0.00 #ffffff", "foot 0.00 #ffffff"]);
         assert_eq!(next().len(), 3);
 
-        editor.panel.choose_colour(0, [255, 128, 0]);
+        editor.panel.choose_color(0, [255, 128, 0]);
         editor.panel.toggle_visible(1);
         editor.panel.drag_angle(2, 0.5);
         // Shown at once: there is only one document.
@@ -137,7 +137,7 @@ mod tests {
             picture = next();
         }
         assert_eq!(picture.iter().map(|line| line.bone).collect::<Vec<_>>(), [0, 2]);
-        assert_eq!(picture.iter().map(|line| line.colour).collect::<Vec<_>>(), [[255, 128, 0], WHITE]);
+        assert_eq!(picture.iter().map(|line| line.color).collect::<Vec<_>>(), [[255, 128, 0], WHITE]);
 
         // The answer to a click is there when the call returns.
         editor.panel.click([0.5, 0.0]);

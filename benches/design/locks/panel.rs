@@ -1,7 +1,7 @@
 //! The panel, in the main thread.
 
 use super::Shared;
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Point, describe};
 use std::sync::Arc;
 
@@ -33,9 +33,9 @@ impl Panel {
     }
 
     // feature: begin
-    /// The user chooses a colour.
-    pub fn choose_colour(&self, bone: usize, colour: Colour) {
-        self.shared.edit(bone, |bone| bone.colour = colour);
+    /// The user chooses a color.
+    pub fn choose_color(&self, bone: usize, color: Color) {
+        self.shared.edit(bone, |bone| bone.color = color);
     }
 
     /// The user clicks the eye beside a bone.

@@ -2,7 +2,7 @@
 
 use super::{PanelHandle, ViewportHandle};
 use crate::design::skeleton::Bone;
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use dragonfly_runtime::{Context, Receiver};
 use std::sync::Arc;
 
@@ -19,12 +19,12 @@ pub enum Edit {
         angle: f32,
     },
     // feature: begin
-    /// Chooses a colour.
-    SetColour {
+    /// Chooses a color.
+    SetColor {
         /// Of which bone.
         bone: usize,
         /// Which.
-        colour: Colour,
+        color: Color,
     },
     /// Hides a bone, or shows it again.
     ToggleVisible {
@@ -55,9 +55,9 @@ impl Document {
     }
 
     // feature: begin
-    /// Chooses a bone's colour.
-    pub fn set_colour(&mut self, bone: usize, colour: Colour) {
-        self.change(bone, |bone| bone.colour = colour);
+    /// Chooses a bone's color.
+    pub fn set_color(&mut self, bone: usize, color: Color) {
+        self.change(bone, |bone| bone.color = color);
     }
 
     /// Hides a bone, or shows it again.
@@ -88,7 +88,7 @@ impl Receiver for Document {
         match edit {
             Edit::SetAngle { bone, angle } => self.set_angle(bone, angle),
             // feature: begin
-            Edit::SetColour { bone, colour } => self.set_colour(bone, colour),
+            Edit::SetColor { bone, color } => self.set_color(bone, color),
             Edit::ToggleVisible { bone } => self.toggle_visible(bone),
             // feature: end
         }

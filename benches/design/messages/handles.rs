@@ -3,7 +3,7 @@
 //! Who has stopped shows and edits nothing any more: the program is ending. That is decided here, once.
 
 use super::{Edit, PanelMessage, View, ViewportMessage};
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::Point;
 use dragonfly_runtime::Address;
 
@@ -18,9 +18,9 @@ impl DocumentHandle {
     }
 
     // feature: begin
-    /// Chooses a bone's colour.
-    pub fn set_colour(&self, bone: usize, colour: Colour) {
-        let _ = self.0.send(Edit::SetColour { bone, colour });
+    /// Chooses a bone's color.
+    pub fn set_color(&self, bone: usize, color: Color) {
+        let _ = self.0.send(Edit::SetColor { bone, color });
     }
 
     /// Hides a bone, or shows it again.

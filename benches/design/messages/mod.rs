@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn colour_and_visibility_go_from_the_panel_to_the_picture_and_back() {
+    fn color_and_visibility_go_from_the_panel_to_the_picture_and_back() {
         let mut stage = Stage::new();
         let [main, document, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
         let (seen, pictures) = mpsc::channel();
@@ -78,7 +78,7 @@ mod tests {
         assert_eq!(panel.borrow().rows(), ["hip 0.00 #ffffff", "knee 0.00 #ffffff", "foot 0.00 #ffffff"]);
         assert_eq!(pictures.try_iter().last().unwrap().len(), 3);
 
-        panel.borrow().choose_colour(0, [255, 128, 0]);
+        panel.borrow().choose_color(0, [255, 128, 0]);
         panel.borrow().toggle_visible(1);
         panel.borrow().drag_angle(2, 0.5);
         assert!(stage.settle(10));
@@ -88,7 +88,7 @@ mod tests {
         );
         let picture = pictures.try_iter().last().unwrap();
         assert_eq!(picture.iter().map(|line| line.bone).collect::<Vec<_>>(), [0, 2]);
-        assert_eq!(picture.iter().map(|line| line.colour).collect::<Vec<_>>(), [[255, 128, 0], WHITE]);
+        assert_eq!(picture.iter().map(|line| line.color).collect::<Vec<_>>(), [[255, 128, 0], WHITE]);
 
         // The answer to a click comes later, as a message.
         panel.borrow().click([0.5, 0.0]);

@@ -1,7 +1,7 @@
 //! The panel, in the main thread.
 
 use super::{DocumentHandle, View, ViewportHandle};
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Point, describe};
 use dragonfly_runtime::{Context, Receiver};
 use std::sync::Arc;
@@ -44,9 +44,9 @@ impl Panel {
     }
 
     // feature: begin
-    /// The user chooses a colour.
-    pub fn choose_colour(&self, bone: usize, colour: Colour) {
-        self.document.set_colour(bone, colour);
+    /// The user chooses a color.
+    pub fn choose_color(&self, bone: usize, color: Color) {
+        self.document.set_color(bone, color);
     }
 
     /// The user clicks the eye beside a bone.

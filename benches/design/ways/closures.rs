@@ -2,7 +2,7 @@
 //! same. What is lost is the edit as a value: it cannot be written into a journal, taken back, or seen in a trace.
 
 use crate::design::messages::{PanelMessage, View, ViewportHandle};
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Bone, Point, describe};
 use dragonfly_runtime::{Address, Context, Receiver};
 use std::sync::Arc;
@@ -79,9 +79,9 @@ impl ClosurePanel {
     }
 
     // feature: begin
-    /// The user chooses a colour.
-    pub fn choose_colour(&self, bone: usize, colour: Colour) {
-        self.document.edit(bone, move |bone| bone.colour = colour);
+    /// The user chooses a color.
+    pub fn choose_color(&self, bone: usize, color: Color) {
+        self.document.edit(bone, move |bone| bone.color = color);
     }
 
     /// The user clicks the eye beside a bone.
@@ -128,7 +128,7 @@ mod tests {
         let viewport = ViewportHandle(main.reserve_address());
         let panel = Rc::new(RefCell::new(ClosurePanel::new(ClosureHandle(to_document), viewport)));
         stage.context(&main).register_receiver_at(&to_panel, Rc::clone(&panel));
-        panel.borrow().choose_colour(0, [255, 0, 0]);
+        panel.borrow().choose_color(0, [255, 0, 0]);
         panel.borrow().toggle_visible(0);
         panel.borrow().drag_angle(0, 0.5);
         panel.borrow().click([0.5, 0.0]);

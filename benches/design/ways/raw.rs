@@ -1,7 +1,7 @@
 //! The panel again, without handles: it names the messages and decides about their loss at every call.
 
 use crate::design::messages::{Edit, PanelMessage, View, ViewportMessage};
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Point, describe};
 use dragonfly_runtime::{Address, Context, Receiver};
 use std::sync::Arc;
@@ -36,9 +36,9 @@ impl RawPanel {
     }
 
     // feature: begin
-    /// The user chooses a colour.
-    pub fn choose_colour(&self, bone: usize, colour: Colour) {
-        let _ = self.document.send(Edit::SetColour { bone, colour });
+    /// The user chooses a color.
+    pub fn choose_color(&self, bone: usize, color: Color) {
+        let _ = self.document.send(Edit::SetColor { bone, color });
     }
 
     /// The user clicks the eye beside a bone.
@@ -87,7 +87,7 @@ mod tests {
         let handles = (PanelHandle(panel_address), ViewportHandle(viewport_address));
         document.register_receiver_at(&document_address, move |_| Document::new(bones, handles.0, handles.1));
         assert!(stage.settle(10));
-        panel.borrow().choose_colour(0, [255, 128, 0]);
+        panel.borrow().choose_color(0, [255, 128, 0]);
         panel.borrow().toggle_visible(1);
         panel.borrow().drag_angle(2, 0.5);
         panel.borrow().click([0.5, 0.0]);

@@ -1,7 +1,7 @@
-//! Very many messages while the consumer is busy with something else, which then takes them all.
+//! Burst: many messages are queued while the consumer is busy, which then receives them all.
 
 use super::threads;
-use crate::Measured;
+use crate::RunValues;
 use crate::runtime::peer::{Message, Peer, Small, sum_below};
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -10,11 +10,12 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Makes the consumer wait until the burst is over.
+/// Makes the consumer wait until all messages of the burst are sent.
 const HOLD: u64 = u64::MAX;
 
-/// Two bursts of `messages` each, the first one for warming up; what the second cost the sender, and the consumer.
-pub fn run<P: Peer>(messages: u64, measured: &mut Measured) {
+/// Sends two bursts of `messages` each, the first as a warm-up. Measures the time of the sender and of the consumer in
+/// the second.
+pub fn run<P: Peer>(messages: u64, measured: &mut RunValues) {
     let over: Arc<[AtomicBool; 2]> = Arc::default();
     let (tell, drained) = mpsc::channel();
     let (mut seen, mut sum, mut round) = (0, 0, 0);

@@ -1,34 +1,35 @@
-//! There and back between two consumers, each in its thread.
+//! Round trips between two consumers, each in its thread.
 
-use super::threads::{self, Place};
+use super::threads::{self, CoreChoice};
 use crate::runtime::peer::{Message, Peer, Small};
-use crate::{Distribution, Measured};
+use crate::{Distribution, RunValues};
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock, mpsc};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Begin a trip now.
+/// Message that starts a round trip.
 const GO: u64 = u64::MAX;
 
-/// How many trips, and what is between two of them.
+/// Number of round trips, and the rest between two of them.
 #[derive(Clone, Copy)]
-pub struct Plan {
-    /// On the clock; a tenth of it goes before, for warming up.
+pub struct RoundTripPlan {
+    /// Number of measured round trips. Before them runs a warm-up of a tenth of this number.
     pub trips: u64,
-    /// Time in which everybody falls asleep, before a third thread asks for the next trip; `None`: one trip begins
-    /// with the end of the one before.
+    /// Time in which all threads fall asleep before a third thread starts the next round trip; `None`: each round trip
+    /// starts at the end of the previous one.
     pub rest: Option<Duration>,
 }
 
-/// Between two consumers of `P`.
-pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
+/// Measures round trips between two consumers of `P`.
+pub fn run<P: Peer>(plan: RoundTripPlan, measured: &mut RunValues) {
     measured.distribution("trip", &trips::<P>(plan, || true).expect("nothing was in the way"));
 }
 
-/// Between two consumers of `P`, each bound to its place. Measures nothing where threads cannot be bound.
-pub fn placed<P: Peer>(plan: Plan, places: [Place; 2], measured: &mut Measured) {
-    // A thread starts where the one is that starts it; this one ends with the measurement.
+/// Measures round trips between two consumers of `P`, each bound to a core. Measures nothing where threads cannot be
+/// bound.
+pub fn placed<P: Peer>(plan: RoundTripPlan, places: [CoreChoice; 2], measured: &mut RunValues) {
+    // A new thread starts on the core of the thread that starts it. This one ends with the measurement.
     let trips = threads::start("places", move || {
         let mut places = places.into_iter();
         trips::<P>(plan, || places.next().is_some_and(threads::stay))
@@ -38,9 +39,9 @@ pub fn placed<P: Peer>(plan: Plan, places: [Place; 2], measured: &mut Measured) 
     }
 }
 
-/// All trips but those for warming up. `before` is asked before each of the two consumers starts; `None` when it says
-/// that it could not do what it should.
-pub fn trips<P: Peer>(plan: Plan, mut before: impl FnMut() -> bool) -> Option<Distribution> {
+/// Returns the durations of all round trips except the warm-up. Calls `before` before each of the two consumers starts;
+/// returns `None` if one of these calls returns `false`.
+pub fn trips<P: Peer>(plan: RoundTripPlan, mut before: impl FnMut() -> bool) -> Option<Distribution> {
     if !before() {
         return None;
     }
@@ -68,8 +69,8 @@ pub fn trips<P: Peer>(plan: Plan, mut before: impl FnMut() -> bool) -> Option<Di
     Some(threads::join(result)).filter(|_| moved)
 }
 
-/// Counts what the second consumer has sent back.
-pub fn second(plan: Plan) -> impl FnMut() -> ControlFlow<()> {
+/// Returns a function that counts the messages of the second consumer and returns `Break` at the last one.
+pub fn second(plan: RoundTripPlan) -> impl FnMut() -> ControlFlow<()> {
     let mut left = plan.trips + plan.trips / 10;
     move || {
         left -= 1;
@@ -77,9 +78,9 @@ pub fn second(plan: Plan) -> impl FnMut() -> ControlFlow<()> {
     }
 }
 
-/// A third thread that asks for trips, and at the end has the result.
+/// Starts a third thread, which starts the round trips and returns the result at the end.
 pub fn ask(
-    plan: Plan,
+    plan: RoundTripPlan,
     result: mpsc::Receiver<Option<Distribution>>,
     send: impl Fn(Small) + Send + 'static,
 ) -> thread::JoinHandle<Distribution> {
@@ -98,13 +99,13 @@ pub fn ask(
     })
 }
 
-/// What the first consumer does.
+/// The next action of the first consumer.
 pub enum Step {
-    /// Send this to the second.
+    /// Send this to the second consumer.
     Send(Small),
-    /// For somebody to ask.
+    /// Wait until the third thread starts the next round trip.
     Wait,
-    /// That was the last one.
+    /// Stop: that was the last one.
     End,
 }
 
@@ -113,20 +114,21 @@ pub struct First {
     begin: Instant,
     warm_up: u64,
     done: u64,
-    plan: Plan,
+    plan: RoundTripPlan,
     all: Distribution,
     tell: mpsc::Sender<Option<Distribution>>,
 }
 
 impl First {
-    /// And where the result comes out: `None` for each single trip that is to be followed by a rest.
-    pub fn new(plan: Plan) -> (Self, mpsc::Receiver<Option<Distribution>>) {
+    /// Returns the consumer's state and the channel of its result, which gets `None` after each round trip that a rest
+    /// must follow.
+    pub fn new(plan: RoundTripPlan) -> (Self, mpsc::Receiver<Option<Distribution>>) {
         let (tell, result) = mpsc::channel();
         let (begin, all) = (Instant::now(), Distribution::new());
         (Self { begin, warm_up: plan.trips / 10, done: 0, plan, all, tell }, result)
     }
 
-    /// A message came: that a trip should begin, or what was sent comes back.
+    /// Handles a message: the start of a round trip, or its return.
     pub fn take(&mut self, message: Small) -> Step {
         let number = message.number();
         if number == GO {

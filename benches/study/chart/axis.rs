@@ -1,17 +1,17 @@
-//! From values to places.
+//! Axes: positions of values in pixels.
 
 use crate::amount;
 
-/// How values are spaced.
+/// Scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
-    /// Evenly, from zero.
+    /// Linear, from zero.
     Linear,
-    /// By their ratio, for what spans more than a factor of ten or so.
+    /// Logarithmic, for values that span more than a factor of about ten.
     Log,
 }
 
-/// Where values lie between two pixels.
+/// Maps values to a range of pixels.
 pub(super) struct Axis {
     scale: Scale,
     low: f64,
@@ -22,7 +22,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis on which all of `values` have room, between the pixels `from` and `to`.
+    /// Returns an axis for all of `values` between the pixels `from` and `to`.
     pub(super) fn fit(
         values: impl Iterator<Item = f64>,
         scale: Scale,
@@ -40,7 +40,7 @@ impl Axis {
         }
         match scale {
             Scale::Linear => (low, high) = (low.min(0.0), high * 1.05),
-            // A little room on both sides, and at least a factor of four, so that nothing looks far apart that is not.
+            // A margin on both sides, and at least a factor of four, so that similar values do not look far apart.
             Scale::Log => {
                 (low, high) = (low / 1.25, high * 1.25);
                 if high / low < 4.0 {
@@ -52,7 +52,7 @@ impl Axis {
         Self { scale, low, high, from, to, unit: unit.to_owned() }
     }
 
-    /// The pixel of a value; the nearest end for what lies outside, as nothing does on a scale that cannot show it.
+    /// Returns the pixel of a value; the nearest end for a value outside, such as 0 on a logarithmic scale.
     pub(super) fn place(&self, value: f64) -> i32 {
         let part = match self.scale {
             Scale::Linear => (value - self.low) / (self.high - self.low),
@@ -61,13 +61,13 @@ impl Axis {
         self.from + (part.clamp(0.0, 1.0) * f64::from(self.to - self.from)).round() as i32
     }
 
-    /// Round values, where they are, and what to write there; an empty label for those in between.
+    /// Returns the pixels of round values, with their labels; the label of a minor tick is empty.
     pub(super) fn ticks(&self) -> Vec<(i32, String)> {
         let within = |value: &f64| (self.low..=self.high).contains(value);
         let mut ticks = Vec::new();
         match self.scale {
             Scale::Linear => {
-                // Round in the unit that is written: 5 MiB, not 5,000,000 bytes.
+                // Round in the printed unit: 5 MiB, not 5,000,000 bytes.
                 let size = amount::step(self.high, &self.unit);
                 let rough = (self.high - self.low) / 5.0;
                 let power = size * 10_f64.powf((rough / size).log10().floor());
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_axis_names_round_values_and_has_room_for_all() {
+    fn an_axis_labels_round_values_and_contains_all_values() {
         let log = Axis::fit([900.0, 2e6].into_iter(), Scale::Log, "ns", 0, 1000);
         let named: Vec<String> =
             log.ticks().into_iter().map(|tick| tick.1).filter(|label| !label.is_empty()).collect();
@@ -110,7 +110,7 @@ mod tests {
         assert!(log.place(900.0) > 0 && log.place(2e6) < 1000);
         let decade = |from: f64| log.place(from * 10.0) - log.place(from);
         assert!((decade(1_000.0) - decade(10_000.0)).abs() <= 1);
-        // What cannot be shown by its ratio stands at the end.
+        // A value that a logarithmic scale cannot show is at its end.
         assert_eq!(log.place(0.0), 0);
 
         let linear = Axis::fit([0.0, 40.0].into_iter(), Scale::Linear, "count", 0, 420);
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_show_is_no_trouble() {
+    fn an_axis_without_positive_values_is_valid() {
         for scale in [Scale::Linear, Scale::Log] {
             let axis = Axis::fit([0.0].into_iter(), scale, "ns", 0, 100);
             assert!(!axis.ticks().is_empty());

@@ -1,4 +1,4 @@
-//! A row for each variant of each case, with marks or bars from left to right.
+//! Chart with a row for each variant of each case, as marks or bars.
 
 use super::axis::{Axis, Scale};
 use super::canvas::{self, ACCENT, Anchor, GRID, INK, OTHERS, SOFT, Shape, WIDTH};
@@ -12,7 +12,7 @@ const TOP: i32 = 92;
 const ROW: i32 = 24;
 const HEAD: i32 = 26;
 
-/// One shape for each metric, the first filled; as many as can be told apart in one row.
+/// One shape for each metric, the first filled. More could not be distinguished in one row.
 const MARKS: [Shape; 4] = [Shape::Disc, Shape::Ring, Shape::Triangle, Shape::Cross];
 
 /// Draws the metrics of `columns`; bars from zero for one metric on a linear scale, marks otherwise.
@@ -56,7 +56,7 @@ pub fn rows(title: &str, all: &[Summary], columns: &[Column], scale: Scale) -> S
             for variant in best_first(&of_case, columns) {
                 y += ROW;
                 let middle = y - ROW / 2;
-                let colour = if is_ours(variant) { ACCENT } else { OTHERS };
+                let color = if is_ours(variant) { ACCENT } else { OTHERS };
                 let ink = if is_ours(variant) { ACCENT } else { INK };
                 canvas.text(variant, LEFT - 12, middle, 13.0, ink, Anchor::End);
                 let mut last = None;
@@ -68,14 +68,14 @@ pub fn rows(title: &str, all: &[Summary], columns: &[Column], scale: Scale) -> S
                     };
                     let [low, median, high] = [one.low, one.median, one.high].map(|value| axis.place(value));
                     if bars {
-                        canvas.bar((LEFT, middle - 7), (median, middle + 7), colour);
+                        canvas.bar((LEFT, middle - 7), (median, middle + 7), color);
                     }
-                    let whisker = if bars { INK } else { colour };
+                    let whisker = if bars { INK } else { color };
                     canvas.line(&[(low, middle), (high, middle)], 1, whisker);
                     canvas.line(&[(low, middle - 3), (low, middle + 3)], 1, whisker);
                     canvas.line(&[(high, middle - 3), (high, middle + 3)], 1, whisker);
                     if !bars {
-                        canvas.mark((median, middle), shape, colour);
+                        canvas.mark((median, middle), shape, color);
                     }
                     last = Some((high.max(median), amount::amount(one.median, &one.unit)));
                 }
@@ -89,8 +89,8 @@ pub fn rows(title: &str, all: &[Summary], columns: &[Column], scale: Scale) -> S
 
 fn under(columns: &[Column], scale: Scale) -> String {
     let scale = if scale == Scale::Log { "logarithmic scale" } else { "from zero" };
-    let number = if columns.len() > 1 { "; the number is the last mark's" } else { "" };
-    format!("Less is better. Median over the repeats, thin lines: smallest to greatest; {scale}{number}.")
+    let number = if columns.len() > 1 { "; the number is the value of the last mark" } else { "" };
+    format!("Lower is better. Median of the repeats; thin lines: smallest to largest; {scale}{number}.")
 }
 
 fn legend(canvas: &canvas::Canvas<'_>, columns: &[Column], bars: bool) {
@@ -105,7 +105,7 @@ fn legend(canvas: &canvas::Canvas<'_>, columns: &[Column], bars: bool) {
     }
 }
 
-/// The variants, by the first metric that each has.
+/// Returns the variants, sorted by the first metric that each has.
 fn best_first<'a>(of_case: &[&&'a Summary], columns: &[Column]) -> Vec<&'a str> {
     let mut variants = distinct(of_case.iter().map(|one| one.variant.as_str()));
     let first = |variant: &str| {

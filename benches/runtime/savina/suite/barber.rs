@@ -1,23 +1,25 @@
 //! A barber, a waiting room, and customers who come back at once when it is full.
 //!
-//! Original: 5,000 haircuts, a waiting room for 1,000. Counted: seven messages a haircut, which are the customer's
-//! making, its way through the room and under the barber's hands, the barber's call for the next, and the customer's
-//! leave; how often one found the room full depends on the order of delivery, and is a metric of its own (`retries`).
-//! Checked: the room never holds more than it may, and everybody got one haircut.
+//! Original: 5,000 haircuts, a waiting room for 1,000. Counted: seven messages for each haircut: the customer's
+//! creation, its way through the waiting room to the barber, the barber's call for the next customer, and the
+//! customer's departure. The number of times that a customer found the room full depends on the order of delivery and
+//! is a metric of its own (`retries`). Checked: the room never holds more than its capacity, and every customer got one
+//! haircut.
 //!
-//! The original's factory makes all customers in one message, with pauses of busy waiting; here it makes one a message,
-//! lest it keep the others from the thread. Work is steps of a generator, 500 on average as in the original.
+//! The original's factory creates all customers in one message, with busy waiting in between; here it creates one for
+//! each message, so that it does not block the other actors of its thread. Work is steps of a generator, 500 on average
+//! as in the original.
 
 use super::super::{Actor, Address, Cx, World};
 use super::work;
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_kit::random::Random;
 use std::collections::VecDeque;
 
-/// Most work that a haircut, or making a customer, takes.
+/// Largest number of steps that a haircut, or the creation of a customer, takes.
 const STEPS: usize = 1_000;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (haircuts, seats) = mode.pick((50, 10), (1_000, 200), (2_500, 500));
     let barber = world.spawn(0, Barber { room: None, random: Random::new(1), haircuts: 0 });
     let room = Room {
@@ -44,7 +46,7 @@ struct Factory {
 
 enum FactoryMessage {
     Make,
-    /// The room was full.
+    /// Sent back to a customer who found the room full.
     Returned(Address<Customer>),
     Done,
 }
@@ -88,7 +90,7 @@ struct Room {
 
 enum RoomMessage {
     Enter(Address<Customer>),
-    /// The barber is free.
+    /// Sent by the barber when it is free.
     Next,
     Close {
         haircuts: usize,

@@ -1,14 +1,14 @@
-//! Everybody writes to everybody: each actor pings one of the others at random, and the next when the pong is there.
+//! All actors write to all: each actor pings a random other one, and the next one when the pong arrives.
 //!
-//! Original: 120 actors, 20,000 pings each. Counted: pings and pongs. Checked: a pong comes from the one that was
-//! pinged, and as many pings were answered as were sent.
+//! Original: 120 actors, 20,000 pings each. Counted: pings and pongs. Checked: a pong comes from the actor that was
+//! pinged, and every ping was answered.
 
 use super::super::{Actor, Address, Cx, World};
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_kit::random::Random;
 use std::sync::Arc;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (workers, pings) = mode.pick((6, 50), (120, 1_000), (120, 4_000));
     let sink = world.spawn(0, Sink { workers: Workers::default(), pings, done: 0, answered: 0, ended: 0 });
     let create = |index: usize| {
@@ -34,7 +34,7 @@ struct Worker {
     random: Random,
     workers: Option<Workers>,
     left: u64,
-    /// Whose pong is awaited.
+    /// The actor whose pong is expected.
     expected: usize,
     answered: u64,
 }
@@ -72,7 +72,7 @@ impl Actor for Worker {
 }
 
 impl Worker {
-    /// Pings the next, or says that all are done.
+    /// Pings the next actor, or reports the end.
     fn ping(&mut self, cx: &mut Cx<Self>) {
         if self.left == 0 {
             return cx.send(&self.sink, SinkMessage::Done);

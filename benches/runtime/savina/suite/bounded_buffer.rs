@@ -1,22 +1,22 @@
-//! Producers, consumers, and a buffer between them that holds up who is too fast.
+//! Producers, consumers, and a buffer between them that slows down the faster side.
 //!
-//! Original: 40 producers of 1,000 items each, 40 consumers, a buffer of 50. Counted: four messages an item, which are
-//! the order, the item in, the item out, and the consumer's return. Checked: the buffer never holds more than it may,
-//! and every item was consumed exactly once.
+//! Original: 40 producers of 1,000 items each, 40 consumers, a buffer of 50. Counted: four messages for each item: the
+//! request, the item from the producer, the item to the consumer, and the consumer's return. Checked: the buffer never
+//! holds more than its capacity, and every item was consumed exactly once.
 //!
-//! The original computes some 2,500 logarithms for every item on each side, which would hide the messages; here each
-//! side does 25 steps of a generator.
+//! The original computes about 2,500 logarithms for every item on each side, which would hide the cost of the messages;
+//! here each side does 25 steps of a generator.
 
 use super::super::{Actor, Address, Cx, World};
 use super::work;
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_kit::random::Random;
 use std::collections::VecDeque;
 
-/// Work for an item, on each side.
+/// Steps of work for an item, on each side.
 const STEPS: usize = 25;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (producers, consumers, items, limit) =
         mode.pick((4, 3, 20, 6), (40, 40, 200, 50), (40, 40, 1_000, 50));
     let buffer = Buffer {
@@ -50,17 +50,17 @@ pub(super) fn start(world: &mut World, mode: Mode) {
 
 struct Buffer {
     limit: usize,
-    /// Of each producer.
+    /// Number of items of each producer.
     items: usize,
     held: VecDeque<usize>,
     producers: Vec<Address<Producer>>,
     consumers: Vec<Address<Consumer>>,
     idle_producers: VecDeque<usize>,
     idle_consumers: VecDeque<usize>,
-    /// Producers that have no more.
+    /// Number of producers that have no more items.
     ended: usize,
     consumed: Vec<bool>,
-    /// Consumers that have said what they consumed.
+    /// Number of consumers that have reported what they consumed.
     reports: usize,
 }
 
@@ -87,7 +87,7 @@ impl Actor for Buffer {
                     None => self.held.push_back(item),
                 }
                 assert!(self.held.len() <= self.limit, "the buffer holds {}", self.held.len());
-                // Every other producer may already be about to deliver one.
+                // Every other producer may already be about to deliver an item.
                 if self.held.len() + self.producers.len() > self.limit {
                     self.idle_producers.push_back(from);
                 } else {

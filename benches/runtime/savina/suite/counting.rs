@@ -1,11 +1,11 @@
-//! One actor sends, the other counts: messages in one direction, as fast as they can be sent.
+//! One actor sends, the other one counts: messages in one direction at full speed.
 //!
-//! Original: 1,000,000 messages. Counted: each of them. Checked: the counter has counted them all.
+//! Original: 1,000,000 messages. Counted: each of them. Checked: the counter has counted all of them.
 
 use super::super::{Actor, Address, Cx, World};
-use crate::Mode;
+use crate::StudyMode;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let messages = mode.pick(100, 250_000, 1_000_000);
     let counter = world.spawn(1, Counter { count: 0 });
     let producer = world.spawn(0, Producer { counter, messages });

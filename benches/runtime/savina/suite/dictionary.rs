@@ -1,20 +1,20 @@
-//! A dictionary that many read and write: requests with answers, at one actor.
+//! A dictionary that many actors read and write: requests with answers, to one actor.
 //!
-//! Original: 20 workers, 10,000 requests each, one in ten writes. Counted: requests and answers. Checked: as each worker
-//! writes only keys of its own, it reads of them what it wrote last; of others' keys it never reads anything older
-//! than before; in the end the dictionary is what the workers know.
+//! Original: 20 workers, 10,000 requests each, one in ten writes. Counted: requests and answers. Checked: each worker
+//! writes only keys of its own, so it reads from them what it wrote last; of other workers' keys it never reads an
+//! older version than before; at the end the dictionary contains what the workers wrote.
 
 use super::super::{Actor, Address, Cx, World};
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_kit::random::Random;
 use std::collections::HashMap;
 
-/// Keys that each worker owns.
+/// Number of keys that each worker owns.
 const KEYS: usize = 64;
-/// Requests of which one writes.
+/// One request in this number is a write.
 const WRITES: usize = 10;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (workers, requests) = mode.pick((4, 50), (20, 1_000), (20, 10_000));
     let owned = |key: usize| (key, Version { key, version: 0 });
     let entries: HashMap<usize, Version> = (0..KEYS * workers).map(owned).collect();
@@ -30,7 +30,8 @@ pub(super) fn start(world: &mut World, mode: Mode) {
     world.send(&dictionary, DictionaryMessage::Open(workers));
 }
 
-/// What stands at a key: how often it was written. It knows its key, so that a wrong answer is seen.
+/// The value of a key: the number of times that it was written. It contains the key, so that a wrong answer is
+/// detected.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Version {
     key: usize,
@@ -90,9 +91,9 @@ struct Worker {
     workers: usize,
     dictionary: Address<Dictionary>,
     random: Random,
-    /// The version of each key that was read or written last.
+    /// Last version of each key that was read or written.
     seen: Vec<u32>,
-    /// That of the request under way.
+    /// Key of the current request.
     key: usize,
     left: u64,
 }
@@ -123,7 +124,7 @@ impl Worker {
         key % self.workers == self.index
     }
 
-    /// Makes the next request, or says what it knows of its keys.
+    /// Makes the next request, or reports the versions of its keys at the end.
     fn request(&mut self, cx: &mut Cx<Self>) {
         if self.left == 0 {
             let keys = (0..self.seen.len()).filter(|key| self.owns(*key));

@@ -1,15 +1,15 @@
-//! One actor keeps many busy: messages to 60 actors in turn, each of which computes a little.
+//! One actor sends messages to 60 actors in turn, each of which computes a little.
 //!
-//! Original: 60 actors, 10,000 messages each. Counted: those messages. Checked: each actor got its messages in the
-//! order of sending, and all of them.
+//! Original: 60 actors, 10,000 messages each. Counted: those messages. Checked: each actor received all of its
+//! messages, in the order of sending.
 //!
-//! The original sends from its main thread; here an actor does.
+//! The original sends from its main thread; here an actor sends.
 
 use super::super::{Actor, Address, Cx, World};
 use super::compute;
-use crate::Mode;
+use crate::StudyMode;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (workers, messages) = mode.pick((6, 20), (60, 2_500), (60, 10_000));
     let workers = (0..workers).map(|place| world.spawn(place, Worker { next: 0, messages })).collect();
     let source = world.spawn(0, Source { workers, messages, done: 0 });

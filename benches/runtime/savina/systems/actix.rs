@@ -1,14 +1,14 @@
 //! actix: one or two arbiters, which are OS threads with a single-threaded tokio runtime each.
 //!
-//! An actor is started in the arbiter of its place, directly when that is the arbiter it is created in. Messages go
-//! through `Addr::do_send`, which never waits, whatever the mailbox's capacity.
+//! An actor is started in the arbiter of its placement, directly if that is the arbiter in which it is created.
+//! Messages are sent with `Addr::do_send`, which never waits, whatever the mailbox's capacity.
 //!
-//! An actor holds its own address, so it lives until it stops itself. Otherwise it lives as long as somebody has its
-//! address, and who sends the last message and lets the address go may find that the message is never handled: between
-//! its look into an empty mailbox and its look whether anybody has its address, both may have happened.
+//! An actor holds its own address, so it lives until it stops itself. Otherwise it would live only as long as an
+//! address of it exists, and the last message could be lost: a sender may send it and drop the address between the
+//! actor's check of its mailbox and its check for addresses.
 
 use super::super::run::{Finish, Run};
-use crate::Mode;
+use crate::StudyMode;
 use actix::{Actor as _, ActorContext, Addr, Arbiter, ArbiterHandle, AsyncContext, Handler, Message};
 use std::mem;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ trait Actor: Sized + Send + Unpin + 'static {
 
 type Address<A> = Addr<Cell<A>>;
 
-/// The arbiters, and the run they are for.
+/// The arbiters, and the run that they belong to.
 struct Team {
     arbiters: Vec<ArbiterHandle>,
     run: Run,
@@ -53,7 +53,7 @@ impl Team {
     }
 }
 
-/// An actor in actix's sense.
+/// An actor of the suite as an actix actor.
 struct Cell<A: Actor> {
     actor: A,
     me: Address<A>,
@@ -65,7 +65,7 @@ impl<A: Actor> actix::Actor for Cell<A> {
     type Context = actix::Context<Self>;
 }
 
-/// A message in actix's sense.
+/// A message of the suite as an actix message.
 struct Letter<M>(M);
 
 impl<M: 'static> Message for Letter<M> {
@@ -114,7 +114,7 @@ impl<A: Actor> Cx<'_, A> {
     }
 }
 
-pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
+pub(super) fn play(threads: usize, benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     let runner = actix::System::new();
     let arbiters: Vec<Arbiter> = (0..threads).map(|_| Arbiter::new()).collect();
     let (run, verdict) = Run::begin();
@@ -123,7 +123,7 @@ pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish
     suite::start(benchmark, &mut world, mode);
     let finish = verdict.wait();
     if finish.is_err() {
-        // An arbiter that is stuck would be waited for.
+        // Otherwise the end would wait for a stuck arbiter.
         mem::forget((runner, arbiters));
         return finish;
     }

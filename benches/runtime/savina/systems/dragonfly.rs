@@ -1,11 +1,11 @@
-//! Ours: actors are receivers, spread over one or two threads of the runtime by their place.
+//! Our runtime: actors are receivers, distributed over one or two threads by their placement.
 //!
-//! The first ones are registered from outside ([`ThreadHandle`]), later ones from inside ([`Context`]) when they are
-//! for the same thread. One that stops is unregistered. Behind each run the counters must say that every message was
-//! delivered and nobody panicked.
+//! The first ones are registered from outside ([`ThreadHandle`]), later ones from inside ([`Context`]) if they are for
+//! the same thread. An actor that stops is unregistered. After each run the counters must show that every message was
+//! delivered and no actor panicked.
 
 use super::super::run::{DEADLINE, Finish, Run};
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_runtime::{Context, Receiver, Thread, ThreadHandle};
 use std::mem;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ trait Actor: Sized + Send + 'static {
 
 type Address<A> = dragonfly_runtime::Address<<A as Actor>::Message>;
 
-/// The threads, and the run they are for.
+/// The threads, and the run that they belong to.
 struct Team {
     threads: Vec<ThreadHandle>,
     run: Run,
@@ -52,7 +52,7 @@ impl Team {
     }
 }
 
-/// An actor as a receiver.
+/// An actor of the suite as a receiver.
 struct Cell<A: Actor> {
     actor: A,
     me: Address<A>,
@@ -102,7 +102,7 @@ impl<A: Actor> Cx<'_, A> {
     }
 }
 
-pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
+pub(super) fn play(threads: usize, benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     let start = |index| Thread::start(&format!("savina {index}")).expect("the system has a thread left");
     let threads: Vec<Thread> = (0..threads).map(start).collect();
     let handles: Vec<ThreadHandle> = threads.iter().map(|thread| thread.handle().clone()).collect();
@@ -111,7 +111,7 @@ pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish
     suite::start(benchmark, &mut world, mode);
     let finish = verdict.wait();
     if finish.is_err() {
-        // A thread that is stuck would be waited for.
+        // Otherwise the end would wait for a stuck thread.
         mem::forget(threads);
         return finish;
     }

@@ -1,11 +1,11 @@
-//! kameo: actors are tasks of tokio, on its single-threaded runtime or on its work-stealing one with two workers.
+//! kameo: actors are tokio tasks, on a single-threaded runtime or on a work-stealing one with two workers.
 //!
-//! Mailboxes are unbounded, since actors that wait for room in each other's bounded ones may wait for ever; messages
-//! go through `tell(…).try_send()`, which does not wait.
+//! Mailboxes are unbounded, since actors that wait for one another's bounded mailboxes can deadlock; messages are sent
+//! with `tell(…).try_send()`, which does not wait.
 
 use super::super::run::{Finish, Run};
 use super::tokio;
-use crate::Mode;
+use crate::StudyMode;
 use kameo::actor::{ActorRef, Spawn};
 use kameo::error::Infallible;
 use kameo::mailbox;
@@ -46,7 +46,7 @@ fn send<A: Actor>(to: &Address<A>, message: A::Message) {
     assert!(sent.is_ok(), "no benchmark sends to an actor that has stopped");
 }
 
-/// An actor in kameo's sense.
+/// An actor of the suite as a kameo actor.
 struct Cell<A> {
     actor: A,
     run: Arc<Run>,
@@ -61,7 +61,7 @@ impl<A: Actor> kameo::Actor for Cell<A> {
     }
 }
 
-/// A message in kameo's sense.
+/// A message of the suite as a kameo message.
 struct Letter<M>(M);
 
 impl<A: Actor> Message<Letter<A::Message>> for Cell<A> {
@@ -100,6 +100,6 @@ impl<A: Actor> Cx<'_, A> {
     }
 }
 
-pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
+pub(super) fn play(threads: usize, benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     tokio::play(threads, |run| suite::start(benchmark, &mut World { run: Arc::new(run) }, mode))
 }

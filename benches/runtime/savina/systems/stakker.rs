@@ -1,11 +1,11 @@
-//! stakker: all actors in one thread, without a lock or an atomic between them. It has no other way.
+//! stakker: all actors in one thread, without a lock or an atomic between them. It has no other mode.
 //!
-//! As it is meant to be used where it is quickest: default features, which bind it to one thread for the life of the
-//! process. That is the thread which measures, where others of the study use it too. A message is a call of the
-//! actor's one method, by `call!`. An actor holds the reference that owns it, so it lives until it stops itself.
+//! Used in its fastest configuration: the default features, which bind it to one thread for the life of the process.
+//! That is the measuring thread, where other benches of the study use it too. A message is a call of the actor's only
+//! method, with `call!`. An actor holds the reference that owns it, so it lives until it stops itself.
 
 use super::super::run::{DEADLINE, Finish, Run};
-use crate::Mode;
+use crate::StudyMode;
 use stakker::{ActorOwn, CX, Core, Stakker, actor_new, call, ret_nop};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -25,7 +25,7 @@ trait Actor: Sized + 'static {
 
 type Address<A> = stakker::Actor<Cell<A>>;
 
-/// Has the run been given up? Nobody else could end what keeps this thread busy.
+/// Whether the run was given up. Only the actors themselves can end the loop that keeps this thread busy.
 static GIVEN_UP: AtomicBool = AtomicBool::new(false);
 
 struct World<'a> {
@@ -50,7 +50,7 @@ fn spawn<A: Actor>(core: &mut Core, run: &Arc<Run>, actor: A) -> Address<A> {
     address
 }
 
-/// An actor in stakker's sense.
+/// An actor of the suite as a stakker actor.
 struct Cell<A: Actor> {
     actor: A,
     run: Arc<Run>,
@@ -98,7 +98,7 @@ impl<A: Actor> Cx<'_, '_, A> {
     }
 }
 
-pub(super) fn play(benchmark: &str, mode: Mode) -> Result<Finish, String> {
+pub(super) fn play(benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     GIVEN_UP.store(false, Ordering::Relaxed);
     let played = thread::scope(|scope| {
         let (over, ended) = mpsc::channel::<()>();
@@ -120,11 +120,11 @@ pub(super) fn play(benchmark: &str, mode: Mode) -> Result<Finish, String> {
     }
 }
 
-fn play_through(benchmark: &str, mode: Mode) -> Result<Finish, String> {
+fn play_through(benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     let mut stakker = Stakker::new(Instant::now());
     let (run, verdict) = Run::begin();
     suite::start(benchmark, &mut World { stakker: &mut stakker, run: Arc::new(run) }, mode);
-    // Until nobody has anything left to do.
+    // Runs until no actor has work left.
     stakker.run(Instant::now(), false);
     verdict.now()
 }
