@@ -94,18 +94,18 @@ fn thousand(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opene
 }
 
 /// What the graphics thread does before it draws; then it says so, that the next move may come.
-struct Picture(Scene, Address<Taken>);
+struct SceneReceiver(Scene, Address<ViewTaken>);
 
 /// A view was taken.
-struct Taken;
+struct ViewTaken;
 
-impl Receiver for Picture {
+impl Receiver for SceneReceiver {
     type Message = View;
 
     fn receive(&mut self, view: View, thread: &mut Context) {
         self.0.show(&view);
         self.0.prepare(thread.now());
-        let _ = self.1.send(Taken);
+        let _ = self.1.send(ViewTaken);
     }
 
     fn name(&self) -> &str {
@@ -114,9 +114,9 @@ impl Receiver for Picture {
 }
 
 #[derive(Clone, Default)]
-struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+struct ReplyLog(Rc<RefCell<Vec<DocumentReply>>>);
 
-impl Receiver for Heard {
+impl Receiver for ReplyLog {
     type Message = DocumentReply;
 
     fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
@@ -129,9 +129,9 @@ impl Receiver for Heard {
 struct Counted(Rc<RefCell<usize>>);
 
 impl Receiver for Counted {
-    type Message = Taken;
+    type Message = ViewTaken;
 
-    fn receive(&mut self, _: Taken, _: &mut Context) {
+    fn receive(&mut self, _: ViewTaken, _: &mut Context) {
         *self.0.borrow_mut() += 1;
     }
 }
@@ -148,7 +148,7 @@ impl Receiver for Traces {
 
 /// Measures a drag; tells the 99th percentile.
 fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
-    let heard = Heard::default();
+    let heard = ReplyLog::default();
     let traced = Rc::new(RefCell::new(None));
     // As in the window, the main thread sleeps until it is told that something came: it does not take a processor.
     let own_thread = std::thread::current();
@@ -165,7 +165,7 @@ fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
         .run(move |context: &mut Context| {
             let mut scene = Scene::new(Instant::now());
             scene.look = Look { viewport: [0, 0, 1280, 720], skeleton: true, ..Look::default() };
-            context.register_receiver_at(&own, Picture(scene, taken));
+            context.register_receiver_at(&own, SceneReceiver(scene, taken));
             context.set_trace(MOVES * 8);
         })
         .expect("it runs");

@@ -39,7 +39,7 @@ pub(crate) fn all() {
     for (name, bones) in
         [("nothing selected", vec![]), ("one bone", vec![7]), ("eight bones", (3..11).collect())]
     {
-        let mut window = Window::new(&view, &bones);
+        let mut window = PanelsWindow::new(&view, &bones);
         window.measure(&format!("whole zoom, {name}"), |_, _| {});
         window.measure(&format!("zooming, {name}"), |at, state| {
             let part = 1.0 - 0.5 * (at as f64 / FRAMES as f64);
@@ -69,7 +69,7 @@ fn drag(view: &View, zoom: TimeWindow, name: &str) {
 }
 
 fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, answers: &Receiver<View>) {
-    let mut window = Window::new(view, &[3, 4, 5]);
+    let mut window = PanelsWindow::new(view, &[3, 4, 5]);
     let take = Arc::clone(&view.takes[0]);
     show(&mut window.state, zoom);
     window.state.execute(Request::Timeline(KeysRequest::OnlySelected(false)));
@@ -137,11 +137,11 @@ fn document(first: View, asked: &Receiver<Change>, answer: &Sender<View>) {
 }
 
 fn show(state: &mut State, window: TimeWindow) {
-    state.execute(Request::Timeline(KeysRequest::Window(Some(window))));
+    state.execute(Request::Timeline(KeysRequest::PanelsWindow(Some(window))));
 }
 
 /// The panels, without a window.
-struct Window {
+struct PanelsWindow {
     context: egui::Context,
     desk: Desk,
     state: State,
@@ -149,7 +149,7 @@ struct Window {
     frame: u64,
 }
 
-impl Window {
+impl PanelsWindow {
     fn new(view: &View, bones: &[u32]) -> Self {
         let context = egui::Context::default();
         style::install(&context);

@@ -1,11 +1,11 @@
 //! Which ways are compared in which situation, and for how long; see the table in `mod.rs`.
 
-use super::frame::Frame;
-use super::hand::Rate;
-use super::model::Size;
-use super::scenario::{Bed, Scenario, Verdict, run};
+use super::driver::Rate;
+use super::frame::FrameWork;
+use super::model::ModelSize;
+use super::scenario::{RunDefects, Scenario, ScenarioSetup, run};
 use super::script::Edits;
-use super::sharing::{WAYS, Way};
+use super::sharing::{METHODS, SharingMethod};
 use super::{cores, table};
 use crate::{Study, StudyMode, Variant};
 use std::time::Duration;
@@ -15,7 +15,7 @@ const HERTZ_144: Option<Duration> = Some(Duration::from_nanos(6_944_444));
 
 /// Which ways take part.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Field {
+enum MethodSelection {
     /// All.
     All,
     /// The best of each kind, and the lock that is held for the frame.
@@ -24,8 +24,8 @@ enum Field {
     And(&'static [&'static str]),
 }
 
-impl Field {
-    fn ways(self, mode: StudyMode) -> Vec<Way> {
+impl MethodSelection {
+    fn ways(self, mode: StudyMode) -> Vec<SharingMethod> {
         /// A short run has no time for more.
         const FEW: [&str; 6] = [
             "messages, newest",
@@ -35,48 +35,60 @@ impl Field {
             "mutex, cow",
             "arcswap, cow",
         ];
-        let wanted = |way: &&Way| match self {
+        let wanted = |way: &&SharingMethod| match self {
             _ if self == Self::All || mode == StudyMode::Check => true,
             Self::And(names) if names.contains(&way.name) => true,
             _ if mode == StudyMode::Short => FEW.contains(&way.name),
             _ => way.telling,
         };
-        WAYS.iter().filter(wanted).copied().collect()
+        METHODS.iter().filter(wanted).copied().collect()
     }
 }
 
 /// Measures every case.
 pub fn all(study: &mut Study) {
     study.prints = false;
-    let usual = Size::USUAL.document();
+    let usual = ModelSize::USUAL.document();
     let draws = match study.mode {
         StudyMode::Check => 1,
-        _ => Frame::calibrate(usual.skeleton.clone()),
+        _ => FrameWork::calibrate(usual.skeleton.clone()),
     };
     if study.mode != StudyMode::Check {
         println!("# a frame draws its mesh {draws} times, which takes 3 ms when nothing disturbs it");
         println!("# times in microseconds; medians of the repeats");
     }
-    let size = study.mode.pick(Size::TINY, Size::USUAL, Size::USUAL);
-    let bed = &Bed::new(size, draws);
+    let size = study.mode.pick(ModelSize::TINY, ModelSize::USUAL, ModelSize::USUAL);
+    let bed = &ScenarioSetup::new(size, draws);
     let core = basis(study.mode);
     let longer = Scenario { length: core.length * study.mode.pick(1, 1, 2), ..core };
 
-    compare(study, "drag", bed, longer, Field::All);
+    compare(study, "drag", bed, longer, MethodSelection::All);
     let slow = Rate::Every(Duration::from_millis(16));
     let flood = Scenario { rate: Rate::FlatOut, ..core };
     let takes = Scenario { edits: Edits::Large, rate: slow, ..core };
     // A test looks at results, and those do not depend on how fast it goes.
     if study.mode != StudyMode::Check {
-        compare(study, "drag/60 Hz", bed, Scenario { rate: slow, ..core }, Field::Telling);
-        compare(study, "drag/frames 144 Hz", bed, Scenario { period: HERTZ_144, ..core }, Field::Telling);
-        compare(study, "takes/60 Hz", bed, takes, Field::And(&["mutex a take"]));
+        compare(study, "drag/60 Hz", bed, Scenario { rate: slow, ..core }, MethodSelection::Telling);
+        compare(
+            study,
+            "drag/frames 144 Hz",
+            bed,
+            Scenario { period: HERTZ_144, ..core },
+            MethodSelection::Telling,
+        );
+        compare(study, "takes/60 Hz", bed, takes, MethodSelection::And(&["mutex a take"]));
     }
-    compare(study, "drag/frames unpaced", bed, Scenario { period: None, ..core }, Field::Telling);
-    compare(study, "flood", bed, flood, Field::And(&["messages", "messages, merged", "triple buffer"]));
+    compare(study, "drag/frames unpaced", bed, Scenario { period: None, ..core }, MethodSelection::Telling);
+    compare(
+        study,
+        "flood",
+        bed,
+        flood,
+        MethodSelection::And(&["messages", "messages, merged", "triple buffer"]),
+    );
     let flood = Scenario { rate: Rate::FlatOut, ..takes };
     if study.mode != StudyMode::Short {
-        compare(study, "takes/flood", bed, flood, Field::And(&["mutex a take"]));
+        compare(study, "takes/flood", bed, flood, MethodSelection::And(&["mutex a take"]));
     }
     disturbed(study, bed, core);
     questions(study, bed, core);
@@ -100,26 +112,32 @@ fn basis(mode: StudyMode) -> Scenario {
 }
 
 /// Somebody is held up, or somebody else wants the processor.
-fn disturbed(study: &mut Study, bed: &Bed, core: Scenario) {
+fn disturbed(study: &mut Study, bed: &ScenarioSetup, core: Scenario) {
     for milliseconds in study.mode.pick(vec![50], vec![50], vec![50, 500]) {
         let length = Duration::from_millis(study.mode.pick(milliseconds / 10, milliseconds, milliseconds));
         let at = core.length / 4;
         let lasting = Scenario { length: core.length + length, ..core };
         let stall = Scenario { graphics_stall: Some((at, length)), ..lasting };
-        compare(study, &format!("graphics stall {milliseconds} ms"), bed, stall, Field::Telling);
+        compare(study, &format!("graphics stall {milliseconds} ms"), bed, stall, MethodSelection::Telling);
         if study.mode != StudyMode::Short {
             let stall = Scenario { main_stall: Some((at, length)), ..lasting };
-            compare(study, &format!("main stall {milliseconds} ms"), bed, stall, Field::Telling);
+            compare(study, &format!("main stall {milliseconds} ms"), bed, stall, MethodSelection::Telling);
         }
     }
     if study.mode == StudyMode::Check {
         return;
     }
     let also = &["messages, relayed", "messages, spinning", "parking, cow"];
-    compare(study, "import", bed, Scenario { busy: 1, ..core }, Field::And(also));
+    compare(study, "import", bed, Scenario { busy: 1, ..core }, MethodSelection::And(also));
     let also = &["parking, poses", "parking, cow"];
     if study.mode != StudyMode::Short {
-        compare(study, "more threads than cores", bed, Scenario { busy: 3, ..core }, Field::And(also));
+        compare(
+            study,
+            "more threads than cores",
+            bed,
+            Scenario { busy: 3, ..core },
+            MethodSelection::And(also),
+        );
     }
     if !study.wants("one core") {
         return;
@@ -127,7 +145,7 @@ fn disturbed(study: &mut Study, bed: &Bed, core: Scenario) {
     match cores::pin("0") {
         Some(pinned) => {
             let also = &["messages, spinning", "parking, poses", "parking, cow"];
-            compare(study, "one core", bed, core, Field::And(also));
+            compare(study, "one core", bed, core, MethodSelection::And(also));
             drop(pinned);
         }
         None => println!("# no taskset: nothing is measured on one core"),
@@ -135,7 +153,7 @@ fn disturbed(study: &mut Study, bed: &Bed, core: Scenario) {
 }
 
 /// The main thread needs an answer.
-fn questions(study: &mut Study, bed: &Bed, core: Scenario) {
+fn questions(study: &mut Study, bed: &ScenarioSetup, core: Scenario) {
     let idle = Scenario {
         rate: Rate::Still,
         questions: Some(Duration::from_millis(study.mode.pick(2, 3, 3))),
@@ -143,13 +161,13 @@ fn questions(study: &mut Study, bed: &Bed, core: Scenario) {
     };
     let also = &["messages, read", "messages, spinning", "rwlock, frame"];
     if study.mode != StudyMode::Check {
-        compare(study, "question/idle", bed, idle, Field::And(also));
+        compare(study, "question/idle", bed, idle, MethodSelection::And(also));
     }
     let load = Scenario { rate: Rate::EVERY_MILLISECOND, period: None, ..idle };
-    compare(study, "question/load", bed, load, Field::And(also));
+    compare(study, "question/load", bed, load, MethodSelection::And(also));
     if study.mode != StudyMode::Short {
         let busy = Scenario { busy: 2, ..load };
-        compare(study, "question/more threads than cores", bed, busy, Field::And(also));
+        compare(study, "question/more threads than cores", bed, busy, MethodSelection::And(also));
     }
 }
 
@@ -158,15 +176,15 @@ fn large(study: &mut Study, draws: u32, core: Scenario) {
     if study.mode == StudyMode::Check {
         return;
     }
-    for (name, size) in [("long takes", Size::LONG), ("43 million keys", Size::HUGE)] {
-        if study.wants(name) && (study.mode == StudyMode::Full || size == Size::LONG) {
-            let bed = Bed::new(size, draws);
-            compare(study, name, &bed, core, Field::And(&["mutex, clone"]));
+    for (name, size) in [("long takes", ModelSize::LONG), ("43 million keys", ModelSize::HUGE)] {
+        if study.wants(name) && (study.mode == StudyMode::Full || size == ModelSize::LONG) {
+            let bed = ScenarioSetup::new(size, draws);
+            compare(study, name, &bed, core, MethodSelection::And(&["mutex, clone"]));
         }
     }
 }
 
-fn compare(study: &mut Study, case: &str, bed: &Bed, scenario: Scenario, field: Field) {
+fn compare(study: &mut Study, case: &str, bed: &ScenarioSetup, scenario: Scenario, field: MethodSelection) {
     if !study.wants(case) {
         return;
     }
@@ -174,7 +192,7 @@ fn compare(study: &mut Study, case: &str, bed: &Bed, scenario: Scenario, field: 
     let variants = ways.iter().map(|way| {
         Variant::new(way.name, move |measured| {
             let verdict = run(bed, way, &scenario, measured);
-            assert_eq!(verdict, Verdict::default(), "{case}, {}", way.name);
+            assert_eq!(verdict, RunDefects::default(), "{case}, {}", way.name);
         })
     });
     let first = study.rows().len();

@@ -1,8 +1,8 @@
 //! The document that the threads share: original + changes = result, in the types of `dragonfly-anim`.
 //!
 //! Every edit has a number, and writes it into all the data that it touches: into the scale of each key, where
-//! `1 + n / 2²³` is exact and too little to be seen. So a reader of half an edit is found out ([`Mark::is_torn`]), and one
-//! of an old document as well ([`Mark::number`]).
+//! `1 + n / 2²³` is exact and too little to be seen. So a reader of half an edit is found out ([`EditMark::is_torn`]), and one
+//! of an old document as well ([`EditMark::number`]).
 
 use dragonfly_anim::data::{Skeleton, Take, Track, Transform};
 use glam::Vec3;
@@ -13,7 +13,7 @@ const STAMPS: u64 = 1 << 23;
 
 /// One take, in its three forms, and which edit was its last.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct TakeEntry {
     /// As read; never altered, so whoever wants to may keep it outside of any lock.
     pub original: Arc<Take>,
     /// What was edited; the identity elsewhere.
@@ -23,14 +23,14 @@ pub struct Entry {
     /// Number of the newest edit of this take; 0 before the first.
     pub number: u64,
     /// Where that edit was.
-    pub place: Place,
+    pub place: KeyPlace,
     /// Number of the edit that replaced the whole take last.
     pub replaced: u64,
 }
 
 /// A key of a bone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Place {
+pub struct KeyPlace {
     /// Position in the skeleton.
     pub bone: u32,
     /// Position in the channels.
@@ -39,96 +39,96 @@ pub struct Place {
 
 /// All takes. A clone is shallow; what is shared is copied when it is edited, and only the channels that are.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Document {
+pub struct SharedDocument {
     /// The same for all takes; not edited here.
     pub skeleton: Arc<Skeleton>,
     /// At least one.
-    pub takes: Vec<Entry>,
+    pub takes: Vec<TakeEntry>,
 }
 
 /// What the person did.
 #[derive(Clone, Debug)]
-pub struct Edit {
+pub struct NumberedEdit {
     /// From 1, ascending.
     pub number: u64,
     /// Position in the document's takes.
     pub take: usize,
     /// What happens there.
-    pub change: Change,
+    pub change: EditedData,
 }
 
-/// See [`Edit`].
+/// See [`NumberedEdit`].
 #[derive(Clone, Debug)]
-pub enum Change {
+pub enum EditedData {
     /// Small: the change of one key.
-    Key(Place, Transform),
+    Key(KeyPlace, Transform),
     /// Large: all changes of the take.
     Take(Arc<Take>),
 }
 
 /// An edit with everything computed that needs nobody's lock. Cheap to clone.
 #[derive(Clone, Debug)]
-pub struct Ready {
-    edit: Edit,
+pub struct PreparedEdit {
+    edit: NumberedEdit,
     result: Option<Arc<Take>>,
 }
 
 /// What is no longer needed: dropped by the caller, outside of its lock.
 pub type Remains = Option<(Arc<Take>, Arc<Take>)>;
 
-impl Edit {
+impl NumberedEdit {
     /// Computes what depends on the originals alone, which nobody alters.
-    pub fn prepare(self, originals: &[Arc<Take>]) -> Ready {
+    pub fn prepare(self, originals: &[Arc<Take>]) -> PreparedEdit {
         let result = match &self.change {
-            Change::Key(..) => None,
-            Change::Take(changes) => Some(Arc::new(compose_take(&originals[self.take], changes))),
+            EditedData::Key(..) => None,
+            EditedData::Take(changes) => Some(Arc::new(compose_take(&originals[self.take], changes))),
         };
-        Ready { edit: self, result }
+        PreparedEdit { edit: self, result }
     }
 }
 
-impl Ready {
+impl PreparedEdit {
     /// Number of the edit.
     pub fn number(&self) -> u64 {
         self.edit.number
     }
 }
 
-impl Entry {
+impl TakeEntry {
     /// `original`, and no changes: those of `nothing`, which has as many keys.
     pub fn new(original: Arc<Take>, nothing: Arc<Take>) -> Self {
         let result = Arc::clone(&original);
-        Self { original, changes: nothing, result, number: 0, place: Place::default(), replaced: 0 }
+        Self { original, changes: nothing, result, number: 0, place: KeyPlace::default(), replaced: 0 }
     }
 
     /// Makes the edit. What nobody else has is changed where it lies, what others have too is copied before.
-    pub fn apply(&mut self, ready: Ready) -> Remains {
-        let Ready { edit, result } = ready;
+    pub fn apply(&mut self, ready: PreparedEdit) -> Remains {
+        let PreparedEdit { edit, result } = ready;
         let remains = match (edit.change, result) {
-            (Change::Key(place, change), _) => {
+            (EditedData::Key(place, change), _) => {
                 self.place = place;
                 set(&mut self.changes, place, change);
                 let pose = compose(pose(&self.original, place), change);
                 set(&mut self.result, place, pose);
                 None
             }
-            (Change::Take(changes), Some(result)) => {
-                (self.place, self.replaced) = (Place::default(), edit.number);
+            (EditedData::Take(changes), Some(result)) => {
+                (self.place, self.replaced) = (KeyPlace::default(), edit.number);
                 let changes = std::mem::replace(&mut self.changes, changes);
                 Some((changes, std::mem::replace(&mut self.result, result)))
             }
-            (Change::Take(_), None) => unreachable!("it was prepared"),
+            (EditedData::Take(_), None) => unreachable!("it was prepared"),
         };
         self.number = edit.number;
         remains
     }
 
     /// What must be found in the result that belongs to this; `thorough` looks at all bones.
-    pub fn mark(&self, thorough: bool) -> Mark {
+    pub fn mark(&self, thorough: bool) -> EditMark {
         let change = pose(&self.changes, self.place);
         let first = |track: &Track| stamp(track.scale.values[0]);
         let stamps = || self.changes.tracks.iter().map(first);
-        Mark {
+        EditMark {
             number: self.number,
             place: self.place,
             expected: compose(pose(&self.original, self.place), change),
@@ -149,9 +149,9 @@ impl Entry {
     }
 }
 
-impl Document {
+impl SharedDocument {
     /// Makes an edit of one of the takes.
-    pub fn apply(&mut self, ready: Ready) -> Remains {
+    pub fn apply(&mut self, ready: PreparedEdit) -> Remains {
         self.takes[ready.edit.take].apply(ready)
     }
 
@@ -168,16 +168,16 @@ impl Document {
 
 /// What a reader saw of the changes, to be compared with what it saw of the result.
 #[derive(Clone, Copy, Debug)]
-pub struct Mark {
+pub struct EditMark {
     /// Of the newest edit that was seen.
     pub number: u64,
-    place: Place,
+    place: KeyPlace,
     expected: Transform,
     replaced: Option<u64>,
     whole: bool,
 }
 
-impl Mark {
+impl EditMark {
     /// Is `result` not what the changes say, or do the changes not say what the head says?
     pub fn is_torn(&self, result: &Take) -> bool {
         let found = pose(result, self.place);
@@ -199,7 +199,7 @@ fn stamp(scale: Vec3) -> u64 {
     if scale == Vec3::splat(scale.x) { ((scale.x - 1.0) * STAMPS as f32) as u64 } else { u64::MAX }
 }
 
-fn pose(take: &Take, place: Place) -> Transform {
+fn pose(take: &Take, place: KeyPlace) -> Transform {
     let (track, key) = (&take.tracks[place.bone as usize], place.key as usize);
     Transform {
         translation: track.translation.values[key],
@@ -208,7 +208,7 @@ fn pose(take: &Take, place: Place) -> Transform {
     }
 }
 
-fn set(take: &mut Arc<Take>, place: Place, pose: Transform) {
+fn set(take: &mut Arc<Take>, place: KeyPlace, pose: Transform) {
     let (track, key) = (&mut Arc::make_mut(take).tracks[place.bone as usize], place.key as usize);
     Arc::make_mut(&mut track.translation.values)[key] = pose.translation;
     Arc::make_mut(&mut track.rotation.values)[key] = pose.rotation;
@@ -232,7 +232,7 @@ fn compose_take(original: &Take, changes: &Take) -> Take {
     let mut result = original.clone();
     let tracks = original.tracks.iter().zip(&changes.tracks).zip(&mut result.tracks).enumerate();
     for (bone, ((old, _), new)) in tracks {
-        let place = |key| Place { bone: bone as u32, key: key as u32 };
+        let place = |key| KeyPlace { bone: bone as u32, key: key as u32 };
         let poses: Vec<Transform> = (0..old.scale.len())
             .map(|key| compose(pose(original, place(key)), pose(changes, place(key))))
             .collect();
@@ -246,16 +246,16 @@ fn compose_take(original: &Take, changes: &Take) -> Take {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::graphical::model::Size;
+    use crate::graphical::model::ModelSize;
 
-    fn key(number: u64) -> Edit {
+    fn key(number: u64) -> NumberedEdit {
         let pose = Transform { scale: stamped(number), translation: Vec3::X, ..Transform::IDENTITY };
-        Edit { number, take: 0, change: Change::Key(Place { bone: 1, key: 2 }, pose) }
+        NumberedEdit { number, take: 0, change: EditedData::Key(KeyPlace { bone: 1, key: 2 }, pose) }
     }
 
     #[test]
     fn an_edit_copies_what_is_shared_and_nothing_else() {
-        let base = Size::TINY.document();
+        let base = ModelSize::TINY.document();
         let mut edited = base.clone();
         let originals = base.originals();
         drop(edited.apply(key(1).prepare(&originals)));
@@ -274,7 +274,7 @@ mod tests {
 
     #[test]
     fn half_an_edit_is_torn_and_a_whole_one_is_not() {
-        let mut document = Size::TINY.document();
+        let mut document = ModelSize::TINY.document();
         let originals = document.originals();
         drop(document.apply(key(7).prepare(&originals)));
         for number in [8, 9, STAMPS - 1, STAMPS + 5] {

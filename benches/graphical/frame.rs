@@ -1,7 +1,7 @@
 //! The work of one frame: the real sampler at the clock's time, then vertices moved on the processor in place of a device;
 //! and a look whether what was sampled is one document.
 
-use super::document::{Entry, Mark};
+use super::document::{EditMark, TakeEntry};
 use super::model::mesh;
 use super::script::SHOWN;
 use dragonfly_anim::animation::{Animation, final_poses};
@@ -18,7 +18,7 @@ const VERTICES: usize = 5_000;
 const COST: Duration = Duration::from_millis(3);
 
 /// Everything that frames keep from one to the next, so that drawing allocates nothing.
-pub struct Frame {
+pub struct FrameWork {
     skeleton: Arc<Skeleton>,
     animation: Animation,
     poses: Vec<Transform>,
@@ -30,11 +30,11 @@ pub struct Frame {
     thorough: bool,
     stall: Duration,
     time: f32,
-    seen: Option<Mark>,
+    seen: Option<EditMark>,
     torn: u64,
 }
 
-impl Frame {
+impl FrameWork {
     /// Draws `draws` times; `thorough` looks at every bone for what does not fit together.
     pub fn new(skeleton: Arc<Skeleton>, draws: u32, thorough: bool) -> Self {
         let bones = skeleton.len();
@@ -75,17 +75,17 @@ impl Frame {
     }
 
     /// Samples the shown take. All that the frame needs of the document is read here.
-    pub fn read(&mut self, entry: &Entry) {
+    pub fn read(&mut self, entry: &TakeEntry) {
         self.read_copy(entry.mark(self.thorough), &entry.result);
     }
 
     /// What must be found in a copy of the shown take of this entry; asked for together with the copy.
-    pub fn mark(&self, entry: &Entry) -> Mark {
+    pub fn mark(&self, entry: &TakeEntry) -> EditMark {
         entry.mark(self.thorough)
     }
 
     /// The same for a copy of the take, and the mark that belongs to it.
-    pub fn read_copy(&mut self, mark: Mark, take: &Take) {
+    pub fn read_copy(&mut self, mark: EditMark, take: &Take) {
         let time = loop_time(self.time, take.start, take.length);
         sample_take(Some(take), &self.skeleton, time, &mut self.poses);
         self.torn += u64::from(mark.is_torn(take));
@@ -108,7 +108,7 @@ impl Frame {
     }
 
     /// For those who hold a view for the whole frame: is it still the one that was read?
-    pub fn confirm(&mut self, entry: &Entry) {
+    pub fn confirm(&mut self, entry: &TakeEntry) {
         let now = entry.mark(self.thorough);
         let same = self.seen.is_some_and(|seen| seen.number == now.number);
         self.torn += u64::from(!same || now.is_torn(&entry.result));
@@ -127,7 +127,7 @@ impl Frame {
 
 /// What the main thread wants to know and does not know itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Question {
+pub struct PoseQuestion {
     /// Where is this bone of the shown take, relative to its parent,
     pub bone: usize,
     /// at this time?
@@ -136,23 +136,23 @@ pub struct Question {
 
 /// The pose of the bone, and the newest edit that it contains.
 #[derive(Clone, Copy, Debug)]
-pub struct Answer {
+pub struct PoseAnswer {
     /// Number of that edit.
     pub number: u64,
     /// The pose.
     pub pose: Transform,
 }
 
-impl Question {
+impl PoseQuestion {
     /// The answer that `entry`, the shown take, gives.
-    pub fn answer(&self, entry: &Entry, skeleton: &Skeleton) -> Answer {
+    pub fn answer(&self, entry: &TakeEntry, skeleton: &Skeleton) -> PoseAnswer {
         let track = &entry.result.tracks[self.bone];
         let pose = dragonfly_anim::sample::sample_track(track, &skeleton.bones[self.bone], self.time);
-        Answer { number: entry.number, pose }
+        PoseAnswer { number: entry.number, pose }
     }
 }
 
 /// The shown take among all.
-pub fn shown(takes: &[Entry]) -> &Entry {
+pub fn shown(takes: &[TakeEntry]) -> &TakeEntry {
     &takes[SHOWN]
 }

@@ -1,7 +1,7 @@
 //! The graphics thread: workers of the runtime in their order, as in the editor. The scene opens the frame when it is due,
 //! the model is sampled and drawn, and the frame is presented; then what it showed is written down.
 
-use super::frame::Frame;
+use super::frame::FrameWork;
 use super::ledger::Ledger;
 use super::sharing::{MakeViewing, Viewing};
 use crate::Distribution;
@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 /// What the frames of one run were like.
 #[derive(Default)]
-pub struct Frames {
+pub struct FrameMetrics {
     /// From the moment at which it began to its end.
     pub time: Distribution,
     /// How much later than intended a frame began. Empty where nothing sets the pace.
@@ -42,9 +42,9 @@ pub struct Pace {
 }
 
 /// What the workers share.
-struct Stage {
+struct GraphicsState {
     viewing: Box<dyn Viewing>,
-    frame: Frame,
+    frame: FrameWork,
     pace: Pace,
     ledger: Arc<Ledger>,
     begin: Instant,
@@ -56,14 +56,14 @@ struct Stage {
     recorded: Option<Instant>,
     promised: u64,
     last: u64,
-    frames: Frames,
-    done: mpsc::Sender<Frames>,
+    frames: FrameMetrics,
+    done: mpsc::Sender<FrameMetrics>,
 }
 
 /// Opens the frame.
-struct Scene(Rc<RefCell<Stage>>);
+struct SceneWorker(Rc<RefCell<GraphicsState>>);
 
-impl Worker for Scene {
+impl Worker for SceneWorker {
     fn update(&mut self, thread: &mut Context) -> bool {
         let stage = &mut *self.0.borrow_mut();
         stage.promised = stage.viewing.promise(&stage.ledger);
@@ -94,9 +94,9 @@ impl Worker for Scene {
 }
 
 /// Samples and draws the model.
-struct Model(Rc<RefCell<Stage>>);
+struct ModelWorker(Rc<RefCell<GraphicsState>>);
 
-impl Worker for Model {
+impl Worker for ModelWorker {
     fn update(&mut self, _thread: &mut Context) -> bool {
         let stage = &mut *self.0.borrow_mut();
         stage.viewing.frame(&mut stage.frame);
@@ -105,9 +105,9 @@ impl Worker for Model {
 }
 
 /// Ends the frame.
-struct Present(Rc<RefCell<Stage>>);
+struct PresentWorker(Rc<RefCell<GraphicsState>>);
 
-impl Worker for Present {
+impl Worker for PresentWorker {
     fn update(&mut self, thread: &mut Context) -> bool {
         let stage = &mut *self.0.borrow_mut();
         let Some((due, began)) = stage.opened.take() else { return false };
@@ -138,7 +138,7 @@ impl Worker for Present {
     }
 }
 
-impl Drop for Stage {
+impl Drop for GraphicsState {
     fn drop(&mut self) {
         // Nobody listens when the run was given up.
         let _ = self.done.send(std::mem::take(&mut self.frames));
@@ -149,15 +149,15 @@ impl Drop for Stage {
 pub fn register(
     thread: &Thread,
     viewing: MakeViewing,
-    frame: impl FnOnce() -> Frame + Send + 'static,
+    frame: impl FnOnce() -> FrameWork + Send + 'static,
     pace: Pace,
     ledger: &Arc<Ledger>,
-) -> mpsc::Receiver<Frames> {
+) -> mpsc::Receiver<FrameMetrics> {
     let (done, frames) = mpsc::channel();
     let ledger = Arc::clone(ledger);
     let job = move |context: &mut Context| {
         let now = Instant::now();
-        let stage = Stage {
+        let stage = GraphicsState {
             viewing: viewing(context),
             frame: frame(),
             pace,
@@ -168,13 +168,13 @@ pub fn register(
             recorded: None,
             promised: 0,
             last: 0,
-            frames: Frames::default(),
+            frames: FrameMetrics::default(),
             done,
         };
         let stage = Rc::new(RefCell::new(stage));
-        context.register_worker(Scene(Rc::clone(&stage)));
-        context.register_worker(Model(Rc::clone(&stage)));
-        context.register_last_worker(Present(stage));
+        context.register_worker(SceneWorker(Rc::clone(&stage)));
+        context.register_worker(ModelWorker(Rc::clone(&stage)));
+        context.register_last_worker(PresentWorker(stage));
     };
     thread.handle().run(job).expect("it was just started");
     frames

@@ -14,11 +14,11 @@
 //! | messages, batched | each, but they wake nobody | likewise; all edits that wait are made then |
 //! | messages, spinning | each | as "newest"; the document looks for messages a while before it sleeps |
 
-use super::document::{Change, Document, Edit};
-use super::frame::{Answer, Question, shown};
+use super::document::{EditedData, NumberedEdit, SharedDocument};
+use super::frame::{PoseAnswer, PoseQuestion, shown};
 use super::ledger::Ledger;
-use super::sharing::{Asked, Sharing, Start, Started, Viewing};
-use super::views::{Asking, Newest, View};
+use super::sharing::{Sharing, SharingParts, SharingStart, TimedAnswer, Viewing};
+use super::views::{Asking, DocumentRef, NewestView};
 use dragonfly_anim::data::Take;
 use dragonfly_runtime::{Address, Captured, Context, Next, Receiver, Thread, Worker};
 use std::cell::{Cell, RefCell};
@@ -28,12 +28,12 @@ use std::time::{Duration, Instant};
 
 /// What the document's thread understands.
 pub(super) enum ToDocument {
-    Edit(Edit),
-    Ask(Question, Address<Answer>),
+    NumberedEdit(NumberedEdit),
+    Ask(PoseQuestion, Address<PoseAnswer>),
     /// The graphics thread wants the newest view, even when it has it.
     Publish,
     /// For the comparison at the end.
-    Give(mpsc::Sender<Document>),
+    Give(mpsc::Sender<SharedDocument>),
 }
 
 /// When views are sent, and to whom; how edits are.
@@ -49,56 +49,56 @@ struct Kind {
 }
 
 /// Every edit a message, and after every edit a view.
-pub fn plain(start: Start) -> Started {
+pub fn plain(start: SharingStart) -> SharingParts {
     begin(start, Kind { each: true, ..Kind::default() })
 }
 
 /// Every edit a message; a view when no more edits wait.
-pub fn newest(start: Start) -> Started {
+pub fn newest(start: SharingStart) -> SharingParts {
     begin(start, Kind::default())
 }
 
 /// The same, with views sent to the main thread, which passes them on.
-pub fn relayed(start: Start) -> Started {
+pub fn relayed(start: SharingStart) -> SharingParts {
     begin(start, Kind { relayed: true, ..Kind::default() })
 }
 
 /// The main thread gets the views as well, and looks there for answers.
-pub fn read(start: Start) -> Started {
+pub fn read(start: SharingStart) -> SharingParts {
     begin(start, Kind { read: true, ..Kind::default() })
 }
 
 /// Edits of one gesture replace each other while they wait, and so do views.
-pub fn merged(start: Start) -> Started {
+pub fn merged(start: SharingStart) -> SharingParts {
     begin(start, Kind { merges: true, ..Kind::default() })
 }
 
 /// A view when a frame asks for it.
-pub fn on_demand(start: Start) -> Started {
+pub fn on_demand(start: SharingStart) -> SharingParts {
     begin(start, Kind { on_demand: true, ..Kind::default() })
 }
 
 /// The document's thread pauses between frames, so that edits do not wake it; the frame that asks for a view does.
-pub fn batched(start: Start) -> Started {
+pub fn batched(start: SharingStart) -> SharingParts {
     begin(start, Kind { on_demand: true, batched: true, ..Kind::default() })
 }
 
 /// The document's thread does not sleep at once.
-pub fn spinning(start: Start) -> Started {
+pub fn spinning(start: SharingStart) -> SharingParts {
     begin(start, Kind { spin: Duration::from_millis(2), ..Kind::default() })
 }
 
 /// The document in its thread.
-struct Owner {
-    document: View,
+struct DocumentOwner {
+    document: DocumentRef,
     originals: Vec<Arc<Take>>,
-    views: Vec<Address<View>>,
+    views: Vec<Address<DocumentRef>>,
     kind: Kind,
     changed: bool,
     ledger: Arc<Ledger>,
 }
 
-impl Owner {
+impl DocumentOwner {
     fn publish(&mut self) {
         for views in &self.views {
             // Who draws may have stopped; then nobody looks.
@@ -111,12 +111,12 @@ impl Owner {
     }
 }
 
-impl Receiver for Owner {
+impl Receiver for DocumentOwner {
     type Message = ToDocument;
 
     fn receive(&mut self, message: ToDocument, thread: &mut Context) {
         match message {
-            ToDocument::Edit(edit) => {
+            ToDocument::NumberedEdit(edit) => {
                 let number = edit.number;
                 let ready = edit.prepare(&self.originals);
                 drop(Arc::make_mut(&mut self.document).apply(ready));
@@ -147,7 +147,7 @@ impl Receiver for Owner {
     }
 }
 
-impl Worker for Owner {
+impl Worker for DocumentOwner {
     fn update(&mut self, _thread: &mut Context) -> bool {
         if self.changed && !self.kind.on_demand {
             self.publish();
@@ -158,14 +158,14 @@ impl Worker for Owner {
 
 /// Passes views on from the main thread.
 struct Relay {
-    to: Address<View>,
+    to: Address<DocumentRef>,
     ledger: Arc<Ledger>,
 }
 
 impl Receiver for Relay {
-    type Message = View;
+    type Message = DocumentRef;
 
-    fn receive(&mut self, view: View, _thread: &mut Context) {
+    fn receive(&mut self, view: DocumentRef, _thread: &mut Context) {
         let number = shown(&view.takes).number;
         let _ = self.to.send(view);
         self.ledger.publish(number);
@@ -173,9 +173,9 @@ impl Receiver for Relay {
 }
 
 /// Where the newest of something lies until it is read.
-struct Last<M>(Rc<Cell<Option<M>>>);
+struct LatestValue<M>(Rc<Cell<Option<M>>>);
 
-impl<M: Send + 'static> Receiver for Last<M> {
+impl<M: Send + 'static> Receiver for LatestValue<M> {
     type Message = M;
 
     fn receive(&mut self, message: M, _thread: &mut Context) {
@@ -184,34 +184,34 @@ impl<M: Send + 'static> Receiver for Last<M> {
 }
 
 /// The main thread's side.
-struct Main {
+struct MessageSharing {
     thread: Thread,
     address: Address<ToDocument>,
     /// The place of the running gesture, where edits replace each other.
     gesture: Option<Address<ToDocument>>,
     merges: bool,
-    answer: Rc<Cell<Option<Answer>>>,
-    answers: Address<Answer>,
+    answer: Rc<Cell<Option<PoseAnswer>>>,
+    answers: Address<PoseAnswer>,
     /// The newest view, where the main thread gets them.
-    view: Option<Rc<Cell<Option<View>>>>,
+    view: Option<Rc<Cell<Option<DocumentRef>>>>,
 }
 
-impl Sharing for Main {
-    fn edit(&mut self, edit: Edit, begins: bool) {
+impl Sharing for MessageSharing {
+    fn edit(&mut self, edit: NumberedEdit, begins: bool) {
         // Only edits of one key may stand for each other, and none may overtake what was sent before its gesture began.
-        let mergeable = self.merges && matches!(edit.change, Change::Key(..));
+        let mergeable = self.merges && matches!(edit.change, EditedData::Key(..));
         if !mergeable {
             self.gesture = None;
         } else if begins || self.gesture.is_none() {
             self.gesture = Some(self.address.latest());
         }
         let to = self.gesture.as_ref().unwrap_or(&self.address);
-        to.send(ToDocument::Edit(edit)).expect("the document lives as long as this");
+        to.send(ToDocument::NumberedEdit(edit)).expect("the document lives as long as this");
     }
 
-    fn ask(&mut self, question: Question, main: &mut Captured) -> Asked {
+    fn ask(&mut self, question: PoseQuestion, main: &mut Captured) -> TimedAnswer {
         if let Some(newest) = &self.view {
-            return Asked::at_once(|| {
+            return TimedAnswer::at_once(|| {
                 let view = newest.take().expect("there has always been one");
                 let answer = question.answer(shown(&view.takes), &view.skeleton);
                 newest.set(Some(view));
@@ -225,7 +225,7 @@ impl Sharing for Main {
         let blocked = begin.elapsed();
         loop {
             if let Some(answer) = self.answer.take() {
-                return Asked { answer, blocked };
+                return TimedAnswer { answer, blocked };
             }
             // Here the main thread could do anything else; it has nothing else to do.
             if main.iterate() == Next::OnMessage && self.answer.get().is_none() {
@@ -234,7 +234,7 @@ impl Sharing for Main {
         }
     }
 
-    fn document(&mut self, main: &mut Captured) -> Document {
+    fn document(&mut self, main: &mut Captured) -> SharedDocument {
         let (to, from) = mpsc::channel();
         self.address.send(ToDocument::Give(to)).expect("the document lives as long as this");
         self.thread.handle().resume();
@@ -247,9 +247,9 @@ impl Sharing for Main {
     }
 }
 
-fn begin(start: Start, kind: Kind) -> Started {
-    let Start { document, graphics, main, ledger } = start;
-    let drawn: Address<View> = graphics.reserve_address();
+fn begin(start: SharingStart, kind: Kind) -> SharingParts {
+    let SharingStart { document, graphics, main, ledger } = start;
+    let drawn: Address<DocumentRef> = graphics.reserve_address();
     let mut views = vec![if kind.each { drawn.clone() } else { drawn.latest() }];
     let originals = document.originals();
     let first = Arc::new(document);
@@ -260,7 +260,7 @@ fn begin(start: Start, kind: Kind) -> Started {
     }
     if kind.read {
         let newest = Rc::new(Cell::new(Some(Arc::clone(&first))));
-        views.push(main.context().register_receiver(Last(Rc::clone(&newest))).latest());
+        views.push(main.context().register_receiver(LatestValue(Rc::clone(&newest))).latest());
         view = Some(newest);
     }
     let thread = Thread::start("document").expect("the system has a thread left");
@@ -268,23 +268,23 @@ fn begin(start: Start, kind: Kind) -> Started {
     let address = thread.handle().reserve_address();
     let (own, document, ledger) = (address.clone(), Arc::clone(&first), Arc::clone(ledger));
     let register = move |context: &mut Context| {
-        let owner = Owner { document, originals, views, kind, changed: false, ledger };
+        let owner = DocumentOwner { document, originals, views, kind, changed: false, ledger };
         let owner = Rc::new(RefCell::new(owner));
         context.register_receiver_at(&own, Rc::clone(&owner));
         context.register_worker(owner);
     };
     thread.handle().run(register).expect("it was just started");
     let answer = Rc::new(Cell::new(None));
-    let answers = main.context().register_receiver(Last(Rc::clone(&answer)));
+    let answers = main.context().register_receiver(LatestValue(Rc::clone(&answer)));
     let asked = (address.clone(), kind.batched.then(|| thread.handle().clone()));
     let merges = kind.merges;
-    let sharing = Main { thread, address, gesture: None, merges, answer, answers, view };
+    let sharing = MessageSharing { thread, address, gesture: None, merges, answer, answers, view };
     let viewing = Box::new(move |graphics: &mut Context| {
-        let newest = Newest::new(first, &drawn, graphics);
+        let newest = NewestView::new(first, &drawn, graphics);
         match kind.on_demand {
             true => Box::new(Asking::new(newest, asked.0, asked.1)) as Box<dyn Viewing>,
             false => Box::new(newest),
         }
     });
-    Started { sharing: Box::new(sharing), viewing }
+    SharingParts { sharing: Box::new(sharing), viewing }
 }

@@ -80,9 +80,9 @@
 pub mod cases;
 pub mod cores;
 pub mod document;
+pub mod driver;
 pub mod frame;
 pub mod graphics;
-pub mod hand;
 pub mod ledger;
 pub mod locks;
 pub mod messages;

@@ -1,6 +1,6 @@
 //! What is animated: a skeleton, takes, and a mesh to draw, of any size and always the same.
 
-use super::document::{Document, Entry, stamped};
+use super::document::{SharedDocument, TakeEntry, stamped};
 use dragonfly_anim::data::{
     Bone, Channel, Influence, Interpolation, Primitive, Skeleton, Skin, Take, Track, Transform, Vertices,
 };
@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// How much there is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Size {
+pub struct ModelSize {
     /// Bones of the skeleton.
     pub bones: usize,
     /// Takes of the document.
@@ -19,7 +19,7 @@ pub struct Size {
     pub keys: usize,
 }
 
-impl Size {
+impl ModelSize {
     /// For tests.
     pub const TINY: Self = Self { bones: 6, takes: 3, keys: 12 };
     /// What an animator has open on most days: 540,000 keys, counted over translation, rotation and scale.
@@ -30,7 +30,7 @@ impl Size {
     pub const HUGE: Self = Self { bones: 60, takes: 8, keys: 29_862 };
 
     /// A document of this size without changes.
-    pub fn document(self) -> Document {
+    pub fn document(self) -> SharedDocument {
         let mut random = Random::new(7);
         let skeleton = Arc::new(self.skeleton());
         let times: Arc<[f32]> = (0..self.keys).map(|key| key as f32 / 60.0).collect();
@@ -57,9 +57,9 @@ impl Size {
                     scale: column(&times, self.keys, |_| Vec3::ONE),
                 }
             });
-            Entry::new(Arc::new(take), Arc::clone(&nothing))
+            TakeEntry::new(Arc::new(take), Arc::clone(&nothing))
         });
-        Document { takes: takes.collect(), skeleton }
+        SharedDocument { takes: takes.collect(), skeleton }
     }
 
     /// Changes of every key of a take, made by edit `number`.
@@ -127,8 +127,8 @@ mod tests {
 
     #[test]
     fn sizes_are_as_they_say() {
-        assert_eq!(Size::USUAL.document().keys(), 540_000);
-        let Size { bones, takes, keys } = Size::HUGE;
+        assert_eq!(ModelSize::USUAL.document().keys(), 540_000);
+        let ModelSize { bones, takes, keys } = ModelSize::HUGE;
         assert!((43_000_000..43_100_000).contains(&(bones * takes * keys * 3)));
     }
 }

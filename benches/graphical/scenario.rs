@@ -1,14 +1,14 @@
 //! One run: a main thread that replays the drag, a graphics thread that makes frames, one way of sharing between them, and
 //! what disturbs them.
 
-use super::document::Document;
-use super::frame::{Frame, Question};
-use super::graphics::{self, Frames, Pace};
-use super::hand::{Hand, Rate, Record};
+use super::document::SharedDocument;
+use super::driver::{EditDriver, EditMetrics, Rate};
+use super::frame::{FrameWork, PoseQuestion};
+use super::graphics::{self, FrameMetrics, Pace};
 use super::ledger::{Ledger, MOST_WAITING};
-use super::model::Size;
+use super::model::ModelSize;
 use super::script::{Edits, Script};
-use super::sharing::{Start, Way};
+use super::sharing::{SharingMethod, SharingStart};
 use crate::machine::CpuLoad;
 use crate::{Distribution, RunValues};
 use dragonfly_kit::counting;
@@ -17,18 +17,18 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A document to begin with, and how often a frame draws on this machine.
-pub struct Bed {
+pub struct ScenarioSetup {
     /// How large it is.
-    pub size: Size,
+    pub size: ModelSize,
     /// Never altered: every run begins with a shallow copy.
-    pub document: Document,
+    pub document: SharedDocument,
     /// How often the mesh is drawn in a frame.
     pub draws: u32,
 }
 
-impl Bed {
+impl ScenarioSetup {
     /// A document of `size`.
-    pub fn new(size: Size, draws: u32) -> Self {
+    pub fn new(size: ModelSize, draws: u32) -> Self {
         Self { size, document: size.document(), draws }
     }
 }
@@ -60,7 +60,7 @@ pub struct Scenario {
 
 /// What was wrong in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Verdict {
+pub struct RunDefects {
     /// Looks that found half an edit.
     pub torn: u64,
     /// Frames that showed an older document than promised.
@@ -72,7 +72,12 @@ pub struct Verdict {
 }
 
 /// Runs `scenario` with `way`, writes down what was measured, and says what was wrong.
-pub fn run(bed: &Bed, way: &Way, scenario: &Scenario, measured: &mut RunValues) -> Verdict {
+pub fn run(
+    bed: &ScenarioSetup,
+    way: &SharingMethod,
+    scenario: &Scenario,
+    measured: &mut RunValues,
+) -> RunDefects {
     let flood = scenario.rate == Rate::FlatOut;
     let ledger = Arc::new(Ledger::new(if flood { MOST_WAITING } else { 1 << 13 }));
     let (memory, (record, frames, verdict)) =
@@ -81,13 +86,18 @@ pub fn run(bed: &Bed, way: &Way, scenario: &Scenario, measured: &mut RunValues) 
     verdict
 }
 
-fn run_counted(bed: &Bed, way: &Way, scenario: &Scenario, ledger: &Arc<Ledger>) -> (Record, Frames, Verdict) {
+fn run_counted(
+    bed: &ScenarioSetup,
+    way: &SharingMethod,
+    scenario: &Scenario,
+    ledger: &Arc<Ledger>,
+) -> (EditMetrics, FrameMetrics, RunDefects) {
     let script = Script::new(bed.size, scenario.edits, &bed.document);
     let me = std::thread::current();
     let mut main = Thread::capture("main", move || me.unpark());
     let graphics = Thread::start("graphics").expect("the system has a thread left");
     let document = bed.document.clone();
-    let start = Start { document, graphics: graphics.handle(), main: &mut main, ledger };
+    let start = SharingStart { document, graphics: graphics.handle(), main: &mut main, ledger };
     let started = (way.start)(start);
     let pace = Pace {
         period: scenario.period,
@@ -96,12 +106,12 @@ fn run_counted(bed: &Bed, way: &Way, scenario: &Scenario, ledger: &Arc<Ledger>) 
         stall: scenario.graphics_stall,
     };
     let skeleton = Arc::clone(&bed.document.skeleton);
-    let frame = move || Frame::new(skeleton, pace.draws, pace.thorough);
+    let frame = move || FrameWork::new(skeleton, pace.draws, pace.thorough);
     let done = graphics::register(&graphics, started.viewing, frame, pace, ledger);
     let busy: Vec<Thread> = (0..scenario.busy).map(|_| graphics::busy()).collect();
 
-    let question = Question { bone: bed.size.bones / 2, time: 0.5 };
-    let mut hand = Hand::new(started.sharing, main, &script, ledger, graphics.handle(), question);
+    let question = PoseQuestion { bone: bed.size.bones / 2, time: 0.5 };
+    let mut hand = EditDriver::new(started.sharing, main, &script, ledger, graphics.handle(), question);
     hand.wait_for_frames(2);
     let slow = if scenario.rate == Rate::FlatOut { Rate::EVERY_MILLISECOND } else { scenario.rate };
     hand.replay(slow, scenario.warm_up, None, None);
@@ -123,11 +133,17 @@ fn run_counted(bed: &Bed, way: &Way, scenario: &Scenario, ledger: &Arc<Ledger>) 
         document
     };
     let wrong = scenario.thorough && document != expected();
-    let verdict = Verdict { torn: frames.torn, stale: frames.stale, lost, wrong };
+    let verdict = RunDefects { torn: frames.torn, stale: frames.stale, lost, wrong };
     (record, frames, verdict)
 }
 
-fn write(scenario: &Scenario, record: &Record, frames: &Frames, memory: u64, measured: &mut RunValues) {
+fn write(
+    scenario: &Scenario,
+    record: &EditMetrics,
+    frames: &FrameMetrics,
+    memory: u64,
+    measured: &mut RunValues,
+) {
     let mut distribution = |name: &str, durations: &Distribution| {
         if durations.count() > 0 {
             measured.distribution(name, durations);

@@ -1,7 +1,7 @@
 //! What every way of sharing a document must be able to do, and the list of ways.
 
-use super::document::{Document, Edit};
-use super::frame::{Answer, Frame, Question};
+use super::document::{NumberedEdit, SharedDocument};
+use super::frame::{FrameWork, PoseAnswer, PoseQuestion};
 use super::ledger::Ledger;
 use super::{locks, messages, swap, triple};
 use dragonfly_runtime::{Captured, Context, ThreadHandle};
@@ -11,13 +11,13 @@ use std::time::{Duration, Instant};
 /// The main thread's side: edits, and reads a little.
 pub trait Sharing {
     /// Makes the edit, or has it made. `begins`: it is the first of a gesture; those of one gesture replace each other.
-    fn edit(&mut self, edit: Edit, begins: bool);
+    fn edit(&mut self, edit: NumberedEdit, begins: bool);
 
     /// Asks, and comes back with the answer.
-    fn ask(&mut self, question: Question, main: &mut Captured) -> Asked;
+    fn ask(&mut self, question: PoseQuestion, main: &mut Captured) -> TimedAnswer;
 
     /// The document as all edits so far have left it.
-    fn document(&mut self, main: &mut Captured) -> Document;
+    fn document(&mut self, main: &mut Captured) -> SharedDocument;
 
     /// Edits that wait to be made when `posted` were posted.
     fn backlog(&self, _posted: u64, _ledger: &Ledger) -> u64 {
@@ -28,7 +28,7 @@ pub trait Sharing {
 /// The graphics thread's side; made and kept there.
 pub trait Viewing {
     /// Draws a frame from one consistent view.
-    fn frame(&mut self, frame: &mut Frame);
+    fn frame(&mut self, frame: &mut FrameWork);
 
     /// Called when a frame is due: may it begin? If not, the thread is asked again when a message comes, or when
     /// the answer itself had it woken.
@@ -43,16 +43,16 @@ pub trait Viewing {
 }
 
 /// An answer, and what it cost.
-pub struct Asked {
+pub struct TimedAnswer {
     /// The answer.
-    pub answer: Answer,
+    pub answer: PoseAnswer,
     /// How long the main thread could do nothing else.
     pub blocked: Duration,
 }
 
-impl Asked {
+impl TimedAnswer {
     /// An answer that is there when the call that asked for it returns.
-    pub fn at_once(ask: impl FnOnce() -> Answer) -> Self {
+    pub fn at_once(ask: impl FnOnce() -> PoseAnswer) -> Self {
         let begin = Instant::now();
         let answer = ask();
         Self { answer, blocked: begin.elapsed() }
@@ -60,9 +60,9 @@ impl Asked {
 }
 
 /// What a way of sharing starts from.
-pub struct Start<'a> {
+pub struct SharingStart<'a> {
     /// What is shared; the first to edit copies what others have.
-    pub document: Document,
+    pub document: SharedDocument,
     /// The graphics thread.
     pub graphics: &'a ThreadHandle,
     /// The main thread, which is the caller's.
@@ -75,7 +75,7 @@ pub struct Start<'a> {
 pub type MakeViewing = Box<dyn FnOnce(&mut Context) -> Box<dyn Viewing> + Send>;
 
 /// Both sides.
-pub struct Started {
+pub struct SharingParts {
     /// Stays in the main thread.
     pub sharing: Box<dyn Sharing>,
     /// Goes to the graphics thread.
@@ -84,18 +84,18 @@ pub struct Started {
 
 /// One way to share a document between threads.
 #[derive(Clone, Copy)]
-pub struct Way {
+pub struct SharingMethod {
     /// As it is called in the tables.
     pub name: &'static str,
     /// Starts it.
-    pub start: fn(Start) -> Started,
+    pub start: fn(SharingStart) -> SharingParts,
     /// Is it among the few that are compared in every case?
     pub telling: bool,
 }
 
-impl Way {
+impl SharingMethod {
     /// One that is compared in the core case only.
-    pub const fn new(name: &'static str, start: fn(Start) -> Started) -> Self {
+    pub const fn new(name: &'static str, start: fn(SharingStart) -> SharingParts) -> Self {
         Self { name, start, telling: false }
     }
 
@@ -110,27 +110,27 @@ type PlMutex<T> = parking_lot::Mutex<T>;
 type PlRwLock<T> = parking_lot::RwLock<T>;
 
 /// All ways.
-pub const WAYS: &[Way] = &[
-    Way::new("messages", messages::plain).telling(),
-    Way::new("messages, newest", messages::newest).telling(),
-    Way::new("messages, on demand", messages::on_demand).telling(),
-    Way::new("messages, batched", messages::batched).telling(),
-    Way::new("messages, relayed", messages::relayed),
-    Way::new("messages, read", messages::read),
-    Way::new("messages, merged", messages::merged),
-    Way::new("messages, spinning", messages::spinning),
-    Way::new("mutex, frame", locks::held::<StdMutex<_>>).telling(),
-    Way::new("mutex, poses", locks::sampled::<StdMutex<_>>).telling(),
-    Way::new("mutex, clone", locks::cloned::<StdMutex<_>>),
-    Way::new("mutex, cow", locks::copied_on_write::<StdMutex<_>>).telling(),
-    Way::new("mutex a take", locks::a_take::<StdMutex<_>>),
-    Way::new("parking, frame", locks::held::<PlMutex<_>>),
-    Way::new("parking, poses", locks::sampled::<PlMutex<_>>),
-    Way::new("parking, cow", locks::copied_on_write::<PlMutex<_>>),
-    Way::new("rwlock, frame", locks::held::<StdRwLock<_>>),
-    Way::new("rwlock, poses", locks::sampled::<StdRwLock<_>>),
-    Way::new("parking rw, frame", locks::held::<PlRwLock<_>>),
-    Way::new("parking rw, poses", locks::sampled::<PlRwLock<_>>),
-    Way::new("arcswap, cow", swap::start).telling(),
-    Way::new("triple buffer", triple::start).telling(),
+pub const METHODS: &[SharingMethod] = &[
+    SharingMethod::new("messages", messages::plain).telling(),
+    SharingMethod::new("messages, newest", messages::newest).telling(),
+    SharingMethod::new("messages, on demand", messages::on_demand).telling(),
+    SharingMethod::new("messages, batched", messages::batched).telling(),
+    SharingMethod::new("messages, relayed", messages::relayed),
+    SharingMethod::new("messages, read", messages::read),
+    SharingMethod::new("messages, merged", messages::merged),
+    SharingMethod::new("messages, spinning", messages::spinning),
+    SharingMethod::new("mutex, frame", locks::held::<StdMutex<_>>).telling(),
+    SharingMethod::new("mutex, poses", locks::sampled::<StdMutex<_>>).telling(),
+    SharingMethod::new("mutex, clone", locks::cloned::<StdMutex<_>>),
+    SharingMethod::new("mutex, cow", locks::copied_on_write::<StdMutex<_>>).telling(),
+    SharingMethod::new("mutex a take", locks::a_take::<StdMutex<_>>),
+    SharingMethod::new("parking, frame", locks::held::<PlMutex<_>>),
+    SharingMethod::new("parking, poses", locks::sampled::<PlMutex<_>>),
+    SharingMethod::new("parking, cow", locks::copied_on_write::<PlMutex<_>>),
+    SharingMethod::new("rwlock, frame", locks::held::<StdRwLock<_>>),
+    SharingMethod::new("rwlock, poses", locks::sampled::<StdRwLock<_>>),
+    SharingMethod::new("parking rw, frame", locks::held::<PlRwLock<_>>),
+    SharingMethod::new("parking rw, poses", locks::sampled::<PlRwLock<_>>),
+    SharingMethod::new("arcswap, cow", swap::start).telling(),
+    SharingMethod::new("triple buffer", triple::start).telling(),
 ];

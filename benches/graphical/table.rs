@@ -1,6 +1,6 @@
 //! One line a way, with what matters most; the rest is in the raw data.
 
-use crate::Measurement;
+use crate::DataRow;
 
 /// Heading, metric, and what it is divided by.
 const COLUMNS: [(&str, &str, f64); 18] = [
@@ -25,7 +25,7 @@ const COLUMNS: [(&str, &str, f64); 18] = [
 ];
 
 /// Prints what `rows` say about `case`; columns that nobody has filled are left out.
-pub fn print(case: &str, variants: &[&str], rows: &[Measurement]) {
+pub fn print(case: &str, variants: &[&str], rows: &[DataRow]) {
     let background = rows.iter().map(|row| row.background).fold(0.0, f64::max);
     println!("\n## {case} (background kept at most {background:.2} cores busy)");
     let columns: Vec<_> =
@@ -36,7 +36,7 @@ pub fn print(case: &str, variants: &[&str], rows: &[Measurement]) {
     for variant in variants {
         print!("{variant:<20}");
         for (_, metric, unit) in &columns {
-            let of = |row: &&Measurement| row.variant == *variant && row.metric == *metric;
+            let of = |row: &&DataRow| row.variant == *variant && row.metric == *metric;
             let mut values: Vec<f64> = rows.iter().filter(of).map(|row| row.value / unit).collect();
             values.sort_by(f64::total_cmp);
             match values.get(values.len() / 2) {

@@ -1,6 +1,6 @@
 //! The cases that queues and actors share, and the amount of work in each.
 
-use super::peer::{Message, Peer, Words};
+use super::peer::{Message, Peer, WordMessage};
 use super::work::{burst, late, one_way, round_trip};
 use crate::plan::StudyMode;
 use crate::{RunValues, Study, Variant};
@@ -27,10 +27,10 @@ impl Cases {
 
     /// Adds a peer that can exist only once at a time, so to all cases except round trips.
     pub fn add_one_way<P: Peer>(&mut self, name: &'static str) {
-        self.one_way::<P, Words<1>>(name, 1, "one_way/1_producer/8_bytes");
-        self.one_way::<P, Words<8>>(name, 1, "one_way/1_producer/64_bytes");
-        self.one_way::<P, Words<1>>(name, 2, "one_way/2_producers/8_bytes");
-        self.one_way::<P, Words<8>>(name, 2, "one_way/2_producers/64_bytes");
+        self.one_way::<P, WordMessage<1>>(name, 1, "one_way/1_producer/8_bytes");
+        self.one_way::<P, WordMessage<8>>(name, 1, "one_way/1_producer/64_bytes");
+        self.one_way::<P, WordMessage<1>>(name, 2, "one_way/2_producers/8_bytes");
+        self.one_way::<P, WordMessage<8>>(name, 2, "one_way/2_producers/64_bytes");
         let burst = self.mode.pick(1000, 100_000, 100_000);
         self.variant("burst", name, move |measured| burst::run::<P>(burst, measured));
         self.late::<P>(name, 1_000, self.mode.pick(20, 100, 500));

@@ -42,12 +42,12 @@ pub trait Message: Copy + Send + Sync + 'static {
 
 /// A message of `N` words of 8 bytes.
 #[derive(Clone, Copy)]
-pub struct Words<const COUNT: usize>([u64; COUNT]);
+pub struct WordMessage<const COUNT: usize>([u64; COUNT]);
 
 /// The message of most cases: 8 bytes.
-pub type Small = Words<1>;
+pub type SmallMessage = WordMessage<1>;
 
-impl<const COUNT: usize> Message for Words<COUNT> {
+impl<const COUNT: usize> Message for WordMessage<COUNT> {
     #[inline]
     fn of(number: u64) -> Self {
         Self([number; COUNT])

@@ -1,8 +1,8 @@
 //! The tables and charts of the study, and the part of the raw data that each shows. A new one needs a line here and a
 //! pair of comments in `README.md`.
 
-use crate::chart::Scale;
-use crate::table::Column;
+use crate::chart::AxisScale;
+use crate::table::TableColumn;
 
 /// A table of the raw data in `README.md`, between `<!-- table: name -->` and `<!-- end -->`.
 pub struct TableSpec {
@@ -11,7 +11,7 @@ pub struct TableSpec {
     /// The rows that it shows.
     pub source: DataSource,
     /// Metric and heading of each column.
-    pub columns: &'static [Column],
+    pub columns: &'static [TableColumn],
 }
 
 /// A chart of the raw data, `results/name.svg`, shown between `<!-- chart: name -->` and `<!-- end -->`.
@@ -39,7 +39,7 @@ pub struct DataSource {
 /// How a chart is drawn.
 pub enum ChartKind {
     /// A row for each variant: [`rows`](crate::chart::rows).
-    Rows(&'static [Column], Scale),
+    Rows(&'static [TableColumn], AxisScale),
     /// Percentiles of a distribution in one case, for the given variants: [`curves`](crate::chart::curves).
     Curves(&'static str, &'static [&'static str]),
     /// A metric, the variant that it is divided by, and the other variants: [`ratios`](crate::chart::ratios).
@@ -88,10 +88,10 @@ const ONE_WAY: &[&str] = &[
     "actor/one_way/2_producers/64*",
 ];
 
-const TRIP: &[Column] =
+const TRIP: &[TableColumn] =
     &[("trip.p50", "p50"), ("trip.p99", "p99"), ("trip.p99.9", "p99.9"), ("trip.max", "longest")];
-const TRIP_MARKS: &[Column] = &[("trip.p50", "p50"), ("trip.p99", "p99"), ("trip.p99.9", "p99.9")];
-const MACHINE: &[Column] = &[
+const TRIP_MARKS: &[TableColumn] = &[("trip.p50", "p50"), ("trip.p99", "p99"), ("trip.p99.9", "p99.9")];
+const MACHINE: &[TableColumn] = &[
     ("cores", "cores"),
     ("clock.cost", "reading the clock"),
     ("clock.step", "step of the clock"),
@@ -101,7 +101,7 @@ const MACHINE: &[Column] = &[
     ("overshoot_1ms.p99", "p99"),
 ];
 /// Columns for metrics that every case of `graphical` has.
-const EDITING: &[Column] = &[
+const EDITING: &[TableColumn] = &[
     ("blocked.p50", "blocked, p50"),
     ("blocked.p99", "blocked, p99"),
     ("blocked.max", "blocked, longest"),
@@ -265,31 +265,31 @@ pub const CHARTS: &[ChartSpec] = &[
         name: "round-trip-queues",
         title: "Round trip to another thread, by queue",
         source: runtime(&["queue/round_trip/*"]),
-        kind: ChartKind::Rows(TRIP_MARKS, Scale::Log),
+        kind: ChartKind::Rows(TRIP_MARKS, AxisScale::Log),
     },
     ChartSpec {
         name: "round-trip-actors",
         title: "Round trip to an actor",
         source: runtime(&["actor/round_trip/*"]),
-        kind: ChartKind::Rows(TRIP_MARKS, Scale::Log),
+        kind: ChartKind::Rows(TRIP_MARKS, AxisScale::Log),
     },
     ChartSpec {
         name: "one-way",
         title: "Cost of a message of 64 bytes without an answer",
         source: runtime(ONE_WAY),
-        kind: ChartKind::Rows(&[("per_message", "time per message")], Scale::Linear),
+        kind: ChartKind::Rows(&[("per_message", "time per message")], AxisScale::Linear),
     },
     ChartSpec {
         name: "chain",
         title: "Cost of a message between actors in one thread",
         source: runtime(&["actor/chain/*"]),
-        kind: ChartKind::Rows(&[("per_message", "time per message")], Scale::Linear),
+        kind: ChartKind::Rows(&[("per_message", "time per message")], AxisScale::Linear),
     },
     ChartSpec {
         name: "spin",
         title: "Round trip with spinning before sleeping, on two cores and on one",
         source: runtime(&["?own/spin/*"]),
-        kind: ChartKind::Rows(TRIP_MARKS, Scale::Log),
+        kind: ChartKind::Rows(TRIP_MARKS, AxisScale::Log),
     },
     ChartSpec {
         name: "savina-1-thread",
@@ -333,7 +333,7 @@ pub const CHARTS: &[ChartSpec] = &[
         name: "missed",
         title: "Missed frames",
         source: graphical(DRAG),
-        kind: ChartKind::Rows(&[("missed", "missed frames per run")], Scale::Linear),
+        kind: ChartKind::Rows(&[("missed", "missed frames per run")], AxisScale::Linear),
     },
     ChartSpec {
         name: "questions",
@@ -341,19 +341,19 @@ pub const CHARTS: &[ChartSpec] = &[
         source: graphical(QUESTIONS),
         kind: ChartKind::Rows(
             &[("answer.p50", "p50"), ("answer.p99", "p99"), ("answer.p99.9", "p99.9")],
-            Scale::Log,
+            AxisScale::Log,
         ),
     },
     ChartSpec {
         name: "memory",
         title: "Peak memory",
         source: graphical(DRAG),
-        kind: ChartKind::Rows(&[("memory", "memory")], Scale::Linear),
+        kind: ChartKind::Rows(&[("memory", "memory")], AxisScale::Linear),
     },
     ChartSpec {
         name: "cores",
         title: "CPU cores in use",
         source: graphical(DRAG),
-        kind: ChartKind::Rows(&[("cores", "cores in use, on average")], Scale::Linear),
+        kind: ChartKind::Rows(&[("cores", "cores in use, on average")], AxisScale::Linear),
     },
 ];

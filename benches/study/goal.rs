@@ -1,6 +1,6 @@
 //! Performance goals of our runtime relative to other crates: ratios of medians measured in one run.
 
-use crate::Measurement;
+use crate::DataRow;
 use std::fmt;
 
 /// Repeated measurements of one number: ascending, never empty.
@@ -48,7 +48,7 @@ impl GoalVerdict {
 
 /// One goal: our value must be at most `demanded` times the value of the rival. Lower is better for all of them.
 #[derive(Clone, Debug)]
-pub struct Goal {
+pub struct PerformanceGoal {
     /// Name of the goal.
     pub name: String,
     /// Unit of the values.
@@ -63,7 +63,7 @@ pub struct Goal {
     pub demanded: f64,
 }
 
-impl Goal {
+impl PerformanceGoal {
     /// Returns the ratio of our median to the rival's.
     pub fn ratio(&self) -> f64 {
         self.ours.median() / self.theirs.median()
@@ -99,7 +99,7 @@ impl Goal {
     }
 }
 
-impl fmt::Display for Goal {
+impl fmt::Display for PerformanceGoal {
     /// Writes one line of a table.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, unit, ours, rival, theirs, demanded } = self;
@@ -138,19 +138,26 @@ const NONE: f64 = 0.001;
 ///
 /// Round trips are compared with both threads bound to cores. Otherwise the system puts two threads on one core or on two,
 /// unpredictably, and tokio with two workers runs two actors that answer each other on one of them.
-pub fn goals(rows: &[Measurement]) -> Vec<Goal> {
+pub fn goals(rows: &[DataRow]) -> Vec<PerformanceGoal> {
     let mut all = Vec::new();
     let crates = [ASYNC[0], ASYNC[1], ASYNC[2], ONE_THREAD_EACH, INLINE];
     let duel = |name: &str, case: &str, metric: &str, ours: &str, rivals: &[&str], demanded: f64| {
         let (ours, unit) = spread(rows, case, ours, metric)?;
         let found = rivals.iter().filter_map(|rival| Some((*rival, spread(rows, case, rival, metric)?.0)));
         let (rival, theirs) = found.min_by(|one, other| one.1.median().total_cmp(&other.1.median()))?;
-        Some(Goal { name: name.to_owned(), unit, ours, rival: rival.to_owned(), theirs, demanded })
+        Some(PerformanceGoal { name: name.to_owned(), unit, ours, rival: rival.to_owned(), theirs, demanded })
     };
     let limit = |name: &str, case: &str, metric: &str, ours: &str, most: f64, limit_text: &str| {
         let (ours, unit) = spread(rows, case, ours, metric)?;
         let theirs = Spread(vec![most]);
-        Some(Goal { name: name.to_owned(), unit, ours, rival: limit_text.to_owned(), theirs, demanded: 1.0 })
+        Some(PerformanceGoal {
+            name: name.to_owned(),
+            unit,
+            ours,
+            rival: limit_text.to_owned(),
+            theirs,
+            demanded: 1.0,
+        })
     };
     for (name, case) in [
         ("two cores", "two_cores"),
@@ -179,8 +186,8 @@ pub fn goals(rows: &[Measurement]) -> Vec<Goal> {
 }
 
 /// Returns the repeats of one metric, and its unit.
-fn spread(rows: &[Measurement], case: &str, variant: &str, metric: &str) -> Option<(Spread, String)> {
-    let of = |row: &&Measurement| row.case == case && row.variant == variant && row.metric == metric;
+fn spread(rows: &[DataRow], case: &str, variant: &str, metric: &str) -> Option<(Spread, String)> {
+    let of = |row: &&DataRow| row.case == case && row.variant == variant && row.metric == metric;
     let mut values: Vec<f64> = rows.iter().filter(of).map(|row| row.value).collect();
     values.sort_by(f64::total_cmp);
     let unit = rows.iter().find(of)?.unit.clone();
@@ -191,8 +198,8 @@ fn spread(rows: &[Measurement], case: &str, variant: &str, metric: &str) -> Opti
 mod tests {
     use super::*;
 
-    fn rows(case: &str, metric: &str, of: &[(&str, [f64; 3])]) -> Vec<Measurement> {
-        let row = |variant: &str, repeat: usize, value| Measurement {
+    fn rows(case: &str, metric: &str, of: &[(&str, [f64; 3])]) -> Vec<DataRow> {
+        let row = |variant: &str, repeat: usize, value| DataRow {
             case: case.to_owned(),
             variant: variant.to_owned(),
             repeat: repeat as u32,
@@ -231,7 +238,15 @@ mod tests {
     fn a_slower_median_misses_the_goal_unless_the_repeats_scatter_more() {
         let verdict = |ours: &[f64], theirs: &[f64]| {
             let (ours, theirs) = (Spread(ours.to_vec()), Spread(theirs.to_vec()));
-            Goal { name: "".into(), unit: "".into(), ours, rival: "".into(), theirs, demanded: 1.0 }.verdict()
+            PerformanceGoal {
+                name: "".into(),
+                unit: "".into(),
+                ours,
+                rival: "".into(),
+                theirs,
+                demanded: 1.0,
+            }
+            .verdict()
         };
         // The critical U of 7 against 7, one-sided, at 5 %: at least 38 of 49 pairs.
         let theirs = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0];
@@ -249,7 +264,7 @@ mod tests {
     fn a_fixed_limit_needs_no_rival_and_a_case_without_data_is_no_goal() {
         let spinning = |time| {
             let all = rows("own/spin/two_cores", "trip.p50", &[("dragonfly, spinning", [time; 3])]);
-            goals(&all).iter().map(Goal::verdict).collect::<Vec<_>>()
+            goals(&all).iter().map(PerformanceGoal::verdict).collect::<Vec<_>>()
         };
         assert_eq!(
             (spinning(999.0), spinning(1_001.0)),

@@ -25,4 +25,4 @@ pub mod table;
 
 pub use distribution::Distribution;
 pub use plan::{Study, StudyMode, Variant};
-pub use record::{Measurement, RunValues};
+pub use record::{DataRow, RunValues};

@@ -1,7 +1,7 @@
 //! Order and number of the measurements.
 
 use crate::machine::{CpuLoad, Machine};
-use crate::record::{self, Measurement, RunValues};
+use crate::record::{self, DataRow, RunValues};
 use crate::report;
 use crate::summary::{Summary, summarize};
 use dragonfly_kit::random::Random;
@@ -51,7 +51,7 @@ pub struct Study {
     name: &'static str,
     only: Option<String>,
     order: Random,
-    rows: Vec<Measurement>,
+    rows: Vec<DataRow>,
     begin: Instant,
 }
 
@@ -157,7 +157,7 @@ impl Study {
     }
 
     fn keep(&mut self, case: &str, variant: &str, repeat: u32, measured: RunValues, background: f64) {
-        self.rows.extend(measured.values.into_iter().map(|(metric, unit, value)| Measurement {
+        self.rows.extend(measured.values.into_iter().map(|(metric, unit, value)| DataRow {
             case: case.to_owned(),
             variant: variant.to_owned(),
             repeat,
@@ -182,13 +182,13 @@ impl Study {
     }
 
     /// Returns everything measured so far.
-    pub fn rows(&self) -> &[Measurement] {
+    pub fn rows(&self) -> &[DataRow] {
         &self.rows
     }
 
     /// Writes the raw data and prints its path. A full run of all cases is written to `benches/results`, and the tables and
     /// charts are made again; any other run is written to the target folder.
-    pub fn finish(self) -> Vec<Measurement> {
+    pub fn finish(self) -> Vec<DataRow> {
         let kept = self.mode == StudyMode::Full && self.only.is_none();
         let folder = if kept {
             report::folder().join("results")

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// One measured number.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measurement {
+pub struct DataRow {
     /// Name of the case: `round_trip/parked`.
     pub case: String,
     /// Name of the variant: `dragonfly`, `flume`.
@@ -51,7 +51,7 @@ const HEADER: [&str; 7] = ["case", "variant", "repeat", "metric", "unit", "value
 ///
 /// # Errors
 /// When the file cannot be written.
-pub fn write(path: &Path, rows: &[Measurement]) -> csv::Result<()> {
+pub fn write(path: &Path, rows: &[DataRow]) -> csv::Result<()> {
     let mut file = csv::Writer::from_path(path)?;
     file.write_record(HEADER)?;
     for row in rows {
@@ -67,12 +67,12 @@ pub fn write(path: &Path, rows: &[Measurement]) -> csv::Result<()> {
 ///
 /// # Errors
 /// When the file cannot be read, or one of its lines is not a row.
-pub fn read(path: &Path) -> Result<Vec<Measurement>, Box<dyn std::error::Error>> {
+pub fn read(path: &Path) -> Result<Vec<DataRow>, Box<dyn std::error::Error>> {
     let mut rows = Vec::new();
     for record in csv::Reader::from_path(path)?.records() {
         let record = record?;
         let text = |column: usize| record.get(column).unwrap_or_default().to_owned();
-        rows.push(Measurement {
+        rows.push(DataRow {
             case: text(0),
             variant: text(1),
             repeat: text(2).parse()?,
@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn rows_that_are_written_and_read_are_the_same() {
-        let row = Measurement {
+        let row = DataRow {
             case: "round_trip/parked".into(),
             variant: "dragonfly, with \"quotes\"".into(),
             repeat: 3,

@@ -5,7 +5,7 @@ use crate::chart;
 use crate::design;
 use crate::figures::{CHARTS, ChartKind, ChartSpec, DataSource, FILES, TABLES, TableSpec};
 use crate::goal::{self, Spread};
-use crate::record::{self, Measurement};
+use crate::record::{self, DataRow};
 use crate::summary::{Summary, summarize};
 use crate::table;
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ const NOTHING: &str = "*There are no results of a full run yet.*";
 
 /// The raw data of the last full runs.
 #[derive(Default)]
-pub struct Data(BTreeMap<&'static str, Vec<Measurement>>);
+pub struct Data(BTreeMap<&'static str, Vec<DataRow>>);
 
 impl Data {
     /// Reads the existing files in `results`.
@@ -43,14 +43,14 @@ impl Data {
     ///
     /// # Errors
     /// When the file contains none of these cases, because then the list of figures is wrong.
-    fn rows(&self, name: &str, source: &DataSource) -> Result<Option<Vec<Measurement>>, ReportError> {
+    fn rows(&self, name: &str, source: &DataSource) -> Result<Option<Vec<DataRow>>, ReportError> {
         let Some(rows) = self.0.get(source.file) else { return Ok(None) };
         let matches = |case: &str, wanted: &str| match wanted.trim_start_matches('?').strip_suffix('*') {
             Some(begin) => case.starts_with(begin),
             None => case == wanted.trim_start_matches('?'),
         };
-        let wanted = |row: &&Measurement| source.cases.iter().any(|wanted| matches(&row.case, wanted));
-        let rows: Vec<Measurement> = rows.iter().filter(wanted).cloned().collect();
+        let wanted = |row: &&DataRow| source.cases.iter().any(|wanted| matches(&row.case, wanted));
+        let rows: Vec<DataRow> = rows.iter().filter(wanted).cloned().collect();
         if rows.is_empty() {
             if source.cases.iter().all(|case| case.starts_with('?')) {
                 return Ok(None);
@@ -96,7 +96,7 @@ pub fn render(data: &Data, readme: &str) -> Result<Vec<(PathBuf, String)>, Repor
 fn table_block(data: &Data, one: &TableSpec) -> Result<String, ReportError> {
     let Some(rows) = data.rows(one.name, &one.source)? else { return Ok(NOTHING.to_owned()) };
     let shown = summarize(&rows);
-    let lacks = |(metric, _): &&table::Column| !shown.iter().any(|one| one.metric == *metric);
+    let lacks = |(metric, _): &&table::TableColumn| !shown.iter().any(|one| one.metric == *metric);
     if let Some((metric, _)) = one.columns.iter().find(lacks) {
         return Err(format!("table {}: there is no metric {metric}", one.name).into());
     }
@@ -159,7 +159,7 @@ pub fn update(results: &Path, folder: &Path) -> Result<Vec<PathBuf>, ReportError
 
 /// Returns the errors of the tables and charts if `rows` were the raw data of `file`. So a renamed case is found in a short
 /// run, and not after an hour of measuring.
-pub fn missing(file: &'static str, rows: &[Measurement]) -> Vec<String> {
+pub fn missing(file: &'static str, rows: &[DataRow]) -> Vec<String> {
     let data = Data([(file, rows.to_vec())].into());
     let tables = TABLES.iter().map(|one| table_block(&data, one).err());
     let charts = CHARTS.iter().map(|one| chart_block(&data, one).err());
@@ -185,7 +185,7 @@ fn source_line(source: &DataSource, shown: &[Summary]) -> String {
     )
 }
 
-fn draw(chart: &ChartSpec, rows: &[Measurement]) -> Result<String, ReportError> {
+fn draw(chart: &ChartSpec, rows: &[DataRow]) -> Result<String, ReportError> {
     let all = summarize(rows);
     let cases = table::distinct(all.iter().map(|one| one.case.as_str()));
     let has = |metric: &str| all.iter().any(|one| one.metric.starts_with(metric));
@@ -314,8 +314,9 @@ mod tests {
                 }
             }
         };
-        let names =
-            |columns: &[table::Column]| columns.iter().map(|column| column.0.to_owned()).collect::<Vec<_>>();
+        let names = |columns: &[table::TableColumn]| {
+            columns.iter().map(|column| column.0.to_owned()).collect::<Vec<_>>()
+        };
         for one in TABLES {
             add(&one.source, &[], &names(one.columns));
         }

@@ -1,17 +1,17 @@
 //! Summaries of the repeats of a measurement, for tables, for charts and for printing.
 
-use crate::Measurement;
+use crate::DataRow;
 
 /// One metric of one variant of one case, over all its repeats.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// The case, as in [`Measurement`].
+    /// The case, as in [`DataRow`].
     pub case: String,
-    /// The variant, as in [`Measurement`].
+    /// The variant, as in [`DataRow`].
     pub variant: String,
-    /// The metric, as in [`Measurement`].
+    /// The metric, as in [`DataRow`].
     pub metric: String,
-    /// The unit, as in [`Measurement`].
+    /// The unit, as in [`DataRow`].
     pub unit: String,
     /// Median of the repeats; for an even number of them, the mean of the two in the middle.
     pub median: f64,
@@ -26,9 +26,9 @@ pub struct Summary {
 }
 
 /// Summarizes the repeats in `rows`, in the order in which cases, variants and metrics first appear.
-pub fn summarize(rows: &[Measurement]) -> Vec<Summary> {
-    let mut groups: Vec<Vec<&Measurement>> = Vec::new();
-    let key = |row: &Measurement| (row.case.clone(), row.variant.clone(), row.metric.clone());
+pub fn summarize(rows: &[DataRow]) -> Vec<Summary> {
+    let mut groups: Vec<Vec<&DataRow>> = Vec::new();
+    let key = |row: &DataRow| (row.case.clone(), row.variant.clone(), row.metric.clone());
     let mut places = std::collections::HashMap::new();
     for row in rows {
         let place = *places.entry(key(row)).or_insert(groups.len());
@@ -40,7 +40,7 @@ pub fn summarize(rows: &[Measurement]) -> Vec<Summary> {
     groups.iter().map(|group| of(group)).collect()
 }
 
-fn of(group: &[&Measurement]) -> Summary {
+fn of(group: &[&DataRow]) -> Summary {
     let first = group[0];
     let [low, median, high] = spread(group.iter().map(|row| row.value));
     Summary {
@@ -82,8 +82,8 @@ pub(crate) mod tests {
         metric: &str,
         unit: &str,
         value: f64,
-    ) -> Measurement {
-        Measurement {
+    ) -> DataRow {
+        DataRow {
             case: case.into(),
             variant: variant.into(),
             repeat,
@@ -96,7 +96,7 @@ pub(crate) mod tests {
 
     #[test]
     fn repeats_become_a_median_and_a_spread() {
-        let mut rows: Vec<Measurement> =
+        let mut rows: Vec<DataRow> =
             [5.0, 1.0, 3.0].iter().zip(0..).map(|(value, n)| row("a", "x", n, "m", "ns", *value)).collect();
         rows.push(row("a", "y", 0, "m", "ns", 2.0));
         rows.push(row("a", "y", 1, "m", "ns", 4.0));

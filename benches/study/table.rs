@@ -5,13 +5,13 @@ use crate::summary::Summary;
 use std::fmt::Write as _;
 
 /// A metric and the heading of its column.
-pub type Column = (&'static str, &'static str);
+pub type TableColumn = (&'static str, &'static str);
 
 /// Returns a table with a row for each variant of each case, sorted by the first column, and a column for each metric that
 /// at least one of them has. The last column is the largest background load.
-pub fn wide(all: &[Summary], columns: &[Column]) -> String {
-    let in_use = |column: &&Column| all.iter().any(|one| one.metric == column.0);
-    let columns: Vec<&Column> = columns.iter().filter(in_use).collect();
+pub fn wide(all: &[Summary], columns: &[TableColumn]) -> String {
+    let in_use = |column: &&TableColumn| all.iter().any(|one| one.metric == column.0);
+    let columns: Vec<&TableColumn> = columns.iter().filter(in_use).collect();
     let cases = distinct(all.iter().map(|one| one.case.as_str()));
     let prefix = common_folder(&cases);
     let mut text = String::from(if cases.len() > 1 { "| case | variant |" } else { "| variant |" });

@@ -3,7 +3,7 @@
 use crate::batch::{Envelope, LetterContent};
 use crate::shared::ThreadShared;
 use crate::sync::atomic::{AtomicUsize, Ordering};
-use crate::sync::{Lock, mutant};
+use crate::sync::{BriefLock, mutant};
 use std::fmt;
 use std::sync::Arc;
 
@@ -38,7 +38,7 @@ struct Route<M> {
 enum Flavor<M> {
     Plain,
     /// The queued message, if there is one.
-    Latest(Lock<Option<M>>),
+    Latest(BriefLock<Option<M>>),
     Bounded {
         limit: usize,
         weight: fn(&M) -> usize,
@@ -93,7 +93,7 @@ impl<M: Send + 'static> Address<M> {
     /// overtake messages that were sent to other addresses in between.
     #[must_use]
     pub fn latest(&self) -> Self {
-        Self::with::<LatestLetter<M>>(&self.0.thread, self.0.receiver, Flavor::Latest(Lock::new(None)))
+        Self::with::<LatestLetter<M>>(&self.0.thread, self.0.receiver, Flavor::Latest(BriefLock::new(None)))
     }
 
     /// Returns an address of the same receiver at which at most `limit` messages are queued.
@@ -153,7 +153,7 @@ impl<M: Send + 'static> Address<M> {
 
     /// Replaces the message of a `latest` address. The sender that finds none queues a letter,
     /// whose delivery takes the message out again; every other sender relies on that letter.
-    fn replace(&self, waiting: &Lock<Option<M>>, message: M) -> Result<(), SendError<M>> {
+    fn replace(&self, waiting: &BriefLock<Option<M>>, message: M) -> Result<(), SendError<M>> {
         if self.is_stopped() {
             return Err(SendError::Stopped(message));
         }

@@ -2,7 +2,7 @@
 
 use crate::fault::panic_text;
 use crate::shared::ThreadShared;
-use crate::sync::{Lock, thread};
+use crate::sync::{BriefLock, thread};
 use crate::{Address, ThreadHandle, trace};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -329,7 +329,7 @@ impl fmt::Display for JobError {
 impl std::error::Error for JobError {}
 
 /// The jobs of one thread. `None` once the thread has ended.
-pub(crate) struct Jobs(Lock<Option<Vec<RunningJob>>>);
+pub(crate) struct Jobs(BriefLock<Option<Vec<RunningJob>>>);
 
 /// A job in the list of its thread.
 struct RunningJob {
@@ -339,7 +339,7 @@ struct RunningJob {
 
 impl Jobs {
     pub(crate) fn new() -> Self {
-        Self(Lock::new(Some(Vec::new())))
+        Self(BriefLock::new(Some(Vec::new())))
     }
 
     /// Adds a job and forgets those that have finished. Returns `false` when the thread has ended.

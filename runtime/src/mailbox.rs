@@ -16,7 +16,7 @@
 
 use crate::batch::{Batch, Letter, LetterContent};
 use crate::sync::atomic::{AtomicU8, Ordering};
-use crate::sync::{Lock, mutant};
+use crate::sync::{BriefLock, mutant};
 use std::any::TypeId;
 
 pub(crate) const AWAKE: u8 = 0;
@@ -29,7 +29,7 @@ const SPINNING: u8 = 3;
 /// methods that change it.
 #[doc(alias = "channel")]
 pub(crate) struct Mailbox {
-    pub(crate) stored: Lock<MailboxContent>,
+    pub(crate) stored: BriefLock<MailboxContent>,
     /// Changed under the lock only. Read without it where a slightly outdated value is sufficient.
     pub(crate) state: AtomicU8,
     wake: Box<dyn Fn() + Send + Sync>,
@@ -45,7 +45,7 @@ pub(crate) struct MailboxContent {
 impl Mailbox {
     /// `wake` must end the owner's sleep; it is called from sending threads.
     pub(crate) fn new(wake: Box<dyn Fn() + Send + Sync>) -> Self {
-        Self { stored: Lock::new(MailboxContent::default()), state: AtomicU8::new(AWAKE), wake }
+        Self { stored: BriefLock::new(MailboxContent::default()), state: AtomicU8::new(AWAKE), wake }
     }
 
     /// Returns the number of the row for letters of type `C`. There are few types, so a list is

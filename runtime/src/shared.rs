@@ -6,7 +6,7 @@ use crate::job::Jobs;
 use crate::mailbox::Mailbox;
 use crate::register::Label;
 use crate::sync::atomic::{AtomicBool, Ordering};
-use crate::sync::{Lock, mutant, thread};
+use crate::sync::{BriefLock, mutant, thread};
 use crate::trace;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -29,11 +29,11 @@ pub(crate) struct ThreadShared {
     /// The loop has ended, and every object of the thread has been dropped.
     pub(crate) finished: AtomicBool,
     /// Threads to wake when the loop has ended.
-    pub(crate) waiters: Lock<Vec<thread::Thread>>,
+    pub(crate) waiters: BriefLock<Vec<thread::Thread>>,
     /// The background work that belongs to the thread.
     pub(crate) jobs: Jobs,
     /// Names of the objects, for a watchdog; empty without one.
-    pub(crate) labels: Lock<BTreeMap<u32, Label>>,
+    pub(crate) labels: BriefLock<BTreeMap<u32, Label>>,
     next_id: AtomicU32,
     running: CacheAligned<AtomicU64>,
     /// Whether senders add a stamp to their messages.
@@ -50,9 +50,9 @@ impl ThreadShared {
             paused: AtomicBool::new(false),
             stopping: AtomicBool::new(false),
             finished: AtomicBool::new(false),
-            waiters: Lock::new(Vec::new()),
+            waiters: BriefLock::new(Vec::new()),
             jobs: Jobs::new(),
-            labels: Lock::new(BTreeMap::new()),
+            labels: BriefLock::new(BTreeMap::new()),
             next_id: AtomicU32::new(1),
             running: CacheAligned(AtomicU64::new(0)),
             traced: std_atomic::AtomicBool::new(false),

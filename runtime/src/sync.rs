@@ -42,9 +42,9 @@ pub(crate) use mutant;
 /// It cannot be held: there is no guard, only a closure. The closure moves a few bytes and returns;
 /// it calls no user code and takes no second lock, so no two locks can be taken in the wrong order.
 /// Debug builds check that.
-pub(crate) struct Lock<T>(parts::Mutex<T>);
+pub(crate) struct BriefLock<T>(parts::Mutex<T>);
 
-impl<T> Lock<T> {
+impl<T> BriefLock<T> {
     pub(crate) fn new(content: T) -> Self {
         Self(parts::Mutex::new(content))
     }

@@ -2,7 +2,7 @@
 
 use crate::clock::ThreadClock;
 use crate::shared::ThreadShared;
-use crate::sync::{Lock, mutant, park, thread};
+use crate::sync::{BriefLock, mutant, park, thread};
 use crate::{Context, Next, ThreadHandle};
 use std::cell::Cell;
 use std::io;
@@ -36,7 +36,7 @@ impl Thread {
     pub fn start(name: &str) -> io::Result<Self> {
         // The mailbox needs the OS thread in order to wake it, and the loop needs the mailbox: so the
         // OS thread is started first and waits for its mailbox.
-        let handoff = Arc::new(Lock::new(None));
+        let handoff = Arc::new(BriefLock::new(None));
         let theirs = Arc::clone(&handoff);
         let os_thread = thread::Builder::new().name(name.to_owned()).spawn(move || thread_proc(&theirs))?;
         let sleeper = os_thread.thread().clone();
@@ -112,7 +112,7 @@ impl Drop for Thread {
 }
 
 /// The loop of an OS thread (thesis §3.2.6.1).
-fn thread_proc(handoff: &Lock<Option<Arc<ThreadShared>>>) {
+fn thread_proc(handoff: &BriefLock<Option<Arc<ThreadShared>>>) {
     let shared = loop {
         match handoff.with(Option::take) {
             Some(shared) => break shared,

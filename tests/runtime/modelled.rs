@@ -30,9 +30,9 @@ pub mod thread {
 
     /// Has the name of the type that it replaces, `std::thread::Thread`.
     #[derive(Clone)]
-    pub struct Thread(Arc<Token>);
+    pub struct Thread(Arc<ParkToken>);
 
-    struct Token {
+    struct ParkToken {
         given: Mutex<bool>,
         changed: Condvar,
     }
@@ -43,7 +43,7 @@ pub mod thread {
 
     impl Thread {
         fn new() -> Self {
-            Self(Arc::new(Token { given: Mutex::new(false), changed: Condvar::new() }))
+            Self(Arc::new(ParkToken { given: Mutex::new(false), changed: Condvar::new() }))
         }
 
         pub fn unpark(&self) {

@@ -471,13 +471,13 @@ mod exercise {
     use std::time::{Duration, Instant};
 
     /// A message with a hop count on the heap, so that memory moves from thread to thread.
-    struct Ball(Box<u32>);
+    struct RingMessage(Box<u32>);
 
     /// Sends balls on for a number of hops; some through the other flavors of addresses.
     struct Player {
-        next: Address<Ball>,
-        latest: Address<Ball>,
-        bounded: Address<Ball>,
+        next: Address<RingMessage>,
+        latest: Address<RingMessage>,
+        bounded: Address<RingMessage>,
         home: Address<u32>,
         caught: Vec<u32>,
     }
@@ -485,17 +485,17 @@ mod exercise {
     const HOPS: u32 = 400;
 
     impl Receiver for Player {
-        type Message = Ball;
-        fn receive(&mut self, ball: Ball, _: &mut Context) {
-            let Ball(mut hops) = ball;
+        type Message = RingMessage;
+        fn receive(&mut self, ball: RingMessage, _: &mut Context) {
+            let RingMessage(mut hops) = ball;
             *hops += 1;
             self.caught.push(*hops);
             // At the end of a round the others may have stopped already, or their addresses be full.
             match (*hops).cmp(&HOPS) {
                 std::cmp::Ordering::Less => {
-                    let _ = self.latest.send(Ball(Box::new(HOPS)));
-                    let _ = self.bounded.send(Ball(Box::new(HOPS)));
-                    let _ = self.next.send(Ball(hops));
+                    let _ = self.latest.send(RingMessage(Box::new(HOPS)));
+                    let _ = self.bounded.send(RingMessage(Box::new(HOPS)));
+                    let _ = self.next.send(RingMessage(hops));
                 }
                 std::cmp::Ordering::Equal => _ = self.home.send(*hops),
                 std::cmp::Ordering::Greater => {}
@@ -512,8 +512,8 @@ mod exercise {
         }
     }
 
-    struct Home(u32);
-    impl Receiver for Home {
+    struct HomeReceiver(u32);
+    impl Receiver for HomeReceiver {
         type Message = u32;
         fn receive(&mut self, _: u32, thread: &mut Context) {
             self.0 += 1;
@@ -544,13 +544,13 @@ mod exercise {
     fn round() {
         let main = std::thread::current();
         let mut captured = Thread::capture("home", move || main.unpark());
-        let home = captured.context().register_receiver(Home(0));
+        let home = captured.context().register_receiver(HomeReceiver(0));
         let traces = captured.context().register_receiver(Inspector);
         let watchdog = Watchdog::start(Duration::from_millis(4), |_| ()).expect("a thread");
         let threads = ["a", "b", "c", "d"].map(|name| Thread::start(name).expect("a thread"));
         let handles: Vec<ThreadHandle> = threads.iter().map(|thread| thread.handle().clone()).collect();
         // Addresses are made before the players, because a ring has no first one.
-        let ring: Vec<Address<Ball>> = handles.iter().map(ThreadHandle::reserve_address).collect();
+        let ring: Vec<Address<RingMessage>> = handles.iter().map(ThreadHandle::reserve_address).collect();
         for (index, handle) in handles.iter().enumerate() {
             handle.set_trace(64);
             watchdog.watch(handle);
@@ -563,7 +563,7 @@ mod exercise {
             handle.register_receiver_at(&own, player);
         }
         for address in &ring {
-            address.send(Ball(Box::new(0))).expect("it runs");
+            address.send(RingMessage(Box::new(0))).expect("it runs");
         }
         handles[1].pause();
         handles[1].resume();

@@ -9,7 +9,7 @@ use crate::batch::{Batch, Letter, LetterContent};
 use crate::mailbox::{ASLEEP, AWAKE, CLOSED, Mailbox, MailboxContent};
 use crate::shared::ThreadShared;
 use crate::sync::atomic::Ordering;
-use crate::sync::{Lock, park, thread};
+use crate::sync::{BriefLock, park, thread};
 use crate::{Address, Context, Next, SendError, Thread, ThreadHandle};
 use std::time::Instant;
 
@@ -76,7 +76,7 @@ impl<M: Send + 'static> Address<M> {
     /// For `replace`: takes a message for queued that was delivered in between, so the new one is not.
     pub(crate) fn announced_too_long(
         &self,
-        waiting: &Lock<Option<M>>,
+        waiting: &BriefLock<Option<M>>,
         message: M,
     ) -> Result<(), SendError<M>> {
         let queued = waiting.with(|waiting| waiting.is_some());

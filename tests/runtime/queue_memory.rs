@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 /// A message type with a destructor.
-type Edit = (String, [f32; 10]);
+type EditMessage = (String, [f32; 10]);
 
 fn captured() -> (Captured, Address<[u64; 8]>) {
     let mut captured = Thread::capture("captured", || {});
@@ -76,7 +76,7 @@ fn messages_of_many_types_keep_their_order_and_their_contents() {
     let log = Rc::new(RefCell::new(Vec::new()));
     let context = stage.context(&thread);
     let theirs = Rc::clone(&log);
-    let edits = context.register_receiver(fn_receiver(move |(name, values): Edit, _| {
+    let edits = context.register_receiver(fn_receiver(move |(name, values): EditMessage, _| {
         theirs.borrow_mut().push(format!("{name} {}", values[9]));
     }));
     let theirs = Rc::clone(&log);

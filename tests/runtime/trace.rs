@@ -135,9 +135,9 @@ fn a_trace_that_is_off_adds_no_allocation_to_a_send() {
 
 /// A `tracing` subscriber that stores the fields of each event as one line.
 #[derive(Clone, Default)]
-struct Listener(Arc<Mutex<Vec<String>>>);
+struct EventLog(Arc<Mutex<Vec<String>>>);
 
-impl tracing::Subscriber for Listener {
+impl tracing::Subscriber for EventLog {
     fn enabled(&self, metadata: &tracing::Metadata<'_>) -> bool {
         metadata.target().starts_with("dragonfly_runtime")
     }
@@ -163,7 +163,7 @@ impl tracing::Subscriber for Listener {
 
 #[test]
 fn records_go_to_tracing_and_errors_do_so_even_without_a_trace() {
-    let listener = Listener::default();
+    let listener = EventLog::default();
     tracing::subscriber::with_default(listener.clone(), || {
         let mut stage = Stage::new();
         let kitchen = stage.start("kitchen");

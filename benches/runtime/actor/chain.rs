@@ -1,8 +1,8 @@
 //! Messages between two actors on the same thread: a batch, then one message back, which requests the next batch.
 
-use super::local::Local;
+use super::local::LocalPeer;
 use crate::RunValues;
-use crate::runtime::peer::{Message, Small, sum_below};
+use crate::runtime::peer::{Message, SmallMessage, sum_below};
 use dragonfly_kit::counting;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, OnceLock};
@@ -20,7 +20,7 @@ pub struct ChainPlan {
 
 /// The next action of an actor after a message.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Turn {
+pub enum ChainTurn {
     /// Wait for the next message.
     Wait,
     /// Request the next batch.
@@ -51,13 +51,13 @@ impl Score {
 
     /// Counts a message.
     #[inline]
-    pub fn add<M: Message>(&mut self, message: M) -> Turn {
+    pub fn add<M: Message>(&mut self, message: M) -> ChainTurn {
         self.seen += 1;
         self.sum += message.number();
-        if self.seen < self.plan.batch { Turn::Wait } else { self.end_batch() }
+        if self.seen < self.plan.batch { ChainTurn::Wait } else { self.end_batch() }
     }
 
-    fn end_batch(&mut self) -> Turn {
+    fn end_batch(&mut self) -> ChainTurn {
         assert_eq!(self.sum, sum_below(self.plan.batch), "messages were lost");
         (self.seen, self.sum) = (0, 0);
         self.batches += 1;
@@ -67,11 +67,11 @@ impl Score {
             self.allocated = counting::so_far().allocations;
         }
         if self.batches < warm_up + self.plan.batches {
-            return Turn::Again;
+            return ChainTurn::Again;
         }
         let allocations = counting::so_far().allocations - self.allocated;
         *self.result.lock().expect("nobody panicked with it") = (self.begin.elapsed(), allocations);
-        Turn::Over
+        ChainTurn::Over
     }
 }
 
@@ -84,31 +84,33 @@ pub fn write(plan: ChainPlan, result: &Mutex<(Duration, u64)>, measured: &mut Ru
 }
 
 /// Measures the actors of `P`.
-pub fn run<P: Local, M: Message>(plan: ChainPlan, measured: &mut RunValues) {
+pub fn run<P: LocalPeer, M: Message>(plan: ChainPlan, measured: &mut RunValues) {
     let (mut score, result) = Score::new(plan);
     let mut stage = P::stage();
     let (tell, over) = oneshot::channel();
-    let source: Arc<OnceLock<P::Address<Small>>> = Arc::default();
+    let source: Arc<OnceLock<P::Address<SmallMessage>>> = Arc::default();
     let (home, mut tell) = (Arc::clone(&source), Some(tell));
     let sink = P::start_in::<M>(
         &mut stage,
         Box::new(move |message| {
             match score.add(message) {
-                Turn::Wait => {}
-                Turn::Again => P::send(home.get().expect("it is known before the first batch"), Small::of(0)),
-                Turn::Over => _ = tell.take().map(|tell| tell.send(())),
+                ChainTurn::Wait => {}
+                ChainTurn::Again => {
+                    P::send(home.get().expect("it is known before the first batch"), SmallMessage::of(0))
+                }
+                ChainTurn::Over => _ = tell.take().map(|tell| tell.send(())),
             }
             ControlFlow::Continue(())
         }),
     );
-    let ask = P::start_in::<Small>(
+    let ask = P::start_in::<SmallMessage>(
         &mut stage,
         Box::new(move |_| {
             (0..plan.batch).for_each(|number| P::send(&sink, M::of(number)));
             ControlFlow::Continue(())
         }),
     );
-    P::send(&ask, Small::of(0));
+    P::send(&ask, SmallMessage::of(0));
     let _ = source.set(ask);
     P::run(&mut stage, over);
     write(plan, &result, measured);

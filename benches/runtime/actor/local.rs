@@ -10,7 +10,7 @@ use tokio::runtime::Runtime;
 use tokio::sync::oneshot;
 
 /// A peer whose actors can run on the calling thread.
-pub trait Local: Peer {
+pub trait LocalPeer: Peer {
     /// The environment of the actors.
     type Stage;
 
@@ -24,7 +24,7 @@ pub trait Local: Peer {
     fn run(stage: &mut Self::Stage, over: oneshot::Receiver<()>);
 }
 
-impl Local for Dragonfly {
+impl LocalPeer for Dragonfly {
     type Stage = Captured;
 
     fn stage() -> Captured {
@@ -44,7 +44,7 @@ impl Local for Dragonfly {
     }
 }
 
-impl Local for kameo::KameoCurrentThread {
+impl LocalPeer for kameo::KameoCurrentThread {
     type Stage = Runtime;
 
     fn stage() -> Runtime {
@@ -61,7 +61,7 @@ impl Local for kameo::KameoCurrentThread {
     }
 }
 
-impl Local for ractor::RactorCurrentThread {
+impl LocalPeer for ractor::RactorCurrentThread {
     type Stage = Runtime;
 
     fn stage() -> Runtime {
@@ -80,7 +80,7 @@ impl Local for ractor::RactorCurrentThread {
     }
 }
 
-impl Local for actix::Actix {
+impl LocalPeer for actix::Actix {
     type Stage = SystemRunner;
 
     fn stage() -> SystemRunner {

@@ -16,7 +16,7 @@ pub mod tonari;
 use super::cases::{self, Cases};
 use super::own::peer::Dragonfly;
 use super::own::spin::Spinning;
-use super::peer::{Message, Words};
+use super::peer::{Message, WordMessage};
 use super::work::round_trip::{self, placed};
 use super::work::threads::CoreChoice;
 use crate::{Study, Variant};
@@ -72,10 +72,10 @@ fn bound(study: &mut Study) {
 fn on_one_thread(study: &mut Study) {
     let repeats = study.mode.pick(1, 5, 11);
     let plan = ChainPlan { batches: study.mode.pick(2, 100, 1_000), batch: 1_000 };
-    study.compare("actor/chain/8_bytes", repeats, chains::<Words<1>>(plan));
-    study.compare("actor/chain/64_bytes", repeats, chains::<Words<8>>(plan));
+    study.compare("actor/chain/8_bytes", repeats, chains::<WordMessage<1>>(plan));
+    study.compare("actor/chain/64_bytes", repeats, chains::<WordMessage<8>>(plan));
     let turns = ChainPlan { batches: study.mode.pick(20, 20_000, 200_000), batch: 1 };
-    study.compare("actor/chain/there_and_back", repeats, chains::<Words<1>>(turns));
+    study.compare("actor/chain/there_and_back", repeats, chains::<WordMessage<1>>(turns));
     let count = study.mode.pick(10, 2_000, 10_000);
     let threads = study.mode.pick(2, 50, 200);
     let variants = vec![

@@ -4,8 +4,8 @@
 //! With its default features, which are the fastest, it is bound to the first OS thread that uses it: here the
 //! measuring thread. So that thread is both the consumer and, in [`Stakker::wait`], the loop.
 
-use crate::runtime::peer::{Message, OnMessage, Peer, Small};
-use crate::runtime::work::round_trip::{self, First, RoundTripPlan, Step};
+use crate::runtime::peer::{Message, OnMessage, Peer, SmallMessage};
+use crate::runtime::work::round_trip::{self, First, RoundTripPlan, RoundTripStep};
 use crate::runtime::work::threads::{self, CoreChoice};
 use crate::{Distribution, RunValues};
 use ::stakker::sync::{Channel, ChannelGuard, PipedThread};
@@ -98,7 +98,7 @@ impl Loop {
 /// An actor that sends to a stakker `PipedThread`, which sends back.
 struct Traveller {
     first: First,
-    away: PipedThread<Small, Small>,
+    away: PipedThread<SmallMessage, SmallMessage>,
     _open: ChannelGuard,
 }
 
@@ -110,7 +110,7 @@ impl Traveller {
         place: Option<CoreChoice>,
         open: ChannelGuard,
     ) -> Option<Self> {
-        let home: Fwd<Small> = fwd_to!([cx], receive() as (Small));
+        let home: Fwd<SmallMessage> = fwd_to!([cx], receive() as (SmallMessage));
         let away = PipedThread::spawn(home, fwd_do!(|_| ()), cx, move |link| {
             let mut back = round_trip::second(plan);
             // If this thread cannot be bound, neither can the other one, and nothing is recorded.
@@ -125,11 +125,11 @@ impl Traveller {
         Some(Self { first, away, _open: open })
     }
 
-    fn receive(&mut self, cx: CX![], message: Small) {
+    fn receive(&mut self, cx: CX![], message: SmallMessage) {
         match self.first.take(message) {
-            Step::Send(ping) => self.away.send(ping),
-            Step::Wait => {}
-            Step::End => cx.stop(),
+            RoundTripStep::Send(ping) => self.away.send(ping),
+            RoundTripStep::Wait => {}
+            RoundTripStep::End => cx.stop(),
         }
     }
 }
@@ -155,7 +155,7 @@ fn trips(plan: RoundTripPlan, away: Option<CoreChoice>) -> Distribution {
     let mut stakker = Loop::new();
     let core = &mut stakker.stakker;
     let actor: ActorOwn<Traveller> = ::stakker::actor_new!(core, Traveller, ret_shutdown!(core));
-    let (channel, open) = Channel::new(core, fwd_to!([actor], receive() as (Small)));
+    let (channel, open) = Channel::new(core, fwd_to!([actor], receive() as (SmallMessage)));
     call!([actor], Traveller::init(first, plan, away, open));
     let result = round_trip::ask(plan, result, move |message| Stakker::send(&channel, message));
     stakker.run();

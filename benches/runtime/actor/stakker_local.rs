@@ -1,9 +1,9 @@
 //! stakker within its thread: a call from one actor to another is a closure in its queue.
 
-use super::chain::{self, ChainPlan, Score, Turn};
+use super::chain::{self, ChainPlan, ChainTurn, Score};
 use super::creation;
 use crate::RunValues;
-use crate::runtime::peer::{Message, Small};
+use crate::runtime::peer::{Message, SmallMessage};
 use ::stakker::{Actor, ActorOwn, CX, Stakker, actor, call, ret_nop};
 use dragonfly_kit::counting;
 use std::cell::Cell;
@@ -40,9 +40,9 @@ impl<M: Message> BatchSink<M> {
 
     fn receive(&mut self, cx: CX![], message: M) {
         match self.score.add(message) {
-            Turn::Wait => {}
-            Turn::Again => call!([self.source, cx], send()),
-            Turn::Over => cx.stop(),
+            ChainTurn::Wait => {}
+            ChainTurn::Again => call!([self.source, cx], send()),
+            ChainTurn::Over => cx.stop(),
         }
     }
 }
@@ -71,7 +71,7 @@ impl CountingActor {
         Some(Self { left })
     }
 
-    fn receive(&mut self, _: CX![], _: Small) {
+    fn receive(&mut self, _: CX![], _: SmallMessage) {
         self.left.set(self.left.get() - 1);
     }
 }
@@ -89,7 +89,7 @@ pub fn creation(count: u64, measured: &mut RunValues) {
         let made = begin.elapsed();
         let begin = Instant::now();
         for actor in &actors {
-            let message = Small::of(0);
+            let message = SmallMessage::of(0);
             call!([actor], receive(message));
         }
         core.run(Instant::now(), false);

@@ -2,7 +2,7 @@
 //! replaced and refused messages.
 
 use super::peer::{ConsumerReceiver, wait_for};
-use crate::runtime::peer::{Message, Small};
+use crate::runtime::peer::{Message, SmallMessage};
 use crate::runtime::work::threads;
 use crate::{RunValues, Study, Variant};
 use dragonfly_kit::counting;
@@ -20,7 +20,7 @@ pub fn all(study: &mut Study) {
     for (case, work) in [("own/addresses/idle", 0), ("own/addresses/busy", 1_000)] {
         let count = study.mode.pick(1_000, 100_000, 300_000);
         let work = Duration::from_nanos(work);
-        let kind = |name, make: fn(&Address<Small>) -> Address<Small>| {
+        let kind = |name, make: fn(&Address<SmallMessage>) -> Address<SmallMessage>| {
             Variant::new(name, move |measured: &mut RunValues| run(make, count, work, measured))
         };
         let variants = vec![
@@ -33,13 +33,18 @@ pub fn all(study: &mut Study) {
 }
 
 /// Sends the numbers below `count`, the last one until it is accepted. It must arrive, and no message twice.
-fn run(make: fn(&Address<Small>) -> Address<Small>, count: u64, work: Duration, measured: &mut RunValues) {
+fn run(
+    make: fn(&Address<SmallMessage>) -> Address<SmallMessage>,
+    count: u64,
+    work: Duration,
+    measured: &mut RunValues,
+) {
     let thread = Thread::start("receiver").expect("the system has a thread left");
     let (tell, result) = mpsc::channel();
     let (mut delivered, mut next) = (0, 0);
     let mut allocated = counting::Count::default();
     let plain = thread.handle().register_receiver(move |_| {
-        ConsumerReceiver::new(move |message: Small| {
+        ConsumerReceiver::new(move |message: SmallMessage| {
             if delivered == 0 {
                 allocated = counting::so_far();
             }
@@ -64,7 +69,7 @@ fn run(make: fn(&Address<Small>) -> Address<Small>, count: u64, work: Duration, 
         let begin = Instant::now();
         let (sent, ()) = counting::count(|| {
             for number in 0..count {
-                while let Err(SendError::Full(_)) = address.send(Small::of(number)) {
+                while let Err(SendError::Full(_)) = address.send(SmallMessage::of(number)) {
                     refused += 1;
                     // The sender is too fast; the receiver may need its core.
                     std::thread::yield_now();

@@ -1,7 +1,7 @@
 //! Cost of observation: the trace, off and on; the watchdog; and an iteration without work.
 
 use super::peer::ConsumerReceiver;
-use crate::runtime::peer::{Message, Small};
+use crate::runtime::peer::{Message, SmallMessage};
 use crate::runtime::queue::one_thread::{BATCH, timed};
 use crate::{RunValues, Study, Variant};
 use dragonfly_runtime::{Captured, Context, STALL_LIMIT, Thread, Watchdog, Worker};
@@ -44,13 +44,13 @@ fn messages(rounds: u64, look: impl FnOnce(&mut Captured), measured: &mut RunVal
     look(&mut thread);
     let sum = Rc::new(Cell::new(0));
     let add = Rc::clone(&sum);
-    let address = thread.context().register_receiver(ConsumerReceiver::new(move |message: Small| {
+    let address = thread.context().register_receiver(ConsumerReceiver::new(move |message: SmallMessage| {
         add.set(add.get() + message.number());
         ControlFlow::Continue(())
     }));
     thread.iterate();
     timed(rounds, measured, || {
-        (0..BATCH).for_each(|number| address.send(Small::of(number)).expect("the thread lives"));
+        (0..BATCH).for_each(|number| address.send(SmallMessage::of(number)).expect("the thread lives"));
         assert_eq!(address.queue_len() as u64, BATCH, "the queue's length is visible");
         thread.iterate();
         sum.take()

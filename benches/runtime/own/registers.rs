@@ -1,7 +1,7 @@
 //! Cost of registering and removing objects, from inside of the thread and by message.
 
 use super::peer::{ConsumerReceiver, wait_for};
-use crate::runtime::peer::{Message, Small};
+use crate::runtime::peer::{Message, SmallMessage};
 use crate::{RunValues, Study, Variant};
 use dragonfly_runtime::{Context, Thread, Worker, WorkerId};
 use std::ops::ControlFlow;
@@ -26,8 +26,8 @@ pub fn all(study: &mut Study) {
     study.compare("own/registers", study.mode.pick(1, 11, 51), variants);
 }
 
-fn sink() -> ConsumerReceiver<Small, impl FnMut(Small) -> ControlFlow<()>> {
-    ConsumerReceiver::new(|message: Small| {
+fn sink() -> ConsumerReceiver<SmallMessage, impl FnMut(SmallMessage) -> ControlFlow<()>> {
+    ConsumerReceiver::new(|message: SmallMessage| {
         assert_eq!(message.number(), 0);
         ControlFlow::Continue(())
     })

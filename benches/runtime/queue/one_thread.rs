@@ -17,10 +17,10 @@ pub const BATCH: u64 = 1000;
 
 /// Measures queues for messages of 8 and of 64 bytes.
 pub fn all(study: &mut Study) {
-    use crate::runtime::peer::Words;
+    use crate::runtime::peer::WordMessage;
     let rounds = study.mode.pick(2, 200, 2000);
-    study.compare("queue/one_thread/8_bytes", study.mode.pick(1, 5, 11), variants::<Words<1>>(rounds));
-    study.compare("queue/one_thread/64_bytes", study.mode.pick(1, 5, 11), variants::<Words<8>>(rounds));
+    study.compare("queue/one_thread/8_bytes", study.mode.pick(1, 5, 11), variants::<WordMessage<1>>(rounds));
+    study.compare("queue/one_thread/64_bytes", study.mode.pick(1, 5, 11), variants::<WordMessage<8>>(rounds));
 }
 
 /// A channel whose two ends stay on the measuring thread.

@@ -2,7 +2,7 @@
 
 use super::threads;
 use crate::RunValues;
-use crate::runtime::peer::{Message, Peer, Small, sum_below};
+use crate::runtime::peer::{Message, Peer, SmallMessage, sum_below};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,7 +21,7 @@ pub fn run<P: Peer>(messages: u64, measured: &mut RunValues) {
     let (mut seen, mut sum, mut round) = (0, 0, 0);
     let mut begin = Instant::now();
     let gates = Arc::clone(&over);
-    let (address, running) = P::start::<Small>(Box::new(move |message| {
+    let (address, running) = P::start::<SmallMessage>(Box::new(move |message| {
         let number = message.number();
         if number == HOLD {
             while !gates[round].load(Ordering::Acquire) {
@@ -41,9 +41,9 @@ pub fn run<P: Peer>(messages: u64, measured: &mut RunValues) {
     }));
     let producer = threads::start("producer", move || {
         let burst = |gate: &AtomicBool| {
-            P::send(&address, Small::of(HOLD));
+            P::send(&address, SmallMessage::of(HOLD));
             let begin = Instant::now();
-            (0..messages).for_each(|number| P::send(&address, Small::of(number)));
+            (0..messages).for_each(|number| P::send(&address, SmallMessage::of(number)));
             let sending = begin.elapsed();
             gate.store(true, Ordering::Release);
             let (draining, sum) = drained.recv().expect("the consumer tells when it has had everything");

@@ -4,7 +4,7 @@
 //! make the delay look short (Tene's coordinated omission). The lateness of the sender itself is recorded separately.
 
 use super::threads::{self, Noise};
-use crate::runtime::peer::{Message, Peer, Small};
+use crate::runtime::peer::{Message, Peer, SmallMessage};
 use crate::{Distribution, RunValues};
 use std::ops::ControlFlow;
 use std::sync::mpsc;
@@ -29,7 +29,7 @@ pub fn run<P: Peer>(plan: LatePlan, measured: &mut RunValues) {
     let intended = move |number: u64| base + plan.period * number as u32;
     let mut seen = 0;
     let mut delays = Distribution::new();
-    let (address, running) = P::start::<Small>(Box::new(move |message| {
+    let (address, running) = P::start::<SmallMessage>(Box::new(move |message| {
         let number = message.number();
         assert_eq!(number, seen, "messages came out of order");
         if number >= warm_up {
@@ -48,7 +48,7 @@ pub fn run<P: Peer>(plan: LatePlan, measured: &mut RunValues) {
         for number in 0..total {
             threads::wait_until(intended(number));
             late.record(Instant::now() - intended(number));
-            P::send(&address, Small::of(number));
+            P::send(&address, SmallMessage::of(number));
         }
         late
     });

@@ -1,7 +1,7 @@
 //! Round trips between two consumers, each in its thread.
 
 use super::threads::{self, CoreChoice};
-use crate::runtime::peer::{Message, Peer, Small};
+use crate::runtime::peer::{Message, Peer, SmallMessage};
 use crate::{Distribution, RunValues};
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock, mpsc};
@@ -46,22 +46,23 @@ pub fn trips<P: Peer>(plan: RoundTripPlan, mut before: impl FnMut() -> bool) -> 
         return None;
     }
     let (mut first, result) = First::new(plan);
-    let home: Arc<OnceLock<P::Address<Small>>> = Arc::default();
+    let home: Arc<OnceLock<P::Address<SmallMessage>>> = Arc::default();
     let mut back = second(plan);
     let to = Arc::clone(&home);
-    let (away, second_running) = P::start::<Small>(Box::new(move |ping| {
+    let (away, second_running) = P::start::<SmallMessage>(Box::new(move |ping| {
         P::send(to.get().expect("it is known before the first ping"), ping);
         back()
     }));
     let moved = before();
-    let (address, first_running) = P::start::<Small>(Box::new(move |message| match first.take(message) {
-        Step::Send(ping) => {
-            P::send(&away, ping);
-            ControlFlow::Continue(())
-        }
-        Step::Wait => ControlFlow::Continue(()),
-        Step::End => ControlFlow::Break(()),
-    }));
+    let (address, first_running) =
+        P::start::<SmallMessage>(Box::new(move |message| match first.take(message) {
+            RoundTripStep::Send(ping) => {
+                P::send(&away, ping);
+                ControlFlow::Continue(())
+            }
+            RoundTripStep::Wait => ControlFlow::Continue(()),
+            RoundTripStep::End => ControlFlow::Break(()),
+        }));
     let _ = home.set(address.clone());
     let result = ask(plan, result, move |message| P::send(&address, message));
     P::wait(first_running);
@@ -82,11 +83,11 @@ pub fn second(plan: RoundTripPlan) -> impl FnMut() -> ControlFlow<()> {
 pub fn ask(
     plan: RoundTripPlan,
     result: mpsc::Receiver<Option<Distribution>>,
-    send: impl Fn(Small) + Send + 'static,
+    send: impl Fn(SmallMessage) + Send + 'static,
 ) -> thread::JoinHandle<Distribution> {
     threads::start("asks", move || {
         loop {
-            send(Small::of(GO));
+            send(SmallMessage::of(GO));
             if let Some(all) = result.recv().expect("the first consumer tells") {
                 return all;
             }
@@ -100,9 +101,9 @@ pub fn ask(
 }
 
 /// The next action of the first consumer.
-pub enum Step {
+pub enum RoundTripStep {
     /// Send this to the second consumer.
-    Send(Small),
+    Send(SmallMessage),
     /// Wait until the third thread starts the next round trip.
     Wait,
     /// Stop: that was the last one.
@@ -129,11 +130,11 @@ impl First {
     }
 
     /// Handles a message: the start of a round trip, or its return.
-    pub fn take(&mut self, message: Small) -> Step {
+    pub fn take(&mut self, message: SmallMessage) -> RoundTripStep {
         let number = message.number();
         if number == GO {
             self.begin = Instant::now();
-            return Step::Send(Small::of(self.done));
+            return RoundTripStep::Send(SmallMessage::of(self.done));
         }
         let now = Instant::now();
         assert_eq!(number, self.done, "what came back is not what was sent");
@@ -144,12 +145,12 @@ impl First {
         self.begin = now;
         if self.done == self.plan.trips + self.warm_up {
             let _ = self.tell.send(Some(self.all.clone()));
-            return Step::End;
+            return RoundTripStep::End;
         }
         if self.plan.rest.is_none() {
-            return Step::Send(Small::of(self.done));
+            return RoundTripStep::Send(SmallMessage::of(self.done));
         }
         let _ = self.tell.send(None);
-        Step::Wait
+        RoundTripStep::Wait
     }
 }

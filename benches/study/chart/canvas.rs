@@ -43,7 +43,7 @@ pub(super) enum Anchor {
 
 /// Shape of the mark of a value.
 #[derive(Clone, Copy)]
-pub(super) enum Shape {
+pub(super) enum MarkShape {
     Disc,
     Ring,
     Square,
@@ -53,22 +53,28 @@ pub(super) enum Shape {
 }
 
 /// All shapes, for charts with many variants.
-pub(super) const SHAPES: [Shape; 6] =
-    [Shape::Disc, Shape::Square, Shape::Diamond, Shape::Triangle, Shape::Ring, Shape::Cross];
+pub(super) const SHAPES: [MarkShape; 6] = [
+    MarkShape::Disc,
+    MarkShape::Square,
+    MarkShape::Diamond,
+    MarkShape::Triangle,
+    MarkShape::Ring,
+    MarkShape::Cross,
+];
 
 /// An SVG drawing.
-pub(super) struct Canvas<'a>(DrawingArea<SVGBackend<'a>, Shift>);
+pub(super) struct SvgCanvas<'a>(DrawingArea<SVGBackend<'a>, Shift>);
 
 /// Message for an impossible error: writing to a string does not fail.
 const NEVER: &str = "a string takes all that is written to it";
 
 /// Draws a chart with `draw` below its title and subtitle. Returns the text of the SVG.
-pub(super) fn svg(height: i32, title: &str, under: &str, draw: impl FnOnce(&Canvas<'_>)) -> String {
+pub(super) fn svg(height: i32, title: &str, under: &str, draw: impl FnOnce(&SvgCanvas<'_>)) -> String {
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, (WIDTH as u32, height as u32)).into_drawing_area();
         area.fill(&WHITE).expect(NEVER);
-        let canvas = Canvas(area);
+        let canvas = SvgCanvas(area);
         canvas.text(title, 16, 26, 17.0, INK, Anchor::Start);
         canvas.text(under, 16, 47, 12.5, SOFT, Anchor::Start);
         draw(&canvas);
@@ -77,7 +83,7 @@ pub(super) fn svg(height: i32, title: &str, under: &str, draw: impl FnOnce(&Canv
     text
 }
 
-impl Canvas<'_> {
+impl SvgCanvas<'_> {
     /// Draws text, vertically centered at `y`, with a font size in pixels.
     pub(super) fn text(&self, text: &str, x: i32, y: i32, size: f64, color: RGBColor, anchor: Anchor) {
         let across = match anchor {
@@ -103,21 +109,21 @@ impl Canvas<'_> {
     }
 
     /// Draws the mark of a value.
-    pub(super) fn mark(&self, (x, y): (i32, i32), shape: Shape, color: RGBColor) {
+    pub(super) fn mark(&self, (x, y): (i32, i32), shape: MarkShape, color: RGBColor) {
         let filled = |points: &[(i32, i32)]| {
             let points: Vec<(i32, i32)> = points.iter().map(|(right, down)| (x + right, y + down)).collect();
             self.0.draw(&Polygon::new(points, color.filled())).expect(NEVER);
         };
         match shape {
-            Shape::Disc => self.0.draw(&Circle::new((x, y), 5, color.filled())).expect(NEVER),
-            Shape::Ring => {
+            MarkShape::Disc => self.0.draw(&Circle::new((x, y), 5, color.filled())).expect(NEVER),
+            MarkShape::Ring => {
                 self.0.draw(&Circle::new((x, y), 5, WHITE.filled())).expect(NEVER);
                 self.0.draw(&Circle::new((x, y), 4, color.stroke_width(2))).expect(NEVER);
             }
-            Shape::Square => filled(&[(-4, -4), (4, -4), (4, 4), (-4, 4)]),
-            Shape::Diamond => filled(&[(0, -6), (6, 0), (0, 6), (-6, 0)]),
-            Shape::Triangle => filled(&[(0, -5), (6, 5), (-6, 5)]),
-            Shape::Cross => {
+            MarkShape::Square => filled(&[(-4, -4), (4, -4), (4, 4), (-4, 4)]),
+            MarkShape::Diamond => filled(&[(0, -6), (6, 0), (0, 6), (-6, 0)]),
+            MarkShape::Triangle => filled(&[(0, -5), (6, 5), (-6, 5)]),
+            MarkShape::Cross => {
                 self.line(&[(x - 4, y - 4), (x + 4, y + 4)], 2, color);
                 self.line(&[(x - 4, y + 4), (x + 4, y - 4)], 2, color);
             }

@@ -1,6 +1,6 @@
 //! Chart of distributions: a curve for each variant over its percentiles.
 
-use super::axis::{Axis, Scale};
+use super::axis::{AxisScale, ChartAxis};
 use super::canvas::{self, ACCENT, Anchor, GRID, INK, OURS, PALETTE, SHAPES, SOFT, WIDTH};
 use crate::summary::{Summary, is_ours};
 use crate::table::distinct;
@@ -27,7 +27,8 @@ pub fn curves(title: &str, all: &[Summary], metric: &str, who: &[&str]) -> Strin
         number => format!(" {number} more are in the table."),
     };
     let unit = shown.first().map_or("ns", |one| one.unit.as_str());
-    let axis = Axis::fit(shown.iter().flat_map(|one| [one.low, one.high]), Scale::Log, unit, BOTTOM, TOP);
+    let axis =
+        ChartAxis::fit(shown.iter().flat_map(|one| [one.low, one.high]), AxisScale::Log, unit, BOTTOM, TOP);
     let under = format!(
         "Lower is better. Median of the repeats; thin lines: smallest to largest; logarithmic scale.{left_out}"
     );

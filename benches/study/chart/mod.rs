@@ -10,7 +10,7 @@ mod curves;
 mod ratios;
 mod rows;
 
-pub use axis::Scale;
+pub use axis::AxisScale;
 pub use curves::curves;
 pub use ratios::ratios;
 pub use rows::rows;
@@ -18,11 +18,11 @@ pub use rows::rows;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Measurement;
+    use crate::DataRow;
     use crate::summary::{summarize, tests::row};
 
     /// Returns three repeats of a distribution around `nanoseconds`.
-    fn distribution(case: &str, variant: &str, metric: &str, nanoseconds: f64) -> Vec<Measurement> {
+    fn distribution(case: &str, variant: &str, metric: &str, nanoseconds: f64) -> Vec<DataRow> {
         let points = [("p50", 1.0), ("p90", 1.6), ("p99", 7.0), ("p99.9", 60.0), ("max", 900.0)];
         let repeats = (0..3).flat_map(|repeat| points.map(|(point, times)| (repeat, point, times)));
         repeats
@@ -36,7 +36,7 @@ mod tests {
     fn draw_all() -> Vec<(&'static str, String)> {
         let who =
             [("dragonfly", 9e3), ("flume", 11e3), ("std, parked", 9.5e3), ("dragonfly, spinning", 700.0)];
-        let trips: Vec<Measurement> = ["queue/trip/at_once", "queue/trip/rested"]
+        let trips: Vec<DataRow> = ["queue/trip/at_once", "queue/trip/rested"]
             .iter()
             .flat_map(|case| who.iter().flat_map(|(who, time)| distribution(case, who, "trip", *time)))
             .collect();
@@ -51,7 +51,7 @@ mod tests {
             "arc swap",
             "per take",
         ];
-        let blocked: Vec<Measurement> = ways
+        let blocked: Vec<DataRow> = ways
             .iter()
             .zip([7e3, 3e5, 9e4, 1.2e4, 1.3e4, 1.4e4, 2e4])
             .flat_map(|(way, time)| distribution("graphical/60_hz", way, "blocked", time))
@@ -71,8 +71,8 @@ mod tests {
             }
         }
         vec![
-            ("rows", rows("Round trip", &trips, &columns, Scale::Log)),
-            ("bars", rows("Cost of one", &trips, &columns[..1], Scale::Linear)),
+            ("rows", rows("Round trip", &trips, &columns, AxisScale::Log)),
+            ("bars", rows("Cost of one", &trips, &columns[..1], AxisScale::Linear)),
             ("curves", curves("Blocked main thread", &summarize(&blocked), "blocked", &ways[..6])),
             (
                 "ratios",

@@ -1,8 +1,8 @@
 //! Chart of ratios: a row for each case, and a mark for each other variant with its time relative to ours.
 
-use super::axis::{Axis, Scale};
+use super::axis::{AxisScale, ChartAxis};
 use super::canvas::{self, ACCENT, Anchor, GRID, INK, PALETTE, SHAPES, SOFT, WIDTH};
-use crate::Measurement;
+use crate::DataRow;
 use crate::summary::spread;
 use crate::table::{common_folder, distinct};
 
@@ -12,7 +12,7 @@ const TOP: i32 = 112;
 const ROW: i32 = 30;
 
 /// Draws `metric` of `peers` relative to ours, from the values of the same repeat, which were measured one after another.
-pub fn ratios(title: &str, rows: &[Measurement], metric: &str, ours: &str, peers: &[&str]) -> String {
+pub fn ratios(title: &str, rows: &[DataRow], metric: &str, ours: &str, peers: &[&str]) -> String {
     let of_metric = || rows.iter().filter(|row| row.metric == metric);
     let cases = distinct(of_metric().map(|row| row.case.as_str()));
     let prefix = common_folder(&cases);
@@ -21,7 +21,7 @@ pub fn ratios(title: &str, rows: &[Measurement], metric: &str, ours: &str, peers
         for (number, peer) in peers.iter().enumerate() {
             let of = |variant: &str, repeat: u32| {
                 let same =
-                    |row: &&Measurement| row.case == *case && row.variant == variant && row.repeat == repeat;
+                    |row: &&DataRow| row.case == *case && row.variant == variant && row.repeat == repeat;
                 of_metric().find(same).map(|row| row.value)
             };
             let theirs = of_metric().filter(|row| row.case == *case && row.variant == *peer);
@@ -32,7 +32,7 @@ pub fn ratios(title: &str, rows: &[Measurement], metric: &str, ours: &str, peers
         }
     }
     let values = points.iter().flat_map(|(.., [low, _, high])| [*low, *high]);
-    let axis = Axis::fit(values.chain([1.0]), Scale::Log, "ratio", LEFT, RIGHT);
+    let axis = ChartAxis::fit(values.chain([1.0]), AxisScale::Log, "ratio", LEFT, RIGHT);
     let bottom = TOP + ROW * cases.len() as i32;
     let under = format!(
         "Time relative to {ours} in the same repeat. Median of the repeats; thin lines: smallest to largest; logarithmic scale."

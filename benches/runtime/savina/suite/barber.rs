@@ -22,7 +22,7 @@ const STEPS: usize = 1_000;
 pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (haircuts, seats) = mode.pick((50, 10), (1_000, 200), (2_500, 500));
     let barber = world.spawn(0, Barber { room: None, random: Random::new(1), haircuts: 0 });
-    let room = Room {
+    let room = WaitingRoom {
         barber: barber.clone(),
         waiting: VecDeque::with_capacity(seats),
         seats,
@@ -31,13 +31,13 @@ pub(super) fn start(world: &mut World, mode: StudyMode) {
     };
     let room = world.spawn(0, room);
     world.send(&barber, BarberMessage::Hired(room.clone()));
-    let factory = Factory { room, random: Random::new(2), haircuts, made: 0, left: haircuts };
+    let factory = CustomerFactory { room, random: Random::new(2), haircuts, made: 0, left: haircuts };
     let factory = world.spawn(1, factory);
     world.send(&factory, FactoryMessage::Make);
 }
 
-struct Factory {
-    room: Address<Room>,
+struct CustomerFactory {
+    room: Address<WaitingRoom>,
     random: Random,
     haircuts: usize,
     made: usize,
@@ -51,7 +51,7 @@ enum FactoryMessage {
     Done,
 }
 
-impl Actor for Factory {
+impl Actor for CustomerFactory {
     type Message = FactoryMessage;
 
     fn receive(&mut self, message: FactoryMessage, cx: &mut Cx<Self>) {
@@ -60,7 +60,7 @@ impl Actor for Factory {
                 let steps = self.random.below(STEPS);
                 work(&mut self.random, steps);
                 let factory = cx.me();
-                let customer = cx.spawn(self.made, Customer { factory, state: State::Outside });
+                let customer = cx.spawn(self.made, Customer { factory, state: CustomerState::Outside });
                 cx.send(&self.room, RoomMessage::Enter(customer));
                 self.made += 1;
                 if self.made < self.haircuts {
@@ -80,7 +80,7 @@ impl Actor for Factory {
     }
 }
 
-struct Room {
+struct WaitingRoom {
     barber: Address<Barber>,
     waiting: VecDeque<Address<Customer>>,
     seats: usize,
@@ -97,7 +97,7 @@ enum RoomMessage {
     },
 }
 
-impl Actor for Room {
+impl Actor for WaitingRoom {
     type Message = RoomMessage;
 
     fn receive(&mut self, message: RoomMessage, cx: &mut Cx<Self>) {
@@ -132,13 +132,13 @@ impl Actor for Room {
 }
 
 struct Barber {
-    room: Option<Address<Room>>,
+    room: Option<Address<WaitingRoom>>,
     random: Random,
     haircuts: usize,
 }
 
 enum BarberMessage {
-    Hired(Address<Room>),
+    Hired(Address<WaitingRoom>),
     Enter(Address<Customer>),
     Close { haircuts: usize, refused: u64 },
 }
@@ -169,12 +169,12 @@ impl Actor for Barber {
 }
 
 struct Customer {
-    factory: Address<Factory>,
-    state: State,
+    factory: Address<CustomerFactory>,
+    state: CustomerState,
 }
 
 #[derive(Debug, PartialEq)]
-enum State {
+enum CustomerState {
     Outside,
     Waiting,
     Chair,
@@ -193,20 +193,20 @@ impl Actor for Customer {
     fn receive(&mut self, message: CustomerMessage, cx: &mut Cx<Self>) {
         match message {
             CustomerMessage::Full => {
-                assert_eq!(self.state, State::Outside, "who is in is not turned away");
+                assert_eq!(self.state, CustomerState::Outside, "who is in is not turned away");
                 let me = cx.me();
                 cx.send(&self.factory, FactoryMessage::Returned(me));
             }
             CustomerMessage::Wait => {
-                assert_eq!(self.state, State::Outside, "a seat is given once");
-                self.state = State::Waiting;
+                assert_eq!(self.state, CustomerState::Outside, "a seat is given once");
+                self.state = CustomerState::Waiting;
             }
             CustomerMessage::Start => {
-                assert_ne!(self.state, State::Chair, "a haircut begins once");
-                self.state = State::Chair;
+                assert_ne!(self.state, CustomerState::Chair, "a haircut begins once");
+                self.state = CustomerState::Chair;
             }
             CustomerMessage::Done => {
-                assert_eq!(self.state, State::Chair, "a haircut ends that has begun");
+                assert_eq!(self.state, CustomerState::Chair, "a haircut ends that has begun");
                 cx.send(&self.factory, FactoryMessage::Done);
                 cx.stop();
             }

@@ -11,7 +11,7 @@ pub(super) fn start(world: &mut World, mode: StudyMode) {
     let mall =
         Mall { waiting: None, left: meetings, meetings, creatures: Vec::new(), counted: 0, met: 0, faded: 0 };
     let mall = world.spawn(0, mall);
-    let colors = [Color::Blue, Color::Red, Color::Yellow];
+    let colors = [CreatureColor::Blue, CreatureColor::Red, CreatureColor::Yellow];
     let create = |index: usize| {
         let color = colors[index % colors.len()];
         world.spawn(index, Creature { mall: mall.clone(), index, color, meetings: 0 })
@@ -21,16 +21,16 @@ pub(super) fn start(world: &mut World, mode: StudyMode) {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Color {
+enum CreatureColor {
     Blue,
     Red,
     Yellow,
 }
 
-impl Color {
+impl CreatureColor {
     /// Returns the new color of two creatures that meet: the same color if they are equal, otherwise the third one.
     fn with(self, other: Self) -> Self {
-        use Color::{Blue, Red, Yellow};
+        use CreatureColor::{Blue, Red, Yellow};
         match (self, other) {
             (Blue, Red) | (Red, Blue) => Yellow,
             (Blue, Yellow) | (Yellow, Blue) => Red,
@@ -43,7 +43,7 @@ impl Color {
 /// A creature that arrives at the mall.
 struct Visitor {
     index: usize,
-    color: Color,
+    color: CreatureColor,
     address: Address<Creature>,
 }
 
@@ -100,14 +100,14 @@ impl Actor for Mall {
 struct Creature {
     mall: Address<Mall>,
     index: usize,
-    color: Color,
+    color: CreatureColor,
     meetings: u64,
 }
 
 enum CreatureMessage {
     Begin,
     Meet(Visitor),
-    Change(Color),
+    Change(CreatureColor),
     Fade,
 }
 

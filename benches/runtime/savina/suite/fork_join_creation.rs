@@ -12,11 +12,11 @@ use crate::StudyMode;
 
 pub(super) fn start(world: &mut World, mode: StudyMode) {
     let actors = mode.pick(40, 10_000, 40_000);
-    let parent = world.spawn(0, Parent { answered: vec![false; actors], missing: actors });
+    let parent = world.spawn(0, CreatingParent { answered: vec![false; actors], missing: actors });
     world.send(&parent, ParentMessage::Begin);
 }
 
-struct Parent {
+struct CreatingParent {
     answered: Vec<bool>,
     missing: usize,
 }
@@ -26,7 +26,7 @@ enum ParentMessage {
     Done(usize),
 }
 
-impl Actor for Parent {
+impl Actor for CreatingParent {
     type Message = ParentMessage;
 
     fn receive(&mut self, message: ParentMessage, cx: &mut Cx<Self>) {
@@ -52,7 +52,7 @@ impl Actor for Parent {
 }
 
 struct Child {
-    parent: Address<Parent>,
+    parent: Address<CreatingParent>,
 }
 
 impl Actor for Child {

@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (philosophers, meals) = mode.pick((5, 20), (20, 1_000), (20, 10_000));
-    let table = Arc::new(Table { held: (0..philosophers).map(|_| AtomicBool::new(false)).collect() });
+    let table = Arc::new(ForkMarks { held: (0..philosophers).map(|_| AtomicBool::new(false)).collect() });
     let arbitrator = Arbitrator {
         table: Arc::clone(&table),
         taken: vec![false; philosophers],
@@ -32,11 +32,11 @@ pub(super) fn start(world: &mut World, mode: StudyMode) {
 }
 
 /// Marks on the forks, set by the philosophers that eat with them.
-struct Table {
+struct ForkMarks {
     held: Vec<AtomicBool>,
 }
 
-impl Table {
+impl ForkMarks {
     fn forks(&self, philosopher: usize) -> [&AtomicBool; 2] {
         [&self.held[philosopher], &self.held[(philosopher + 1) % self.held.len()]]
     }
@@ -57,7 +57,7 @@ impl Table {
 }
 
 struct Arbitrator {
-    table: Arc<Table>,
+    table: Arc<ForkMarks>,
     taken: Vec<bool>,
     philosophers: Vec<Address<Philosopher>>,
     /// Number of meals of each philosopher.
@@ -112,7 +112,7 @@ impl Actor for Arbitrator {
 struct Philosopher {
     index: usize,
     arbitrator: Address<Arbitrator>,
-    table: Arc<Table>,
+    table: Arc<ForkMarks>,
     left: u64,
 }
 

@@ -22,16 +22,16 @@ trait Actor: Sized + Send + Unpin + 'static {
     fn receive(&mut self, message: Self::Message, cx: &mut Cx<Self>);
 }
 
-type Address<A> = Addr<Cell<A>>;
+type Address<A> = Addr<ActixActor<A>>;
 
 /// The arbiters, and the run that they belong to.
-struct Team {
+struct ActixTeam {
     arbiters: Vec<ArbiterHandle>,
     run: Run,
 }
 
 struct World {
-    team: Arc<Team>,
+    team: Arc<ActixTeam>,
 }
 
 impl World {
@@ -40,52 +40,57 @@ impl World {
     }
 
     fn send<A: Actor>(&mut self, to: &Address<A>, message: A::Message) {
-        to.do_send(Letter(message));
+        to.do_send(ActixMessage(message));
     }
 }
 
-impl Team {
+impl ActixTeam {
     fn spawn<A: Actor>(self: &Arc<Self>, place: usize, actor: A) -> Address<A> {
         let place = place % self.arbiters.len();
         let team = Arc::clone(self);
-        let make = move |context: &mut actix::Context<_>| Cell { actor, me: context.address(), place, team };
-        Cell::start_in_arbiter(&self.arbiters[place], make)
+        let make =
+            move |context: &mut actix::Context<_>| ActixActor { actor, me: context.address(), place, team };
+        ActixActor::start_in_arbiter(&self.arbiters[place], make)
     }
 }
 
 /// An actor of the suite as an actix actor.
-struct Cell<A: Actor> {
+struct ActixActor<A: Actor> {
     actor: A,
     me: Address<A>,
     place: usize,
-    team: Arc<Team>,
+    team: Arc<ActixTeam>,
 }
 
-impl<A: Actor> actix::Actor for Cell<A> {
+impl<A: Actor> actix::Actor for ActixActor<A> {
     type Context = actix::Context<Self>;
 }
 
 /// A message of the suite as an actix message.
-struct Letter<M>(M);
+struct ActixMessage<M>(M);
 
-impl<M: 'static> Message for Letter<M> {
+impl<M: 'static> Message for ActixMessage<M> {
     type Result = ();
 }
 
-impl<A: Actor> Handler<Letter<A::Message>> for Cell<A> {
+impl<A: Actor> Handler<ActixMessage<A::Message>> for ActixActor<A> {
     type Result = ();
 
-    fn handle(&mut self, Letter(message): Letter<A::Message>, context: &mut actix::Context<Self>) {
+    fn handle(
+        &mut self,
+        ActixMessage(message): ActixMessage<A::Message>,
+        context: &mut actix::Context<Self>,
+    ) {
         let Self { actor, me, place, team } = self;
         team.run.watch(|| actor.receive(message, &mut Cx { context, me, place: *place, team }));
     }
 }
 
 struct Cx<'a, A: Actor> {
-    context: &'a mut actix::Context<Cell<A>>,
+    context: &'a mut actix::Context<ActixActor<A>>,
     me: &'a Address<A>,
     place: usize,
-    team: &'a Arc<Team>,
+    team: &'a Arc<ActixTeam>,
 }
 
 impl<A: Actor> Cx<'_, A> {
@@ -98,11 +103,11 @@ impl<A: Actor> Cx<'_, A> {
             return self.team.spawn(place, actor);
         }
         let (place, team) = (self.place, Arc::clone(self.team));
-        Cell::create(move |context| Cell { actor, me: context.address(), place, team })
+        ActixActor::create(move |context| ActixActor { actor, me: context.address(), place, team })
     }
 
     fn send<B: Actor>(&mut self, to: &Address<B>, message: B::Message) {
-        to.do_send(Letter(message));
+        to.do_send(ActixMessage(message));
     }
 
     fn stop(&mut self) {
@@ -119,7 +124,7 @@ pub(super) fn play(threads: usize, benchmark: &str, mode: StudyMode) -> Result<F
     let arbiters: Vec<Arbiter> = (0..threads).map(|_| Arbiter::new()).collect();
     let (run, verdict) = Run::begin();
     let mut world =
-        World { team: Arc::new(Team { arbiters: arbiters.iter().map(Arbiter::handle).collect(), run }) };
+        World { team: Arc::new(ActixTeam { arbiters: arbiters.iter().map(Arbiter::handle).collect(), run }) };
     suite::start(benchmark, &mut world, mode);
     let finish = verdict.wait();
     if finish.is_err() {

@@ -23,13 +23,13 @@ trait Actor: Sized + Send + 'static {
 type Address<A> = dragonfly_runtime::Address<<A as Actor>::Message>;
 
 /// The threads, and the run that they belong to.
-struct Team {
+struct DragonflyTeam {
     threads: Vec<ThreadHandle>,
     run: Run,
 }
 
 struct World {
-    team: Arc<Team>,
+    team: Arc<DragonflyTeam>,
 }
 
 impl World {
@@ -42,24 +42,24 @@ impl World {
     }
 }
 
-impl Team {
+impl DragonflyTeam {
     fn spawn<A: Actor>(self: &Arc<Self>, place: usize, actor: A) -> Address<A> {
         let thread = &self.threads[place % self.threads.len()];
         let (me, team) = (thread.reserve_address(), Arc::clone(self));
-        let cell = Cell { actor, me: me.clone(), team };
+        let cell = ActorReceiver { actor, me: me.clone(), team };
         thread.register_receiver_at(&me, move |_| cell);
         me
     }
 }
 
 /// An actor of the suite as a receiver.
-struct Cell<A: Actor> {
+struct ActorReceiver<A: Actor> {
     actor: A,
     me: Address<A>,
-    team: Arc<Team>,
+    team: Arc<DragonflyTeam>,
 }
 
-impl<A: Actor> Receiver for Cell<A> {
+impl<A: Actor> Receiver for ActorReceiver<A> {
     type Message = A::Message;
 
     fn receive(&mut self, message: A::Message, thread: &mut Context) {
@@ -71,7 +71,7 @@ impl<A: Actor> Receiver for Cell<A> {
 struct Cx<'a, A: Actor> {
     thread: &'a mut Context,
     me: &'a Address<A>,
-    team: &'a Arc<Team>,
+    team: &'a Arc<DragonflyTeam>,
 }
 
 impl<A: Actor> Cx<'_, A> {
@@ -84,7 +84,7 @@ impl<A: Actor> Cx<'_, A> {
             return self.team.spawn(place, actor);
         }
         let me = self.thread.handle().reserve_address();
-        let cell = Cell { actor, me: me.clone(), team: Arc::clone(self.team) };
+        let cell = ActorReceiver { actor, me: me.clone(), team: Arc::clone(self.team) };
         self.thread.register_receiver_at(&me, cell);
         me
     }
@@ -107,7 +107,7 @@ pub(super) fn play(threads: usize, benchmark: &str, mode: StudyMode) -> Result<F
     let threads: Vec<Thread> = (0..threads).map(start).collect();
     let handles: Vec<ThreadHandle> = threads.iter().map(|thread| thread.handle().clone()).collect();
     let (run, verdict) = Run::begin();
-    let mut world = World { team: Arc::new(Team { threads: handles.clone(), run }) };
+    let mut world = World { team: Arc::new(DragonflyTeam { threads: handles.clone(), run }) };
     suite::start(benchmark, &mut world, mode);
     let finish = verdict.wait();
     if finish.is_err() {

@@ -21,7 +21,7 @@ trait Actor: Sized + Send + 'static {
     fn receive(&mut self, message: Self::Message, cx: &mut Cx<Self>);
 }
 
-type Address<A> = ActorRef<Cell<A>>;
+type Address<A> = ActorRef<KameoActor<A>>;
 
 struct World {
     run: Arc<Run>,
@@ -38,21 +38,21 @@ impl World {
 }
 
 fn spawn<A: Actor>(run: &Arc<Run>, actor: A) -> Address<A> {
-    Cell::spawn_with_mailbox(Cell { actor, run: Arc::clone(run) }, mailbox::unbounded())
+    KameoActor::spawn_with_mailbox(KameoActor { actor, run: Arc::clone(run) }, mailbox::unbounded())
 }
 
 fn send<A: Actor>(to: &Address<A>, message: A::Message) {
-    let sent = to.tell(Letter(message)).try_send();
+    let sent = to.tell(KameoMessage(message)).try_send();
     assert!(sent.is_ok(), "no benchmark sends to an actor that has stopped");
 }
 
 /// An actor of the suite as a kameo actor.
-struct Cell<A> {
+struct KameoActor<A> {
     actor: A,
     run: Arc<Run>,
 }
 
-impl<A: Actor> kameo::Actor for Cell<A> {
+impl<A: Actor> kameo::Actor for KameoActor<A> {
     type Args = Self;
     type Error = Infallible;
 
@@ -62,19 +62,23 @@ impl<A: Actor> kameo::Actor for Cell<A> {
 }
 
 /// A message of the suite as a kameo message.
-struct Letter<M>(M);
+struct KameoMessage<M>(M);
 
-impl<A: Actor> Message<Letter<A::Message>> for Cell<A> {
+impl<A: Actor> Message<KameoMessage<A::Message>> for KameoActor<A> {
     type Reply = ();
 
-    async fn handle(&mut self, Letter(message): Letter<A::Message>, context: &mut Context<Self, ()>) {
+    async fn handle(
+        &mut self,
+        KameoMessage(message): KameoMessage<A::Message>,
+        context: &mut Context<Self, ()>,
+    ) {
         let Self { actor, run } = self;
         run.watch(|| actor.receive(message, &mut Cx { context, run }));
     }
 }
 
 struct Cx<'a, A: Actor> {
-    context: &'a mut Context<Cell<A>, ()>,
+    context: &'a mut Context<KameoActor<A>, ()>,
     run: &'a Arc<Run>,
 }
 

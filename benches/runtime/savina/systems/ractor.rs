@@ -36,7 +36,7 @@ impl World {
 }
 
 fn spawn<A: Actor>(run: &Arc<Run>, actor: A) -> Address<A> {
-    let cell = Cell { actor, run: Arc::clone(run) };
+    let cell = RactorState { actor, run: Arc::clone(run) };
     let spawned = ActorRuntime::spawn_instant(None, Role(PhantomData), cell);
     spawned.expect("actors without names do not clash").0
 }
@@ -49,21 +49,21 @@ fn send<M: Send + 'static>(to: &ActorRef<M>, message: M) {
 struct Role<A>(PhantomData<fn(A)>);
 
 /// The state that ractor stores for the actor.
-struct Cell<A> {
+struct RactorState<A> {
     actor: A,
     run: Arc<Run>,
 }
 
 impl<A: Actor> ractor::Actor for Role<A> {
     type Msg = A::Message;
-    type State = Cell<A>;
-    type Arguments = Cell<A>;
+    type State = RactorState<A>;
+    type Arguments = RactorState<A>;
 
     async fn pre_start(
         &self,
         _me: ActorRef<A::Message>,
-        cell: Cell<A>,
-    ) -> Result<Cell<A>, ActorProcessingErr> {
+        cell: RactorState<A>,
+    ) -> Result<RactorState<A>, ActorProcessingErr> {
         Ok(cell)
     }
 
@@ -71,9 +71,9 @@ impl<A: Actor> ractor::Actor for Role<A> {
         &self,
         me: ActorRef<A::Message>,
         message: A::Message,
-        cell: &mut Cell<A>,
+        cell: &mut RactorState<A>,
     ) -> Result<(), ActorProcessingErr> {
-        let Cell { actor, run } = cell;
+        let RactorState { actor, run } = cell;
         run.watch(|| actor.receive(message, &mut Cx { me, run }));
         Ok(())
     }

@@ -23,7 +23,7 @@ trait Actor: Sized + 'static {
     fn receive(&mut self, message: Self::Message, cx: &mut Cx<Self>);
 }
 
-type Address<A> = stakker::Actor<Cell<A>>;
+type Address<A> = stakker::Actor<StakkerActor<A>>;
 
 /// Whether the run was given up. Only the actors themselves can end the loop that keeps this thread busy.
 static GIVEN_UP: AtomicBool = AtomicBool::new(false);
@@ -44,20 +44,20 @@ impl World<'_> {
 }
 
 fn spawn<A: Actor>(core: &mut Core, run: &Arc<Run>, actor: A) -> Address<A> {
-    let owner = actor_new!(core, Cell<A>, ret_nop!());
+    let owner = actor_new!(core, StakkerActor<A>, ret_nop!());
     let address = owner.access_actor().clone();
-    call!([address], <Cell<A>>::init(actor, Arc::clone(run), owner));
+    call!([address], <StakkerActor<A>>::init(actor, Arc::clone(run), owner));
     address
 }
 
 /// An actor of the suite as a stakker actor.
-struct Cell<A: Actor> {
+struct StakkerActor<A: Actor> {
     actor: A,
     run: Arc<Run>,
     _owner: ActorOwn<Self>,
 }
 
-impl<A: Actor> Cell<A> {
+impl<A: Actor> StakkerActor<A> {
     fn init(_: CX![], actor: A, run: Arc<Run>, owner: ActorOwn<Self>) -> Option<Self> {
         Some(Self { actor, run, _owner: owner })
     }
@@ -72,7 +72,7 @@ impl<A: Actor> Cell<A> {
 }
 
 struct Cx<'a, 'b, A: Actor> {
-    context: &'a mut stakker::Cx<'b, Cell<A>>,
+    context: &'a mut stakker::Cx<'b, StakkerActor<A>>,
     run: &'a Arc<Run>,
 }
 

@@ -7,12 +7,12 @@ use tokio::runtime::{Builder, Handle, Runtime};
 use tokio::sync::oneshot;
 
 /// A runtime with threads of its own: single-threaded for one thread, which is faster then; work-stealing for more.
-enum Workers {
+enum TokioThreads {
     One { handle: Handle, stop: oneshot::Sender<()>, thread: JoinHandle<()> },
     Many(Runtime),
 }
 
-impl Workers {
+impl TokioThreads {
     fn start(threads: usize) -> Self {
         if threads > 1 {
             let runtime = Builder::new_multi_thread().worker_threads(threads).build();
@@ -54,7 +54,7 @@ impl Workers {
 
 /// Calls `start` to create the first actors on `threads` threads, and waits for the end of the run.
 pub(super) fn play(threads: usize, start: impl FnOnce(Run)) -> Result<Finish, String> {
-    let workers = Workers::start(threads);
+    let workers = TokioThreads::start(threads);
     let inside = workers.handle().enter();
     let (run, verdict) = Run::begin();
     start(run);

@@ -30,7 +30,7 @@ struct World {
 
 impl World {
     fn spawn<A: Actor>(&mut self, _place: usize, actor: A) -> Address<A> {
-        let cell = Cell { actor, run: Arc::clone(&self.run) };
+        let cell = TonariActor { actor, run: Arc::clone(&self.run) };
         let spawned = self.system.prepare(cell).with_capacity(CAPACITY).spawn();
         Recipient::clone(&spawned.expect("the system has a thread left"))
     }
@@ -41,12 +41,12 @@ impl World {
 }
 
 /// An actor of the suite as a tonari actor.
-struct Cell<A> {
+struct TonariActor<A> {
     actor: A,
     run: Arc<Run>,
 }
 
-impl<A: Actor> tonari_actor::Actor for Cell<A> {
+impl<A: Actor> tonari_actor::Actor for TonariActor<A> {
     type Message = A::Message;
     type Error = &'static str;
     type Context = Context<A::Message>;

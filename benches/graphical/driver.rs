@@ -1,7 +1,7 @@
 //! The main thread: replays the drag at its intended times, asks, and measures how long each call keeps it.
 
-use super::document::Document;
-use super::frame::Question;
+use super::document::SharedDocument;
+use super::frame::PoseQuestion;
 use super::ledger::{Ledger, MOST_WAITING};
 use super::script::{SHOWN, Script};
 use super::sharing::Sharing;
@@ -27,7 +27,7 @@ impl Rate {
 
 /// What the main thread has measured.
 #[derive(Default)]
-pub struct Record {
+pub struct EditMetrics {
     /// How long an edit kept the main thread.
     pub blocked: Distribution,
     /// From a question to its answer.
@@ -53,13 +53,13 @@ const MOST_WAITING_TAKES: u64 = 128;
 const CHUNK: u64 = 16;
 
 /// See the module.
-pub struct Hand<'a> {
+pub struct EditDriver<'a> {
     sharing: Box<dyn Sharing>,
     main: Captured,
     script: &'a Script,
     ledger: &'a Ledger,
     graphics: &'a ThreadHandle,
-    question: Question,
+    question: PoseQuestion,
     /// Edits posted so far.
     number: u64,
     /// The newest of the take that is shown.
@@ -67,10 +67,10 @@ pub struct Hand<'a> {
     recorded_from: u64,
     began: Instant,
     most_waiting: u64,
-    record: Record,
+    record: EditMetrics,
 }
 
-impl<'a> Hand<'a> {
+impl<'a> EditDriver<'a> {
     /// Nothing posted yet.
     pub fn new(
         sharing: Box<dyn Sharing>,
@@ -78,7 +78,7 @@ impl<'a> Hand<'a> {
         script: &'a Script,
         ledger: &'a Ledger,
         graphics: &'a ThreadHandle,
-        question: Question,
+        question: PoseQuestion,
     ) -> Self {
         Self {
             sharing,
@@ -92,7 +92,7 @@ impl<'a> Hand<'a> {
             recorded_from: 1,
             began: Instant::now(),
             most_waiting: if script.is_small() { MOST_WAITING } else { MOST_WAITING_TAKES },
-            record: Record::default(),
+            record: EditMetrics::default(),
         }
     }
 
@@ -107,7 +107,7 @@ impl<'a> Hand<'a> {
     pub fn start_recording(&mut self) {
         self.recorded_from = self.number + 1;
         self.ledger.record_from(self.recorded_from);
-        self.record = Record::default();
+        self.record = EditMetrics::default();
         self.began = Instant::now();
     }
 
@@ -263,7 +263,7 @@ impl<'a> Hand<'a> {
     }
 
     /// What was measured, how many edits were posted, and what they made of the document.
-    pub fn end(mut self) -> (Record, u64, Document) {
+    pub fn end(mut self) -> (EditMetrics, u64, SharedDocument) {
         let document = self.sharing.document(&mut self.main);
         (self.record, self.number, document)
     }
