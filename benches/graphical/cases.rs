@@ -1,4 +1,4 @@
-//! Which ways are compared in which situation, and for how long; see the table in `mod.rs`.
+//! The cases: which methods are compared in which situation, and for how long; see the table in `mod.rs`.
 
 use super::driver::Rate;
 use super::frame::FrameWork;
@@ -13,20 +13,20 @@ use std::time::Duration;
 const HERTZ_60: Option<Duration> = Some(Duration::from_nanos(16_666_667));
 const HERTZ_144: Option<Duration> = Some(Duration::from_nanos(6_944_444));
 
-/// Which ways take part.
+/// The methods that a case compares.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum MethodSelection {
-    /// All.
+    /// All methods.
     All,
-    /// The best of each kind, and the lock that is held for the frame.
-    Telling,
-    /// Those, and others that this case is about.
+    /// The best method of each kind, and the lock that is held for the frame.
+    BestOfEachKind,
+    /// The same, and further methods that this case is about.
     And(&'static [&'static str]),
 }
 
 impl MethodSelection {
-    fn ways(self, mode: StudyMode) -> Vec<SharingMethod> {
-        /// A short run has no time for more.
+    fn methods(self, mode: StudyMode) -> Vec<SharingMethod> {
+        /// The methods of a short run.
         const FEW: [&str; 6] = [
             "messages, newest",
             "messages, batched",
@@ -35,11 +35,11 @@ impl MethodSelection {
             "mutex, cow",
             "arcswap, cow",
         ];
-        let wanted = |way: &&SharingMethod| match self {
+        let wanted = |method: &&SharingMethod| match self {
             _ if self == Self::All || mode == StudyMode::Check => true,
-            Self::And(names) if names.contains(&way.name) => true,
-            _ if mode == StudyMode::Short => FEW.contains(&way.name),
-            _ => way.telling,
+            Self::And(names) if names.contains(&method.name) => true,
+            _ if mode == StudyMode::Short => FEW.contains(&method.name),
+            _ => method.in_every_case,
         };
         METHODS.iter().filter(wanted).copied().collect()
     }
@@ -66,19 +66,25 @@ pub fn all(study: &mut Study) {
     let slow = Rate::Every(Duration::from_millis(16));
     let flood = Scenario { rate: Rate::FlatOut, ..core };
     let takes = Scenario { edits: Edits::Large, rate: slow, ..core };
-    // A test looks at results, and those do not depend on how fast it goes.
+    // A test checks results, which do not depend on the speed.
     if study.mode != StudyMode::Check {
-        compare(study, "drag/60 Hz", bed, Scenario { rate: slow, ..core }, MethodSelection::Telling);
+        compare(study, "drag/60 Hz", bed, Scenario { rate: slow, ..core }, MethodSelection::BestOfEachKind);
         compare(
             study,
             "drag/frames 144 Hz",
             bed,
             Scenario { period: HERTZ_144, ..core },
-            MethodSelection::Telling,
+            MethodSelection::BestOfEachKind,
         );
         compare(study, "takes/60 Hz", bed, takes, MethodSelection::And(&["mutex a take"]));
     }
-    compare(study, "drag/frames unpaced", bed, Scenario { period: None, ..core }, MethodSelection::Telling);
+    compare(
+        study,
+        "drag/frames unpaced",
+        bed,
+        Scenario { period: None, ..core },
+        MethodSelection::BestOfEachKind,
+    );
     compare(
         study,
         "flood",
@@ -111,17 +117,29 @@ fn basis(mode: StudyMode) -> Scenario {
     }
 }
 
-/// Somebody is held up, or somebody else wants the processor.
+/// Cases in which a thread is delayed, or other threads compete for the CPU.
 fn disturbed(study: &mut Study, bed: &ScenarioSetup, core: Scenario) {
     for milliseconds in study.mode.pick(vec![50], vec![50], vec![50, 500]) {
         let length = Duration::from_millis(study.mode.pick(milliseconds / 10, milliseconds, milliseconds));
         let at = core.length / 4;
         let lasting = Scenario { length: core.length + length, ..core };
         let stall = Scenario { graphics_stall: Some((at, length)), ..lasting };
-        compare(study, &format!("graphics stall {milliseconds} ms"), bed, stall, MethodSelection::Telling);
+        compare(
+            study,
+            &format!("graphics stall {milliseconds} ms"),
+            bed,
+            stall,
+            MethodSelection::BestOfEachKind,
+        );
         if study.mode != StudyMode::Short {
             let stall = Scenario { main_stall: Some((at, length)), ..lasting };
-            compare(study, &format!("main stall {milliseconds} ms"), bed, stall, MethodSelection::Telling);
+            compare(
+                study,
+                &format!("main stall {milliseconds} ms"),
+                bed,
+                stall,
+                MethodSelection::BestOfEachKind,
+            );
         }
     }
     if study.mode == StudyMode::Check {
@@ -152,7 +170,7 @@ fn disturbed(study: &mut Study, bed: &ScenarioSetup, core: Scenario) {
     }
 }
 
-/// The main thread needs an answer.
+/// Cases in which the main thread needs an answer.
 fn questions(study: &mut Study, bed: &ScenarioSetup, core: Scenario) {
     let idle = Scenario {
         rate: Rate::Still,
@@ -188,16 +206,20 @@ fn compare(study: &mut Study, case: &str, bed: &ScenarioSetup, scenario: Scenari
     if !study.wants(case) {
         return;
     }
-    let ways = field.ways(study.mode);
-    let variants = ways.iter().map(|way| {
-        Variant::new(way.name, move |measured| {
-            let verdict = run(bed, way, &scenario, measured);
-            assert_eq!(verdict, RunDefects::default(), "{case}, {}", way.name);
+    let methods = field.methods(study.mode);
+    let variants = methods.iter().map(|method| {
+        Variant::new(method.name, move |measured| {
+            let verdict = run(bed, method, &scenario, measured);
+            assert_eq!(verdict, RunDefects::default(), "{case}, {}", method.name);
         })
     });
     let first = study.rows().len();
     study.compare(case, study.mode.pick(1, 1, 3), variants.collect());
     if study.mode != StudyMode::Check {
-        table::print(case, &ways.iter().map(|way| way.name).collect::<Vec<_>>(), &study.rows()[first..]);
+        table::print(
+            case,
+            &methods.iter().map(|method| method.name).collect::<Vec<_>>(),
+            &study.rows()[first..],
+        );
     }
 }

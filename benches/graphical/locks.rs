@@ -1,5 +1,6 @@
-//! A document behind locks, each used in five ways: held for the whole frame, held to sample the poses that the frame needs,
-//! held to copy the take, held to take a reference to a document that is copied when it is edited, and one lock a take.
+//! A document protected by locks, used in five ways: a lock held for the whole frame, held to sample the poses that the
+//! frame needs, held to copy the take, held to clone a reference to a document that is copied on write, and one lock
+//! for each take.
 
 use super::document::{NumberedEdit, SharedDocument, TakeEntry};
 use super::frame::{FrameWork, PoseQuestion, shown};
@@ -9,13 +10,13 @@ use dragonfly_anim::data::{Skeleton, Take};
 use dragonfly_runtime::Captured;
 use std::sync::Arc;
 
-/// A lock, of whatever make. A poisoned one is a bug of the measurement.
+/// A kind of lock. A poisoned lock is a bug of the benchmark.
 pub trait AnyLock<T>: Send + Sync + 'static {
-    /// Around `value`.
+    /// Returns a lock around `value`.
     fn around(value: T) -> Self;
-    /// For as long as `work` takes; other readers may be there where the lock knows of them.
+    /// Calls `work` with the lock held for reading; concurrently with other readers where the lock supports that.
     fn read<R>(&self, work: impl FnOnce(&T) -> R) -> R;
-    /// For as long as `work` takes, alone.
+    /// Calls `work` with the lock held exclusively.
     fn write<R>(&self, work: impl FnOnce(&mut T) -> R) -> R;
 }
 
@@ -67,7 +68,7 @@ impl<T: Send + Sync + 'static> AnyLock<T> for parking_lot::RwLock<T> {
     }
 }
 
-/// The main thread's side of all that keep one document behind one lock.
+/// The main thread's side of the methods with one document in one lock.
 struct SingleLockSharing<L> {
     lock: Arc<L>,
     originals: Vec<Arc<Take>>,
@@ -91,7 +92,7 @@ impl<L: AnyLock<SharedDocument>> SingleLockSharing<L> {
 impl<L: AnyLock<SharedDocument>> Sharing for SingleLockSharing<L> {
     fn edit(&mut self, edit: NumberedEdit, _begins: bool) {
         let ready = edit.prepare(&self.originals);
-        // What is replaced is freed when the lock is free again.
+        // Replaced data is freed after the lock is released.
         let remains = self.lock.write(|document| document.apply(ready));
         drop(remains);
     }
@@ -108,7 +109,7 @@ impl<L: AnyLock<SharedDocument>> Sharing for SingleLockSharing<L> {
 }
 
 /// One lock, held for the whole frame.
-pub fn held<L: AnyLock<SharedDocument>>(start: SharingStart) -> SharingParts {
+pub fn held_for_frame<L: AnyLock<SharedDocument>>(start: SharingStart) -> SharingParts {
     struct LockedFrameViewing<L>(Arc<L>);
     impl<L: AnyLock<SharedDocument>> Viewing for LockedFrameViewing<L> {
         fn frame(&mut self, frame: &mut FrameWork) {
@@ -150,7 +151,7 @@ pub fn cloned<L: AnyLock<SharedDocument>>(start: SharingStart) -> SharingParts {
     SingleLockSharing::start(start, |lock: Arc<L>| Box::new(Cloned(lock)))
 }
 
-/// One lock, held while a reference is taken to a document that is copied, as far as it must be, when it is edited.
+/// One lock, held while a reference to the document is cloned; an edit copies shared data before it changes it.
 pub fn copied_on_write<L: AnyLock<Arc<SharedDocument>>>(start: SharingStart) -> SharingParts {
     struct CopyOnWriteSharing<L>(Arc<L>, Vec<Arc<Take>>);
     impl<L: AnyLock<Arc<SharedDocument>>> Sharing for CopyOnWriteSharing<L> {
@@ -189,8 +190,8 @@ pub fn copied_on_write<L: AnyLock<Arc<SharedDocument>>>(start: SharingStart) -> 
     SharingParts { sharing: Box::new(CopyOnWriteSharing(lock, originals)), viewing }
 }
 
-/// A lock for each take, held for the whole frame: what is drawn stands still, what is not can be edited.
-pub fn a_take<L: AnyLock<TakeEntry>>(start: SharingStart) -> SharingParts {
+/// A lock for each take, held for the whole frame: the shown take is locked, and all others can be edited.
+pub fn lock_per_take<L: AnyLock<TakeEntry>>(start: SharingStart) -> SharingParts {
     struct TakeLocksSharing<L> {
         takes: Arc<[L]>,
         originals: Vec<Arc<Take>>,

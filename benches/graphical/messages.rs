@@ -1,24 +1,24 @@
-//! A document that one thread owns: edits are sent to it, and it sends its newest view to those who draw it.
+//! A document that one thread owns: edits are sent to it, and it sends its newest view to the graphics thread.
 //!
-//! A view is a reference to the whole document. What somebody else still has is copied when it is edited, as far as it must
-//! be; so the first edit after a view was published pays for a copy, and those that follow before the next view do not.
+//! A view is a reference to the whole document. An edit copies shared data before it changes it; so the first edit
+//! after a view was published pays for a copy, and those that follow before the next view do not.
 //!
 //! | name | edits | views |
 //! |---|---|---|
 //! | messages | each | after each edit |
-//! | messages, newest | each | after all edits that were waiting; a newer one replaces the one that waits |
-//! | messages, relayed | each | likewise, but by way of the main thread |
-//! | messages, read | each | likewise, and the same to the main thread, which asks nobody but reads |
-//! | messages, merged | in one gesture, a newer one replaces the one that waits | likewise |
-//! | messages, on demand | each | when a frame is due and asks for one |
-//! | messages, batched | each, but they wake nobody | likewise; all edits that wait are made then |
-//! | messages, spinning | each | as "newest"; the document looks for messages a while before it sleeps |
+//! | messages, newest | each | after all queued edits; a newer view replaces the queued one |
+//! | messages, relayed | each | as "newest", but sent through the main thread |
+//! | messages, read | each | as "newest", and also to the main thread, which reads its answers from them |
+//! | messages, merged | in one gesture, a newer edit replaces the queued one | as "newest" |
+//! | messages, on demand | each | when a frame is due and requests one |
+//! | messages, batched | each, without a wake-up | as "on demand"; all queued edits are applied then |
+//! | messages, spinning | each | as "newest"; the document's thread spins before it sleeps |
 
 use super::document::{EditedData, NumberedEdit, SharedDocument};
 use super::frame::{PoseAnswer, PoseQuestion, shown};
 use super::ledger::Ledger;
 use super::sharing::{Sharing, SharingParts, SharingStart, TimedAnswer, Viewing};
-use super::views::{Asking, DocumentRef, NewestView};
+use super::views::{DocumentRef, NewestView, OnDemandView};
 use dragonfly_anim::data::Take;
 use dragonfly_runtime::{Address, Captured, Context, Next, Receiver, Thread, Worker};
 use std::cell::{Cell, RefCell};
@@ -26,17 +26,17 @@ use std::rc::Rc;
 use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
 
-/// What the document's thread understands.
+/// Messages to the document's thread.
 pub(super) enum ToDocument {
     NumberedEdit(NumberedEdit),
     Ask(PoseQuestion, Address<PoseAnswer>),
-    /// The graphics thread wants the newest view, even when it has it.
+    /// A request of the graphics thread for the newest view, even if it already has it.
     Publish,
-    /// For the comparison at the end.
+    /// A request for the document, for the comparison at the end.
     Give(mpsc::Sender<SharedDocument>),
 }
 
-/// When views are sent, and to whom; how edits are.
+/// Configuration: when views are sent, to which thread, and how edits are sent.
 #[derive(Clone, Copy, Default)]
 struct Kind {
     each: bool,
@@ -48,42 +48,42 @@ struct Kind {
     spin: Duration,
 }
 
-/// Every edit a message, and after every edit a view.
+/// A message for every edit, and a view after every edit.
 pub fn plain(start: SharingStart) -> SharingParts {
     begin(start, Kind { each: true, ..Kind::default() })
 }
 
-/// Every edit a message; a view when no more edits wait.
+/// A message for every edit; a view when no more edits are queued.
 pub fn newest(start: SharingStart) -> SharingParts {
     begin(start, Kind::default())
 }
 
-/// The same, with views sent to the main thread, which passes them on.
+/// The same, with views sent to the main thread, which forwards them.
 pub fn relayed(start: SharingStart) -> SharingParts {
     begin(start, Kind { relayed: true, ..Kind::default() })
 }
 
-/// The main thread gets the views as well, and looks there for answers.
+/// The main thread receives the views too, and reads answers from them.
 pub fn read(start: SharingStart) -> SharingParts {
     begin(start, Kind { read: true, ..Kind::default() })
 }
 
-/// Edits of one gesture replace each other while they wait, and so do views.
+/// Queued edits of one gesture replace one another, and so do queued views.
 pub fn merged(start: SharingStart) -> SharingParts {
     begin(start, Kind { merges: true, ..Kind::default() })
 }
 
-/// A view when a frame asks for it.
+/// A view when a frame requests it.
 pub fn on_demand(start: SharingStart) -> SharingParts {
     begin(start, Kind { on_demand: true, ..Kind::default() })
 }
 
-/// The document's thread pauses between frames, so that edits do not wake it; the frame that asks for a view does.
+/// The document's thread pauses between frames, so that edits do not wake it; the frame that requests a view does.
 pub fn batched(start: SharingStart) -> SharingParts {
     begin(start, Kind { on_demand: true, batched: true, ..Kind::default() })
 }
 
-/// The document's thread does not sleep at once.
+/// The document's thread spins before it sleeps.
 pub fn spinning(start: SharingStart) -> SharingParts {
     begin(start, Kind { spin: Duration::from_millis(2), ..Kind::default() })
 }
@@ -101,7 +101,7 @@ struct DocumentOwner {
 impl DocumentOwner {
     fn publish(&mut self) {
         for views in &self.views {
-            // Who draws may have stopped; then nobody looks.
+            // Fails only when the graphics thread has stopped.
             let _ = views.send(Arc::clone(&self.document));
         }
         if !self.kind.relayed {
@@ -128,16 +128,16 @@ impl Receiver for DocumentOwner {
             }
             ToDocument::Ask(question, to) => {
                 let answer = question.answer(shown(&self.document.takes), &self.document.skeleton);
-                // Who asked may have stopped.
+                // Fails only when the thread that asked has stopped.
                 let _ = to.send(answer);
             }
             ToDocument::Publish => {
                 if self.kind.batched {
-                    // Before the view goes: who has it may ask for the next, and that must end this pause.
+                    // Before the view is sent: its receiver may request the next one, which must end this pause.
                     thread.pause();
                 }
                 if !self.changed {
-                    // The asker tells an answer by its being another view.
+                    // The receiver recognizes an answer because it is a different view.
                     self.document = Arc::new((*self.document).clone());
                 }
                 self.publish();
@@ -156,7 +156,7 @@ impl Worker for DocumentOwner {
     }
 }
 
-/// Passes views on from the main thread.
+/// Forwards views from the main thread.
 struct Relay {
     to: Address<DocumentRef>,
     ledger: Arc<Ledger>,
@@ -172,7 +172,7 @@ impl Receiver for Relay {
     }
 }
 
-/// Where the newest of something lies until it is read.
+/// Stores the newest message until it is read.
 struct LatestValue<M>(Rc<Cell<Option<M>>>);
 
 impl<M: Send + 'static> Receiver for LatestValue<M> {
@@ -187,18 +187,18 @@ impl<M: Send + 'static> Receiver for LatestValue<M> {
 struct MessageSharing {
     thread: Thread,
     address: Address<ToDocument>,
-    /// The place of the running gesture, where edits replace each other.
+    /// The `latest` address of the current gesture, where edits replace one another.
     gesture: Option<Address<ToDocument>>,
     merges: bool,
     answer: Rc<Cell<Option<PoseAnswer>>>,
     answers: Address<PoseAnswer>,
-    /// The newest view, where the main thread gets them.
+    /// The newest view, where the main thread receives views.
     view: Option<Rc<Cell<Option<DocumentRef>>>>,
 }
 
 impl Sharing for MessageSharing {
     fn edit(&mut self, edit: NumberedEdit, begins: bool) {
-        // Only edits of one key may stand for each other, and none may overtake what was sent before its gesture began.
+        // Only edits of one key may replace one another, and none may overtake edits sent before its gesture began.
         let mergeable = self.merges && matches!(edit.change, EditedData::Key(..));
         if !mergeable {
             self.gesture = None;
@@ -227,7 +227,7 @@ impl Sharing for MessageSharing {
             if let Some(answer) = self.answer.take() {
                 return TimedAnswer { answer, blocked };
             }
-            // Here the main thread could do anything else; it has nothing else to do.
+            // The main thread could do other work here; it has none.
             if main.iterate() == Next::OnMessage && self.answer.get().is_none() {
                 std::thread::park();
             }
@@ -282,7 +282,7 @@ fn begin(start: SharingStart, kind: Kind) -> SharingParts {
     let viewing = Box::new(move |graphics: &mut Context| {
         let newest = NewestView::new(first, &drawn, graphics);
         match kind.on_demand {
-            true => Box::new(Asking::new(newest, asked.0, asked.1)) as Box<dyn Viewing>,
+            true => Box::new(OnDemandView::new(newest, asked.0, asked.1)) as Box<dyn Viewing>,
             false => Box::new(newest),
         }
     });

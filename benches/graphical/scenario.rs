@@ -1,5 +1,5 @@
-//! One run: a main thread that replays the drag, a graphics thread that makes frames, one way of sharing between them, and
-//! what disturbs them.
+//! One run: a main thread that replays the drag, a graphics thread that renders frames, one method of sharing between
+//! them, and disturbances.
 
 use super::document::SharedDocument;
 use super::driver::{EditDriver, EditMetrics, Rate};
@@ -16,79 +16,79 @@ use dragonfly_runtime::Thread;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A document to begin with, and how often a frame draws on this machine.
+/// The initial document, and the number of draws in a frame on this machine.
 pub struct ScenarioSetup {
-    /// How large it is.
+    /// Size of the document.
     pub size: ModelSize,
-    /// Never altered: every run begins with a shallow copy.
+    /// The initial document. Never changed: every run starts with a shallow copy.
     pub document: SharedDocument,
-    /// How often the mesh is drawn in a frame.
+    /// Number of times that the mesh is drawn in a frame.
     pub draws: u32,
 }
 
 impl ScenarioSetup {
-    /// A document of `size`.
+    /// Returns a setup with a document of `size`.
     pub fn new(size: ModelSize, draws: u32) -> Self {
         Self { size, document: size.document(), draws }
     }
 }
 
-/// What happens in a run.
+/// Description of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Scenario {
-    /// What the main thread does.
+    /// The edits of the main thread.
     pub edits: Edits,
-    /// How fast.
+    /// The rate of the edits.
     pub rate: Rate,
-    /// From one frame to the next; `None` for as fast as possible.
+    /// Time from one frame to the next; `None` for as fast as possible.
     pub period: Option<Duration>,
-    /// What is measured.
+    /// Duration of the measurement.
     pub length: Duration,
-    /// What comes before that and does not count.
+    /// Duration of the warm-up before it.
     pub warm_up: Duration,
-    /// The graphics thread is held up by the driver, at this moment and so long.
+    /// Delay of the graphics thread by the simulated GPU driver: time and duration.
     pub graphics_stall: Option<(Duration, Duration)>,
-    /// The main thread does something else, at this moment and so long.
+    /// Other work of the main thread: time and duration.
     pub main_stall: Option<(Duration, Duration)>,
-    /// Threads that compute all the time.
+    /// Number of threads that compute all the time.
     pub busy: usize,
-    /// How often the main thread asks something.
+    /// Interval of the main thread's questions.
     pub questions: Option<Duration>,
-    /// For tests: looks at every bone in every frame, and compares the document with that of one thread alone.
+    /// For tests: checks every bone in every frame, and compares the document with that of a single thread.
     pub thorough: bool,
 }
 
-/// What was wrong in a run.
+/// Errors found in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RunDefects {
-    /// Looks that found half an edit.
+    /// Number of checks that found half an edit.
     pub torn: u64,
-    /// Frames that showed an older document than promised.
+    /// Number of frames that showed an older document than guaranteed.
     pub stale: u64,
-    /// The last edit was never shown.
+    /// Whether the last edit was never shown.
     pub lost: bool,
-    /// The document is not what the same edits make of it one after the other.
+    /// Whether the document differs from the result of the same edits in sequence.
     pub wrong: bool,
 }
 
-/// Runs `scenario` with `way`, writes down what was measured, and says what was wrong.
+/// Runs `scenario` with `method` and records the measurements. Returns the errors found.
 pub fn run(
     bed: &ScenarioSetup,
-    way: &SharingMethod,
+    method: &SharingMethod,
     scenario: &Scenario,
     measured: &mut RunValues,
 ) -> RunDefects {
     let flood = scenario.rate == Rate::FlatOut;
     let ledger = Arc::new(Ledger::new(if flood { MOST_WAITING } else { 1 << 13 }));
     let (memory, (record, frames, verdict)) =
-        counting::process_peak(|| run_counted(bed, way, scenario, &ledger));
+        counting::process_peak(|| run_counted(bed, method, scenario, &ledger));
     write(scenario, &record, &frames, memory, measured);
     verdict
 }
 
 fn run_counted(
     bed: &ScenarioSetup,
-    way: &SharingMethod,
+    method: &SharingMethod,
     scenario: &Scenario,
     ledger: &Arc<Ledger>,
 ) -> (EditMetrics, FrameMetrics, RunDefects) {
@@ -98,7 +98,7 @@ fn run_counted(
     let graphics = Thread::start("graphics").expect("the system has a thread left");
     let document = bed.document.clone();
     let start = SharingStart { document, graphics: graphics.handle(), main: &mut main, ledger };
-    let started = (way.start)(start);
+    let started = (method.start)(start);
     let pace = Pace {
         period: scenario.period,
         draws: bed.draws,

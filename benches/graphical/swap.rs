@@ -1,4 +1,4 @@
-//! A document that nobody waits for: the newest version hangs in an `ArcSwap`; an edit copies what it alters and swaps.
+//! A document without waiting: the newest version is in an `ArcSwap`; an edit copies what it changes, and swaps.
 
 use super::document::{NumberedEdit, SharedDocument};
 use super::frame::{FrameWork, PoseQuestion, shown};
@@ -15,7 +15,8 @@ struct SwapSharing {
 
 impl Sharing for SwapSharing {
     fn edit(&mut self, edit: NumberedEdit, _begins: bool) {
-        // There is one writer, so a copy can be changed at leisure; with more this would be `rcu`, and may be done twice.
+        // There is only one writer, so the copy is not in a hurry; with several writers this would be `rcu`, which may
+        // repeat it.
         let ready = edit.prepare(&self.originals);
         let mut document = SharedDocument::clone(&self.newest.load());
         drop(document.apply(ready));
@@ -45,7 +46,7 @@ impl Viewing for SwapViewing {
     }
 }
 
-/// See the module.
+/// Starts the method of this module.
 pub fn start(start: SharingStart) -> SharingParts {
     let originals = start.document.originals();
     let newest = Arc::new(ArcSwap::from_pointee(start.document));

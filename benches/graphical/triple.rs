@@ -1,8 +1,9 @@
-//! Three documents: one is drawn, one is edited, one is the newest finished and waits. Nobody waits for anybody, and nothing
-//! is copied after the first touch: whoever edits makes the edits that the other two missed in them when they come back.
+//! Three documents: one is drawn, one is edited, and one is the newest finished version, ready for an exchange. No
+//! thread waits, and nothing is copied after the first edits: the editing thread also applies the edits that a document
+//! missed when it gets it back.
 //!
-//! Which document has which part is one number, exchanged atomically; each thread touches only those that are its own. The
-//! locks are there because the compiler cannot know that: they are never waited for.
+//! The roles of the documents are one number, exchanged atomically; each thread accesses only the documents that it
+//! has. The locks exist because the compiler cannot check that; they are never contended.
 
 use super::document::{NumberedEdit, PreparedEdit, SharedDocument};
 use super::frame::{FrameWork, PoseQuestion, shown};
@@ -13,12 +14,12 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 
-/// Set beside the number of the waiting document when it is newer than the one that is drawn.
+/// Flag in addition to the number of the exchanged document, when it is newer than the one that is drawn.
 const FRESH: usize = 4;
 
 struct Buffers {
     documents: [Mutex<SharedDocument>; 3],
-    /// The number of the one that waits.
+    /// Number of the document to exchange.
     waiting: AtomicUsize,
 }
 
@@ -32,14 +33,14 @@ struct TripleSharing {
     buffers: Arc<Buffers>,
     back: usize,
     originals: Vec<Arc<Take>>,
-    /// Edits that one of the documents still misses, oldest first.
+    /// Edits that at least one of the documents misses, oldest first.
     log: VecDeque<PreparedEdit>,
-    /// The newest edit that each document has; of those that are away, what they had when they went.
+    /// Newest edit in each document; for documents that the other thread has, as of their exchange.
     has: [u64; 3],
 }
 
 impl TripleSharing {
-    /// Makes the edits that the document in hand misses.
+    /// Applies the edits that the back document misses.
     fn catch_up(&mut self) {
         let mut document = self.buffers.own(self.back);
         let has = self.has[self.back];
@@ -57,7 +58,7 @@ impl TripleSharing {
 
 impl Sharing for TripleSharing {
     fn edit(&mut self, edit: NumberedEdit, _begins: bool) {
-        // Whole takes are computed once; the three share them.
+        // Whole takes are computed once; the three documents share them.
         self.log.push_back(edit.prepare(&self.originals));
         self.catch_up();
         self.back = self.buffers.waiting.swap(self.back | FRESH, Ordering::AcqRel) & !FRESH;
@@ -94,7 +95,7 @@ impl Viewing for TripleViewing {
     }
 }
 
-/// See the module.
+/// Starts the method of this module.
 pub fn start(start: SharingStart) -> SharingParts {
     let originals = start.document.originals();
     let documents = [start.document.clone(), start.document.clone(), start.document].map(Mutex::new);

@@ -1,4 +1,4 @@
-//! The checker is not blind: ways of sharing that are wrong are found to be wrong. Safe code, as it might be written.
+//! The checker detects errors: incorrect methods of sharing, in safe code as it might be written, are reported.
 
 use dragonfly_runtime::Captured;
 use dragonfly_study::graphical::document::{NumberedEdit, SharedDocument, TakeEntry};
@@ -17,7 +17,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap()
 }
 
-/// Two locks, taken one after the other: the changes are in the first document, the result in the second.
+/// Two locks, taken one after the other: the first document has the changes, the second one has the result.
 struct TwoLocks(Arc<[Mutex<SharedDocument>; 2]>);
 
 impl Sharing for TwoLocks {
@@ -56,14 +56,14 @@ fn two_locks(start: SharingStart) -> SharingParts {
     SharingParts { sharing: Box::new(TwoLocks(both)), viewing: Box::new(|_| Box::new(theirs)) }
 }
 
-/// A document that is shown to others now and then only.
-struct Forgetful {
+/// A document that publishes only every n-th edit.
+struct RarelyPublished {
     own: SharedDocument,
     shared: Arc<Mutex<Arc<SharedDocument>>>,
     every: u64,
 }
 
-impl Sharing for Forgetful {
+impl Sharing for RarelyPublished {
     fn edit(&mut self, edit: NumberedEdit, _begins: bool) {
         let number = edit.number;
         let ready = edit.prepare(&self.own.originals());
@@ -82,9 +82,10 @@ impl Sharing for Forgetful {
     }
 }
 
-struct Shown(Arc<Mutex<Arc<SharedDocument>>>);
+/// The graphics thread's side of [`RarelyPublished`].
+struct RarelyPublishedViewing(Arc<Mutex<Arc<SharedDocument>>>);
 
-impl Viewing for Shown {
+impl Viewing for RarelyPublishedViewing {
     fn frame(&mut self, frame: &mut FrameWork) {
         let document = Arc::clone(&lock(&self.0));
         frame.read(shown(&document.takes));
@@ -93,10 +94,10 @@ impl Viewing for Shown {
     }
 }
 
-fn forgetful(start: SharingStart, every: u64) -> SharingParts {
+fn rarely_published(start: SharingStart, every: u64) -> SharingParts {
     let shared = Arc::new(Mutex::new(Arc::new(start.document.clone())));
-    let theirs = Shown(Arc::clone(&shared));
-    let sharing = Forgetful { own: start.document, shared, every };
+    let theirs = RarelyPublishedViewing(Arc::clone(&shared));
+    let sharing = RarelyPublished { own: start.document, shared, every };
     SharingParts { sharing: Box::new(sharing), viewing: Box::new(|_| Box::new(theirs)) }
 }
 
@@ -105,7 +106,7 @@ fn verdict(start: fn(SharingStart) -> SharingParts) -> RunDefects {
         edits: Edits::Small,
         rate: Rate::Every(Duration::from_micros(50)),
         period: None,
-        // Six thousand edits and no more, whatever the hand's unpunctuality: the last one has an even number.
+        // Six thousand edits, however irregular the mouse is: the last one has an even number.
         length: Duration::from_micros(299_980),
         warm_up: Duration::ZERO,
         graphics_stall: None,
@@ -119,19 +120,19 @@ fn verdict(start: fn(SharingStart) -> SharingParts) -> RunDefects {
 }
 
 #[test]
-fn an_edit_in_two_halves_is_seen_to_be_torn() {
+fn an_edit_in_two_halves_is_reported_as_torn() {
     let verdict = verdict(two_locks);
     assert!(verdict.torn > 0, "{verdict:?}");
-    assert!(!verdict.wrong, "only who reads is wrong: {verdict:?}");
+    assert!(!verdict.wrong, "only readers see the error: {verdict:?}");
 }
 
 #[test]
-fn a_document_that_is_not_shown_in_time_is_seen_to_be_stale() {
-    let verdict = verdict(|start| forgetful(start, 2));
+fn a_document_that_is_published_too_late_is_reported_as_stale() {
+    let verdict = verdict(|start| rarely_published(start, 2));
     assert!(verdict.stale > 0 && verdict.torn == 0, "{verdict:?}");
 }
 
 #[test]
-fn the_same_without_the_mistake_passes() {
-    assert_eq!(verdict(|start| forgetful(start, 1)), RunDefects::default());
+fn the_same_method_without_the_error_passes() {
+    assert_eq!(verdict(|start| rarely_published(start, 1)), RunDefects::default());
 }

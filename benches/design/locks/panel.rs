@@ -5,24 +5,24 @@ use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Point, describe};
 use std::sync::Arc;
 
-/// Shows the document, and edits it where it is.
+/// Shows the document, and edits it in place.
 pub struct Panel {
     shared: Arc<Shared>,
     selected: Option<usize>,
 }
 
 impl Panel {
-    /// A panel over `shared`.
+    /// Returns a panel of `shared`.
     pub fn new(shared: Arc<Shared>) -> Self {
         Self { shared, selected: None }
     }
 
-    /// What it shows.
+    /// Returns the rows that it shows.
     pub fn rows(&self) -> Vec<String> {
         self.shared.bones().iter().map(describe).collect()
     }
 
-    /// The bone that was clicked last.
+    /// Returns the bone that was clicked last.
     pub fn selected(&self) -> Option<usize> {
         self.selected
     }
@@ -38,13 +38,13 @@ impl Panel {
         self.shared.edit(bone, |bone| bone.color = color);
     }
 
-    /// The user clicks the eye beside a bone.
+    /// The user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         self.shared.edit(bone, |bone| bone.visible = !bone.visible);
     }
     // feature: end
 
-    /// The user clicks into the picture.
+    /// The user clicks into the image.
     pub fn click(&mut self, point: Point) {
         self.selected = self.shared.pick(point);
     }

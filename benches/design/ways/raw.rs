@@ -1,4 +1,4 @@
-//! The panel again, without handles: it names the messages and decides about their loss at every call.
+//! The panel again, without handles: each call names a message and handles the error of sending it.
 
 use crate::design::messages::{Edit, PanelMessage, View, ViewportMessage};
 use crate::design::skeleton::Color; // feature
@@ -15,17 +15,17 @@ pub struct RawPanel {
 }
 
 impl RawPanel {
-    /// An empty panel.
+    /// Returns an empty panel.
     pub fn new(document: Address<Edit>, viewport: Address<ViewportMessage>) -> Self {
         Self { view: Arc::new([]), selected: None, document, viewport }
     }
 
-    /// What it shows.
+    /// Returns the rows that it shows.
     pub fn rows(&self) -> Vec<String> {
         self.view.iter().map(describe).collect()
     }
 
-    /// The bone that was clicked last.
+    /// Returns the bone that was clicked last.
     pub fn selected(&self) -> Option<usize> {
         self.selected
     }
@@ -41,13 +41,13 @@ impl RawPanel {
         let _ = self.document.send(Edit::SetColor { bone, color });
     }
 
-    /// The user clicks the eye beside a bone.
+    /// The user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         let _ = self.document.send(Edit::ToggleVisible { bone });
     }
     // feature: end
 
-    /// The user clicks into the picture; the answer comes later.
+    /// The user clicks into the image; the answer arrives later.
     pub fn click(&self, point: Point) {
         let _ = self.viewport.send(ViewportMessage::Pick(point));
     }
@@ -74,7 +74,7 @@ mod tests {
     use std::rc::Rc;
 
     #[test]
-    fn a_panel_that_sends_its_messages_itself_does_the_same() {
+    fn a_panel_that_sends_its_messages_itself_works_the_same() {
         let bones = ["hip", "knee", "foot"].map(|name| Bone::new(name, 0.0)).to_vec();
         let mut stage = Stage::new();
         let [main, document, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
