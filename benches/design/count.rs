@@ -6,7 +6,7 @@
 //! too, so it depends on no other.
 
 /// Name and text of a file.
-pub type Source = (&'static str, &'static str);
+pub type SourceFile = (&'static str, &'static str);
 
 const BEGIN: &str = "// feature: begin";
 const END: &str = "// feature: end";
@@ -18,7 +18,7 @@ const TESTS: [&str; 3] = ["pub mod refused;", "#[cfg(test)]", "mod traps;"];
 
 /// Origin of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Line<'a> {
+enum LineOrigin<'a> {
     /// The line existed before the feature.
     Base,
     /// The feature added the line.
@@ -29,19 +29,19 @@ enum Line<'a> {
     Mark,
 }
 
-fn lines(text: &str) -> impl Iterator<Item = (&str, Line<'_>)> {
+fn lines(text: &str) -> impl Iterator<Item = (&str, LineOrigin<'_>)> {
     let mut inside = false;
     text.lines().map(move |line| {
         let trimmed = line.trim();
         let whose = if trimmed == BEGIN || trimmed == END {
             inside = trimmed == BEGIN;
-            Line::Mark
+            LineOrigin::Mark
         } else if inside || trimmed.ends_with(ADDED) {
-            Line::Added
+            LineOrigin::Added
         } else if let Some((_, before)) = line.split_once(CHANGED) {
-            Line::Changed(before)
+            LineOrigin::Changed(before)
         } else {
-            Line::Base
+            LineOrigin::Base
         };
         (line, whose)
     })
@@ -52,9 +52,9 @@ pub fn before(text: &str) -> String {
     let mut before = String::new();
     for (line, whose) in lines(text) {
         match whose {
-            Line::Base => before += line,
-            Line::Changed(line) => before += line,
-            Line::Added | Line::Mark => continue,
+            LineOrigin::Base => before += line,
+            LineOrigin::Changed(line) => before += line,
+            LineOrigin::Added | LineOrigin::Mark => continue,
         }
         before.push('\n');
     }
@@ -81,7 +81,7 @@ pub struct Cost {
 }
 
 /// Counts the marked lines of `sources`.
-pub fn cost(sources: &[Source]) -> Cost {
+pub fn cost(sources: &[SourceFile]) -> Cost {
     let mut cost = Cost::default();
     for (file, text) in sources {
         let mut touched = false;
@@ -96,15 +96,15 @@ pub fn cost(sources: &[Source]) -> Cost {
             let indent = line.len() - line.trim_start().len();
             around.retain(|(outer, ..)| *outer < indent);
             match whose {
-                Line::Base => cost.base += 1,
-                Line::Added => cost.added += 1,
-                Line::Changed(_) => {
+                LineOrigin::Base => cost.base += 1,
+                LineOrigin::Added => cost.added += 1,
+                LineOrigin::Changed(_) => {
                     cost.base += 1;
                     cost.changed += 1;
                 }
-                Line::Mark => {}
+                LineOrigin::Mark => {}
             }
-            if !matches!(whose, Line::Base) {
+            if !matches!(whose, LineOrigin::Base) {
                 touched = true;
                 cost.functions += usize::from(item(trimmed) == Some("fn"));
                 let variant = around.last().is_some_and(|(_, around, _)| item(around) == Some("enum"))
@@ -121,7 +121,7 @@ pub fn cost(sources: &[Source]) -> Cost {
                 }
             }
             if item(trimmed).is_some() {
-                around.push((indent, trimmed, whose == Line::Base));
+                around.push((indent, trimmed, whose == LineOrigin::Base));
             }
         }
         cost.files += usize::from(touched);

@@ -15,13 +15,13 @@ pub mod skeleton;
 pub mod tables;
 pub mod ways;
 
-use count::{Cost, Source};
+use count::{Cost, SourceFile};
 
 /// The data and the drawing of both editors, without threads.
-pub const SAME: &[Source] = &[("skeleton.rs", include_str!("skeleton.rs"))];
+pub const SAME: &[SourceFile] = &[("skeleton.rs", include_str!("skeleton.rs"))];
 
 /// The editor with messages.
-pub const MESSAGES: &[Source] = &[
+pub const MESSAGES: &[SourceFile] = &[
     ("messages/mod.rs", include_str!("messages/mod.rs")),
     EDITS,
     ("messages/viewport.rs", include_str!("messages/viewport.rs")),
@@ -30,16 +30,16 @@ pub const MESSAGES: &[Source] = &[
 ];
 
 /// The part of it that defines edits as values and applies them.
-pub const EDITS: Source = ("messages/document.rs", include_str!("messages/document.rs"));
+pub const EDITS: SourceFile = ("messages/document.rs", include_str!("messages/document.rs"));
 
 /// The panel that sends messages itself, without handles.
-pub const RAW: Source = ("ways/raw.rs", include_str!("ways/raw.rs"));
+pub const RAW: SourceFile = ("ways/raw.rs", include_str!("ways/raw.rs"));
 
 /// The document and the panel with closures as messages.
-pub const CLOSURES: Source = ("ways/closures.rs", include_str!("ways/closures.rs"));
+pub const CLOSURES: SourceFile = ("ways/closures.rs", include_str!("ways/closures.rs"));
 
 /// The editor with locks.
-pub const LOCKS: &[Source] = &[
+pub const LOCKS: &[SourceFile] = &[
     ("locks/mod.rs", include_str!("locks/mod.rs")),
     ("locks/viewport.rs", include_str!("locks/viewport.rs")),
     ("locks/panel.rs", include_str!("locks/panel.rs")),

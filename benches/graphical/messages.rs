@@ -38,7 +38,7 @@ pub(super) enum ToDocument {
 
 /// Configuration: when views are sent, to which thread, and how edits are sent.
 #[derive(Clone, Copy, Default)]
-struct Kind {
+struct MessageMethod {
     each: bool,
     relayed: bool,
     read: bool,
@@ -50,42 +50,42 @@ struct Kind {
 
 /// A message for every edit, and a view after every edit.
 pub fn plain(start: SharingStart) -> SharingParts {
-    begin(start, Kind { each: true, ..Kind::default() })
+    begin(start, MessageMethod { each: true, ..MessageMethod::default() })
 }
 
 /// A message for every edit; a view when no more edits are queued.
 pub fn newest(start: SharingStart) -> SharingParts {
-    begin(start, Kind::default())
+    begin(start, MessageMethod::default())
 }
 
 /// The same, with views sent to the main thread, which forwards them.
 pub fn relayed(start: SharingStart) -> SharingParts {
-    begin(start, Kind { relayed: true, ..Kind::default() })
+    begin(start, MessageMethod { relayed: true, ..MessageMethod::default() })
 }
 
 /// The main thread receives the views too, and reads answers from them.
 pub fn read(start: SharingStart) -> SharingParts {
-    begin(start, Kind { read: true, ..Kind::default() })
+    begin(start, MessageMethod { read: true, ..MessageMethod::default() })
 }
 
 /// Queued edits of one gesture replace one another, and so do queued views.
 pub fn merged(start: SharingStart) -> SharingParts {
-    begin(start, Kind { merges: true, ..Kind::default() })
+    begin(start, MessageMethod { merges: true, ..MessageMethod::default() })
 }
 
 /// A view when a frame requests it.
 pub fn on_demand(start: SharingStart) -> SharingParts {
-    begin(start, Kind { on_demand: true, ..Kind::default() })
+    begin(start, MessageMethod { on_demand: true, ..MessageMethod::default() })
 }
 
 /// The document's thread pauses between frames, so that edits do not wake it; the frame that requests a view does.
 pub fn batched(start: SharingStart) -> SharingParts {
-    begin(start, Kind { on_demand: true, batched: true, ..Kind::default() })
+    begin(start, MessageMethod { on_demand: true, batched: true, ..MessageMethod::default() })
 }
 
 /// The document's thread spins before it sleeps.
 pub fn spinning(start: SharingStart) -> SharingParts {
-    begin(start, Kind { spin: Duration::from_millis(2), ..Kind::default() })
+    begin(start, MessageMethod { spin: Duration::from_millis(2), ..MessageMethod::default() })
 }
 
 /// The document in its thread.
@@ -93,7 +93,7 @@ struct DocumentOwner {
     document: DocumentRef,
     originals: Vec<Arc<Take>>,
     views: Vec<Address<DocumentRef>>,
-    kind: Kind,
+    kind: MessageMethod,
     changed: bool,
     ledger: Arc<Ledger>,
 }
@@ -247,7 +247,7 @@ impl Sharing for MessageSharing {
     }
 }
 
-fn begin(start: SharingStart, kind: Kind) -> SharingParts {
+fn begin(start: SharingStart, kind: MessageMethod) -> SharingParts {
     let SharingStart { document, graphics, main, ledger } = start;
     let drawn: Address<DocumentRef> = graphics.reserve_address();
     let mut views = vec![if kind.each { drawn.clone() } else { drawn.latest() }];

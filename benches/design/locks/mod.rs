@@ -29,13 +29,13 @@ pub struct Document {
 }
 
 /// The data that both threads share.
-pub struct Shared {
+pub struct SharedState {
     document: Mutex<Document>,
     changed: Condvar,
     picture: Mutex<Vec<Line>>,
 }
 
-impl Shared {
+impl SharedState {
     /// Returns a document that the viewport has not drawn yet.
     pub fn new(bones: Vec<Bone>) -> Self {
         let document = Document { bones, version: 1, closed: false };
@@ -86,7 +86,7 @@ impl Shared {
 pub struct Editor {
     /// The panel that the user sees and uses.
     pub panel: Panel,
-    shared: Arc<Shared>,
+    shared: Arc<SharedState>,
     graphics: Option<JoinHandle<()>>,
 }
 
@@ -95,7 +95,7 @@ pub struct Editor {
 /// # Errors
 /// When the system cannot create a thread.
 pub fn open(bones: Vec<Bone>, screen: impl FnMut(&[Line]) + Send + 'static) -> io::Result<Editor> {
-    let shared = Arc::new(Shared::new(bones));
+    let shared = Arc::new(SharedState::new(bones));
     let theirs = Arc::clone(&shared);
     let graphics = thread::Builder::new().name("graphics".into()).spawn(move || run(&theirs, screen))?;
     Ok(Editor { panel: Panel::new(Arc::clone(&shared)), shared, graphics: Some(graphics) })

@@ -1,19 +1,19 @@
 //! The panel, in the main thread.
 
-use super::Shared;
+use super::SharedState;
 use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Point, describe};
 use std::sync::Arc;
 
 /// Shows the document, and edits it in place.
 pub struct Panel {
-    shared: Arc<Shared>,
+    shared: Arc<SharedState>,
     selected: Option<usize>,
 }
 
 impl Panel {
     /// Returns a panel of `shared`.
-    pub fn new(shared: Arc<Shared>) -> Self {
+    pub fn new(shared: Arc<SharedState>) -> Self {
         Self { shared, selected: None }
     }
 

@@ -1,6 +1,6 @@
 //! Mistakes that compile. Each test makes one happen, deterministically.
 
-use super::{Document, Shared};
+use super::{Document, SharedState};
 use crate::design::skeleton::Bone;
 use parking_lot::Mutex;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -11,8 +11,8 @@ use std::time::Duration;
 /// A lock that is not free within this time counts as deadlocked; none of these would ever become free.
 const DEADLINE: Duration = Duration::from_millis(20);
 
-fn shared() -> Shared {
-    Shared::new(vec![Bone::new("hip", 0.0), Bone::new("knee", 0.0)])
+fn shared() -> SharedState {
+    SharedState::new(vec![Bone::new("hip", 0.0), Bone::new("knee", 0.0)])
 }
 
 #[test]

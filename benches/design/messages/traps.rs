@@ -24,27 +24,27 @@ struct Asker {
     found: mpsc::Sender<bool>,
 }
 
-enum Question {
-    Begin { other: Address<Question> },
+enum AnswerRequest {
+    Begin { other: Address<AnswerRequest> },
     Ask { answer: mpsc::Sender<()> },
 }
 
 impl Receiver for Asker {
-    type Message = Question;
+    type Message = AnswerRequest;
 
-    fn receive(&mut self, question: Question, _: &mut Context) {
+    fn receive(&mut self, question: AnswerRequest, _: &mut Context) {
         match question {
-            Question::Begin { other } => {
+            AnswerRequest::Begin { other } => {
                 let (answer, answers) = mpsc::channel();
                 self.stations[0].wait();
-                other.send(Question::Ask { answer }).expect("it runs");
+                other.send(AnswerRequest::Ask { answer }).expect("it runs");
                 // Neither can answer before this call returns: `recv()` would wait forever.
                 let found = answers.recv_timeout(Duration::from_millis(20)).is_ok();
                 self.stations[1].wait();
                 self.found.send(found).expect("the test listens");
             }
             // Fails only when the test has ended.
-            Question::Ask { answer } => _ = answer.send(()),
+            AnswerRequest::Ask { answer } => _ = answer.send(()),
         }
     }
 }
@@ -58,8 +58,8 @@ fn deadlock_by_waiting_for_an_answer_in_the_middle_of_a_message() {
         let (stations, found) = (Arc::clone(&stations), found.clone());
         thread.handle().register_receiver(move |_| Asker { stations, found })
     });
-    addresses[0].send(Question::Begin { other: addresses[1].clone() }).unwrap();
-    addresses[1].send(Question::Begin { other: addresses[0].clone() }).unwrap();
+    addresses[0].send(AnswerRequest::Begin { other: addresses[1].clone() }).unwrap();
+    addresses[1].send(AnswerRequest::Begin { other: addresses[0].clone() }).unwrap();
     let result = || results.recv_timeout(Duration::from_secs(10)).expect("both come back");
     assert_eq!([result(), result()], [false, false], "each waits for the other");
 }

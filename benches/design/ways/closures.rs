@@ -8,7 +8,7 @@ use dragonfly_runtime::{Address, Context, Receiver};
 use std::sync::Arc;
 
 /// A change of a bone.
-pub struct Change {
+pub struct BoneChange {
     bone: usize,
     change: Box<dyn FnOnce(&mut Bone) + Send>,
 }
@@ -28,9 +28,9 @@ impl ClosureDocument {
 }
 
 impl Receiver for ClosureDocument {
-    type Message = Change;
+    type Message = BoneChange;
 
-    fn receive(&mut self, Change { bone, change }: Change, _: &mut Context) {
+    fn receive(&mut self, BoneChange { bone, change }: BoneChange, _: &mut Context) {
         if let Some(bone) = self.bones.get_mut(bone) {
             change(bone);
             (self.show)(self.bones.as_slice().into());
@@ -40,12 +40,12 @@ impl Receiver for ClosureDocument {
 
 /// The document's handle, whose interface never grows.
 #[derive(Clone)]
-pub struct ClosureHandle(pub Address<Change>);
+pub struct ClosureHandle(pub Address<BoneChange>);
 
 impl ClosureHandle {
     /// Applies `change` to a bone, later and in the document's thread.
     pub fn edit(&self, bone: usize, change: impl FnOnce(&mut Bone) + Send + 'static) {
-        let _ = self.0.send(Change { bone, change: Box::new(change) });
+        let _ = self.0.send(BoneChange { bone, change: Box::new(change) });
     }
 }
 

@@ -6,5 +6,5 @@
 mod closures;
 mod raw;
 
-pub use closures::{Change, ClosureDocument, ClosureHandle, ClosurePanel};
+pub use closures::{BoneChange, ClosureDocument, ClosureHandle, ClosurePanel};
 pub use raw::RawPanel;
