@@ -63,7 +63,7 @@ pub fn write(path: &Path, rows: &[DataRow]) -> csv::Result<()> {
     Ok(())
 }
 
-/// Reads a file that [`write`] wrote.
+/// Reads a file that [`write()`] wrote.
 ///
 /// # Errors
 /// When the file cannot be read, or one of its lines is not a row.
